@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace limen {
+
+/// An error that a user can cause and mend. `what` names the thing, `where` the file and line (or the command-line
+/// option), `mend` what to do about it. Programmer errors are assertions, never this.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& what, const std::string& where = {}, const std::string& mend = {})
+      : std::runtime_error((where.empty() ? what : where + ": " + what) + (mend.empty() ? "" : "; " + mend)),
+        message_(what),
+        where_(where),
+        mend_(mend) {}
+
+  const std::string& message() const { return message_; }
+  const std::string& where() const { return where_; }
+  const std::string& mend() const { return mend_; }
+
+ private:
+  std::string message_, where_, mend_;
+};
+
+/// Exit codes of every program.
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitFailedRuns = 1;  ///< runs failed or an expectation was broken
+inline constexpr int kExitBadInput = 2;    ///< the input was refused; nothing ran
+
+}  // namespace limen

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace limen {
+
+/// Float image in memory: row by row from the top left, channels interleaved.
+struct Image {
+  int width = 0, height = 0, channels = 0;
+  std::vector<float> data;
+
+  Image() = default;
+  Image(int w, int h, int c, float value = 0.0F)
+      : width(w), height(h), channels(c), data(static_cast<size_t>(w) * h * c, value) {}
+
+  size_t pixels() const { return static_cast<size_t>(width) * height; }
+  float& at(int x, int y, int c = 0) { return data[(static_cast<size_t>(y) * width + x) * channels + c]; }
+  float at(int x, int y, int c = 0) const { return data[(static_cast<size_t>(y) * width + x) * channels + c]; }
+};
+
+/// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error.
+Image readImage(const std::string& path);
+/// EXR, 32-bit float, lossless. Written to a temporary name and moved into place. Throws Error.
+void writeExr(const std::string& path, const Image& image);
+/// 8-bit PNG of values in [0, 1], taken as they are (no transfer curve); others are clamped. Throws Error.
+void writePng(const std::string& path, const Image& image);
+
+}  // namespace limen

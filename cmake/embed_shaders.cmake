@@ -1,0 +1,11 @@
+# Writes OUT, a C++ file that registers the text of each of FILES (separated by |) under its path from ROOT.
+string(REPLACE "|" ";" files "${FILES}")
+file(WRITE ${OUT} "#include \"renderer/gl/shader_source.h\"\n\nnamespace {\n\n")
+set(index 0)
+foreach(file IN LISTS files)
+  file(RELATIVE_PATH name ${ROOT} ${file})
+  file(READ ${file} text)
+  math(EXPR index "${index} + 1")
+  file(APPEND ${OUT} "const limen::gl::EmbeddedShader kShader${index}(\"${name}\", R\"glsl(${text})glsl\");\n\n")
+endforeach()
+file(APPEND ${OUT} "}  // namespace\n")

@@ -1,0 +1,21 @@
+# limen_shaders(TARGET FILE...): makes the shader files known to the program builder under their path from the
+# repository root. With LIMEN_EMBED_SHADERS they become part of TARGET; otherwise they are read from the source tree
+# at run time, so that a changed shader needs no build.
+function(limen_shaders target)
+  if(NOT LIMEN_EMBED_SHADERS)
+    return()
+  endif()
+  set(files)
+  foreach(file IN LISTS ARGN)
+    list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders.cpp)
+  list(JOIN files "|" joined)
+  add_custom_command(
+    OUTPUT ${out}
+    COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DROOT=${PROJECT_SOURCE_DIR} "-DFILES=${joined}" -P
+            ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
+    VERBATIM)
+  target_sources(${target} PRIVATE ${out})
+endfunction()

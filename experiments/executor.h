@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/parameter.h"
+#include "experiments/store/store.h"
+
+namespace limen::experiments {
+
+/// A registered name with a complete set of values.
+struct Choice {
+  std::string name;
+  int version = 1;
+  ParameterValues values;
+};
+
+struct Timing {
+  int warmup = 8;  ///< frames rendered and thrown away before each round
+  int frames = 64; ///< timed frames in all, shared evenly among the rounds
+  int rounds = 3;  ///< interleaved rounds over the runs of a batch
+};
+
+/// One cell of the grid.
+struct PlannedRun {
+  std::string key;  ///< SHA-256 over everything that decides the result
+  int position = 0;
+  Choice technique, scene;
+  Choice reference;  ///< empty name: none
+  int widthPx = 0, heightPx = 0;
+  Timing timing;
+  std::vector<Choice> metrics;
+  std::string label;  ///< "pattern=regular_8, occluder=micropatch": what varies among this technique's runs
+  nlohmann::json parameters;  ///< as store::Run::parameters
+};
+
+/// What executing a run gave; the store's row without key and bookkeeping.
+struct RunOutcome {
+  std::string error;  ///< "" if the run succeeded
+  nlohmann::json sceneFacts = nlohmann::json::object();
+  std::vector<store::Measurement> measurements;
+  std::vector<store::FrameTime> frameTimes;
+  std::vector<store::Pass> passes;
+  std::vector<store::Artefact> artefacts;
+};
+
+/// Executes runs. The runner hands it batches of runs that share scene and image size; their timed rounds are
+/// interleaved. An error of one run is its outcome, never an exception; an exception means that the executor itself
+/// cannot go on (no GL context).
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  virtual const store::Environment& environment() const = 0;
+  /// Calls `finished(index, outcome)` once for each run, as soon as that run is complete.
+  virtual void execute(std::span<const PlannedRun> batch,
+                       const std::function<void(size_t, RunOutcome)>& finished) = 0;
+  /// Facts about the executor's own time, for the environment and the summary: {"overhead_share": 0.03, ...}.
+  virtual nlohmann::json account() const { return nlohmann::json::object(); }
+};
+
+}  // namespace limen::experiments

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+
+namespace limen::store {
+
+struct Measurement {
+  std::string name;
+  std::optional<double> value;  ///< nullopt: not a number
+  std::string unit;
+  std::string kind;  ///< time, error, counter or fact
+};
+
+struct FrameTime {
+  int frame = 0, round = 0;
+  std::string pass;
+  int64_t nanoseconds = 0;
+};
+
+struct Pass {
+  std::string name;
+  int64_t bytesHeld = 0;
+};
+
+struct Artefact {
+  std::string kind, path, sha256;  ///< path relative to the store's folder
+};
+
+/// Where and with what a run was measured.
+struct Environment {
+  std::string device;     ///< GL renderer and version
+  bool software = false;  ///< a CPU plays GPU
+  nlohmann::json facts = nlohmann::json::object();
+};
+
+struct Experiment {
+  int64_t id = 0;
+  std::string hash, path, title, question, source, descriptor;
+  nlohmann::json features = nlohmann::json::array(), report = nlohmann::json::object();
+};
+
+/// A place in an experiment's plan.
+struct PlanEntry {
+  std::string key, technique, scene, label;
+};
+
+struct Expectation {
+  std::string text;
+  bool held = false;
+  std::string detail;
+};
+
+/// Everything a finished (or failed) run leaves behind.
+struct Run {
+  int64_t id = 0;
+  std::string key, device, status, error, technique, scene, label;
+  nlohmann::json parameters = nlohmann::json::object(), sceneFacts = nlohmann::json::object();
+  int64_t environment = 0;  ///< row id; 0: none yet
+  std::string owner, started, finished;
+  std::vector<Measurement> measurements;
+  std::vector<FrameTime> frameTimes;
+  std::vector<Pass> passes;
+  std::vector<Artefact> artefacts;
+};
+
+enum class Access { ReadOnly, ReadWrite };
+
+/// One SQLite file (schema.sql). Write-ahead log, foreign keys on, waits for other writers. Every member throws Error:
+/// a file that is no store, a newer schema, a full disk.
+class Store {
+ public:
+  /// ReadWrite creates a missing file and migrates an old one; ReadOnly refuses a missing file.
+  Store(const std::string& path, Access access);
+  ~Store();
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  /// Inserts the experiment and its plan, or finds the one with the same hash (whose plan is replaced). Returns its id.
+  int64_t putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan);
+  /// Returns the row id of an environment with the same facts, made if need be.
+  int64_t putEnvironment(const Environment& environment);
+  void putExpectations(int64_t experiment, const std::vector<Expectation>& expectations);
+
+  enum class Claim { Claimed, AlreadyDone, HeldByOther };
+  /// Takes (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over a failed one
+  /// or one whose owner is dead (same host and no such process, or older than `staleSeconds` on another host).
+  Claim claim(const Run& run, double staleSeconds = 3600.0);
+  /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
+  void finish(const Run& run);
+  /// Gives back claims of this process that were not finished.
+  void releaseClaims();
+
+  bool isDone(const std::string& key, const std::string& device) const;
+  std::vector<Experiment> experiments() const;
+  std::vector<PlanEntry> plan(int64_t experiment) const;
+  std::vector<Expectation> expectations(int64_t experiment) const;
+  std::vector<Environment> environments() const;
+  Environment environment(int64_t id) const;
+  /// Runs of an experiment in plan order with their measurements, passes and artefacts; frame times only on request.
+  /// A plan entry without a row is absent.
+  std::vector<Run> runs(int64_t experiment, bool withFrameTimes = false) const;
+  std::vector<Run> allRuns(bool withFrameTimes = false) const;
+
+  /// Copies what `other` has and this has not: finished runs win over failed ones; artefact files are copied too.
+  /// Returns the number of runs added.
+  int64_t merge(const Store& other);
+
+ private:
+  std::string path_;
+  sqlite3* database_ = nullptr;
+};
+
+/// host:pid:start-time of this process, as Run::owner.
+std::string processIdentity();
+/// UTC now, ISO 8601 with milliseconds.
+std::string utcNow();
+
+}  // namespace limen::store

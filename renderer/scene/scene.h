@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+#include "base/registry.h"
+
+namespace limen::scene {
+
+/// Diffuse surface. Further properties come with the techniques that need them.
+struct Material {
+  std::string name;
+  glm::vec3 albedo{0.7F};  ///< linear reflectance, 0..1
+};
+
+/// A run of triangles with one material.
+struct Part {
+  std::string name;
+  uint32_t firstTriangle = 0, triangleCount = 0;
+  uint32_t material = 0;
+  /// Lies beneath or behind everything and never shadows another part (a ground plane); shadow maps are fitted to the
+  /// other parts only. It is drawn into shadow maps all the same.
+  bool receiverOnly = false;
+};
+
+/// Indexed triangles in world space. Positions are double so that a scene far from the origin loses nothing; what goes
+/// to the GPU is taken relative to an anchor near the geometry.
+struct Mesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::uvec3> triangles;  ///< vertex indices; counter-clockwise seen from outside
+};
+
+enum class LightShape { Rectangle, Disc, Polygon };
+
+/// Part of a light with one colour: a simple polygon in unit light coordinates, counter-clockwise.
+struct LightPart {
+  std::vector<glm::dvec2> outline;  ///< in [0,1]^2; empty: the whole shape
+  glm::vec3 radiance{1.0F};
+};
+
+/// Planar one-sided area light. Light space: origin at `centre`, x along `axisX`, y along `axisY`, z along
+/// `direction()` = cross(axisX, axisY), into the lit half-space. Unit light coordinates: (x, y) / size + 1/2.
+struct AreaLight {
+  LightShape shape = LightShape::Rectangle;
+  glm::dvec3 centre{0.0};
+  glm::dvec3 axisX{1.0, 0.0, 0.0}, axisY{0.0, 1.0, 0.0};  ///< unit, perpendicular
+  glm::dvec2 size{1.0};                                   ///< full extents of the bounding rectangle, world units
+  std::vector<glm::dvec2> outline;  ///< Polygon only: vertices in unit light coordinates, counter-clockwise, simple
+  std::vector<LightPart> parts{{}};
+
+  glm::dvec3 direction() const { return glm::cross(axisX, axisY); }
+  /// True if the unit light coordinates lie on the light (boundary included).
+  bool contains(glm::dvec2 unit) const;
+  /// Area in world units squared.
+  double area() const;
+  /// World position of unit light coordinates.
+  glm::dvec3 point(glm::dvec2 unit) const {
+    return centre + axisX * ((unit.x - 0.5) * size.x) + axisY * ((unit.y - 0.5) * size.y);
+  }
+  /// World to light space; translation is relative to `anchor` (the result applies to position - anchor).
+  glm::dmat4 toLightSpace(glm::dvec3 anchor = glm::dvec3(0.0)) const;
+};
+
+struct Camera {
+  glm::dvec3 eye{0.0, 0.0, 5.0}, target{0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double verticalFovDeg = 45.0;
+};
+
+/// Key-framed camera, times in seconds, ascending. Positions by centripetal-free cubic Hermite (Catmull-Rom tangents),
+/// clamped at both ends; one key is a still camera.
+struct CameraPath {
+  struct Key {
+    double timeS = 0.0;
+    Camera camera;
+  };
+  std::vector<Key> keys;
+  Camera at(double timeS) const;
+  double durationS() const { return keys.empty() ? 0.0 : keys.back().timeS - keys.front().timeS; }
+};
+
+struct Bounds {
+  glm::dvec3 low{1e300}, high{-1e300};
+  void extend(glm::dvec3 point) { low = glm::min(low, point), high = glm::max(high, point); }
+  bool empty() const { return low.x > high.x; }
+  glm::dvec3 centre() const { return 0.5 * (low + high); }
+  double diagonal() const { return empty() ? 0.0 : glm::length(high - low); }
+};
+
+/// A world to render. Built by a registered scene; constant afterwards.
+struct Scene {
+  std::string name;
+  Mesh mesh;
+  std::vector<Part> parts;
+  std::vector<Material> materials;
+  std::vector<AreaLight> lights;
+  CameraPath camera;
+
+  Bounds bounds() const;                ///< of all finite positions
+  Bounds casterBounds() const;          ///< of parts that are not receiverOnly
+  std::string contentHash() const;      ///< SHA-256 over geometry, materials, lights and camera
+  /// What the scene has, for techniques that need it: "area_light", "rectangular_light", ...
+  std::set<std::string> traits() const;
+};
+
+/// Registration of a scene. `parameters` does not hold the common parameters (see commonParameters()).
+struct SceneInfo {
+  static constexpr const char* kKind = "scene";
+  std::string name;
+  int version = 1;  ///< raised when the built scene changes
+  std::string summary;
+  std::string source;
+  std::vector<Parameter> parameters;
+  std::function<Scene(const ParameterValues&)> build;
+
+  /// Own parameters followed by the common ones.
+  std::vector<Parameter> allParameters() const;
+};
+using SceneRegistry = Registry<SceneInfo>;
+
+/// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its own
+/// diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100), `light_shape`
+/// (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path).
+std::vector<Parameter> commonParameters();
+
+/// Builds a registered scene and applies the common parameters. Throws Error.
+Scene buildScene(const std::string& name, const ParameterValues& values);
+
+}  // namespace limen::scene

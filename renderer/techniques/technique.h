@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+#include "base/registry.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::techniques {
+
+/// What a technique makes. Products of one kind can be compared.
+enum class ProductKind {
+  Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside receivers
+  Colour       ///< RGBA32F, linear radiance, alpha 1
+};
+std::string toText(ProductKind kind);
+
+/// A machine-independent cost or a fact about the product.
+struct Counter {
+  std::string name;  ///< snake_case with unit: "micro_occluders_per_px"
+  double value = 0.0;
+  std::string unit;
+};
+
+/// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each frame.
+class Technique {
+ public:
+  virtual ~Technique() = default;
+
+  /// Compiles programs, allocates and precomputes. Timed apart from the frame. render() allocates and compiles nothing.
+  virtual void prepare(frame::Frame& frame) = 0;
+  /// Renders one frame into product(). Passes are opened with frame.passes().
+  virtual void render(frame::Frame& frame) = 0;
+  virtual const gl::Texture& product() const = 0;
+  /// Costs that do not depend on the machine, counted in a pass of their own outside the timed frames. Called after
+  /// render().
+  virtual std::vector<Counter> count(frame::Frame&) { return {}; }
+  /// Named intermediate images for the viewer and for artefacts; valid after render().
+  virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
+};
+
+/// Registration of a technique or a reference.
+struct TechniqueInfo {
+  static constexpr const char* kKind = "technique";
+  std::string name;
+  int version = 1;  ///< raised when the product changes
+  std::string summary;
+  std::string source;
+  ProductKind product = ProductKind::Visibility;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> needs;  ///< scene traits without which it cannot run ("rectangular_light")
+  bool reference = false;          ///< made to be compared with
+  /// Runs on the CPU: its time is wall time on any machine.
+  bool onCpu = false;
+  /// One-line account of how well the product is known, for a reference: bound on its own error, if any.
+  std::function<std::unique_ptr<Technique>(const ParameterValues&)> make;
+  /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with sampling
+  /// error; null: exact.
+  std::function<double(const ParameterValues&)> errorBound;
+};
+using TechniqueRegistry = Registry<TechniqueInfo>;
+
+}  // namespace limen::techniques
