@@ -15,7 +15,10 @@ gl::ShaderDefines withGapFill(const ParameterValues& values, gl::ShaderDefines d
 }  // namespace
 
 std::vector<Parameter> OccluderSearch::searchParameters() {
-  std::vector<Parameter> all = commonParameters();
+  // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
+  // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
+  // own.
+  std::vector<Parameter> all = commonParameters(2.0);
   all.push_back(integerParameter("budget", 256, 0, 1 << 24, "",
                                  "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
                                  "Schwarz 2009, sections 4.1 and 4.5"));

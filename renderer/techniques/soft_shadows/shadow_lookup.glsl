@@ -26,10 +26,10 @@ uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed =
 vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * float(resolution); }
 
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
-// change of the receiver's own plane over half a texel (the slope sums both axes).
+// change of the receiver's own plane over `slopeBias` texels (the slope sums both axes).
 float biasedDepth(vec4 receiver, int level) {
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
-  return receiver.z - bias * receiver.z - slopeBias * 0.5 * receiver.w * texel;
+  return receiver.z - bias * receiver.z - slopeBias * receiver.w * texel;
 }
 
 void store(ivec2 pixel, float visibility) {

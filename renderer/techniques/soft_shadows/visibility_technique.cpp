@@ -59,13 +59,13 @@ VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::str
       pass_(std::move(pass)),
       defines_(std::move(defines)) {}
 
-std::vector<Parameter> VisibilityTechnique::commonParameters() {
+std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
   return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
                           "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
           realParameter("bias", 1e-4, 0.0, 0.1, "",
                         "Constant depth bias as a share of the receiver's distance from the light's plane",
                         "Schwarz 2009, section 4.4.5 (value not given there)"),
-          realParameter("slope_bias", 1.0, 0.0, 16.0, "texel",
+          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
                         "Depth bias by the receiver's slope, in texels of the level that is read",
                         "Schwarz 2009, section 4.4.5 (reconstructed)")};
 }
@@ -82,7 +82,7 @@ const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   return map.frustum();
 }
 
-void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program) {
+void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts) {
   const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
   const frame::LightFrustum& frustum = bindMap(frame);
   const auto scope = frame.passes().open(pass_);
@@ -97,19 +97,19 @@ void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program) {
   configure(program);
   receivers.bindTexture(0);
   visibility_->bindImage(0, gl::Access::Write);
+  if (counts) counts->bindImage(1, gl::Access::Write);
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_); }
+void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
 
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
   gl::ShaderDefines defines = defines_;
   defines["COUNT"] = "1";
   const gl::Texture counts(gl::Format::RGBA32UI, frame.sizePx());
-  counts.bindImage(1, gl::Access::Write);
   frame.begin();
-  run(frame, frame.context().programs().compute(shader_, defines));
+  run(frame, frame.context().programs().compute(shader_, defines), &counts);
   frame.end();
   return summarise(counts.readUint());
 }

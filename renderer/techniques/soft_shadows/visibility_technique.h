@@ -22,7 +22,7 @@ class VisibilityTechnique : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override;
 
   /// Parameters that `values` must hold: resolution, bias, slope_bias.
-  static std::vector<Parameter> commonParameters();
+  static std::vector<Parameter> commonParameters(double defaultSlopeBias);
 
  protected:
   /// `shader` is a path from the repository root, `pass` the name in the pass list.
@@ -36,7 +36,8 @@ class VisibilityTechnique : public Technique {
   virtual void configure(const gl::Program& program) const = 0;
 
  private:
-  void run(frame::Frame& frame, const gl::Program& program);
+  /// `counts` is null in a plain frame.
+  void run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts);
 
   frame::ShadowMapSettings map_;
   double bias_, slopeBias_;

@@ -22,7 +22,7 @@ const Registered<TechniqueInfo> kRegistered{
      .summary = "Hard shadow map: one comparison with the depth seen from the light's centre",
      .source = "Schwarz 2009, section 3.3 (SS-01)",
      .product = ProductKind::Visibility,
-     .parameters = VisibilityTechnique::commonParameters(),
+     .parameters = VisibilityTechnique::commonParameters(1.0),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,

@@ -25,7 +25,7 @@ class Pcf : public VisibilityTechnique {
 };
 
 std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters();
+  std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
   all.push_back(
       realParameter("filter_radius", 4.0, 0.0, 256.0, "texel", "Half the side of the filter window"));
   all.push_back(integerParameter("filter_taps", 8, 1, 32, "", "Taps along a side of the window"));

@@ -31,5 +31,5 @@ float visibilityOf(vec4 receiver, ivec2 pixel) {
   if (blockers == 0) return 1.0;
   const float blockerDepth = sum / float(blockers);
   const vec2 filterSize = max(lightSize * (1.0 / blockerDepth - 1.0 / receiver.z) * texelsPerTangent, vec2(1.0));
-  return percentageCloser(centre, filterSize, depth);
+  return percentageCloser(centre, filterSize, windowDepth(receiver, filterSize));
 }

@@ -30,7 +30,7 @@ class Pcss : public VisibilityTechnique {
 };
 
 std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters();
+  std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
   all.push_back(realParameter("search_scale", 1.0, 0.01, 4.0, "",
                               "Window of the blocker search as a share of the light's extents"));
   all.push_back(integerParameter("search_taps", 8, 1, 32, "", "Taps of the blocker search along a side"));
