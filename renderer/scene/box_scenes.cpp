@@ -47,7 +47,7 @@ const Registered<SceneInfo> kBoxUnderLight{
     SceneInfo{.name = "box_under_light",
               .version = 1,
               .summary = "Box below a larger light: a shadow map from the centre sees only its top",
-              .source = "004_2587a614b209b9c1.txt, Fig. 4.3",
+              .source = "Schwarz 2009, Fig. 4.3",
               .parameters = {realParameter("box_height", 1.0, 0.05, 2.0, "m",
                                            "Height of the box; the light is at 3.2 m")},
               .build = buildBoxUnderLight}};
@@ -64,7 +64,7 @@ const Registered<SceneInfo> kPole{SceneInfo{
     .name = "pole",
     .version = 1,
     .summary = "Street lamp: one thin shadow from contact to far penumbra",
-    .source = "004_2587a614b209b9c1.txt, Fig. 3.2",
+    .source = "Schwarz 2009, Fig. 3.2",
     .parameters = {realParameter("radius", 0.04, 0.002, 0.2, "m", "Radius of the pole at its foot")},
     .build = buildPole}};
 

@@ -69,7 +69,7 @@ const Registered<SceneInfo> kBunny{
     SceneInfo{.name = "bunny",
               .version = 1,
               .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
-              .source = "Stanford 3D Scanning Repository; stand-in for 004_2587a614b209b9c1.txt, Fig. 4.16",
+              .source = "Stanford 3D Scanning Repository; stand-in for Schwarz 2009, Fig. 4.16",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("bunny.obj", Turned::No); }}};
 
@@ -77,7 +77,7 @@ const Registered<SceneInfo> kHorse{
     SceneInfo{.name = "horse",
               .version = 1,
               .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
-              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .source = "stand-in for Schwarz 2009, Fig. 4.28",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("horse.3ds", Turned::No); }}};
 
@@ -85,7 +85,7 @@ const Registered<SceneInfo> kCat{
     SceneInfo{.name = "cat",
               .version = 1,
               .summary = "Cat of height 1 over a plane (package glmark2-data)",
-              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .source = "stand-in for Schwarz 2009, Fig. 4.28",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("cat.3ds", Turned::Over); }}};
 

@@ -18,7 +18,8 @@ struct Pattern {
   bool jittered;
 };
 
-/// Sample positions as the specification defines them; exact in float since all denominators are powers of two.
+/// Sample positions as the specification defines them; exact in float since all denominators are powers of
+/// two.
 glm::vec2 samplePosition(const Pattern& pattern, int i, int j) {
   const float n = static_cast<float>(pattern.side);
   if (!pattern.jittered) return {(static_cast<float>(i) + 0.5F) / n, (static_cast<float>(j) + 0.5F) / n};
@@ -26,8 +27,8 @@ glm::vec2 samplePosition(const Pattern& pattern, int i, int j) {
           (static_cast<float>(j) + (i % 2 == 0 ? 0.75F : 0.25F)) / n};
 }
 
-/// Random rectangles, among them many with bounds exactly on samples, one step of float beside them, on cell borders,
-/// at 0 and 1, and empty ones.
+/// Random rectangles, among them many with bounds exactly on samples, one step of float beside them, on cell
+/// borders, at 0 and 1, and empty ones.
 std::vector<glm::vec4> rectangles(const Pattern& pattern) {
   std::mt19937 random(20260101);
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
@@ -35,13 +36,20 @@ std::vector<glm::vec4> rectangles(const Pattern& pattern) {
   const auto bound = [&] {
     const float onGrid = static_cast<float>(cell(random)) / static_cast<float>(4 * pattern.side);
     switch (kind(random)) {
-      case 0: return 0.0F;
-      case 1: return 1.0F;
-      case 2: return onGrid;
-      case 3: return std::nextafter(onGrid, 0.0F);
-      case 4: return std::min(std::nextafter(onGrid, 2.0F), 1.0F);
-      case 5: return unit(random) * 1e-30F;
-      default: return unit(random);
+      case 0:
+        return 0.0F;
+      case 1:
+        return 1.0F;
+      case 2:
+        return onGrid;
+      case 3:
+        return std::nextafter(onGrid, 0.0F);
+      case 4:
+        return std::min(std::nextafter(onGrid, 2.0F), 1.0F);
+      case 5:
+        return unit(random) * 1e-30F;
+      default:
+        return unit(random);
     }
   };
   std::vector<glm::vec4> out;
@@ -62,8 +70,8 @@ TEST_P(OcclusionMask, EqualsTestingEverySample) {
   const int samples = pattern.side * pattern.side, words = samples / 32;
   const std::vector<glm::vec4> given = rectangles(pattern);
   const gl::Buffer in(given), out(int64_t{kRectangles} * words * 4, nullptr);
-  const gl::Program& program =
-      context().programs().compute("tests/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
+  const gl::Program& program = context().programs().compute("tests/techniques/occlusion_mask_probe.comp.glsl",
+                                                            {{"PATTERN", pattern.define}});
   in.bindStorage(0);
   out.bindStorage(1);
   program.set("count", kRectangles);
@@ -75,12 +83,14 @@ TEST_P(OcclusionMask, EqualsTestingEverySample) {
       for (int i = 0; i < pattern.side; ++i) {
         const glm::vec4 rectangle = given[static_cast<size_t>(r)];
         const glm::vec2 s = samplePosition(pattern, i, j);
-        const bool covered = rectangle.x < s.x && s.x <= rectangle.z && rectangle.y < s.y && s.y <= rectangle.w;
+        const bool covered =
+            rectangle.x < s.x && s.x <= rectangle.z && rectangle.y < s.y && s.y <= rectangle.w;
         const int bit = j * pattern.side + i;
         const bool set = (masks[static_cast<size_t>(r * words + bit / 32)] >> (bit % 32)) & 1U;
         if (covered != set && ++wrong < 5)
-          ADD_FAILURE() << "rectangle " << rectangle.x << " " << rectangle.y << " " << rectangle.z << " " << rectangle.w
-                        << ", sample (" << i << ", " << j << "): covered " << covered << ", bit " << set;
+          ADD_FAILURE() << "rectangle " << rectangle.x << " " << rectangle.y << " " << rectangle.z << " "
+                        << rectangle.w << ", sample (" << i << ", " << j << "): covered " << covered
+                        << ", bit " << set;
       }
   EXPECT_EQ(wrong, 0);
 }
@@ -98,8 +108,8 @@ TEST_P(OcclusionMask, RectanglesThatShareAnEdgeShareNoSample) {
   std::vector<glm::vec4> given;
   for (size_t i = 0; i + 1 < cuts.size(); ++i) given.emplace_back(cuts[i], 0.0F, cuts[i + 1], 1.0F);
   const gl::Buffer in(given), out(static_cast<int64_t>(given.size()) * words * 4, nullptr);
-  const gl::Program& program =
-      context().programs().compute("tests/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
+  const gl::Program& program = context().programs().compute("tests/techniques/occlusion_mask_probe.comp.glsl",
+                                                            {{"PATTERN", pattern.define}});
   in.bindStorage(0);
   out.bindStorage(1);
   program.set("count", static_cast<int>(given.size()));
@@ -113,9 +123,9 @@ TEST_P(OcclusionMask, RectanglesThatShareAnEdgeShareNoSample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Patterns, OcclusionMask,
-                         testing::Values(Pattern{"8", 8, false}, Pattern{"16", 16, false}, Pattern{"32", 32, false},
-                                         Pattern{"160", 16, true}),
-                         [](const auto& info) { return std::string("Pattern") + info.param.define; });
+                         testing::Values(Pattern{"8", 8, false}, Pattern{"16", 16, false},
+                                         Pattern{"32", 32, false}, Pattern{"160", 16, true}),
+                         [](const auto& instance) { return std::string("Pattern") + instance.param.define; });
 
 }  // namespace
 }  // namespace limen::techniques

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shadow_map.h"
 #include "renderer/gl/context.h"
 #include "renderer/techniques/technique.h"
 
@@ -24,14 +25,16 @@ struct Rendered {
   }
 };
 
-/// Renders with registered scenes and techniques in one context for the whole program. A driver message of medium or
-/// high severity fails the test.
+/// Renders with registered scenes and techniques in one context for the whole program. A driver message of
+/// medium or high severity fails the test.
 class TechniqueTest : public testing::Test {
  protected:
   static gl::Context& context() {
     static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
     return *kContext;
   }
+
+  void SetUp() override { context().makeCurrent(); }
 
   void TearDown() override {
     for (const gl::DebugMessage& message : context().takeDebugMessages())
@@ -41,11 +44,12 @@ class TechniqueTest : public testing::Test {
   using Given = std::map<std::string, ParameterValue>;
 
   static scene::Scene makeScene(const std::string& name, const Given& given = {}) {
-    return scene::buildScene(name, ParameterValues(scene::SceneRegistry::instance().get(name).allParameters(), given));
+    return scene::buildScene(
+        name, ParameterValues(scene::SceneRegistry::instance().get(name).allParameters(), given));
   }
 
-  static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given, glm::ivec2 sizePx,
-                         bool counting = false) {
+  static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given,
+                         glm::ivec2 sizePx, bool counting = false) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
