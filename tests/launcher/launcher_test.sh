@@ -40,7 +40,7 @@ tool() { # tool NAME: a stand-in whose script is stdin
 make_tools() {
   mkdir -p "$tools"
   local name
-  for name in bash env cat sed grep sort find touch mkdir mv rm tail flock sha256sum readlink paste sleep chmod true; do
+  for name in bash env cat sed grep sort find touch mkdir mv rm tail flock sha256sum readlink paste sleep chmod true tr; do
     ln -sf "$(type -P "$name")" "$tools/$name"
   done
   tool dpkg-query <<'TOOL'
@@ -92,7 +92,7 @@ make_tree() { # a fresh tree and machine: root, nothing installed, package lists
   echo 'project(limen VERSION 9.8.7 LANGUAGES CXX)' >"$tree/CMakeLists.txt"
   echo '{"configurePresets": [{"name": "release"}, {"name": "asan"}]}' >"$tree/CMakePresets.json"
   echo 'add_executable(limen-sweep main.cpp)' >"$tree/experiments/CMakeLists.txt"
-  echo 'add_executable(limen-analyse main.cpp)' >"$tree/analysis/CMakeLists.txt"
+  printf 'add_executable(\n  limen-analyse main.cpp)\n' >"$tree/analysis/CMakeLists.txt"
   touch "$tree/base/text.cpp" "$tree/base/hash.cpp" "$tree/tests/text_test.cpp"
   age
   : >"$state/installed"
