@@ -73,7 +73,7 @@ class Reader {
     out_.hash = sha256(text);
     const YamlNode root = parseYaml(text, path);
     if (root.kind == Kind::Null)
-      problems_.add(root.mark, "the file is empty", "see DESIGN.md for a descriptor");
+      problems_.add(root.mark, "the file is empty", "see experiments/descriptors for examples");
     if (root.kind == Kind::List || root.kind == Kind::Scalar)
       problems_.add(root.mark, "the file holds " + root.describe(),
                     "a descriptor is a map: 'title: ...', 'scenes: ...'");
