@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/g_buffer.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+
+namespace limen::frame {
+namespace {
+
+constexpr const char* kResolve = "renderer/frame/g_buffer.comp.glsl";
+
+gl::Format formatOf(Channel channel) {
+  switch (channel) {
+    case Channel::Position:
+    case Channel::Normal: return gl::Format::RGBA32F;
+    case Channel::Albedo: return gl::Format::RGBA8;
+    case Channel::Depth: return gl::Format::R32F;
+  }
+  return gl::Format::R32F;
+}
+
+gl::ShaderDefines definesOf(Channel channel) {
+  switch (channel) {
+    case Channel::Position: return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Normal: return {{"CHANNEL_NORMAL", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Albedo: return {{"CHANNEL_ALBEDO", "1"}, {"OUT_FORMAT", "rgba8"}};
+    case Channel::Depth: return {{"CHANNEL_DEPTH", "1"}, {"OUT_FORMAT", "r32f"}};
+  }
+  return {};
+}
+
+/// Works a channel out of the triangle ids; `out` gets every pixel.
+void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
+  const gl::Texture& ids = frame.get<TriangleIds>().texture();
+  const auto scope = frame.passes().open(pass);
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  program.set("anchorToCamera", glm::mat4(toCamera));
+  program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("sizePx", frame.sizePx());
+  ids.bindTexture(0);
+  out.bindImage(0, gl::Access::Write);
+  frame.gpuScene().bindStorage(0);
+  program.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+}  // namespace
+
+TriangleIds::TriangleIds(Frame& frame)
+    : ids_(gl::Format::R32UI, frame.sizePx()),
+      depth_(gl::Format::Depth32F, frame.sizePx()),
+      framebuffer_({&ids_}, &depth_) {
+  frame.context().programs().get({"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
+  frame.passes().setBytesHeld("frame/triangle_ids", ids_.bytes() + depth_.bytes());
+}
+
+void TriangleIds::make(Frame& frame) {
+  const auto scope = frame.passes().open("frame/triangle_ids");
+  const gl::Program& program = frame.context().programs().get(
+      {"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
+  framebuffer_.bind();
+  constexpr std::array<GLuint, 4> kBackground = {kNone, 0, 0, 0};
+  constexpr GLfloat kFar = 0.0F;  // reversed depth: 0 is infinitely far
+  glClearBufferuiv(GL_COLOR, 0, kBackground.data());
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_CULL_FACE);
+  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near plane is
+  // a small part of the distance to the scene, whatever the scene's scale.
+  const double reach = glm::length(glm::dvec3(frame.anchorToCamera() * glm::dvec4(0.0, 0.0, 0.0, 1.0))) +
+                       frame.scene().bounds().diagonal();
+  const double near = 1e-4 * (reach > 0.0 ? reach : 1.0);
+  glm::dmat4 projection(0.0);
+  projection[0][0] = 1.0 / (frame.tanHalfFov() * frame.aspect());
+  projection[1][1] = 1.0 / frame.tanHalfFov();
+  projection[2][3] = -1.0;
+  projection[3][2] = near;
+  program.use();
+  program.set("anchorToClip", glm::mat4(projection * frame.anchorToCamera()));
+  frame.gpuScene().draw();
+  glDisable(GL_DEPTH_TEST);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+std::string ChannelSetting::key() const {
+  constexpr std::array<const char*, 4> kNames = {"position", "normal", "albedo", "depth"};
+  return kNames[static_cast<size_t>(channel)];
+}
+
+GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
+    : setting_(std::move(setting)),
+      program_(frame.context().programs().compute(kResolve, definesOf(setting_.channel))),
+      texture_(formatOf(setting_.channel), frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/" + setting_.key(), texture_.bytes());
+}
+
+void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "frame/" + setting_.key()); }
+
+Receivers::Receivers(Frame& frame)
+    : program_(frame.context().programs().compute(kResolve, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
+      texture_(gl::Format::RGBA32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
+}
+
+void Receivers::make(Frame& frame) {
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
+  resolve(frame, program_, texture_, "frame/receivers");
+}
+
+}  // namespace limen::frame

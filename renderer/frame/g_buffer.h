@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::frame {
+
+/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out from it in
+/// compute by intersecting the pixel's ray with the triangle, which is both faster and more exact than interpolated
+/// attributes.
+class TriangleIds : public FrameInput {
+ public:
+  static constexpr const char* kName = "triangle_ids";
+  static constexpr uint32_t kNone = 0xffffffffU;
+
+  explicit TriangleIds(Frame& frame);
+  void make(Frame& frame) override;
+  /// R32UI; kNone: background.
+  const gl::Texture& texture() const { return ids_; }
+
+ private:
+  gl::Texture ids_, depth_;
+  gl::Framebuffer framebuffer_;
+};
+
+/// G-buffer channels, each an input of its own.
+enum class Channel {
+  Position,  ///< RGBA32F: position relative to the scene's anchor, w = 1; background 0
+  Normal,    ///< RGBA32F: unit geometric normal turned to the camera; background 0
+  Albedo,    ///< RGBA8: linear reflectance, a = 1; background 0
+  Depth      ///< R32F: linear distance along the view direction; background 0
+};
+
+struct ChannelSetting {
+  Channel channel;
+  std::string key() const;
+};
+
+class GBufferChannel : public FrameInput {
+ public:
+  static constexpr const char* kName = "g_buffer";
+  GBufferChannel(Frame& frame, ChannelSetting setting);
+  void make(Frame& frame) override;
+  const gl::Texture& texture() const { return texture_; }
+
+ private:
+  ChannelSetting setting_;
+  const gl::Program& program_;
+  gl::Texture texture_;
+};
+
+/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin, z along its
+/// direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth slope that biases need;
+/// w = -1: not a receiver (background, behind the light's plane, or turned away from the light's centre).
+class Receivers : public FrameInput {
+ public:
+  static constexpr const char* kName = "receivers";
+  explicit Receivers(Frame& frame);
+  void make(Frame& frame) override;
+  const gl::Texture& texture() const { return texture_; }
+
+ private:
+  const gl::Program& program_;
+  gl::Texture texture_;
+};
+
+}  // namespace limen::frame

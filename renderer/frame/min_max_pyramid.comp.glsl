@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Three levels of the min/max pyramid from one source level; each invocation reduces 2 x 2 texels.
+#include "renderer/frame/shadow_depth.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+#ifdef FROM_DEPTH
+layout(binding = 0) uniform sampler2D depthMap;
+layout(binding = 0, r32f) uniform writeonly image2D outBase;
+#else
+layout(binding = 0) uniform sampler2D minimumMap;
+layout(binding = 1) uniform sampler2D maximumMap;
+uniform int sourceLevel;
+#endif
+layout(binding = 1, r32f) uniform writeonly image2D outMinimum1;
+layout(binding = 2, r32f) uniform writeonly image2D outMinimum2;
+layout(binding = 3, r32f) uniform writeonly image2D outMinimum3;
+layout(binding = 4, r32f) uniform writeonly image2D outMaximum1;
+layout(binding = 5, r32f) uniform writeonly image2D outMaximum2;
+layout(binding = 6, r32f) uniform writeonly image2D outMaximum3;
+uniform float near;
+uniform int sourceSize, levelsMade;
+
+shared vec2 tile[8][8];
+
+vec2 combine(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }
+
+vec2 sourceRange(ivec2 texel) {
+  // A 1-texel map is its own only level: clamping keeps reads inside.
+  texel = min(texel, ivec2(sourceSize - 1));
+#ifdef FROM_DEPTH
+  const float z = linearDepth(texelFetch(depthMap, texel, 0).x, near);
+  imageStore(outBase, texel, vec4(z));
+  return vec2(z);
+#else
+  return vec2(texelFetch(minimumMap, texel, sourceLevel).x, texelFetch(maximumMap, texel, sourceLevel - 1).x);
+#endif
+}
+
+void main() {
+  const ivec2 at = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
+  const ivec2 size1 = ivec2(max(sourceSize / 2, 1));
+  const bool inside = all(lessThan(at, size1));
+  vec2 range = vec2(kEmptyDepth, -kEmptyDepth);
+  if (inside) {
+    range = combine(combine(sourceRange(2 * at), sourceRange(2 * at + ivec2(1, 0))),
+                    combine(sourceRange(2 * at + ivec2(0, 1)), sourceRange(2 * at + ivec2(1, 1))));
+    if (levelsMade >= 1) {
+      imageStore(outMinimum1, at, vec4(range.x));
+      imageStore(outMaximum1, at, vec4(range.y));
+    }
+  }
+  tile[local.y][local.x] = range;
+  for (int level = 2; level <= 3; ++level) {
+    barrier();
+    const int step = 1 << (level - 1), half_ = step >> 1;
+    const bool reduces = all(equal(local & (step - 1), ivec2(0)));
+    if (reduces)
+      range = combine(combine(tile[local.y][local.x], tile[local.y][local.x + half_]),
+                      combine(tile[local.y + half_][local.x], tile[local.y + half_][local.x + half_]));
+    barrier();
+    if (reduces) {
+      tile[local.y][local.x] = range;
+      if (inside && level <= levelsMade) {
+        if (level == 2) {
+          imageStore(outMinimum2, at >> 1, vec4(range.x));
+          imageStore(outMaximum2, at >> 1, vec4(range.y));
+        } else {
+          imageStore(outMinimum3, at >> 2, vec4(range.x));
+          imageStore(outMaximum3, at >> 2, vec4(range.y));
+        }
+      }
+    }
+  }
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/shadow_map.h"
+
+#include <epoxy/gl.h>
+
+#include <bit>
+#include <cassert>
+
+namespace limen::frame {
+namespace {
+
+int levelCount(int resolution) {
+  assert(std::has_single_bit(static_cast<unsigned>(resolution)));
+  return std::bit_width(static_cast<unsigned>(resolution));
+}
+
+}  // namespace
+
+ShadowRaster::ShadowRaster(gl::Context& context, int resolution)
+    : program_(context.programs().get({"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"})),
+      depth_(gl::Format::Depth32F, glm::ivec2(resolution)),
+      framebuffer_({}, &depth_) {}
+
+void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
+  framebuffer_.bind();
+  constexpr GLfloat kFar = 0.0F;
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_CULL_FACE);
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  program_.use();
+  program_.set("anchorToClip", glm::mat4(frustum.clipFromLight() * toLight));
+  frame.gpuScene().draw();
+  glDisable(GL_DEPTH_TEST);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
+    : raster_(frame.context(), settings.resolution),
+      frustum_(LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution)),
+      pass_("frame/shadow_raster") {
+  frame.passes().setBytesHeld(pass_, raster_.depth().bytes());
+}
+
+void ShadowDepth::make(Frame& frame) {
+  const auto scope = frame.passes().open(pass_);
+  raster_.draw(frame, frustum_);
+}
+
+ShadowMap::ShadowMap(Frame& frame, ShadowMapSettings settings)
+    : settings_(settings),
+      program_(frame.context().programs().compute("renderer/frame/linear_depth.comp.glsl")),
+      linear_(gl::Format::R32F, glm::ivec2(settings.resolution)),
+      pass_("frame/shadow_map") {
+  frame.passes().setBytesHeld(pass_, linear_.bytes());
+}
+
+void ShadowMap::make(Frame& frame) {
+  const auto& raster = frame.get<ShadowDepth>(settings_);
+  frustum_ = raster.frustum();
+  const auto scope = frame.passes().open(pass_);
+  program_.set("near", static_cast<float>(frustum_.near));
+  program_.set("resolution", settings_.resolution);
+  raster.depth().bindTexture(0);
+  linear_.bindImage(0, gl::Access::Write);
+  program_.dispatch(glm::ivec2(settings_.resolution));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+MinMaxPyramid::MinMaxPyramid(Frame& frame, ShadowMapSettings settings)
+    : settings_(settings),
+      first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl", {{"FROM_DEPTH", "1"}})),
+      next_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl")),
+      minimum_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution)),
+      maximum_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
+               std::max(levelCount(settings.resolution) - 1, 1)),
+      pass_("frame/min_max_pyramid") {
+  frame.passes().setBytesHeld(pass_, minimum_.bytes() + maximum_.bytes());
+}
+
+void MinMaxPyramid::make(Frame& frame) {
+  const auto& raster = frame.get<ShadowDepth>(settings_);
+  frustum_ = raster.frustum();
+  const auto scope = frame.passes().open(pass_);
+  const int count = levels();
+  // Three levels a dispatch: with both channels that is what eight image units hold.
+  for (int base = 0; base < std::max(count - 1, 1); base += 3) {
+    const gl::Program& program = base == 0 ? first_ : next_;
+    program.set("near", static_cast<float>(frustum_.near));
+    program.set("sourceSize", settings_.resolution >> base);
+    const int made = std::min(3, count - 1 - base);
+    program.set("levelsMade", made);
+    if (base == 0) {
+      raster.depth().bindTexture(0);
+      minimum_.bindImage(0, gl::Access::Write, 0);
+    } else {
+      minimum_.bindTexture(0);
+      maximum_.bindTexture(1);
+      program.set("sourceLevel", base);
+    }
+    for (int i = 0; i < 3; ++i) {
+      // Levels past the last are bound to the last and never written.
+      minimum_.bindImage(1 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + 1 + i, count - 1));
+      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + i, maximum_.levels() - 1));
+    }
+    program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+}
+
+}  // namespace limen::frame

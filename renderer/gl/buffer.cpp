@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/gl/buffer.h"
+
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace limen::gl {
+
+Buffer::Buffer(int64_t bytes, const void* data) : bytes_(bytes > 0 ? bytes : 16) {
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, bytes_, bytes > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+}
+
+Buffer::~Buffer() {
+  if (id_) glDeleteBuffers(1, &id_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), bytes_(other.bytes_) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+void Buffer::bindStorage(uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+void Buffer::bindUniform(uint32_t binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+
+void Buffer::clearUint(uint32_t value) const {
+  glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+}
+
+void Buffer::write(int64_t offset, int64_t bytes, const void* data) const {
+  glNamedBufferSubData(id_, offset, bytes, data);
+}
+
+void Buffer::readBytes(int64_t offset, int64_t bytes, void* out) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, offset, bytes, out);
+}
+
+}  // namespace limen::gl

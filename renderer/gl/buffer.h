@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace limen::gl {
+
+/// Immutable-size buffer in GPU memory.
+class Buffer {
+ public:
+  /// `data` may be null: contents undefined. Size 0 becomes 16 bytes, since GL knows no empty buffers.
+  Buffer(int64_t bytes, const void* data);
+  template <class T>
+  explicit Buffer(const std::vector<T>& data) : Buffer(static_cast<int64_t>(data.size() * sizeof(T)), data.data()) {}
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  uint32_t id() const { return id_; }
+  int64_t bytes() const { return bytes_; }
+  void bindStorage(uint32_t binding) const;  ///< shader storage block
+  void bindUniform(uint32_t binding) const;
+  void clearUint(uint32_t value) const;
+  void write(int64_t offset, int64_t bytes, const void* data) const;
+  /// Waits for the GPU.
+  template <class T>
+  std::vector<T> read(int64_t offset = 0, int64_t count = -1) const {
+    std::vector<T> out(static_cast<size_t>(count >= 0 ? count : (bytes_ - offset) / int64_t{sizeof(T)}));
+    readBytes(offset, static_cast<int64_t>(out.size() * sizeof(T)), out.data());
+    return out;
+  }
+
+ private:
+  void readBytes(int64_t offset, int64_t bytes, void* out) const;
+  uint32_t id_ = 0;
+  int64_t bytes_ = 0;
+};
+
+}  // namespace limen::gl

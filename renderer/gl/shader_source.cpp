@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/gl/shader_source.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace limen::gl {
+namespace {
+
+std::map<std::string, std::string>& embedded() {
+  static std::map<std::string, std::string> shaders;
+  return shaders;
+}
+
+std::string sourceRoot() {
+  if (const char* root = std::getenv("LIMEN_SHADER_ROOT")) return root;
+#ifdef LIMEN_SHADER_ROOT_DEFAULT
+  return LIMEN_SHADER_ROOT_DEFAULT;
+#else
+  return {};
+#endif
+}
+
+std::string readShaderFile(const std::string& path, const std::string& includedFrom) {
+  const std::string root = sourceRoot();
+  if (root.empty()) {
+    const auto found = embedded().find(path);
+    if (found != embedded().end()) return found->second;
+    throw Error("no shader '" + path + "' in the program", includedFrom, "is it listed in limen_shaders()?");
+  }
+  std::ifstream in(root + "/" + path);
+  if (!in) throw Error("cannot read shader '" + root + "/" + path + "'", includedFrom, "check the path");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void append(const std::string& path, const std::string& includedFrom, ShaderText& out) {
+  // Once per program: headers need no include guards, and a cycle ends by itself.
+  if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) return;
+  const size_t number = out.files.size();
+  out.files.push_back(path);
+  std::istringstream in(readShaderFile(path, includedFrom));
+  std::string line;
+  out.text += "#line 1 " + std::to_string(number) + "\n";
+  for (int lineNumber = 1; std::getline(in, line); ++lineNumber) {
+    static const std::regex kInclude(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
+    std::smatch match;
+    if (std::regex_match(line, match, kInclude)) {
+      append(match[1], path + ":" + std::to_string(lineNumber), out);
+      out.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+    } else {
+      out.text += line + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+EmbeddedShader::EmbeddedShader(const char* path, const char* text) { embedded()[path] = text; }
+
+ShaderText loadShader(const std::string& path, const ShaderDefines& defines) {
+  ShaderText out;
+  out.text = "#version 450 core\n";
+  for (const auto& [name, value] : defines) out.text += "#define " + name + " " + value + "\n";
+  append(path, {}, out);
+  return out;
+}
+
+std::string explainLog(const std::string& log, const ShaderText& shader) {
+  std::istringstream in(log);
+  std::string out, line;
+  while (std::getline(in, line)) {
+    // Mesa: "2:14(7): error"; NVIDIA: "2(14) : error".
+    static const std::regex kPlace(R"(^(\d+)(:|\()(\d+)\)?)");
+    std::smatch match;
+    if (std::regex_search(line, match, kPlace) && std::stoul(match[1]) < shader.files.size())
+      line = shader.files[std::stoul(match[1])] + ":" + match[3].str() + match.suffix().str();
+    out += line + "\n";
+  }
+  return out;
+}
+
+}  // namespace limen::gl
