@@ -45,8 +45,7 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   options.root = LIMEN_SOURCE_DIR;
   CLI::App app("Runs what is not done yet of the experiments that the descriptors state.", program);
   app.set_version_flag("--version", versionText(program), "Print version and commit");
-  app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")
-      ->type_name("FILE");
+  app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")->type_name("FILE");
   app.add_option("--store", options.store, "Result store (default: results/DESCRIPTOR.sqlite)")
       ->type_name("FILE");
   std::string shard;

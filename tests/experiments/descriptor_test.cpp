@@ -54,6 +54,20 @@ TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
             "micro_occluders_per_px");
 }
 
+TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {
+  const Descriptor descriptor = parse(
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+      "reference: {name: soft/sampled}\n"
+      "metrics: [rmse, flip, {name: flip, ppd: 30}]\n"
+      "expect: [{metric: flip_30, below: 0.1}]\nreport: {y: flip_30}\n");
+  EXPECT_EQ(descriptor.metricNames, (std::vector<std::string>{"rmse", "flip", "flip_30"}));
+  // Alone, a metric has its plain name whatever its values.
+  EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+                  "reference: {name: soft/sampled}\nmetrics: [{name: flip, ppd: 30}]\n")
+                .metricNames,
+            std::vector<std::string>{"flip"});
+}
+
 TEST(Descriptor, NumbersInTheFormsOfYaml) {
   const Descriptor descriptor = parse(
       "title: a\nquestion: b\nscenes: [{name: grid, light_size: [+1, 2., .5, 1e1, 2.5E-1]}]\n"
