@@ -70,6 +70,7 @@ struct Descriptor {
   Timing timing;
   Artefacts artefacts;
   std::vector<Choice> metrics;
+  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` give, in the same order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;
   std::map<std::string, std::string>

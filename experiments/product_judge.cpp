@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric.h"
 
@@ -25,18 +26,6 @@ Image composed(const Image& product, const Image& shading) {
 
 }  // namespace
 
-std::string measurementName(const Choice& metric, const std::vector<Choice>& all) {
-  const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
-  if (std::count_if(all.begin(), all.end(), sameName) < 2) return metric.name;
-  const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
-  std::string name = metric.name;
-  for (const Parameter& parameter : info.parameters) {
-    const ParameterValue& value = metric.values.all().at(parameter.name);
-    if (value != parameter.defaultValue) name += "_" + toText(value);
-  }
-  return name;
-}
-
 std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct& product,
                                       std::vector<std::pair<std::string, Image>>& maps) {
   const perception::ComparisonInput input{product.texture, product.referenceTexture, product.image,
@@ -45,7 +34,7 @@ std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct
   for (const Choice& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
     perception::MetricResult result = info.compare(input, metric.values);
-    const std::string name = measurementName(metric, run.metrics);
+    const std::string name = measurementName(metric, run.metrics, info.parameters);
     out.push_back(
         {name, std::isfinite(result.value) ? std::optional(result.value) : std::nullopt, info.unit, "error"});
     const bool known =

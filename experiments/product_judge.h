@@ -20,10 +20,6 @@ struct JudgedProduct {
   const Image* shading = nullptr;  ///< 3 channels: the scene's unshadowed colour, for pictures
 };
 
-/// Name under which a metric is stored: its own, followed by what sets it apart when a run asks for it more
-/// than once ("rmse", "rmse_penumbra").
-std::string measurementName(const Choice& metric, const std::vector<Choice>& all);
-
 /// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
 std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct& product,
                                       std::vector<std::pair<std::string, Image>>& maps);
