@@ -63,14 +63,15 @@ double errorScale(const Image& map) {
   return 100.0 * decade;
 }
 
-ErrorPicture paintErrorMap(const Image& map, double scale) {
+Image errorPicture(const Image& map, double scale) {
   assert(map.channels == 1);
-  ErrorPicture painted{Image(map.width, map.height, 3), scale > 0.0 ? scale : errorScale(map)};
+  const double brightest = scale > 0.0 ? scale : errorScale(map);
+  Image picture(map.width, map.height, 3);
   for (size_t pixel = 0; pixel < map.pixels(); ++pixel) {
     const double value = map.data[pixel];
-    setPixel(painted.picture, pixel, std::isfinite(value) ? magma(value / painted.scale) : kNonFinite);
+    setPixel(picture, pixel, std::isfinite(value) ? magma(value / brightest) : kNonFinite);
   }
-  return painted;
+  return picture;
 }
 
 Image displayPicture(const Image& linear) {

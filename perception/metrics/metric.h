@@ -51,7 +51,7 @@ struct MetricInfo {
   int version = 1;  ///< raised when values change
   std::string summary;
   std::string source;
-  std::string unit;
+  std::string unit;  ///< "" for pure numbers
   bool higherIsBetter = false;
   bool needsGl = false;
   bool needsReference = true;  ///< false: judges the test product alone (non-finite count)

@@ -27,7 +27,6 @@ MetricInfo nonFiniteMetric() {
   MetricInfo info;
   info.name = "non_finite";
   info.summary = "count of values (all channels) that are infinite or not a number";
-  info.unit = "count";
   info.needsReference = false;
   info.compare = &countNonFinite;
   return info;

@@ -87,7 +87,6 @@ MetricInfo pixelMetric(const std::string& name, const std::string& summary,
   MetricInfo info;
   info.name = name;
   info.summary = summary;
-  info.unit = "1";
   info.parameters = {regionParameter()};
   info.compare = [name, measure, withMap](const ComparisonInput& input, const ParameterValues& values) {
     const Comparison pair(input, name, regionOf(values));

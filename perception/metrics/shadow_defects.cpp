@@ -74,7 +74,6 @@ MetricInfo leaksMetric() {
   MetricInfo info;
   info.name = "leaks";
   info.summary = "share of receivers in full shadow (reference below 0.02) that get over 0.05 too much light";
-  info.unit = "1";
   info.compare = [](const ComparisonInput& input, const ParameterValues&) {
     return shareWith(input, "leaks", leaks);
   };
@@ -85,7 +84,6 @@ MetricInfo acneMetric() {
   MetricInfo info;
   info.name = "acne";
   info.summary = "share of receivers that are fully lit in the reference but below 0.98";
-  info.unit = "1";
   info.compare = [](const ComparisonInput& input, const ParameterValues&) {
     return shareWith(input, "acne", isAcne);
   };
@@ -99,7 +97,6 @@ MetricInfo bandStepMetric() {
       "largest step between neighbouring pixels, less that of the reference (bands, seams); use region: "
       "penumbra where "
       "the reference has hard edges";
-  info.unit = "1";
   info.parameters = {regionParameter()};
   info.compare = &measureBandStep;
   return info;

@@ -102,7 +102,6 @@ MetricInfo ssimMetric() {
   info.name = "ssim";
   info.summary = "mean structural similarity of the images' sRGB-coded luminance; 1 for equal images";
   info.source = "Wang et al. 2004";
-  info.unit = "1";
   info.higherIsBetter = true;
   info.compare = &measure;
   return info;

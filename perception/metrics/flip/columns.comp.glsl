@@ -52,16 +52,16 @@ float colourError(float distance) {
   return min(1.0, raised < knee ? 0.95 * raised / knee : 0.95 + 0.05 * (raised - knee) / (largest - knee));
 }
 
-ivec2 size;
-int column, top;
+// Texel `offset` below `top`; the image goes on as its edge.
+vec4 fetchBelow(sampler2D source, ivec2 top, int offset) {
+  return texelFetch(source, ivec2(top.x, clamp(top.y + offset, 0, textureSize(source, 0).y - 1)), 0);
+}
 
-ivec2 at(int offset) { return ivec2(column, clamp(top + offset, 0, size.y - 1)); }
-
-void filterSensitivity(sampler2D source, out vec3 lab[RUN]) {
+void filterSensitivity(sampler2D source, ivec2 top, out vec3 lab[RUN]) {
   vec4 sum[RUN];
   for (int k = 0; k < RUN; ++k) sum[k] = vec4(0.0);
   for (int offset = -RADIUS; offset < RUN + RADIUS; ++offset) {
-    vec4 value = texelFetch(source, at(offset), 0);
+    vec4 value = fetchBelow(source, top, offset);
     for (int k = 0; k < RUN; ++k) {
       int tap = offset - k;
       if (abs(tap) <= RADIUS) sum[k] += sensitivity[tap + RADIUS] * value;
@@ -71,22 +71,21 @@ void filterSensitivity(sampler2D source, out vec3 lab[RUN]) {
 }
 
 void main() {
-  size = textureSize(detectors, 0);
-  ivec2 invocation = ivec2(gl_GlobalInvocationID.xy);
-  column = min(invocation.x, size.x - 1);
-  top = invocation.y * RUN;
+  ivec2 size = textureSize(detectors, 0);
+  int column = int(gl_GlobalInvocationID.x);
+  ivec2 top = ivec2(min(column, size.x - 1), gl_GlobalInvocationID.y * RUN);
 
   vec3 testLab[RUN], referenceLab[RUN];
-  filterSensitivity(testSensitivity, testLab);
-  filterSensitivity(referenceSensitivity, referenceLab);
+  filterSensitivity(testSensitivity, top, testLab);
+  filterSensitivity(referenceSensitivity, top, referenceLab);
 
   // Edge and point detectors along x (x, y: edge, point of the test; z, w: of the reference) and along y.
   vec4 acrossSum[RUN], downSum[RUN];
   for (int k = 0; k < RUN; ++k) acrossSum[k] = downSum[k] = vec4(0.0);
-  vec2 base = texelFetch(smoothed, at(0), 0).xy;  // differences, for the reason given in the row pass
+  vec2 base = fetchBelow(smoothed, top, 0).xy;  // differences, for the reason given in the row pass
   for (int offset = -RADIUS; offset < RUN + RADIUS; ++offset) {
-    vec4 across = texelFetch(detectors, at(offset), 0);
-    vec2 down = texelFetch(smoothed, at(offset), 0).xy - base;
+    vec4 across = fetchBelow(detectors, top, offset);
+    vec2 down = fetchBelow(smoothed, top, offset).xy - base;
     for (int k = 0; k < RUN; ++k) {
       int tap = offset - k;
       if (abs(tap) <= RADIUS) {
@@ -104,8 +103,8 @@ void main() {
     float featureError = sqrt(min(1.0, inversesqrt(2.0) * max(difference.x, difference.y)));
     float colour = colourError(colourDistance(testLab[k], referenceLab[k]));
     float flip = colour > 0.0 ? pow(colour, 1.0 - featureError) : 0.0;
-    if (invocation.x < size.x && top + k < size.y) {
-      imageStore(errorMap, ivec2(invocation.x, top + k), vec4(flip));
+    if (column < size.x && top.y + k < size.y) {
+      imageStore(errorMap, ivec2(column, top.y + k), vec4(flip));
       sum += flip;
     }
   }

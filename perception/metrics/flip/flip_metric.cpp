@@ -58,7 +58,6 @@ MetricInfo flipMetric() {
   info.name = "flip";
   info.summary = "mean LDR-FLIP error: how much a viewer notices when the images are shown in turn";
   info.source = "Andersson et al. 2020";
-  info.unit = "1";
   info.needsGl = true;
   info.parameters = {realParameter("pixels_per_degree", FlipGpu::kDefaultPixelsPerDegree,
                                    FlipGpu::kLeastPixelsPerDegree, FlipGpu::kMostPixelsPerDegree, "px/deg",
