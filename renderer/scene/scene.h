@@ -104,8 +104,11 @@ struct Scene {
 
   Bounds bounds() const;                ///< of all finite positions
   Bounds casterBounds() const;          ///< of parts that are not receiverOnly
-  std::string contentHash() const;      ///< SHA-256 over geometry, materials, lights and camera
-  /// What the scene has, for techniques that need it: "area_light", "rectangular_light", ...
+  /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera; no names.
+  std::string contentHash() const;
+  /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
+  /// "disc_light" or "polygonal_light" if it has one colour all over, else "multi_part_light"; "several_lights",
+  /// "moving_camera", "casters", "receiver_only_parts".
   std::set<std::string> traits() const;
 };
 
@@ -126,10 +129,12 @@ using SceneRegistry = Registry<SceneInfo>;
 
 /// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its own
 /// diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100), `light_shape`
-/// (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path).
+/// (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path: the built scene's path is
+/// moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still picture).
 std::vector<Parameter> commonParameters();
 
-/// Builds a registered scene and applies the common parameters. Throws Error.
+/// Builds a registered scene and applies the common parameters; what `values` leaves out takes its default. The parts
+/// of the result tile its triangles in order. Throws Error.
 Scene buildScene(const std::string& name, const ParameterValues& values);
 
 }  // namespace limen::scene

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cassert>
+#include <cmath>
+
+#include "base/error.h"
+#include "renderer/scene/light.h"
+#include "renderer/scene/scene.h"
+
+namespace limen::scene {
+namespace {
+
+const char* const kAsBuilt = "as_built";
+
+/// The parts tile the triangles in order and name what exists; lights and cameras are usable.
+[[maybe_unused]] bool wellFormed(const Scene& scene) {
+  size_t next = 0;
+  for (const Part& part : scene.parts) {
+    if (part.firstTriangle != next || part.material >= scene.materials.size()) return false;
+    next += part.triangleCount;
+  }
+  for (const glm::uvec3& triangle : scene.mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      if (triangle[corner] >= scene.mesh.positions.size()) return false;
+  return next == scene.mesh.triangles.size() && !scene.camera.keys.empty();
+}
+
+/// Applies `map` to every position of the world: geometry, lights, cameras.
+template <class Map>
+void mapWorld(Scene& scene, Map map) {
+  for (glm::dvec3& position : scene.mesh.positions) position = map(position);
+  for (AreaLight& light : scene.lights) light.centre = map(light.centre);
+  for (CameraPath::Key& key : scene.camera.keys) {
+    key.camera.eye = map(key.camera.eye);
+    key.camera.target = map(key.camera.target);
+  }
+}
+
+LightShape shapeNamed(const std::string& name) {
+  if (name == "rectangle") return LightShape::Rectangle;
+  if (name == "disc") return LightShape::Disc;
+  assert(name == "polygon");
+  return LightShape::Polygon;
+}
+
+}  // namespace
+
+std::vector<Parameter> commonParameters() {
+  return {
+      realParameter("scale", 1.0, 1e-6, 1e6, "", "Scales the whole world about the origin"),
+      realParameter("offset", 0.0, 0.0, 1e6, "scene diagonals", "Moves the whole world along (1,1,1)"),
+      realParameter("light_size", 1.0, 0.001, 100.0, "", "Multiplies the light's extents",
+                    "004_2587a614b209b9c1.txt, chapters 3 to 5"),
+      choiceParameter("light_shape", kAsBuilt, {kAsBuilt, "rectangle", "disc", "polygon"},
+                      "Shape of the light within its extents; polygon: a hexagon"),
+      realParameter("time_s", 0.0, 0.0, 3600.0, "s",
+                    "Position on the camera path; past its end the camera rests"),
+  };
+}
+
+std::vector<Parameter> SceneInfo::allParameters() const {
+  std::vector<Parameter> all = parameters;
+  for (Parameter& parameter : commonParameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+Scene buildScene(const std::string& name, const ParameterValues& values) {
+  const SceneInfo& info = SceneRegistry::instance().get(name);
+  const std::string where = "scene '" + name + "'";
+  const ParameterValues complete(info.allParameters(), values.all(), where);
+  Scene scene = info.build(complete);
+  scene.name = name;
+  assert(wellFormed(scene));
+
+  const double scale = complete.real("scale");
+  if (scale != 1.0) {
+    mapWorld(scene, [&](glm::dvec3 p) { return p * scale; });
+    for (AreaLight& light : scene.lights) light.size *= scale;
+  }
+  if (const double offset = complete.real("offset"); offset != 0.0) {
+    const glm::dvec3 shift(offset * scene.bounds().diagonal() / std::sqrt(3.0));
+    mapWorld(scene, [&](glm::dvec3 p) { return p + shift; });
+  }
+  const std::string& shape = complete.text("light_shape");
+  for (AreaLight& light : scene.lights) {
+    light.size *= complete.real("light_size");
+    if (shape != kAsBuilt) light = withShape(std::move(light), shapeNamed(shape));
+    checkLight(light, where);
+  }
+  if (scene.camera.keys.size() > 1)
+    for (CameraPath::Key& key : scene.camera.keys) key.timeS -= complete.real("time_s");
+  return scene;
+}
+
+}  // namespace limen::scene

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flat occluders parallel to a horizontal light, for which visibility has a closed form.
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+
+namespace limen::scene {
+namespace {
+
+constexpr glm::vec3 kCardAlbedo{0.55F, 0.6F, 0.7F};
+/// Height of the light above the ground.
+constexpr double kLightHeight = 2.0;
+
+/// Horizontal, facing up, centred over (x, z).
+Mesh flatCard(glm::dvec3 centre, glm::dvec2 halfSize) {
+  return card(centre, {0.0, 0.0, halfSize.y}, {halfSize.x, 0.0, 0.0});
+}
+
+AreaLight lightAbove(glm::dvec2 size) {
+  return lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), size);
+}
+
+/// Occluder fusion: cards below the topmost one, none of which a shadow map from the light's centre can see.
+/// Projective cards all have the same projection from the light's centre. Umbra cards are the sections of the
+/// topmost card's umbra, so that no light ray meets one that has not met the topmost: visibility on the
+/// ground is then the same for any number of cards (as long as light_size is at most 1).
+Scene buildCardStack(const ParameterValues& values) {
+  constexpr double kTop = 1.2, kHalf = 0.35, kLightSize = 0.3;
+  const double depthOfTop = kLightHeight - kTop;
+  const bool projective = values.text("fit") == "projective";
+  Mesh cards;
+  for (int64_t i = 0; i < values.integer("cards"); ++i) {
+    const double drop = values.real("spacing") * static_cast<double>(i);
+    const double grown = (depthOfTop + drop) / depthOfTop;
+    const double half = projective ? kHalf * grown : kHalf * grown - 0.5 * kLightSize * (grown - 1.0);
+    append(cards, flatCard({0.0, kTop - drop, 0.0}, glm::dvec2(half)));
+  }
+  Scene scene;
+  addGround(scene, 10.0);
+  addPart(scene, "cards", cards, kCardAlbedo);
+  scene.lights = {lightAbove(glm::dvec2(kLightSize))};
+  setStillCamera(scene, orbitCamera({0.0, 0.3, 0.0}, 4.6, 25.0, 35.0));
+  return scene;
+}
+
+/// Covers x < 0 at one height; its edge x = 0 is parallel to the light's y axis. The ground at x then sees
+/// the share 1/2 + x (H - h) / (h w) of a light of width w at height H, clamped to [0, 1]. The card reaches
+/// far enough to every other side that no other edge comes between the light and the ground plane's middle.
+Scene buildHalfPlane(const ParameterValues& values) {
+  const double edgeHeight = values.real("edge_height");
+  constexpr double kReach = 4.5;
+  Scene scene;
+  addGround(scene, 8.0);
+  addPart(scene, "half_plane", flatCard({-0.5 * kReach, edgeHeight, 0.0}, {0.5 * kReach, kReach}),
+          kCardAlbedo);
+  scene.lights = {lightAbove(glm::dvec2(0.4))};
+  setStillCamera(scene, orbitCamera({0.5, 0.0, 0.0}, 2.6, 75.0, 32.0));
+  return scene;
+}
+
+Scene buildParallelRectangle(const ParameterValues& values) {
+  Scene scene;
+  addGround(scene, 8.0);
+  addPart(scene, "rectangle",
+          flatCard({0.0, values.real("height"), 0.0},
+                   0.5 * glm::dvec2(values.real("width"), values.real("depth"))),
+          kCardAlbedo);
+  scene.lights = {lightAbove({0.4, 0.3})};
+  setStillCamera(scene, orbitCamera({0.0, 0.15, 0.0}, 3.0, 20.0, 38.0));
+  return scene;
+}
+
+const Registered<SceneInfo> kCardStack{SceneInfo{
+    .name = "card_stack",
+    .version = 1,
+    .summary =
+        "Parallel cards one below another that cover each other as seen from the light: occluder fusion",
+    .source = "004_2587a614b209b9c1.txt, section 4.2",
+    .parameters = {integerParameter("cards", 8, 1, 64, "cards", "Number of cards"),
+                   realParameter("spacing", 0.01, 0.0001, 0.018, "m", "Vertical distance between two cards"),
+                   choiceParameter(
+                       "fit", "projective", {"projective", "umbra"},
+                       "Size of the lower cards: same projection from the light's centre, or the section of "
+                       "the topmost card's umbra")},
+    .build = buildCardStack}};
+
+const Registered<SceneInfo> kHalfPlane{SceneInfo{
+    .name = "half_plane",
+    .version = 1,
+    .summary =
+        "Half-plane with its edge parallel to the light: penumbra linear in distance, known in closed form",
+    .source = "bench",
+    .parameters = {realParameter("edge_height", 1.0, 0.05, 1.8, "m",
+                                 "Height of the half-plane; the light is at 2 m")},
+    .build = buildHalfPlane}};
+
+const Registered<SceneInfo> kParallelRectangle{
+    SceneInfo{.name = "parallel_rectangle",
+              .version = 1,
+              .summary = "One rectangle parallel to the light: visibility known in closed form",
+              .source = "bench",
+              .parameters = {realParameter("height", 0.7, 0.05, 1.8, "m",
+                                           "Height of the rectangle; the light is at 2 m"),
+                             realParameter("width", 0.6, 0.01, 2.0, "m", "Extent along the light's x axis"),
+                             realParameter("depth", 0.4, 0.01, 2.0, "m", "Extent along the light's y axis")},
+              .build = buildParallelRectangle}};
+
+}  // namespace
+}  // namespace limen::scene

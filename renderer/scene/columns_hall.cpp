@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+
+namespace limen::scene {
+namespace {
+
+constexpr double kPitch = 1.2, kAisle = 1.0, kHeight = 2.2;
+
+/// Plinth, shaft and capital, each closed.
+Mesh column(glm::dvec3 foot, int segments) {
+  Mesh mesh = box(foot + glm::dvec3(-0.26, 0.0, -0.26), foot + glm::dvec3(0.26, 0.14, 0.26));
+  append(mesh, frustum(foot + glm::dvec3(0.0, 0.14, 0.0), foot + glm::dvec3(0.0, kHeight - 0.16, 0.0), 0.2,
+                       0.16, segments));
+  append(mesh, box(foot + glm::dvec3(-0.24, kHeight - 0.16, -0.24), foot + glm::dvec3(0.24, kHeight, 0.24)));
+  return mesh;
+}
+
+/// Down the aisle and round, at eye height, with uneven times.
+CameraPath walk(double length) {
+  const double half = 0.5 * length;
+  const auto key = [](double timeS, glm::dvec3 eye, glm::dvec3 target) {
+    return CameraPath::Key{timeS, Camera{eye, target, {0.0, 1.0, 0.0}, 50.0}};
+  };
+  return {{key(0.0, {0.0, 1.6, half + 2.4}, {0.0, 0.7, half - 1.0}),
+           key(2.0, {-0.3, 1.5, 0.6 * half}, {0.2, 0.5, 0.0}),
+           key(3.5, {0.3, 1.5, 0.1 * half}, {-0.4, 0.4, -0.6 * half}),
+           key(6.0, {0.0, 1.7, -0.5 * half}, {0.3, 0.3, -half - 0.5}),
+           key(8.0, {0.0, 2.0, -0.8 * half}, {0.9, 0.2, -half - 1.2})}};
+}
+
+/// Two rows of columns along z without a ceiling. The light stands high at the left, so that shadows cross
+/// the aisle.
+Scene buildColumnsHall(const ParameterValues& values) {
+  const auto perRow = static_cast<int>(values.integer("columns_per_row"));
+  const auto segments = static_cast<int>(values.integer("segments"));
+  const double length = kPitch * (perRow - 1);
+  Mesh columns;
+  for (int i = 0; i < perRow; ++i)
+    for (const double side : {-1.0, 1.0})
+      append(columns, column({side * kAisle, 0.0, 0.5 * length - kPitch * i}, segments));
+  Scene scene;
+  addGround(scene, 2.0 * length + 24.0);
+  addPart(scene, "columns", columns, {0.72F, 0.68F, 0.6F});
+  scene.lights = {lightTowards({-3.5, 6.5, 0.25 * length + 1.0}, {0.0, 0.5, 0.0}, {0.5, 0.5})};
+  if (values.text("camera") == "walk") {
+    scene.camera = walk(length);
+  } else {
+    setStillCamera(scene, orbitCamera({0.3, 0.5, 0.3 * length}, 6.5, 14.0, 40.0, 40.0));
+  }
+  return scene;
+}
+
+const Registered<SceneInfo> kRegistered{SceneInfo{
+    .name = "columns_hall",
+    .version = 1,
+    .summary = "Two rows of columns on a floor: long shadows over floor and other columns",
+    .source = "bench",
+    .parameters = {integerParameter("columns_per_row", 6, 2, 32, "columns",
+                                    "Columns in each of the two rows"),
+                   integerParameter("segments", 32, 3, 128, "segments", "Sides of a column's shaft"),
+                   choiceParameter("camera", "still", {"still", "walk"},
+                                   "A still view from outside, or a walk of 8 s down the aisle")},
+    .build = buildColumnsHall}};
+
+}  // namespace
+}  // namespace limen::scene

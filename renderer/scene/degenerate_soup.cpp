@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+
+namespace limen::scene {
+namespace {
+
+constexpr double kLightHeight = 3.0;
+
+enum class Flaw {
+  None,
+  RepeatedVertex,  ///< two corners are one vertex
+  Collinear,       ///< three places on a line
+  Point,           ///< three vertices at one place
+  Sliver,          ///< about 1e-7 as high as long
+  Duplicate,       ///< another triangle's corners again
+  Flipped,         ///< another triangle's corners, facing the other way
+  Coplanar,        ///< overlaps another triangle in its plane
+  TouchesLight,    ///< one corner in the plane of the light
+  LiesInLight,     ///< all corners in the plane of the light
+  Count
+};
+
+/// Adds triangles of every flaw in turn.
+class Soup {
+ public:
+  explicit Soup(int64_t seed) : random_(seed) {}
+
+  void add(Flaw flaw) {
+    switch (flaw) {
+      case Flaw::RepeatedVertex: {
+        corners();
+        const uint32_t first = place(corner_[0]), second = place(corner_[1]);
+        mesh_.triangles.emplace_back(first, second, second);
+        return;
+      }
+      case Flaw::Collinear:
+        corners(), corner_[2] = 0.5 * (corner_[0] + corner_[1]);
+        break;
+      case Flaw::Point:
+        corners(), corner_[1] = corner_[2] = corner_[0];
+        break;
+      case Flaw::Sliver:
+        corners(), corner_[2] = 0.5 * (corner_[0] + corner_[1]) + 2e-8 * random_.direction();
+        break;
+      // Corners of the last sound triangle, as new vertices.
+      case Flaw::Duplicate:
+        corner_ = sound_;
+        break;
+      case Flaw::Flipped:
+        corner_ = {sound_[0], sound_[2], sound_[1]};
+        break;
+      case Flaw::Coplanar: {
+        const glm::dvec3 middle = (sound_[0] + sound_[1] + sound_[2]) / 3.0;
+        corner_ = {middle, sound_[1], sound_[1] + (sound_[2] - sound_[0])};
+        break;
+      }
+      case Flaw::TouchesLight:
+        corners(), corner_[0].y = kLightHeight;
+        break;
+      case Flaw::LiesInLight:
+        corners();
+        for (glm::dvec3& corner : corner_) corner.y = kLightHeight;
+        break;
+      case Flaw::None:
+      case Flaw::Count:
+        corners(), sound_ = corner_;
+        break;
+    }
+    const uint32_t a = place(corner_[0]), b = place(corner_[1]), c = place(corner_[2]);
+    mesh_.triangles.emplace_back(a, b, c);
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+
+ private:
+  /// A sound triangle of about 0.15 in a slab half-way up.
+  void corners() {
+    const glm::dvec3 middle(random_.uniform(-0.8, 0.8), random_.uniform(0.4, 1.4),
+                            random_.uniform(-0.8, 0.8));
+    for (glm::dvec3& corner : corner_) corner = middle + 0.15 * random_.direction();
+  }
+  uint32_t place(glm::dvec3 position) {
+    mesh_.positions.push_back(position);
+    return static_cast<uint32_t>(mesh_.positions.size()) - 1;
+  }
+
+  Random random_;
+  Mesh mesh_;
+  std::array<glm::dvec3, 3> corner_{}, sound_{};
+};
+
+Scene buildDegenerateSoup(const ParameterValues& values) {
+  Soup soup(values.integer("seed"));
+  for (int64_t i = 0; i < values.integer("triangles"); ++i)
+    soup.add(static_cast<Flaw>(i % static_cast<int64_t>(Flaw::Count)));
+  Scene scene;
+  addGround(scene, 10.0);
+  addPart(scene, "soup", soup.mesh(), {0.6F, 0.45F, 0.6F});
+  scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), {0.3, 0.3})};
+  setStillCamera(scene, orbitCamera({0.0, 0.4, 0.0}, 4.4, 15.0, 40.0));
+  return scene;
+}
+
+const Registered<SceneInfo> kRegistered{
+    SceneInfo{.name = "degenerate_soup",
+              .version = 1,
+              .summary = "Triangles without area, slivers, duplicates, coplanar overlaps and triangles in "
+                         "the light's plane, over "
+                         "a sound ground",
+              .source = "bench",
+              .parameters = {integerParameter("triangles", 600, 10, 100000, "triangles",
+                                              "Number of triangles of the soup"),
+                             integerParameter("seed", 1, 0, 1000000, "", "Seed of the soup")},
+              .build = buildDegenerateSoup}};
+
+}  // namespace
+}  // namespace limen::scene

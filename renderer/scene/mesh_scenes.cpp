@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes over a ground plane: any file, and the three that come with the package glmark2-data.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "renderer/scene/import.h"
+#include "renderer/scene/stage.h"
+
+namespace limen::scene {
+namespace {
+
+const char* const kModelFolder = "/usr/share/glmark2/models/";
+
+/// Largest distance from the y axis.
+double reachOf(const Mesh& mesh) {
+  double reach = 0.0;
+  for (const glm::dvec3& p : mesh.positions) reach = std::max(reach, std::hypot(p.x, p.z));
+  return reach;
+}
+
+Scene overGround(const ImportedMesh& imported, bool ground) {
+  Bounds bounds;
+  for (const glm::dvec3& position : imported.mesh.positions) bounds.extend(position);
+  Scene scene;
+  const double reach = reachOf(imported.mesh);
+  // A flat mesh has no height; the light's size then follows its extent.
+  const double height = std::max(bounds.high.y, 0.1 * reach);
+  if (ground) addGround(scene, 8.0 * std::max(height, reach));
+  addImported(scene, imported);
+  frameStanding(scene, height, reach);
+  return scene;
+}
+
+Scene buildMesh(const ParameterValues& values) {
+  ImportedMesh imported = importMesh(values.text("file"));
+  if (values.text("up") == "z") turnZUpToYUp(imported.mesh);
+  standOnGround(imported.mesh, 0.0);
+  return overGround(imported, values.boolean("ground"));
+}
+
+Scene buildModel(const std::string& file, bool zUp) {
+  const std::string path = kModelFolder + file;
+  if (!std::filesystem::exists(path))
+    throw Error("the model is not installed", path, "install the package glmark2-data");
+  ImportedMesh imported = importMesh(path);
+  if (zUp) turnZUpToYUp(imported.mesh);
+  standOnGround(imported.mesh, 1.0);
+  return overGround(imported, true);
+}
+
+const Registered<SceneInfo> kMesh{
+    SceneInfo{.name = "mesh",
+              .version = 1,
+              .summary = "A mesh from a file, standing on a ground plane, in the file's own units",
+              .source = "bench",
+              .parameters = {fileParameter("file", "OBJ, PLY, glTF or 3DS file"),
+                             choiceParameter("up", "y", {"y", "z"}, "Axis of the file that points up"),
+                             booleanParameter("ground", true, "Adds a plane that only receives shadows")},
+              .build = buildMesh}};
+
+const Registered<SceneInfo> kBunny{
+    SceneInfo{.name = "bunny",
+              .version = 1,
+              .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
+              .source = "Stanford 3D Scanning Repository; stand-in for 004_2587a614b209b9c1.txt, Fig. 4.16",
+              .parameters = {},
+              .build = [](const ParameterValues&) { return buildModel("bunny.obj", false); }}};
+
+const Registered<SceneInfo> kHorse{
+    SceneInfo{.name = "horse",
+              .version = 1,
+              .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
+              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .parameters = {},
+              .build = [](const ParameterValues&) { return buildModel("horse.3ds", false); }}};
+
+const Registered<SceneInfo> kCat{
+    SceneInfo{.name = "cat",
+              .version = 1,
+              .summary = "Cat of height 1 over a plane (package glmark2-data)",
+              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .parameters = {},
+              .build = [](const ParameterValues&) { return buildModel("cat.3ds", false); }}};
+
+}  // namespace
+}  // namespace limen::scene

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/scene/scene.h"
+
+#include <cmath>
+#include <type_traits>
+
+#include "base/hash.h"
+
+namespace limen::scene {
+namespace {
+
+bool finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Feeds exact bytes; every run of values is led by its length, so that no two contents give the same stream.
+class Feed {
+ public:
+  template <class Value>
+  void value(const Value& value) {
+    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
+    hash_.update(&value, sizeof value);
+  }
+  void vector(glm::dvec3 v) { value(v.x), value(v.y), value(v.z); }
+  void vector(glm::vec3 v) { value(v.x), value(v.y), value(v.z); }
+  void vector(glm::dvec2 v) { value(v.x), value(v.y); }
+  void outline(const std::vector<glm::dvec2>& points) {
+    value(static_cast<uint64_t>(points.size()));
+    for (const glm::dvec2 point : points) vector(point);
+  }
+  template <class Element>
+  void array(const std::vector<Element>& elements) {
+    value(static_cast<uint64_t>(elements.size()));
+    hash_.update(elements.data(), elements.size() * sizeof(Element));
+  }
+  std::string hex() { return hash_.hex(); }
+
+ private:
+  Sha256 hash_;
+};
+
+void feed(Feed& out, const AreaLight& light) {
+  out.value(static_cast<int32_t>(light.shape));
+  out.vector(light.centre), out.vector(light.axisX), out.vector(light.axisY), out.vector(light.size);
+  out.outline(light.outline);
+  out.value(static_cast<uint64_t>(light.parts.size()));
+  for (const LightPart& part : light.parts) out.outline(part.outline), out.vector(part.radiance);
+}
+
+void feed(Feed& out, const CameraPath& path) {
+  out.value(static_cast<uint64_t>(path.keys.size()));
+  for (const CameraPath::Key& key : path.keys) {
+    out.value(key.timeS);
+    out.vector(key.camera.eye), out.vector(key.camera.target), out.vector(key.camera.up);
+    out.value(key.camera.verticalFovDeg);
+  }
+}
+
+}  // namespace
+
+Bounds Scene::bounds() const {
+  Bounds bounds;
+  for (const glm::dvec3& position : mesh.positions)
+    if (finite(position)) bounds.extend(position);
+  return bounds;
+}
+
+Bounds Scene::casterBounds() const {
+  Bounds bounds;
+  for (const Part& part : parts) {
+    if (part.receiverOnly) continue;
+    for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const glm::dvec3& position = mesh.positions[mesh.triangles[t][corner]];
+        if (finite(position)) bounds.extend(position);
+      }
+  }
+  return bounds;
+}
+
+std::string Scene::contentHash() const {
+  static_assert(sizeof(glm::dvec3) == 24 && sizeof(glm::uvec3) == 12, "arrays are hashed without padding");
+  Feed out;
+  out.array(mesh.positions);
+  out.array(mesh.triangles);
+  out.value(static_cast<uint64_t>(parts.size()));
+  for (const Part& part : parts) {
+    out.value(part.firstTriangle), out.value(part.triangleCount), out.value(part.material);
+    out.value(static_cast<uint8_t>(part.receiverOnly));
+  }
+  out.value(static_cast<uint64_t>(materials.size()));
+  for (const Material& material : materials) out.vector(material.albedo);
+  out.value(static_cast<uint64_t>(lights.size()));
+  for (const AreaLight& light : lights) feed(out, light);
+  feed(out, camera);
+  return out.hex();
+}
+
+std::set<std::string> Scene::traits() const {
+  std::set<std::string> out;
+  if (!lights.empty()) {
+    const AreaLight& light = lights[0];
+    const bool plain = light.parts.size() == 1 && light.parts[0].outline.empty();
+    out.insert("area_light");
+    if (light.shape == LightShape::Rectangle && plain) out.insert("rectangular_light");
+    if (light.shape == LightShape::Disc && plain) out.insert("disc_light");
+    if (light.shape == LightShape::Polygon && plain) out.insert("polygonal_light");
+    if (!plain) out.insert("multi_part_light");
+    if (lights.size() > 1) out.insert("several_lights");
+  }
+  if (camera.keys.size() > 1) out.insert("moving_camera");
+  for (const Part& part : parts) out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
+  return out;
+}
+
+}  // namespace limen::scene

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+
+namespace limen::scene {
+namespace {
+
+/// Grid of spheres in a cube of side 1.6 whose lowest point floats above the ground: every shadow ray can
+/// meet several spheres one behind another, and every sphere is a receiver too.
+Scene buildSphereGrid(const ParameterValues& values) {
+  const auto perAxis = static_cast<int>(values.integer("spheres_per_axis"));
+  const auto cells = static_cast<int>(values.integer("tessellation"));
+  constexpr double kSide = 1.6, kLowest = 0.15;
+  const double pitch = kSide / perAxis, radius = 0.36 * pitch;
+  Mesh spheres;
+  for (int y = 0; y < perAxis; ++y)
+    for (int z = 0; z < perAxis; ++z)
+      for (int x = 0; x < perAxis; ++x) {
+        const glm::dvec3 cell((x + 0.5) * pitch - 0.5 * kSide, kLowest + radius + y * pitch,
+                              (z + 0.5) * pitch - 0.5 * kSide);
+        append(spheres, sphere(cell, radius, cells));
+      }
+  Scene scene;
+  addGround(scene, 16.0);
+  addPart(scene, "spheres", spheres, {0.7F, 0.62F, 0.5F});
+  frameStanding(scene, kSide + kLowest, 1.2);
+  return scene;
+}
+
+/// The light's left half is red and its right half blue, so that shadows separate into two colours.
+Scene buildTwoColourLight(const ParameterValues& values) {
+  const auto cells = static_cast<int>(values.integer("tessellation"));
+  Scene scene;
+  addGround(scene, 10.0);
+  addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, cells), {0.75F, 0.75F, 0.75F});
+  addPart(scene, "cone", frustum({0.55, 0.0, -0.1}, {0.55, 1.0, -0.1}, 0.35, 0.0, 4 * cells),
+          {0.75F, 0.75F, 0.75F});
+  frameStanding(scene, 1.0, 1.0);
+  AreaLight& light = scene.lights[0];
+  light.size = {0.6, 0.4};
+  light.parts = {{{{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}}, {1.0F, 0.15F, 0.1F}},
+                 {{{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.5, 1.0}}, {0.1F, 0.25F, 1.0F}}};
+  return scene;
+}
+
+const Registered<SceneInfo> kSphereGrid{
+    SceneInfo{.name = "sphere_grid",
+              .version = 1,
+              .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
+              .source = "004_2587a614b209b9c1.txt, Fig. 4.33",
+              .parameters = {integerParameter("spheres_per_axis", 3, 1, 6, "spheres",
+                                              "Spheres along each edge of the cube",
+                                              "004_2587a614b209b9c1.txt, Fig. 4.33"),
+                             integerParameter(
+                                 "tessellation", 16, 1, 48, "segments",
+                                 "Segments in a quarter circle; a sphere has 8 times its square triangles")},
+              .build = buildSphereGrid}};
+
+const Registered<SceneInfo> kTwoColourLight{SceneInfo{
+    .name = "two_colour_light",
+    .version = 1,
+    .summary = "Sphere and cone under a light whose halves differ in colour",
+    .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.4",
+    .parameters = {integerParameter("tessellation", 16, 1, 48, "segments", "Segments in a quarter circle")},
+    .build = buildTwoColourLight}};
+
+}  // namespace
+}  // namespace limen::scene

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "renderer/scene/scene.h"
+
+namespace limen::scene {
+
+enum class Role { Caster, ReceiverOnly };
+
+/// Adds `mesh` as a part of its own with a material of the same name.
+void addPart(Scene& scene, const std::string& name, const Mesh& mesh, glm::vec3 albedo,
+             Role role = Role::Caster);
+
+/// Adds a square ground plane facing +y as a part "ground" that only receives.
+void addGround(Scene& scene, double size, glm::dvec3 centre = glm::dvec3(0.0));
+
+/// Rectangular light at `centre` facing `target`, its x axis horizontal.
+AreaLight lightTowards(glm::dvec3 centre, glm::dvec3 target, glm::dvec2 size);
+
+/// Camera around `target`: azimuth 0 looks along -z and grows towards +x, elevation 90 looks straight down.
+Camera orbitCamera(glm::dvec3 target, double distance, double azimuthDeg, double elevationDeg,
+                   double verticalFovDeg = 32.0);
+
+void setStillCamera(Scene& scene, const Camera& camera);
+
+/// Lights and looks at an object of the given height that stands on the ground at the origin, `reach` being
+/// the radius around the y axis that it fills: the light (a fifth of the height wide) comes from the left,
+/// the camera sees object and shadow.
+void frameStanding(Scene& scene, double height, double reach);
+
+}  // namespace limen::scene
