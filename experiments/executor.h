@@ -21,9 +21,16 @@ struct Choice {
 };
 
 struct Timing {
-  int warmup = 8;  ///< frames rendered and thrown away before each round
-  int frames = 64; ///< timed frames in all, shared evenly among the rounds
-  int rounds = 3;  ///< interleaved rounds over the runs of a batch
+  int warmup = 8;   ///< frames rendered and thrown away before each round
+  int frames = 64;  ///< timed frames in all, shared evenly among the rounds
+  int rounds = 3;   ///< interleaved rounds over the runs of a batch
+  int batch = 8;    ///< runs whose rounds are interleaved
+};
+
+/// What a run leaves in files beside the store.
+struct Artefacts {
+  bool pictures = true;  ///< PNG of the product, the reference and the errors
+  bool exr = false;      ///< the same as 32-bit float EXR
 };
 
 /// One cell of the grid.
@@ -34,8 +41,10 @@ struct PlannedRun {
   Choice reference;  ///< empty name: none
   int widthPx = 0, heightPx = 0;
   Timing timing;
+  Artefacts artefacts;
   std::vector<Choice> metrics;
-  std::string label;  ///< "pattern=regular_8, occluder=micropatch": what varies among this technique's runs
+  std::string label;    ///< "pattern=regular_8, occluder=micropatch": what varies among this technique's runs
+  std::string setting;  ///< "light_size=2, 640x480": what varies among the scene's runs and image sizes
   nlohmann::json parameters;  ///< as store::Run::parameters
 };
 
@@ -50,8 +59,9 @@ struct RunOutcome {
 };
 
 /// Executes runs. The runner hands it batches of runs that share scene and image size; their timed rounds are
-/// interleaved. An error of one run is its outcome, never an exception; an exception means that the executor itself
-/// cannot go on (no GL context).
+/// interleaved. An error of one run is its outcome, never an exception; an exception means that the executor
+/// itself cannot go on (no GL context). During long work it may call throwIfInterrupted()
+/// (experiments/interrupt.h); what it has not reported by then is measured by a later sweep.
 class Executor {
  public:
   virtual ~Executor() = default;

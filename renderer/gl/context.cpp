@@ -21,8 +21,8 @@ bool isSoftware(const std::string& renderer) {
   return false;
 }
 
-void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
-                               const void* user) {
+void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length,
+                               const GLchar* text, const void* user) {
   if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
   auto* messages = static_cast<std::vector<DebugMessage>*>(const_cast<void*>(user));
   // A driver that repeats itself every frame must not fill the memory.
@@ -33,6 +33,11 @@ void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLs
 }  // namespace
 
 Context::~Context() = default;
+
+void Context::deleteObjects() {
+  makeCurrent();
+  programs_.clear();
+}
 
 void Context::initialize(const std::string& platform) {
   device_ = {glText(GL_VENDOR), glText(GL_RENDERER), glText(GL_VERSION), platform, false};

@@ -25,8 +25,8 @@ struct DebugMessage {
   bool performance = false;  ///< advice on speed, not a mistake
 };
 
-/// An OpenGL 4.5 core context, current on the thread that made it. Clip space is set to upper-left origin and depth 0..1,
-/// so row 0 of every image is its top.
+/// An OpenGL 4.5 core context, current on the thread that made it. Clip space is set to upper-left origin and
+/// depth 0..1, so row 0 of every image is its top.
 class Context {
  public:
   virtual ~Context();
@@ -44,9 +44,11 @@ class Context {
 
  protected:
   Context() = default;
-  /// Called by subclasses once the context is current: reads the device, checks the version, sets debug output.
-  /// Throws Error naming what is missing.
+  /// Called by subclasses once the context is current: reads the device, checks the version, sets debug
+  /// output. Throws Error naming what is missing.
   void initialize(const std::string& platform);
+  /// Called first by the destructor of a subclass: deletes what belongs to the context while it still exists.
+  void deleteObjects();
 
  private:
   DeviceInfo device_;
@@ -54,8 +56,8 @@ class Context {
   std::vector<DebugMessage> messages_;
 };
 
-/// Off-screen context through EGL: device platform first, then surfaceless. Among devices a real GPU is taken before a
-/// software renderer. The environment variable LIMEN_EGL_DEVICE (an index) forces one. Throws Error.
+/// Off-screen context through EGL: device platform first, then surfaceless. Among devices a real GPU is taken
+/// before a software renderer. The environment variable LIMEN_EGL_DEVICE (an index) forces one. Throws Error.
 std::unique_ptr<Context> createHeadlessContext();
 
 /// What createHeadlessContext() looked at, a line each: "EGL device 0: llvmpipe ... (taken)".

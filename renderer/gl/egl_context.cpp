@@ -29,18 +29,22 @@ class EglContext : public Context {
       throw;
     }
   }
-  ~EglContext() override { destroy(); }
+  ~EglContext() override {
+    EglContext::deleteObjects();
+    destroy();
+  }
 
-  void makeCurrent() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_); }
+  void makeCurrent() final { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_); }
 
  private:
   void create(const std::string& platform) {
-    if (!eglInitialize(display_, nullptr, nullptr)) throw Error("EGL display cannot be initialised", platform);
+    if (!eglInitialize(display_, nullptr, nullptr))
+      throw Error("EGL display cannot be initialised", platform);
     if (!epoxy_has_egl_extension(display_, "EGL_KHR_surfaceless_context"))
       throw Error("EGL_KHR_surfaceless_context is missing", platform);
     if (!eglBindAPI(EGL_OPENGL_API)) throw Error("EGL offers no desktop OpenGL", platform);
-    const std::array<EGLint, 5> configWish = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                              EGL_NONE};
+    const std::array<EGLint, 5> configWish = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE,
+                                              EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!eglChooseConfig(display_, configWish.data(), &config, 1, &count) || count == 0)
@@ -95,7 +99,8 @@ std::optional<int> forcedDevice() {
   char* end = nullptr;
   const long index = std::strtol(text, &end, 10);
   if (*end != '\0' || index < 0)
-    throw Error("LIMEN_EGL_DEVICE is '" + std::string(text) + "'", {}, "give the index of an EGL device, from 0");
+    throw Error("LIMEN_EGL_DEVICE is '" + std::string(text) + "'", {},
+                "give the index of an EGL device, from 0");
   return static_cast<int>(index);
 }
 
@@ -115,21 +120,24 @@ std::unique_ptr<Context> createHeadlessContext() {
       eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
     for (int i = 0; i < count; ++i) {
       if (forced && *forced != i) continue;
-      auto context = tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<size_t>(i)], nullptr),
-                                "EGL device " + std::to_string(i));
-      if (context && (!best || (best->device().software && !context->device().software))) best = std::move(context);
+      auto context = tryDisplay(
+          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<size_t>(i)], nullptr),
+          "EGL device " + std::to_string(i));
+      if (context && (!best || (best->device().software && !context->device().software)))
+        best = std::move(context);
       if (best && !best->device().software) break;
     }
     if (forced && !best)
-      throw Error("EGL device " + std::to_string(*forced) + " gives no OpenGL 4.5 context", "LIMEN_EGL_DEVICE",
-                  "there are " + std::to_string(count) + " devices, counted from 0");
+      throw Error("EGL device " + std::to_string(*forced) + " gives no OpenGL 4.5 context",
+                  "LIMEN_EGL_DEVICE", "there are " + std::to_string(count) + " devices, counted from 0");
   }
   if (!best && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
     best = tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
                       "EGL surfaceless");
   if (!best)
-    throw Error("no OpenGL 4.5 core context without a window: " + join(candidateLines(), "; "), {},
-                "install a GPU driver with EGL, or the packages libegl1 and libgl1-mesa-dri for a software renderer");
+    throw Error(
+        "no OpenGL 4.5 core context without a window: " + join(candidateLines(), "; "), {},
+        "install a GPU driver with EGL, or the packages libegl1 and libgl1-mesa-dri for a software renderer");
   best->makeCurrent();
   return best;
 }

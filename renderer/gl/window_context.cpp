@@ -20,7 +20,8 @@ std::string glfwReason() {
 
 WindowContext::WindowContext(const std::string& title, glm::ivec2 sizePx, bool visible) {
   if (!glfwInit())
-    throw Error("no window system: " + glfwReason(), {}, "start this from a desktop session (X11 or Wayland)");
+    throw Error("no window system: " + glfwReason(), {},
+                "start this from a desktop session (X11 or Wayland)");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -39,7 +40,10 @@ WindowContext::WindowContext(const std::string& title, glm::ivec2 sizePx, bool v
   }
 }
 
-WindowContext::~WindowContext() { glfwDestroyWindow(window_); }
+WindowContext::~WindowContext() {
+  deleteObjects();
+  glfwDestroyWindow(window_);
+}
 
 void WindowContext::makeCurrent() { glfwMakeContextCurrent(window_); }
 

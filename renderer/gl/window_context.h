@@ -18,7 +18,7 @@ class WindowContext : public Context {
   WindowContext(const std::string& title, glm::ivec2 sizePx, bool visible = true);
   ~WindowContext() override;
 
-  void makeCurrent() override;
+  void makeCurrent() final;
   GLFWwindow* window() const { return window_; }
   glm::ivec2 framebufferSizePx() const;
   /// Shows what was drawn; waits for the vertical blank if `interval` is 1.

@@ -39,7 +39,7 @@ Scene buildPole(const ParameterValues& values) {
   append(pole, box({0.42, 1.9, -0.07}, {0.72, 1.96, 0.07}));
   addPart(scene, "pole", pole, {0.4F, 0.4F, 0.42F});
   scene.lights = {lightTowards({-3.2, 4.2, 2.4}, {0.3, 0.6, 0.0}, {0.3, 0.3})};
-  setStillCamera(scene, orbitCamera({0.55, 0.4, -0.4}, 5.6, 12.0, 40.0));
+  setStillCamera(scene, orbitCamera({0.6, 0.6, -0.3}, 4.6, 12.0, 40.0));
   return scene;
 }
 

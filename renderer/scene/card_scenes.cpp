@@ -35,10 +35,10 @@ Scene buildCardStack(const ParameterValues& values) {
     append(cards, flatCard({0.0, kTop - drop, 0.0}, glm::dvec2(half)));
   }
   Scene scene;
-  addGround(scene, 10.0);
+  addGround(scene, 12.0);
   addPart(scene, "cards", cards, kCardAlbedo);
   scene.lights = {lightAbove(glm::dvec2(kLightSize))};
-  setStillCamera(scene, orbitCamera({0.0, 0.3, 0.0}, 4.6, 25.0, 35.0));
+  setStillCamera(scene, orbitCamera({0.0, 0.3, 0.0}, 4.2, 25.0, 37.0));
   return scene;
 }
 
@@ -65,7 +65,7 @@ Scene buildParallelRectangle(const ParameterValues& values) {
                    0.5 * glm::dvec2(values.real("width"), values.real("depth"))),
           kCardAlbedo);
   scene.lights = {lightAbove({0.4, 0.3})};
-  setStillCamera(scene, orbitCamera({0.0, 0.15, 0.0}, 3.0, 20.0, 38.0));
+  setStillCamera(scene, orbitCamera({0.0, 0.15, 0.0}, 2.4, 20.0, 38.0));
   return scene;
 }
 

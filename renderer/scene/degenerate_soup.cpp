@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
@@ -7,7 +9,7 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kLightHeight = 3.0;
+constexpr double kLightHeight = 3.0, kLightSize = 0.3;
 
 enum class Flaw {
   None,
@@ -57,12 +59,20 @@ class Soup {
         corner_ = {middle, sound_[1], sound_[1] + (sound_[2] - sound_[0])};
         break;
       }
-      case Flaw::TouchesLight:
-        corners(), corner_[0].y = kLightHeight;
+      case Flaw::TouchesLight: {
+        corners();
+        const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
+        glm::dvec3& highest = *std::max_element(corner_.begin(), corner_.end(), lower);
+        const glm::dvec3 touch(highest.x, kLightHeight, highest.z), from = highest;
+        // Small, since all of them are near the light and would darken the whole ground.
+        for (glm::dvec3& corner : corner_) corner = touch + 0.2 * (corner - from);
         break;
+      }
       case Flaw::LiesInLight:
         corners();
-        for (glm::dvec3& corner : corner_) corner.y = kLightHeight;
+        // Beside the light: whether a triangle on it shadows anything has no answer.
+        for (glm::dvec3& corner : corner_)
+          corner = {corner.x + std::copysign(kLightSize, corner_[0].x), kLightHeight, corner.z};
         break;
       case Flaw::None:
       case Flaw::Count:
@@ -99,7 +109,7 @@ Scene buildDegenerateSoup(const ParameterValues& values) {
   Scene scene;
   addGround(scene, 10.0);
   addPart(scene, "soup", soup.mesh(), {0.6F, 0.45F, 0.6F});
-  scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), {0.3, 0.3})};
+  scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), glm::dvec2(kLightSize))};
   setStillCamera(scene, orbitCamera({0.0, 0.4, 0.0}, 4.4, 15.0, 40.0));
   return scene;
 }

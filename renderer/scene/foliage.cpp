@@ -65,10 +65,10 @@ Scene buildFoliage(const ParameterValues& values) {
   tree.grow(glm::dvec3(0.0), {0.0, 1.0, 0.0}, 0.75, 0.03, 3);
   for (int64_t i = 0; i < values.integer("leaves"); ++i) tree.addLeaf(values.real("leaf_size"));
   Scene scene;
-  addGround(scene, 10.0);
+  addGround(scene, 12.0);
   addPart(scene, "wood", tree.wood(), {0.35F, 0.25F, 0.17F});
   addPart(scene, "leaves", tree.leaves(), {0.2F, 0.42F, 0.12F});
-  frameStanding(scene, 1.3, 0.8);
+  frameStanding(scene, 1.4, 0.8);
   return scene;
 }
 

@@ -40,12 +40,16 @@ Scene buildMesh(const ParameterValues& values) {
   return overGround(imported, values.boolean("ground"));
 }
 
-Scene buildModel(const std::string& file, bool zUp) {
+/// 3DS has z up and is read so, but the cat was saved with y up: read, it lies on its back.
+enum class Turned { No, Over };
+
+Scene buildModel(const std::string& file, Turned turned) {
   const std::string path = kModelFolder + file;
   if (!std::filesystem::exists(path))
     throw Error("the model is not installed", path, "install the package glmark2-data");
   ImportedMesh imported = importMesh(path);
-  if (zUp) turnZUpToYUp(imported.mesh);
+  if (turned == Turned::Over)
+    for (glm::dvec3& p : imported.mesh.positions) p = {p.x, -p.z, p.y};
   standOnGround(imported.mesh, 1.0);
   return overGround(imported, true);
 }
@@ -66,7 +70,7 @@ const Registered<SceneInfo> kBunny{
               .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
               .source = "Stanford 3D Scanning Repository; stand-in for 004_2587a614b209b9c1.txt, Fig. 4.16",
               .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("bunny.obj", false); }}};
+              .build = [](const ParameterValues&) { return buildModel("bunny.obj", Turned::No); }}};
 
 const Registered<SceneInfo> kHorse{
     SceneInfo{.name = "horse",
@@ -74,7 +78,7 @@ const Registered<SceneInfo> kHorse{
               .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
               .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
               .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("horse.3ds", false); }}};
+              .build = [](const ParameterValues&) { return buildModel("horse.3ds", Turned::No); }}};
 
 const Registered<SceneInfo> kCat{
     SceneInfo{.name = "cat",
@@ -82,7 +86,7 @@ const Registered<SceneInfo> kCat{
               .summary = "Cat of height 1 over a plane (package glmark2-data)",
               .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
               .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("cat.3ds", false); }}};
+              .build = [](const ParameterValues&) { return buildModel("cat.3ds", Turned::Over); }}};
 
 }  // namespace
 }  // namespace limen::scene

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/catalogue.h"
+#include "perception/metrics/metric.h"
+#include "renderer/scene/scene.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::experiments {
+
+Catalogue catalogueFromRegistries() {
+  Catalogue out;
+  for (const auto& [name, info] : scene::SceneRegistry::instance().all()) {
+    CatalogueEntry& entry = out.scenes[name];
+    entry.version = info.version;
+    entry.summary = info.summary;
+    entry.source = info.source;
+    entry.parameters = info.allParameters();
+  }
+  for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
+    CatalogueEntry& entry = out.techniques[name];
+    entry.version = info.version;
+    entry.summary = info.summary;
+    entry.source = info.source;
+    entry.parameters = info.parameters;
+    entry.product = techniques::toText(info.product);
+    entry.needs = info.needs;
+    entry.reference = info.reference;
+    entry.onCpu = info.onCpu;
+  }
+  for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
+    CatalogueEntry& entry = out.metrics[name];
+    entry.version = info.version;
+    entry.summary = info.summary;
+    entry.source = info.source;
+    entry.parameters = info.parameters;
+    entry.unit = info.unit;
+    entry.needsReference = info.needsReference;
+  }
+  out.measurements = {"gpu_ms",     "gpu_ms_p95", "wall_ms",         "cpu_ms",
+                      "prepare_ms", "bytes_held", "non_finite_count"};
+  return out;
+}
+
+}  // namespace limen::experiments

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/catalogue.h"
+#include "experiments/executor.h"
+#include "experiments/yaml_tree.h"
+
+namespace limen::experiments {
+
+/// A parameter and the values that the descriptor gives it; several values multiply with the entry's other
+/// axes.
+struct Axis {
+  std::string name;
+  std::vector<ParameterValue> values;
+};
+
+/// An entry of `scenes` or `techniques`, or the reference. Parameters that are not given have their defaults.
+struct Entry {
+  std::string name;
+  std::vector<Axis> axes;  ///< in order of writing
+  Mark mark;
+};
+
+struct ImageAxes {
+  std::vector<int64_t> widthsPx, heightsPx;  ///< every width with every height
+  Mark mark;
+};
+
+/// Selects planned runs by parameter value: technique parameters, else scene parameters, else `width` and
+/// `height`.
+using Selection = std::map<std::string, ParameterValue>;
+
+/// A statement about measured values that the sweep judges when it ends.
+struct ExpectationStatement {
+  enum class Relation { Below, Above, Equals };
+  std::string metric;
+  std::string technique, scene;  ///< "" for any
+  Selection where;
+  Relation relation = Relation::Below;
+  double bound = 0.0;  ///< with `relativeTo`, a factor on that run's value
+
+  /// The run to compare with: the one with the same parameters but for what is said here.
+  struct Baseline {
+    std::string technique;  ///< "" for the judged run's own
+    std::string scene;      ///< "" for the judged run's own
+    Selection where;
+  };
+  std::optional<Baseline> relativeTo;
+
+  std::string text;  ///< "rmse of soft_shadows/bitmask where pattern=regular_8 below 0.01"
+  Mark mark;
+};
+
+/// An experiment as its author wrote it, checked against the catalogue.
+struct Descriptor {
+  std::string path, text, hash;  ///< hash: SHA-256 of the text
+  std::string title, question, source;
+  std::vector<std::string> features;
+  std::vector<Entry> scenes, techniques;
+  std::optional<Entry> reference;
+  std::vector<ImageAxes> images;
+  Timing timing;
+  Artefacts artefacts;
+  std::vector<Choice> metrics;
+  nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
+  std::vector<ExpectationStatement> expectations;
+  std::map<std::string, std::string>
+      fileHashes;  ///< resolved path of each named file -> SHA-256 of its content
+  std::map<std::string, std::string> filesAsNamed;  ///< resolved path -> path as the descriptor gives it
+};
+
+/// Reads and checks a descriptor. `features` are the known feature ids. Throws one Error with a line
+/// "file:line:column: what was found; what is allowed" for everything that is wrong; nothing is written
+/// anywhere.
+Descriptor readDescriptor(const std::string& path, const Catalogue& catalogue,
+                          const std::set<std::string>& features);
+
+/// As readDescriptor(), of a text that is already in memory; `path` names it and roots relative file names.
+Descriptor parseDescriptor(const std::string& text, const std::string& path, const Catalogue& catalogue,
+                           const std::set<std::string>& features);
+
+}  // namespace limen::experiments

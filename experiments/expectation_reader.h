@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "experiments/descriptor.h"
+#include "experiments/problems.h"
+
+namespace limen::experiments {
+
+/// Reads the list under `expect` of a descriptor whose scenes, techniques and metrics are read already. Names
+/// that the descriptor does not have become problems. `imageParameters`: `width` and `height`.
+std::vector<ExpectationStatement> readExpectations(const YamlNode& node, const Descriptor& descriptor,
+                                                   const Catalogue& catalogue,
+                                                   const std::vector<Parameter>& imageParameters,
+                                                   Problems& problems);
+
+}  // namespace limen::experiments

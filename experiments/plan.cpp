@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "experiments/expectation.h"
+#include "experiments/problems.h"
+
+namespace limen::experiments {
+namespace {
+
+/// One cell of an entry's axes.
+struct Variant {
+  Choice choice;
+  nlohmann::json values;    ///< as reports show them: files as the descriptor names them
+  nlohmann::json identity;  ///< what the key is made from: files by content
+  std::string label;
+  size_t entry = 0;
+};
+
+uint64_t multiply(uint64_t a, uint64_t b) {
+  constexpr uint64_t kMax = std::numeric_limits<uint64_t>::max();
+  return b != 0 && a > kMax / b ? kMax : a * b;
+}
+
+uint64_t add(uint64_t a, uint64_t b) { return a > std::numeric_limits<uint64_t>::max() - b ? a : a + b; }
+
+uint64_t cells(const Entry& entry) {
+  uint64_t count = 1;
+  for (const Axis& axis : entry.axes) count = multiply(count, axis.values.size());
+  return count;
+}
+
+uint64_t cells(const std::vector<Entry>& entries) {
+  uint64_t count = 0;
+  for (const Entry& entry : entries) count = add(count, cells(entry));
+  return count;
+}
+
+uint64_t cells(const std::vector<ImageAxes>& images) {
+  uint64_t count = 0;
+  for (const ImageAxes& axes : images)
+    count = add(count, multiply(axes.widthsPx.size(), axes.heightsPx.size()));
+  return count;
+}
+
+std::string describeAxes(const std::vector<Entry>& entries) {
+  std::vector<std::string> parts;
+  for (const Entry& entry : entries) {
+    std::vector<std::string> axes;
+    for (const Axis& axis : entry.axes)
+      if (axis.values.size() > 1) axes.push_back(fmt::format("{} {}", axis.name, axis.values.size()));
+    if (!axes.empty()) parts.push_back(entry.name + ": " + join(axes, " x "));
+  }
+  return parts.empty() ? "" : " (" + join(parts, "; ") + ")";
+}
+
+void checkSize(const Descriptor& descriptor) {
+  const uint64_t scenes = cells(descriptor.scenes), techniques = cells(descriptor.techniques),
+                 images = cells(descriptor.images);
+  const uint64_t runs = multiply(images, multiply(scenes, techniques));
+  if (runs <= kMaxRuns) return;
+  const bool saturated = runs == std::numeric_limits<uint64_t>::max();
+  throw Error(fmt::format("the grid has {}{} runs: {} scenes{} x {} techniques{} x {} image sizes",
+                          saturated ? "more than " : "", runs, scenes, describeAxes(descriptor.scenes),
+                          techniques, describeAxes(descriptor.techniques), images),
+              location(descriptor.path, descriptor.techniques[0].mark),
+              fmt::format("at most {} are allowed: shorten an axis or split the descriptor", kMaxRuns));
+}
+
+class Planner {
+ public:
+  Planner(const Descriptor& descriptor, const Catalogue& catalogue)
+      : descriptor_(descriptor), catalogue_(catalogue), problems_(descriptor.path) {}
+
+  Plan make() {
+    checkSize(descriptor_);
+    const std::vector<Variant> scenes = expand(descriptor_.scenes, catalogue_.scenes, "scene");
+    const std::vector<Variant> techniques =
+        takeTurns(expand(descriptor_.techniques, catalogue_.techniques, "technique"));
+    std::optional<Variant> reference;
+    if (descriptor_.reference)
+      reference = expand({*descriptor_.reference}, catalogue_.techniques, "reference")[0];
+    const auto sizes = expandImages();
+    problems_.throwIfAny();
+
+    common_ = {{"timing", timing()}, {"artefacts", artefacts()}, {"metrics", metrics()}};
+    Plan plan;
+    plan.runs.reserve(sizes.size() * scenes.size() * techniques.size());
+    for (const auto& [width, height] : sizes)
+      for (const Variant& scene : scenes) {
+        const size_t begin = plan.runs.size();
+        for (const Variant& technique : techniques)
+          plan.runs.push_back(
+              makeRun(plan.runs.size(), technique, scene, reference, width, height, sizes.size() > 1));
+        plan.groups.emplace_back(begin, plan.runs.size());
+      }
+    resolve(descriptor_.expectations, plan.runs, problems_);
+    problems_.throwIfAny();
+    return plan;
+  }
+
+ private:
+  nlohmann::json timing() const {
+    const Timing& timing = descriptor_.timing;
+    return {{"warmup", timing.warmup},
+            {"frames", timing.frames},
+            {"rounds", timing.rounds},
+            {"batch", timing.batch}};
+  }
+
+  nlohmann::json artefacts() const {
+    return {{"pictures", descriptor_.artefacts.pictures}, {"exr", descriptor_.artefacts.exr}};
+  }
+
+  nlohmann::json metrics() const {
+    nlohmann::json out = nlohmann::json::array();
+    for (const Choice& metric : descriptor_.metrics) {
+      nlohmann::json one = metric.values.toJson();
+      one["name"] = metric.name;
+      one["version"] = metric.version;
+      out.push_back(std::move(one));
+    }
+    return out;
+  }
+
+  std::vector<Variant> expand(const std::vector<Entry>& entries, const CatalogueKind& kind,
+                              const char* word) {
+    std::vector<Variant> out;
+    std::map<std::string, Mark> seen;
+    for (size_t index = 0; index < entries.size(); ++index) {
+      const Entry& entry = entries[index];
+      const CatalogueEntry& info = kind.at(entry.name);
+      const uint64_t count = cells(entry);
+      for (uint64_t cell = 0; cell < count; ++cell) {
+        std::map<std::string, ParameterValue> given;
+        // The last axis of an entry changes fastest, as in nested loops written in that order.
+        uint64_t rest = cell;
+        for (auto axis = entry.axes.rbegin(); axis != entry.axes.rend(); ++axis) {
+          given[axis->name] = axis->values[rest % axis->values.size()];
+          rest /= axis->values.size();
+        }
+        Variant variant{
+            {entry.name, info.version, ParameterValues(info.parameters, given)}, {}, {}, {}, index};
+        describeValues(variant, info.parameters);
+        const auto [first, fresh] = seen.emplace(variant.identity.dump(), entry.mark);
+        if (!fresh && first->second.line >= 0) {
+          problems_.add(entry.mark,
+                        fmt::format("{} '{}' with the same values stands in line {} too: {}", word,
+                                    entry.name, first->second.line, variant.values.dump()),
+                        "the same run would be planned twice; keep one");
+          break;
+        }
+        out.push_back(std::move(variant));
+      }
+    }
+    setLabels(out);
+    return out;
+  }
+
+  void describeValues(Variant& variant, const std::vector<Parameter>& declared) const {
+    variant.values = variant.choice.values.toJson();
+    nlohmann::json identity = variant.values;
+    for (const Parameter& parameter : declared) {
+      if (parameter.type != ParameterType::File) continue;
+      const std::string& path = variant.choice.values.text(parameter.name);
+      const auto hash = descriptor_.fileHashes.find(path);
+      if (hash == descriptor_.fileHashes.end()) continue;
+      variant.values[parameter.name] = descriptor_.filesAsNamed.at(path);
+      identity[parameter.name] = "sha256:" + hash->second;
+    }
+    variant.identity = {
+        {"name", variant.choice.name}, {"version", variant.choice.version}, {"values", identity}};
+  }
+
+  static std::string show(const nlohmann::json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    return value.is_number_float() ? shortestNumber(value.get<double>()) : value.dump();
+  }
+
+  /// A label names the parameters that differ among the variants of one name.
+  static void setLabels(std::vector<Variant>& variants) {
+    std::map<std::string, std::vector<Variant*>> byName;
+    for (Variant& variant : variants) byName[variant.choice.name].push_back(&variant);
+    for (auto& [name, group] : byName)
+      for (const auto& [key, value] : group[0]->values.items()) {
+        const bool varies = std::any_of(
+            group.begin(), group.end(),
+            [&key = key, &value = value](const Variant* other) { return other->values[key] != value; });
+        if (!varies) continue;
+        for (Variant* variant : group) {
+          if (!variant->label.empty()) variant->label += ", ";
+          variant->label += key + "=" + show(variant->values[key]);
+        }
+      }
+  }
+
+  /// One variant of each entry by turns.
+  std::vector<Variant> takeTurns(std::vector<Variant> variants) const {
+    std::vector<std::vector<Variant>> queues(descriptor_.techniques.size());
+    for (Variant& variant : variants) queues[variant.entry].push_back(std::move(variant));
+    std::vector<Variant> out;
+    for (size_t turn = 0; out.size() < variants.size(); ++turn) {
+      const size_t before = out.size();
+      for (auto& queue : queues)
+        if (turn < queue.size()) out.push_back(std::move(queue[turn]));
+      if (out.size() == before) break;
+    }
+    return out;
+  }
+
+  std::vector<std::pair<int, int>> expandImages() {
+    std::vector<std::pair<int, int>> out;
+    for (const ImageAxes& axes : descriptor_.images)
+      for (const int64_t width : axes.widthsPx)
+        for (const int64_t height : axes.heightsPx) {
+          const std::pair size(static_cast<int>(width), static_cast<int>(height));
+          if (std::find(out.begin(), out.end(), size) != out.end())
+            problems_.add(axes.mark, fmt::format("image size {}x{} is given twice", width, height),
+                          "keep one");
+          out.push_back(size);
+        }
+    return out;
+  }
+
+  PlannedRun makeRun(size_t position, const Variant& technique, const Variant& scene,
+                     const std::optional<Variant>& reference, int width, int height, bool showSize) const {
+    PlannedRun run;
+    run.position = static_cast<int>(position);
+    run.technique = technique.choice;
+    run.scene = scene.choice;
+    run.widthPx = width;
+    run.heightPx = height;
+    run.timing = descriptor_.timing;
+    run.artefacts = descriptor_.artefacts;
+    run.metrics = descriptor_.metrics;
+    run.label = technique.label;
+    run.setting = scene.label;
+    if (showSize) run.setting += fmt::format("{}{}x{}", run.setting.empty() ? "" : ", ", width, height);
+
+    run.parameters = common_;
+    run.parameters["technique"] = technique.values;
+    run.parameters["scene"] = scene.values;
+    run.parameters["image"] = {{"width", width}, {"height", height}};
+    nlohmann::json identity = common_;
+    identity["technique"] = technique.identity;
+    identity["scene"] = scene.identity;
+    identity["image"] = run.parameters["image"];
+    if (reference) {
+      run.reference = reference->choice;
+      run.parameters["reference"] = reference->values;
+      run.parameters["reference"]["name"] = reference->choice.name;
+      identity["reference"] = reference->identity;
+    }
+    run.key = sha256(identity.dump());
+    return run;
+  }
+
+  const Descriptor& descriptor_;
+  const Catalogue& catalogue_;
+  Problems problems_;
+  nlohmann::json common_;
+};
+
+}  // namespace
+
+Plan makePlan(const Descriptor& descriptor, const Catalogue& catalogue) {
+  return Planner(descriptor, catalogue).make();
+}
+
+std::vector<bool> shardMask(const Plan& plan, int index, int count) {
+  std::vector<bool> mask;
+  mask.reserve(plan.runs.size());
+  for (const PlannedRun& run : plan.runs) {
+    const uint64_t hash = std::stoull(run.key.substr(0, 16), nullptr, 16);
+    mask.push_back(hash % static_cast<uint64_t>(count) == static_cast<uint64_t>(index - 1));
+  }
+  return mask;
+}
+
+std::string describe(const PlannedRun& run) {
+  return run.technique.name + (run.label.empty() ? "" : " " + run.label) + ", " + run.scene.name +
+         (run.setting.empty() ? "" : " " + run.setting);
+}
+
+std::string describeSize(const Descriptor& descriptor, const Plan& plan) {
+  const auto plural = [](uint64_t count, const std::string& word) {
+    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+  };
+  return fmt::format("{}: {}{} x {}{} x {}", plural(plan.runs.size(), "run"),
+                     plural(cells(descriptor.scenes), "scene"), describeAxes(descriptor.scenes),
+                     plural(cells(descriptor.techniques), "technique"), describeAxes(descriptor.techniques),
+                     plural(cells(descriptor.images), "image size"));
+}
+
+}  // namespace limen::experiments

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/report_step.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "experiments/environment.h"
+
+namespace limen::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Exit status of the program, 127 if it cannot be started. Its standard output goes to standard error, since
+/// ours may be read by a program.
+int call(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (failed != 0 || waitpid(child, &status, 0) != child) return 127;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+ReportResult makeReport(const std::string& store, const std::string& folder) {
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path() / "limen-analyse";
+  if (code || !fs::exists(program)) return {"", "no report: limen-analyse is not built"};
+  const std::vector<std::string> command = {program.string(), "report", store, "-o", folder, "--force"};
+  const int status = call(command);
+  if (status != 0)
+    return {"", fmt::format("no report: limen-analyse ended with {}; try: limen analyse {}", status,
+                            quoteCommand({command.begin() + 1, command.end()}))};
+  const fs::path page = fs::path(folder) / "index.html";
+  const std::string path = fs::exists(page) ? page.string() : folder;
+  return {path, "report: " + path};
+}
+
+}  // namespace limen::experiments

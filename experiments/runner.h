@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/descriptor.h"
+#include "experiments/executor.h"
+#include "experiments/plan.h"
+#include "experiments/store/store.h"
+
+namespace limen::experiments {
+
+struct RunnerOptions {
+  int shardIndex = 1, shardCount = 1;  ///< only runs of this shard; index from 1
+  bool failFast = false;               ///< stop after the batch with the first failed run
+  double pollSeconds = 0.2;            ///< between looks at runs that another sweep holds
+};
+
+/// Told what happens while a sweep runs. Counts are of the shard.
+class SweepObserver {
+ public:
+  virtual ~SweepObserver() = default;
+  virtual void begin(size_t planned, size_t alreadyDone) = 0;
+  virtual void measuring(const PlannedRun& first, size_t batchSize) = 0;
+  virtual void finished(const PlannedRun& run, const store::Run& row) = 0;
+  /// A run that another sweep finished while this one ran.
+  virtual void doneElsewhere(const PlannedRun& run) = 0;
+  virtual void waiting(size_t heldByOthers) = 0;
+};
+
+/// What became of a sweep. planned = done + skipped + failed + left.
+struct SweepTally {
+  size_t planned = 0;
+  size_t done = 0;     ///< measured now
+  size_t skipped = 0;  ///< measured before, or by another sweep meanwhile
+  size_t failed = 0;
+  size_t left = 0;  ///< not tried: interrupted or stopped by failFast
+  bool interrupted = false;
+};
+
+/// Measures what the store does not have yet for the executor's device. Every run is claimed before and
+/// committed as soon as it is finished; claims that are not finished are given back, whatever happens. Runs
+/// that another live process holds are left to it and waited for at the end. Throws Error if store or
+/// executor cannot go on.
+SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
+                    const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
+
+/// Enters the experiment and its whole plan (all shards, so that merged stores know what is missing). Returns
+/// its id.
+int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
+
+/// Judges the descriptor's expectations over everything that the store holds of this plan for `device`, and
+/// stores the judgement.
+std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,
+                                                  int64_t experiment, const std::string& device,
+                                                  store::Store& results);
+
+}  // namespace limen::experiments

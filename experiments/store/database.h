@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace limen::store {
+
+/// Throws Error for the connection's last error, in the user's terms (full disk, read-only file, no store
+/// ...).
+[[noreturn]] void throwDatabaseError(sqlite3* database);
+
+/// A prepared statement; every failure is an Error.
+class Statement {
+ public:
+  Statement(sqlite3* database, const char* sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    reset();
+    int index = 0;
+    (bindAt(++index, values), ...);
+    return *this;
+  }
+  /// True while there is a row.
+  bool step();
+  /// Runs a statement that gives no rows.
+  void execute() {
+    while (step()) {
+    }
+  }
+
+  bool isNull(int column) const;
+  int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+
+ private:
+  void reset();
+  void bindAt(int index, int64_t value);
+  void bindAt(int index, int value) { bindAt(index, static_cast<int64_t>(value)); }
+  void bindAt(int index, bool value) { bindAt(index, static_cast<int64_t>(value)); }
+  void bindAt(int index, const std::string& value);
+  void bindAt(int index, const std::optional<double>& value);
+  void bindAt(int index, const std::optional<int64_t>& value);
+
+  sqlite3* database_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+template <class... Values>
+void execute(sqlite3* database, const char* sql, const Values&... values) {
+  Statement(database, sql).bind(values...).execute();
+}
+
+/// Rolled back unless committed.
+class Transaction {
+ public:
+  /// Write takes the write lock at once, so that what is read inside cannot change before it is written; Read
+  /// sees one state of the file throughout.
+  enum class Mode { Read, Write };
+  Transaction(sqlite3* database, Mode mode);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  sqlite3* database_;
+  bool open_ = true;
+};
+
+/// Opens, checks that the file is a store of a known schema, migrates. Store's constructor.
+sqlite3* openDatabase(const std::string& path, bool readOnly);
+
+/// Whether the process named by `owner` (host:pid:start-time) is known to be gone; nullopt: it is on another
+/// host.
+std::optional<bool> isOwnerDead(const std::string& owner);
+
+}  // namespace limen::store

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "experiments/store/rows.h"
+
+namespace limen::store {
+namespace {
+
+namespace fs = std::filesystem;
+using Mode = Transaction::Mode;
+
+constexpr size_t kRunsPerTransaction = 64;  // other writers wait at most for this many
+
+fs::path folderOf(const std::string& storePath) { return fs::absolute(storePath).parent_path(); }
+
+// A store may come from anybody: a path that leaves its folder is refused.
+void requireInside(const fs::path& path, const std::string& store) {
+  const bool escapes =
+      std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
+  if (path.is_absolute() || path.empty() || escapes)
+    throw Error("artefact path '" + path.string() + "' leaves the store's folder", store,
+                "give it a path below the folder of the store");
+}
+
+// `path` itself, or with the run's key in its name if another file has it already; then with the content's
+// hash, for the same run on another device.
+fs::path freePath(const fs::path& folder, const Artefact& artefact, const std::string& key) {
+  const fs::path path = artefact.path;
+  const std::string stem = path.stem().string(), extension = path.extension().string();
+  for (const std::string& infix : {std::string(), "." + key.substr(0, 16),
+                                   "." + key.substr(0, 16) + "." + artefact.sha256.substr(0, 16)}) {
+    const fs::path candidate = path.parent_path() / (stem + infix + extension);
+    if (!fs::exists(folder / candidate) || sha256File((folder / candidate).string()) == artefact.sha256)
+      return candidate;
+  }
+  throw Error("a changed file stands in the way of artefact '" + artefact.path + "'", folder.string(),
+              "move the file away and merge again");
+}
+
+// Copies one artefact file and returns its path in the new folder. Moved into place when complete, so that a
+// killed merge leaves no half file under a good name.
+std::string copyArtefact(const Artefact& artefact, const std::string& key, const std::string& from,
+                         const std::string& to) {
+  requireInside(artefact.path, from);
+  const fs::path source = folderOf(from) / artefact.path;
+  if (!fs::exists(source))
+    throw Error("the artefact file '" + source.string() + "' is missing", from,
+                "put it back beside the store, or delete its row of table artefact");
+  if (sha256File(source.string()) != artefact.sha256)
+    throw Error(
+        "the artefact file '" + source.string() + "' is not the one that the run wrote (SHA-256 differs)",
+        from, "put the right file back, or delete its row of table artefact");
+  const fs::path target = freePath(folderOf(to), artefact, key), full = folderOf(to) / target;
+  if (fs::exists(full)) return target.string();
+  std::error_code error;
+  fs::create_directories(full.parent_path(), error);
+  fs::path partial = full;
+  partial += ".partial";
+  fs::copy_file(source, partial, fs::copy_options::overwrite_existing, error);
+  if (!error) fs::rename(partial, full, error);
+  if (error)
+    throw Error("cannot copy to '" + full.string() + "': " + error.message(), to, "check rights and space");
+  return target.string();
+}
+
+// Whether a row of the other store replaces (or joins) what this store has for the same key and device.
+bool isWanted(sqlite3* database, const Run& other) {
+  if (other.status == "running") return false;
+  Statement find(database, "SELECT status, owner FROM run WHERE key = ? AND device = ?");
+  if (!find.bind(other.key, other.device).step()) return true;
+  const std::string status = find.text(0);
+  if (status == "running") return isOwnerDead(find.text(1)).value_or(false);
+  return status == "failed" && other.status == "done";
+}
+
+void insertRun(sqlite3* database, const Run& run, const std::optional<int64_t>& environment) {
+  execute(database, "DELETE FROM run WHERE key = ? AND device = ?", run.key, run.device);
+  execute(database,
+          "INSERT INTO run (key, device, status, error, technique, scene, label, parameters, scene_facts, "
+          "environment, "
+          "started, finished) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          run.key, run.device, run.status, run.error, run.technique, run.scene, run.label,
+          run.parameters.dump(), run.sceneFacts.dump(), environment, run.started, run.finished);
+  Statement find(database, "SELECT id FROM run WHERE key = ? AND device = ?");
+  find.bind(run.key, run.device).step();
+  writeDetails(database, find.integer(0), run);
+}
+
+// Shards of one sweep judge the same expectations on their own runs: held means held in all of them.
+std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
+                                          const std::vector<Expectation>& theirs) {
+  for (const Expectation& expectation : theirs) {
+    const auto same = std::find_if(ours.begin(), ours.end(),
+                                   [&](const Expectation& own) { return own.text == expectation.text; });
+    if (same == ours.end()) {
+      ours.push_back(expectation);
+    } else if (!expectation.held) {
+      const std::string separator = same->held || same->detail.empty() ? "" : "; ";
+      same->detail = (same->held ? "" : same->detail) + separator + expectation.detail;
+      same->held = false;
+    }
+  }
+  return ours;
+}
+
+}  // namespace
+
+int64_t Store::merge(const Store& other) {
+  if (fs::equivalent(path_, other.path_)) throw Error("is merged into itself", path_, "name another store");
+
+  const std::vector<Experiment> known = experiments();
+  for (const Experiment& experiment : other.experiments()) {
+    const auto same = std::find_if(known.begin(), known.end(),
+                                   [&](const Experiment& own) { return own.hash == experiment.hash; });
+    std::vector<PlanEntry> joined = same == known.end() ? std::vector<PlanEntry>() : plan(same->id);
+    for (const PlanEntry& entry : other.plan(experiment.id)) {
+      const auto isSame = [&](const PlanEntry& own) { return own.key == entry.key; };
+      if (std::none_of(joined.begin(), joined.end(), isSame)) joined.push_back(entry);
+    }
+    const int64_t id = putExperiment(same == known.end() ? experiment : *same, joined);
+    putExpectations(id, joinExpectations(expectations(id), other.expectations(experiment.id)));
+  }
+
+  std::vector<Run> candidates;
+  {
+    Statement row(other.database_, "SELECT id, key, device, status FROM run ORDER BY id");
+    while (row.step()) {
+      Run run;
+      run.id = row.integer(0);
+      run.key = row.text(1);
+      run.device = row.text(2);
+      run.status = row.text(3);
+      if (isWanted(database_, run)) candidates.push_back(std::move(run));
+    }
+  }
+
+  std::map<int64_t, std::optional<int64_t>> environmentIds{{0, std::nullopt}};
+  int64_t added = 0;
+  for (size_t begin = 0; begin < candidates.size(); begin += kRunsPerTransaction) {
+    const size_t end = std::min(candidates.size(), begin + kRunsPerTransaction);
+    std::vector<Run> chunk;
+    for (size_t i = begin; i < end; ++i) chunk.push_back(readRunById(other.database_, candidates[i].id));
+    readDetails(other.database_, chunk, true);
+    for (Run& run : chunk) {
+      if (environmentIds.count(run.environment) == 0)
+        environmentIds[run.environment] = putEnvironment(other.environment(run.environment));
+      for (Artefact& artefact : run.artefacts)
+        artefact.path = copyArtefact(artefact, run.key, other.path_, path_);
+    }
+    Transaction transaction(database_, Mode::Write);
+    for (const Run& run : chunk) {
+      if (!isWanted(database_, run)) continue;  // finished here by another process meanwhile
+      insertRun(database_, run, environmentIds.at(run.environment));
+      ++added;
+    }
+    transaction.commit();
+  }
+  return added;
+}
+
+}  // namespace limen::store

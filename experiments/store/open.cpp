@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "experiments/store/database.h"
+
+namespace limen::embedded {
+extern const char* const kStoreSchema;
+}
+
+namespace limen::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBusyTimeoutMs = 30'000;      // many sweeps write one file; a write lasts milliseconds
+constexpr int kApplicationId = 0x4c494d4e;  // "LIMN": tells a store from other SQLite files
+
+// migrations[i] leads from schema version i to i + 1. A store of today is the result of all of them, so an
+// old store and a new one cannot differ.
+const char* const kMigrations[] = {embedded::kStoreSchema};
+constexpr int kSchemaVersion = static_cast<int>(std::size(kMigrations));
+
+struct Closer {
+  sqlite3* database = nullptr;
+  ~Closer() { sqlite3_close(database); }
+  sqlite3* release() { return std::exchange(database, nullptr); }
+};
+
+int64_t pragma(sqlite3* database, const char* sql) {
+  Statement statement(database, sql);
+  return statement.step() ? statement.integer(0) : 0;
+}
+
+void executeScript(sqlite3* database, const std::string& sql) {
+  if (sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    throwDatabaseError(database);
+}
+
+// Turning the log on needs the file for a moment alone, and SQLite does not always wait for that.
+void turnOnWriteAheadLog(sqlite3* database) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(kBusyTimeoutMs);
+  while (true) {
+    const int result = sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    if (result == SQLITE_OK) return;
+    if (result != SQLITE_BUSY || std::chrono::steady_clock::now() > deadline) throwDatabaseError(database);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+bool isEmpty(sqlite3* database) {
+  return pragma(database, "PRAGMA application_id") == 0 && pragma(database, "PRAGMA user_version") == 0 &&
+         pragma(database, "SELECT count(*) FROM sqlite_schema") == 0;
+}
+
+void requireStore(sqlite3* database, const std::string& path) {
+  if (pragma(database, "PRAGMA application_id") != kApplicationId)
+    throw Error("is an SQLite file but not a result store", path,
+                "give a file that limen-sweep wrote, or a new name");
+  const int64_t version = pragma(database, "PRAGMA user_version");
+  if (version > kSchemaVersion)
+    throw Error("the store has schema version " + std::to_string(version) + ", this program knows " +
+                    std::to_string(kSchemaVersion),
+                path, "use the newer Limen that wrote it");
+}
+
+void migrate(sqlite3* database, const std::string& path) {
+  Transaction transaction(database, Transaction::Mode::Write);
+  if (isEmpty(database)) executeScript(database, "PRAGMA application_id = " + std::to_string(kApplicationId));
+  requireStore(database, path);
+  for (int64_t version = pragma(database, "PRAGMA user_version"); version < kSchemaVersion; ++version) {
+    executeScript(database, kMigrations[version]);
+    executeScript(database, "PRAGMA user_version = " + std::to_string(version + 1));
+  }
+  transaction.commit();
+}
+
+// A store in a folder that cannot be written (a CD, an archive) can only be read as a file that nobody
+// changes: SQLite has no place there for the log's shared index. That is safe only if no log waits beside it.
+std::string readOnlyUri(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(path).string()) {
+    if (c == '%' || c == '?' || c == '#') {
+      const char* digits = "0123456789abcdef";
+      uri += {'%', digits[(c >> 4) & 15], digits[c & 15]};
+    } else {
+      uri += c;
+    }
+  }
+  const fs::path folder = fs::absolute(path).parent_path();
+  const bool untouched = access(folder.c_str(), W_OK) != 0 && !fs::exists(path + "-wal");
+  return uri + (untouched ? "?mode=ro&immutable=1" : "?mode=ro");
+}
+
+void prepareFolder(const std::string& path) {
+  const fs::path folder = fs::absolute(path).parent_path();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw Error("the folder '" + folder.string() + "' cannot be made", path, "choose another path");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw Error("the folder '" + folder.string() + "' cannot be written", path,
+                "choose another folder or change its rights");
+}
+
+}  // namespace
+
+sqlite3* openDatabase(const std::string& path, bool readOnly) {
+  if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
+  if (readOnly && !fs::exists(path))
+    throw Error("no such result store", path, "check the path, or make the store with limen-sweep");
+  if (!readOnly) prepareFolder(path);
+
+  const std::string name = readOnly ? readOnlyUri(path) : path;
+  const int flags =
+      readOnly ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  Closer closer;
+  if (sqlite3_open_v2(name.c_str(), &closer.database, flags, nullptr) != SQLITE_OK)
+    throw Error("the store cannot be opened", path, "check the path and the rights on the file");
+  sqlite3* database = closer.database;
+  sqlite3_busy_timeout(database, kBusyTimeoutMs);
+  execute(database, "PRAGMA foreign_keys = ON");
+  if (readOnly) {
+    requireStore(database, path);
+    if (pragma(database, "PRAGMA user_version") < kSchemaVersion)
+      throw Error("the store has an older schema", path, "open it once for writing with limen-sweep");
+    return closer.release();
+  }
+  if (!isEmpty(database)) requireStore(database, path);
+  turnOnWriteAheadLog(database);
+  // With the log a commit survives the death of the process at NORMAL already; FULL syncs it too, so that it
+  // survives a power cut. A run takes seconds and commits twice, so the sync does not count.
+  execute(database, "PRAGMA synchronous = FULL");
+  migrate(database, path);
+  return closer.release();
+}
+
+}  // namespace limen::store

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "experiments/store/database.h"
+#include "experiments/store/store.h"
+
+namespace limen::store {
+namespace {
+
+std::string hostName() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+// Start time in clock ticks since boot: field 22 of /proc/PID/stat (proc(5)); "" if the process is gone or a
+// zombie. Field 2, the program's name, may hold blanks and brackets, so fields are counted from its last
+// bracket.
+std::string startTime(const std::string& pid) {
+  std::ifstream file("/proc/" + pid + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const size_t bracket = text.rfind(')');
+  if (bracket == std::string::npos) return {};
+  std::istringstream fields(text.substr(bracket + 1));
+  std::string field;
+  for (int index = 3; index <= 22; ++index) {
+    fields >> field;
+    if (index == 3 && (field == "Z" || field == "X")) return {};
+  }
+  return field;
+}
+
+}  // namespace
+
+std::string processIdentity() {
+  const std::string pid = std::to_string(getpid());
+  return hostName() + ":" + pid + ":" + startTime(pid);
+}
+
+std::optional<bool> isOwnerDead(const std::string& owner) {
+  const size_t second = owner.rfind(':');
+  const size_t first =
+      second == std::string::npos || second == 0 ? std::string::npos : owner.rfind(':', second - 1);
+  if (first == std::string::npos) return true;  // nobody signs like this
+  if (owner.substr(0, first) != hostName()) return std::nullopt;
+  return startTime(owner.substr(first + 1, second - first - 1)) != owner.substr(second + 1);
+}
+
+std::string utcNow() {
+  const auto now = std::chrono::system_clock::now();
+  const auto milliseconds =
+      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  return fmt::format("{}.{:03}Z", text.data(), milliseconds);
+}
+
+}  // namespace limen::store

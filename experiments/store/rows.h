@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "experiments/store/database.h"
+#include "experiments/store/store.h"
+
+namespace limen::store {
+
+/// Replaces measurements, frame times, passes and artefacts of the row `id` with those of `run`. Inside a
+/// transaction.
+void writeDetails(sqlite3* database, int64_t id, const Run& run);
+/// The row `id` without its details. It exists.
+Run readRunById(sqlite3* database, int64_t id);
+/// Fills measurements, passes, artefacts and (on request) frame times of `runs`, which have their ids.
+void readDetails(sqlite3* database, std::vector<Run>& runs, bool withFrameTimes);
+
+}  // namespace limen::store

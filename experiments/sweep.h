@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "experiments/catalogue.h"
+#include "experiments/executor.h"
+
+namespace limen::experiments {
+
+/// What makes a sweep program: the names it knows and the executor that runs them.
+struct SweepProgram {
+  std::string name;
+  std::function<Catalogue()> catalogue;
+  /// Makes the executor whose artefacts go below `resultsFolder`. Called only when there is a sweep to run;
+  /// throws Error.
+  std::function<std::unique_ptr<Executor>(const std::string& resultsFolder)> makeExecutor;
+};
+
+/// The command line of `limen sweep`. Returns the exit code: 0; 1 for failed runs, broken expectations or a
+/// device that fails; 2 for bad input (nothing was run or written); 128 + signal when interrupted.
+int sweepMain(int argc, char** argv, const SweepProgram& program);
+
+}  // namespace limen::experiments

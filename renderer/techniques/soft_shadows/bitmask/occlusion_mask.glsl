@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bit for each light sample, set once an occluder covers the sample. Schwarz 2009, section 4.2.
+// PATTERN: 8, 16 or 32 for a regular grid of that many samples a side; 160 for the jittered 16 x 16 grid.
+//
+// A rectangle (x0, y0, x1, y1) covers the samples with x0 < s <= x1 and likewise in y, so rectangles that share an
+// edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4); here the fraction is compared instead,
+// because that sum rounds, and a bound just below a sample would then count as on it.
+#if PATTERN == 8
+#define MASK_WORDS 2
+#define SAMPLES 64
+#elif PATTERN == 32
+#define MASK_WORDS 32
+#define SAMPLES 1024
+#else
+#define MASK_WORDS 8
+#define SAMPLES 256
+#endif
+
+uint mask[MASK_WORDS];
+
+void clearMask() {
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = 0u;
+}
+
+// Bits [low, high), high <= 32; empty if high <= low. A shift by 32 is undefined, which bitfieldInsert avoids.
+uint bitRange(int low, int high) { return bitfieldInsert(0u, 0xffffffffu, low, max(high - low, 0)); }
+
+// Number of samples (i + offset) / n at or below v: floor(n v - offset) + 1, exactly.
+ivec2 samplesUpTo(vec2 v, float n, float offset) {
+  const vec2 scaled = v * n, whole = floor(scaled);
+  return ivec2(whole) + ivec2(greaterThanEqual(scaled - whole, vec2(offset)));
+}
+
+#if PATTERN == 160
+// Sample (i, j) at x = (i + (j even ? 1/4 : 3/4)) / 16, y = (j + (i even ? 3/4 : 1/4)) / 16.
+void addToMask(vec2 low, vec2 high) {
+  const ivec2 lowQuarter = samplesUpTo(low, 16.0, 0.25), highQuarter = samplesUpTo(high, 16.0, 0.25);
+  const ivec2 lowThird = samplesUpTo(low, 16.0, 0.75), highThird = samplesUpTo(high, 16.0, 0.75);
+  // Even rows have x offset 1/4, odd rows 3/4: one word holds an even row and the odd row above it.
+  const uint columns = bitRange(lowQuarter.x, highQuarter.x) | (bitRange(lowThird.x, highThird.x) << 16);
+  const uint rowsEvenColumn = bitRange(lowThird.y, highThird.y), rowsOddColumn = bitRange(lowQuarter.y, highQuarter.y);
+  for (int k = 0; k < 8; ++k) {
+    const uint even = rowsEvenColumn >> (2 * k), odd = rowsOddColumn >> (2 * k);
+    const uint pair = (even & 1u) | ((odd & 1u) << 1) | ((even & 2u) << 15) | ((odd & 2u) << 16);
+    mask[k] |= (pair * 0x5555u) & columns;
+  }
+}
+#else
+void addToMask(vec2 low, vec2 high) {
+  const ivec2 first = samplesUpTo(low, float(PATTERN), 0.5), end = samplesUpTo(high, float(PATTERN), 0.5);
+  const uint columns = bitRange(first.x, end.x), rows = bitRange(first.y, end.y);
+#if PATTERN == 32
+  for (int j = 0; j < 32; ++j) mask[j] |= columns & (0u - ((rows >> j) & 1u));
+#elif PATTERN == 16
+  for (int k = 0; k < 8; ++k) {
+    const uint pair = rows >> (2 * k);
+    mask[k] |= columns * ((pair & 1u) | ((pair & 2u) << 15));
+  }
+#else
+  for (int k = 0; k < 2; ++k) {
+    const uint four = (rows >> (4 * k)) & 15u;
+    // Spreads bits 0..3 to the lowest bit of each byte.
+    mask[k] |= columns * ((four * 0x00204081u) & 0x01010101u);
+  }
+#endif
+}
+#endif
+
+int samplesCovered() {
+  int covered = 0;
+  for (int i = 0; i < MASK_WORDS; ++i) covered += bitCount(mask[i]);
+  return covered;
+}
+
+bool allCovered() {
+  uint all = 0xffffffffu;
+  for (int i = 0; i < MASK_WORDS; ++i) all &= mask[i];
+  return all == 0xffffffffu;
+}

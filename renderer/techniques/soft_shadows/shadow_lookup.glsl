@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every soft-shadow shader shares: the receiver points, the map's frustum, biases, and where results go.
+// VisibilityPass binds all of it.
+#include "renderer/frame/shadow_depth.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D receivers;
+layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#ifdef COUNT
+layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
+#endif
+
+uniform ivec2 sizePx;
+uniform vec2 tangentLow, tangentSize;  // x/z, y/z at the map's lower edge, and the map's extents
+uniform float near;
+uniform vec2 lightSize;  // full extents
+uniform int resolution;
+uniform float bias, slopeBias;
+
+const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u;
+
+// Classes and work of this pixel; the compiler removes them where nobody counts.
+uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed = 0u;
+
+// Position of a point in the map, in texels of level 0.
+vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * float(resolution); }
+
+// Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
+// change of the receiver's own plane over `slopeBias` texels (the slope sums both axes).
+float biasedDepth(vec4 receiver, int level) {
+  const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
+  return receiver.z - bias * receiver.z - slopeBias * receiver.w * texel;
+}
+
+void store(ivec2 pixel, float visibility) {
+  imageStore(outVisibility, pixel, vec4(visibility));
+#ifdef COUNT
+  imageStore(outCounts, pixel, uvec4(pixelClass, occluderCount, fetchCount, levelUsed));
+#endif
+}
+
+float visibilityOf(vec4 receiver, ivec2 pixel);
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  store(pixel, receiver.w < 0.0 ? 1.0 : visibilityOf(receiver, pixel));
+}

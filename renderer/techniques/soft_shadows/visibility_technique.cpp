@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/visibility_technique.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <cmath>
+
+#include "renderer/frame/g_buffer.h"
+
+namespace limen::techniques {
+namespace {
+
+/// Values of the first count channel, as in shadow_lookup.glsl.
+enum PixelClass : uint32_t {
+  NotReceiver = 0,
+  Lit = 1,
+  Umbra = 2,
+  Processed = 3,
+  Outside = 4,
+  ClassCount = 5
+};
+
+std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
+  std::array<double, ClassCount> pixels{};
+  double occluders = 0.0, occludersSquared = 0.0, fetches = 0.0, levels = 0.0;
+  for (size_t i = 0; i < counts.size(); i += 4) {
+    pixels.at(counts[i]) += 1.0;
+    if (counts[i] != Processed) continue;
+    occluders += counts[i + 1];
+    occludersSquared += double(counts[i + 1]) * counts[i + 1];
+    fetches += counts[i + 2];
+    levels += counts[i + 3];
+  }
+  const double all = static_cast<double>(counts.size()) / 4.0;
+  const double processed = pixels[Processed];
+  const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
+  const double mean = perProcessed(occluders);
+  const double variance = perProcessed(occludersSquared) - mean * mean;
+  return {{"receivers_share", (all - pixels[NotReceiver]) / all, ""},
+          {"lit_share", pixels[Lit] / all, ""},
+          {"umbra_share", pixels[Umbra] / all, ""},
+          {"processed_share", processed / all, ""},
+          {"outside_map_share", pixels[Outside] / all, ""},
+          {"micro_occluders_per_px", mean, ""},
+          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), ""},
+          {"fetches_per_px", perProcessed(fetches), ""},
+          {"level_mean", perProcessed(levels), ""}};
+}
+
+}  // namespace
+
+VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
+                                         gl::ShaderDefines defines)
+    : map_{std::stoi(values.text("resolution"))},
+      bias_(values.real("bias")),
+      slopeBias_(values.real("slope_bias")),
+      shader_(std::move(shader)),
+      pass_(std::move(pass)),
+      defines_(std::move(defines)) {}
+
+std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
+  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
+                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
+          realParameter("bias", 1e-4, 0.0, 0.1, "",
+                        "Constant depth bias as a share of the receiver's distance from the light's plane",
+                        "Schwarz 2009, section 4.4.5 (value not given there)"),
+          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
+                        "Depth bias by the receiver's slope, in texels of the level that is read",
+                        "Schwarz 2009, section 4.4.5 (reconstructed)")};
+}
+
+void VisibilityTechnique::prepare(frame::Frame& frame) {
+  program_ = &frame.context().programs().compute(shader_, defines_);
+  visibility_.emplace(gl::Format::R32F, frame.sizePx());
+  frame.passes().setBytesHeld(pass_, visibility_->bytes());
+}
+
+const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
+  const auto& map = frame.get<frame::ShadowMap>(map_);
+  map.texture().bindTexture(1);
+  return map.frustum();
+}
+
+void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts) {
+  const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
+  const frame::LightFrustum& frustum = bindMap(frame);
+  const auto scope = frame.passes().open(pass_);
+  program.set("sizePx", frame.sizePx());
+  program.set("tangentLow", glm::vec2(frustum.low));
+  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+  program.set("near", static_cast<float>(frustum.near));
+  program.set("lightSize", glm::vec2(frame.scene().lights[0].size));
+  program.set("resolution", map_.resolution);
+  program.set("bias", static_cast<float>(bias_));
+  program.set("slopeBias", static_cast<float>(slopeBias_));
+  configure(program);
+  receivers.bindTexture(0);
+  visibility_->bindImage(0, gl::Access::Write);
+  if (counts) counts->bindImage(1, gl::Access::Write);
+  program.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
+
+std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
+  gl::ShaderDefines defines = defines_;
+  defines["COUNT"] = "1";
+  const gl::Texture counts(gl::Format::RGBA32UI, frame.sizePx());
+  frame.begin();
+  run(frame, frame.context().programs().compute(shader_, defines), &counts);
+  frame.end();
+  return summarise(counts.readUint());
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/frame/shadow_map.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+
+/// Base of the soft-shadow techniques that read one shadow map: a compute pass over the receivers into a
+/// visibility image. The shader includes shadow_lookup.glsl, which declares what this class binds:
+///   texture unit 0: receivers; unit 1: linear shadow map, unless bindMap() binds something else
+///   image unit 0: visibility; unit 1, where COUNT is defined: class and work of each pixel (rgba32ui)
+class VisibilityTechnique : public Technique {
+ public:
+  void prepare(frame::Frame& frame) override;
+  void render(frame::Frame& frame) override;
+  const gl::Texture& product() const override { return *visibility_; }
+  /// Shares of lit, umbra, processed and outside pixels; micro-occluders and fetches per processed pixel.
+  std::vector<Counter> count(frame::Frame& frame) override;
+
+  /// Parameters that `values` must hold: resolution, bias, slope_bias.
+  static std::vector<Parameter> commonParameters(double defaultSlopeBias);
+
+ protected:
+  /// `shader` is a path from the repository root, `pass` the name in the pass list.
+  VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
+                      gl::ShaderDefines defines = {});
+
+  const frame::ShadowMapSettings& mapSettings() const { return map_; }
+  /// Makes and binds the map, from texture unit 1; returns its frustum.
+  virtual const frame::LightFrustum& bindMap(frame::Frame& frame);
+  /// Sets the technique's own uniforms.
+  virtual void configure(const gl::Program& program) const = 0;
+
+ private:
+  /// `counts` is null in a plain frame.
+  void run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts);
+
+  frame::ShadowMapSettings map_;
+  double bias_, slopeBias_;
+  std::string shader_, pass_;
+  gl::ShaderDefines defines_;
+  const gl::Program* program_ = nullptr;
+  std::optional<gl::Texture> visibility_;
+};
+
+}  // namespace limen::techniques

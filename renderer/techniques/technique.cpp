@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+
+std::string toText(ProductKind kind) {
+  switch (kind) {
+    case ProductKind::Visibility:
+      return "visibility";
+    case ProductKind::Colour:
+      return "colour";
+  }
+  return {};
+}
+
+}  // namespace limen::techniques
