@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "renderer/references/receiver_points.h"
+#include "renderer/references/triangles.h"
+
+namespace limen::references {
+
+/// Ray tracing of a scene's triangles with Embree: robust traversal, best build quality.
+///
+/// A shadow ray starts on a known triangle. Embree works in float, so a ray whose start is rounded by half a
+/// unit in the last place may meet its own surface or, next to an edge, a neighbour of it. Pushing the start
+/// off the surface would lose contact shadows, so hits are filtered instead. One does not count if
+///  - its triangle is the one that the ray starts on, or its plane holds the start
+///  (Triangles::planeTolerance): seen
+///    from there it is edge-on and hides nothing;
+///  - it is near the start and the double-precision test of the exact start against that triangle finds no
+///  hit.
+/// Far hits are Embree's word alone, whose robust mode leaves no cracks between triangles.
+class EmbreeScene {
+ public:
+  /// `triangles` must outlive it. Throws std::runtime_error if Embree fails.
+  explicit EmbreeScene(const Triangles& triangles);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  /// True if a triangle lies between the point and `light` (relative to the anchor).
+  bool occluded(const ReceiverPoint& from, glm::dvec3 light) const;
+
+ private:
+  const Triangles& triangles_;
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace limen::references

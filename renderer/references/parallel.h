@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace limen::references {
+
+/// Calls work(thread, first, last) for pieces that cover [0, count) on all cores. The pieces of a thread
+/// depend on `count` and the number of cores alone; with work that treats every index by itself, results do
+/// not even depend on that. `work` must not throw.
+template <class Work>
+void parallelFor(size_t count, const Work& work) {
+  constexpr size_t kPiece = 16;  // small: costs differ widely between lit pixels and penumbrae
+  const size_t threads = std::max<size_t>(std::thread::hardware_concurrency(), 1);
+  const auto run = [&](size_t thread) {
+    for (size_t first = thread * kPiece; first < count; first += threads * kPiece)
+      work(thread, first, std::min(first + kPiece, count));
+  };
+  std::vector<std::jthread> helpers;
+  for (size_t thread = 1; thread < threads; ++thread) helpers.emplace_back(run, thread);
+  run(0);
+}
+
+}  // namespace limen::references

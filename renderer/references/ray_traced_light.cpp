@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shadow rays from every surface point to points on the light: visibility on the true geometry, known up to
+// sampling.
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "renderer/references/embree_scene.h"
+#include "renderer/references/light_shape.h"
+#include "renderer/references/parallel.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::references {
+namespace {
+
+using techniques::Counter;
+using techniques::TechniqueInfo;
+
+/// Counter-based random numbers (the finaliser of SplitMix64): a sample depends on seed, pixel and number
+/// alone.
+uint64_t mix(uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+glm::dvec2 uniform2(uint64_t seed, uint64_t pixel, uint64_t sample) {
+  const uint64_t bits = mix(mix(mix(seed) ^ pixel) ^ sample);
+  return {double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffU) * 0x1p-32};
+}
+
+int strataPerAxis(const ParameterValues& values) {
+  if (values.text("pattern") != "stratified") return 0;
+  const int64_t samples = values.integer("samples");
+  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
+  if (side * side != samples)
+    throw Error("'samples' is " + std::to_string(samples) + ", not a square number",
+                "references/ray_traced_light",
+                "give " + std::to_string(side * side) + ", or pattern: random");
+  return static_cast<int>(side);
+}
+
+class RayTracedLight : public techniques::Technique {
+ public:
+  explicit RayTracedLight(const ParameterValues& values)
+      : samples_(values.integer("samples")),
+        seed_(static_cast<uint64_t>(values.integer("seed"))),
+        strata_(strataPerAxis(values)) {}
+
+  void prepare(frame::Frame& frame) override {
+    triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
+    tracer_.emplace(*triangles_);
+    product_.emplace(gl::Format::R32F, frame.sizePx());
+    visibility_ = Image(frame.sizePx().x, frame.sizePx().y, 1);
+    frame.passes().setBytesHeld("ray_traced_light/upload", product_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    const std::vector<ReceiverPoint> points = readReceiverPoints(frame, *triangles_);
+    {
+      const auto scope = frame.passes().open("ray_traced_light/trace");
+      trace(frame, points);
+    }
+    const auto scope = frame.passes().open("ray_traced_light/upload");
+    product_->write(visibility_);
+  }
+
+  const gl::Texture& product() const override { return *product_; }
+
+  std::vector<Counter> count(frame::Frame&) override {
+    return {{"rays_per_receiver", double(samples_), ""}, {"rays", double(rays_), ""}};
+  }
+
+ private:
+  void trace(const frame::Frame& frame, const std::vector<ReceiverPoint>& points) {
+    const scene::AreaLight& light = frame.scene().lights.at(0);
+    const glm::dvec3 anchor = frame.gpuScene().anchor();
+    const LightShapeMap map(light);
+    std::fill(visibility_.data.begin(), visibility_.data.end(), 1.0F);
+    std::atomic<int64_t> rays = 0;
+    parallelFor(points.size(), [&](size_t, size_t first, size_t last) {
+      int64_t cast = 0;
+      for (size_t i = first; i < last; ++i) {
+        const ReceiverPoint& point = points[i];
+        int64_t seen = 0;
+        for (int64_t sample = 0; sample < samples_; ++sample) {
+          const glm::dvec3 to = light.point(map(squarePoint(point.pixel, sample))) - anchor;
+          // A surface is opaque: what lies behind its plane is hidden, whether or not the body is closed.
+          if (!(glm::dot(point.normal, to - point.position) > 0.0)) continue;
+          ++cast;
+          seen += !tracer_->occluded(point, to);
+        }
+        visibility_.data[point.pixel] = static_cast<float>(double(seen) / double(samples_));
+      }
+      rays += cast;
+    });
+    rays_ = rays;
+  }
+
+  glm::dvec2 squarePoint(uint64_t pixel, int64_t sample) const {
+    const glm::dvec2 random = uniform2(seed_, pixel, static_cast<uint64_t>(sample));
+    if (strata_ == 0) return random;
+    return (glm::dvec2(double(sample % strata_), double(sample / strata_)) + random) / double(strata_);
+  }
+
+  int64_t samples_, rays_ = 0;
+  uint64_t seed_;
+  int strata_;  // 0: random
+  std::optional<Triangles> triangles_;
+  std::optional<EmbreeScene> tracer_;
+  std::optional<gl::Texture> product_;
+  Image visibility_;
+};
+
+/// Hoeffding (1963): the mean of N independent values in [0, 1] leaves its expectation by more than e with a
+/// probability of at most 2 exp(-2 N e^2). The values need not be alike, so stratification only makes the
+/// bound more careful.
+double halfWidth(const ParameterValues& values) {
+  return std::sqrt(std::log(2.0 / 0.001) / (2.0 * double(values.integer("samples"))));
+}
+
+const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
+    .name = "references/ray_traced_light",
+    .version = 1,
+    .summary = "Shadow rays to points on the light against the true triangles (Embree)",
+    .source = "004_2587a614b209b9c1.txt, section 3.3",
+    .parameters = {integerParameter("samples", 1024, 16, 65536, "rays",
+                                    "Shadow rays a receiver; a square number if stratified"),
+                   choiceParameter("pattern", "stratified", {"stratified", "random"},
+                                   "One point in each cell of a square grid over the light, or anywhere"),
+                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the points on the light")},
+    .needs = {"area_light"},
+    .reference = true,
+    .onCpu = true,
+    .make = [](const ParameterValues& values) { return std::make_unique<RayTracedLight>(values); },
+    .errorBound = halfWidth}};
+
+}  // namespace
+}  // namespace limen::references

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mean of hard shadows from many points of the light, a shadow map each: the thesis's own reference. It
+// carries the aliasing and the biases of its maps.
+#include <epoxy/gl.h>
+
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shadow_map.h"
+#include "renderer/scene/shapes.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::references {
+namespace {
+
+using techniques::Counter;
+using techniques::TechniqueInfo;
+
+constexpr const char* kName = "references/sampled_light";
+
+int gridSide(int64_t samples) {
+  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
+  if (side * side != samples)
+    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kName,
+                "give " + std::to_string(side * side));
+  return static_cast<int>(side);
+}
+
+class SampledLight : public techniques::Technique {
+ public:
+  explicit SampledLight(const ParameterValues& values)
+      : side_(gridSide(values.integer("samples"))),
+        resolution_(static_cast<int>(values.integer("resolution"))),
+        jittered_(values.text("pattern") == "jittered"),
+        seed_(values.integer("seed")),
+        bias_(static_cast<float>(values.real("bias"))),
+        slopeBias_(static_cast<float>(values.real("slope_bias"))) {}
+
+  void prepare(frame::Frame& frame) override {
+    const frame::LightCasters casters(frame.scene());
+    const scene::AreaLight& light = frame.scene().lights.at(0);
+    for (const glm::dvec2 unit : lightPoints(light))
+      frusta_.push_back(casters.fit((unit - 0.5) * light.size, resolution_));
+    raster_.emplace(frame.context(), resolution_);
+    accumulate_ = &frame.context().programs().compute("renderer/references/sampled_light.comp.glsl");
+    resolve_ = &frame.context().programs().compute("renderer/references/sampled_light_resolve.comp.glsl");
+    counts_.emplace(gl::Format::R32UI, frame.sizePx());
+    product_.emplace(gl::Format::R32F, frame.sizePx());
+    frame.passes().setBytesHeld("sampled_light/maps", raster_->depth().bytes() + counts_->bytes());
+    frame.passes().setBytesHeld("sampled_light/resolve", product_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
+    const gl::Texture& normals =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture();
+    {
+      const auto scope = frame.passes().open("sampled_light/maps");
+      counts_->clearUint(glm::uvec4(0));
+      accumulate_->set("sizePx", frame.sizePx());
+      accumulate_->set("anchorToLight", glm::mat3(frame.scene().lights.at(0).toLightSpace()));
+      accumulate_->set("resolution", resolution_);
+      accumulate_->set("bias", bias_);
+      accumulate_->set("slopeBias", slopeBias_);
+      for (const frame::LightFrustum& frustum : frusta_) {
+        raster_->draw(frame, frustum);
+        receivers.bindTexture(0);
+        normals.bindTexture(1);
+        raster_->depth().bindTexture(2);
+        counts_->bindImage(0, gl::Access::ReadWrite);
+        accumulate_->set("offset", glm::vec2(frustum.offset));
+        accumulate_->set("low", glm::vec2(frustum.low));
+        accumulate_->set("extent", glm::vec2(frustum.high - frustum.low));
+        accumulate_->set("near", static_cast<float>(frustum.near));
+        accumulate_->dispatch(frame.sizePx());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+      }
+    }
+    const auto scope = frame.passes().open("sampled_light/resolve");
+    resolve_->set("sizePx", frame.sizePx());
+    resolve_->set("samples", static_cast<int>(frusta_.size()));
+    receivers.bindTexture(0);
+    counts_->bindImage(0, gl::Access::Read);
+    product_->bindImage(1, gl::Access::Write);
+    resolve_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+
+  const gl::Texture& product() const override { return *product_; }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    const auto maps = double(frusta_.size());
+    return {{"shadow_maps", maps, ""}, {"triangles_drawn", maps * frame.gpuScene().triangleCount(), ""}};
+  }
+
+ private:
+  /// Centres of the cells of a square grid over the light's bounding rectangle, or one seeded point in each.
+  /// A light that does not fill the rectangle keeps the points that lie on it: the cells have equal areas, so
+  /// the mean over the points kept is the mean over the light.
+  std::vector<glm::dvec2> lightPoints(const scene::AreaLight& light) const {
+    std::vector<glm::dvec2> points;
+    scene::Random random(seed_);
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        glm::dvec2 inCell(0.5);
+        if (jittered_) inCell.x = random.uniform(0.0, 1.0), inCell.y = random.uniform(0.0, 1.0);
+        const glm::dvec2 unit = (glm::dvec2(x, y) + inCell) / double(side_);
+        if (light.contains(unit)) points.push_back(unit);
+      }
+    if (points.empty()) throw Error("none of the samples lies on the light", kName, "give more samples");
+    return points;
+  }
+
+  int side_, resolution_;
+  bool jittered_;
+  int64_t seed_;
+  float bias_, slopeBias_;
+  std::vector<frame::LightFrustum> frusta_;
+  std::optional<frame::ShadowRaster> raster_;
+  const gl::Program *accumulate_ = nullptr, *resolve_ = nullptr;
+  std::optional<gl::Texture> counts_, product_;
+};
+
+/// A straight edge crosses at most 2 S - 1 of the S x S cells of a rectangular light, and only there can a
+/// cell's one point misjudge the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It holds for
+/// a convex occluder with one edge across the light; each further edge adds as much, and the maps' resolution
+/// and biases are not in it.
+double edgeBound(const ParameterValues& values) {
+  return std::min(1.0, 2.0 / std::sqrt(double(values.integer("samples"))));
+}
+
+const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
+    .name = kName,
+    .version = 1,
+    .summary = "Mean of hard shadow maps from a grid of points on the light",
+    .source = "004_2587a614b209b9c1.txt, section 3.3",
+    .parameters = {integerParameter("samples", 1024, 1, 4096, "maps", "Shadow maps; a square number",
+                                    "004_2587a614b209b9c1.txt, section 3.3"),
+                   integerParameter("resolution", 1024, 64, 4096, "texels", "Side of each shadow map"),
+                   choiceParameter(
+                       "pattern", "grid", {"grid", "jittered"},
+                       "Centres of the cells of a square grid over the light, or a seeded point in each"),
+                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the jitter"),
+                   realParameter("bias", 1e-4, 0.0, 0.1, "", "Depth bias as a share of the depth"),
+                   realParameter(
+                       "slope_bias", 0.6, 0.0, 8.0, "texels",
+                       "Depth bias as the plane's change over so many texels; half a texel is what a plane "
+                       "needs, the rest is for the curvature of depth over a texel")},
+    .needs = {"area_light"},
+    .reference = true,
+    .make = [](const ParameterValues& values) { return std::make_unique<SampledLight>(values); },
+    .errorBound = edgeBound}};
+
+}  // namespace
+}  // namespace limen::references
