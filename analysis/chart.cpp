@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -59,29 +60,29 @@ std::string ticksScript(const char* axisName, const ChartAxis& axis) {
 }
 
 std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount) {
-  std::string out =
-      "# Draws " + chart.name + ".svg from " + chart.name + ".dat. For a paper: gnuplot -e pdf=1 " +
-      chart.name +
-      ".gp\n"
-      "reset\n"
-      "if (exists('pdf')) {\n"
-      "  set terminal pdfcairo size 12cm,8cm font 'sans,10'\n"
-      "  set output '" +
-      chart.name +
-      ".pdf'\n"
-      "  set title " +
-      quoted(chart.title) +
-      " noenhanced\n"
-      "} else {\n"
-      "  set terminal svg name '" +
-      chart.name +
-      "' size 640,430 dynamic font 'system-ui, sans-serif,13' noenhanced\n"
-      "  set output '" +
-      chart.name +
-      ".svg'\n"
-      "}\n"
-      "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics nomirror out\n"
-      "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
+  std::string out = "# Draws " + chart.name + ".svg from " + chart.name +
+                    ".dat. For a paper: gnuplot -e pdf=1 " + chart.name +
+                    ".gp\n"
+                    "reset\n"
+                    "if (exists('pdf')) {\n"
+                    "  set terminal pdfcairo size 12cm,8cm font 'sans,10'\n"
+                    "  set output '" +
+                    chart.name +
+                    ".pdf'\n"
+                    "  set title " +
+                    quoted(chart.title) +
+                    " noenhanced\n"
+                    "} else {\n"
+                    "  set terminal svg name '" +
+                    chart.name +
+                    "' size 640,430 dynamic font 'system-ui, sans-serif,13' noenhanced\n"
+                    "  set output '" +
+                    chart.name +
+                    ".svg'\n"
+                    "}\n"
+                    "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics "
+                    "nomirror out\nset errorbars 0\n"
+                    "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
   out += "set xlabel " + quoted(chart.xTitle) + " noenhanced\nset ylabel " + quoted(chart.yTitle) +
          " noenhanced\n";
   if (x.logarithmic) out += "set logscale x\n";
@@ -177,20 +178,43 @@ Place placeOf(const std::string& use) {
   return place;
 }
 
-std::string decorate(const ChartMark& mark, const std::string& use) {
+// Beside the mark, where it hits neither another mark nor another number.
+Place placeNumber(const Place& mark, std::vector<Place>& taken) {
+  constexpr std::array<Place, 4> kOffsets = {Place{13, -9}, Place{-12, 11}, Place{12, 11}, Place{-12, -10}};
+  const auto room = [&](const Place& at) {
+    double nearest = 1e9;
+    for (const Place& other : taken) nearest = std::min(nearest, std::hypot(other.x - at.x, other.y - at.y));
+    return nearest;
+  };
+  Place best;
+  double bestRoom = -1.0;
+  for (const Place& offset : kOffsets) {
+    const Place at{mark.x + offset.x, mark.y + offset.y};
+    const double found = std::min(room(at), 12.0);  // enough is enough: the first good place wins
+    if (found <= bestRoom) continue;
+    best = at;
+    bestRoom = found;
+  }
+  taken.push_back(best);
+  return best;
+}
+
+std::string decorate(const ChartMark& mark, const std::string& use, std::vector<Place>& taken) {
   const Place place = placeOf(use);
   std::string spoken = mark.hover;
   std::replace(spoken.begin(), spoken.end(), '\n', ';');
   std::string number;
-  if (mark.frontNumber > 0)
-    number = fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", place.x + 8,
-                         place.y - 7, mark.frontNumber);
+  if (mark.frontNumber > 0) {
+    const Place at = placeNumber(place, taken);
+    number = fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", at.x, at.y + 4,
+                         mark.frontNumber);
+  }
   return fmt::format(
       "<g class=\"mark s{}{}\" data-series=\"{}\" data-run=\"{}\" data-label=\"{}\" data-x=\"{}\" "
       "data-y=\"{}\" "
       "data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}<circle class=\"hit\" cx=\"{:.2f}\" "
       "cy=\"{:.2f}\" r=\"11\"/>{}</g>",
-      colourOf(mark.series), mark.frontNumber > 0 ? " front" : "", mark.series, escapeHtml(mark.key),
+      colourOf(mark.series), mark.onFront ? " front" : "", mark.series, escapeHtml(mark.key),
       escapeHtml(mark.label), shortestNumber(mark.x), shortestNumber(mark.y), escapeHtml(mark.hover),
       escapeHtml(spoken), use, place.x, place.y, number);
 }
@@ -200,6 +224,9 @@ std::string decorate(const ChartMark& mark, const std::string& use) {
 std::string nameMarks(const std::string& svg, const Chart& chart, size_t seriesCount) {
   std::vector<std::vector<const ChartMark*>> bySeries(seriesCount);
   for (const ChartMark& mark : chart.marks) bySeries[mark.series].push_back(&mark);
+  std::vector<Place> taken;
+  for (size_t at = 0; (at = svg.find("transform='translate(", at)) != std::string::npos; ++at)
+    taken.push_back(placeOf(svg.substr(at, 60)));
   std::string out = svg;
   for (size_t series = 0; series < seriesCount; ++series) {
     const std::string bars = fmt::format("id=\"{}_plot_{}\"", chart.name, 2 + 2 * series);
@@ -211,7 +238,7 @@ std::string nameMarks(const std::string& svg, const Chart& chart, size_t seriesC
       at = at == std::string::npos ? at : out.find("<use ", at);
       const size_t end = at == std::string::npos ? at : out.find("/>", at);
       if (end == std::string::npos) throw Error("gnuplot left out a point of " + chart.name);
-      const std::string marked = decorate(*mark, out.substr(at, end + 2 - at));
+      const std::string marked = decorate(*mark, out.substr(at, end + 2 - at), taken);
       out.replace(at, end + 2 - at, marked);
       at += marked.size();
     }

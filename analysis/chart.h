@@ -18,10 +18,11 @@ struct ChartMark {
   double x = 0.0, y = 0.0;
   std::optional<Interval> interval;  ///< of x
   size_t series = 0;
-  int frontNumber = 0;  ///< printed beside the mark; 0: none
-  std::string key;      ///< of the run
-  std::string label;    ///< what it is
-  std::string hover;    ///< lines of text, separated by line feeds
+  bool onFront = false;  ///< drawn strongly
+  int frontNumber = 0;   ///< printed beside the mark; 0: none
+  std::string key;       ///< of the run
+  std::string label;     ///< what it is
+  std::string hover;     ///< lines of text, separated by line feeds
 };
 
 /// Marks of one panel, written as gnuplot script and data and drawn as SVG.

@@ -36,6 +36,7 @@ std::string renderHead(const Sweep& sweep) {
   fact("Runs", fmt::format("{} of {} done", counted(sweep.cells.size(), "run"), sweep.planned));
   fact("Compared", fmt::format("{} × {}", counted(sweep.series.size(), sweep.seriesName),
                                counted(sweep.panels.size(), sweep.panelName)));
+  if (!sweep.seriesPrefix.empty()) fact("All techniques are in", sweep.seriesPrefix);
   fact("Measured on", join(devices, "; "));
   fact("Source", experiment.source);
   fact("Features", join(features));
@@ -97,9 +98,9 @@ std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval
 
 std::string renderCellName(const Sweep& sweep, const Cell& cell) {
   std::string out = "<span class=\"name\">" + markerSvg(cell.series) + "<b>" +
-                    escapeHtml(sweep.series[cell.series]) + "</b>";
+                    breakable(sweep.series[cell.series]) + "</b>";
   const std::string rest = sweep.seriesName == "technique" ? cell.run.label : sweep.label(cell);
-  if (!rest.empty()) out += " <span class=\"settings\">" + escapeHtml(rest) + "</span>";
+  if (!rest.empty()) out += " <span class=\"settings\">" + breakable(rest) + "</span>";
   return out + "</span>";
 }
 

@@ -11,6 +11,8 @@
 namespace limen::analysis {
 namespace {
 
+constexpr size_t kOpenFront = 8;  // a longer list is folded, so that the charts stay side by side
+
 bool reaches(const Sweep& sweep, const Cell& cell, double level) {
   return sweep.y.higherIsBetter ? *cell.y >= level : *cell.y <= level;
 }
@@ -77,40 +79,49 @@ std::string renderMatrix(const Sweep& sweep) {
   return out + "</tbody></table></div>\n";
 }
 
-// "Nothing beats 5 of 24 settings: 3 of a, 2 of b. Fastest ..., most exact ..."
+std::string joinSeries(const Sweep& sweep, const std::vector<size_t>& order,
+                       const std::vector<size_t>* counts) {
+  std::string out;
+  for (const size_t series : order) {
+    out += out.empty() ? "" : ", ";
+    if (counts != nullptr) out += fmt::format("{} of ", (*counts)[series]);
+    out += escapeHtml(sweep.series[series]);
+  }
+  return out;
+}
+
+// "5 of 24 settings are worth their time: 3 of a, 2 of b. Always beaten: c, d."
 std::string renderSentence(const Sweep& sweep, const Panel& panel) {
   if (panel.front.empty()) return escapeHtml(panel.title) + ": nothing to compare, no run has both values.";
-  std::vector<size_t> perSeries(sweep.series.size());
-  for (const size_t index : panel.front) ++perSeries[sweep.cells[index].series];
-  std::vector<size_t> order;
-  for (size_t series = 0; series < perSeries.size(); ++series)
-    if (perSeries[series] > 0) order.push_back(series);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return perSeries[a] > perSeries[b]; });
-  std::string shares;
-  for (const size_t series : order)
-    shares += fmt::format("{}{} of {}", shares.empty() ? "" : ", ", perSeries[series],
-                          escapeHtml(sweep.series[series]));
-  const auto drawn = std::count_if(panel.cells.begin(), panel.cells.end(),
-                                   [&](size_t index) { return sweep.cells[index].isDrawn(); });
-  const auto end = [&](size_t index) {
-    const Cell& cell = sweep.cells[index];
-    return fmt::format("{} ({}, {} {})", escapeHtml(sweep.label(cell)), describeTime(sweep, cell, false),
-                       escapeHtml(sweep.y.name), withUnit(*cell.y, sweep.y));
-  };
+  std::vector<size_t> onFront(sweep.series.size()), drawn(sweep.series.size());
+  for (const size_t index : panel.front) ++onFront[sweep.cells[index].series];
+  size_t settings = 0;
+  for (const size_t index : panel.cells)
+    if (sweep.cells[index].isDrawn()) {
+      ++drawn[sweep.cells[index].series];
+      ++settings;
+    }
+  std::vector<size_t> winners, beaten;
+  for (size_t series = 0; series < onFront.size(); ++series) {
+    if (onFront[series] > 0) winners.push_back(series);
+    if (onFront[series] == 0 && drawn[series] > 0) beaten.push_back(series);
+  }
+  std::stable_sort(winners.begin(), winners.end(),
+                   [&](size_t a, size_t b) { return onFront[a] > onFront[b]; });
   std::string out =
-      fmt::format("<b>{}</b>: {} of {} settings {} worth their time ({}). ", escapeHtml(panel.title),
-                  panel.front.size(), drawn, panel.front.size() == 1 ? "is" : "are", shares);
-  if (panel.front.size() == 1)
-    return out + "It is the fastest and the most exact: " + end(panel.front[0]) + ".";
-  return out + "Fastest: " + end(panel.front.front()) + "; most exact: " + end(panel.front.back()) + ".";
+      fmt::format("<b>{}</b>: {} of {} settings {} worth {} time: {}.", escapeHtml(panel.title),
+                  panel.front.size(), settings, panel.front.size() == 1 ? "is" : "are",
+                  panel.front.size() == 1 ? "its" : "their", joinSeries(sweep, winners, &onFront));
+  if (!beaten.empty()) out += " Always beaten in both: " + joinSeries(sweep, beaten, nullptr) + ".";
+  return out;
 }
 
 std::string renderFront(const Sweep& sweep, const Panel& panel) {
   std::string out = fmt::format(
-      "<table class=\"front\"><caption>Pareto front: nothing beats these in both</caption><thead><tr>"
+      "<details{}><summary>Pareto front: {}, from fast to exact</summary><table class=\"front\"><thead><tr>"
       "<th scope=\"col\"><abbr title=\"number in the chart\">#</abbr></th><th scope=\"col\">setting</th>"
       "<th scope=\"col\" class=\"num\">{}</th><th scope=\"col\" class=\"num\">{}</th></tr></thead>\n<tbody>",
+      panel.front.size() <= kOpenFront ? " open" : "", counted(panel.front.size(), "setting"),
       escapeHtml(sweep.x.title), escapeHtml(sweep.y.title));
   for (const size_t index : panel.front) {
     const Cell& cell = sweep.cells[index];
@@ -123,7 +134,7 @@ std::string renderFront(const Sweep& sweep, const Panel& panel) {
                     cell.frontNumber, renderCellName(sweep, cell), formatNumber(*cell.x), interval,
                     formatNumber(*cell.y));
   }
-  return out + "</tbody></table>\n";
+  return out + "</tbody></table></details>\n";
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ std::vector<Column> columnsOf(const Sweep& sweep) {
                          return escapeHtml(sweep.panels[cell.panel].title);
                        }});
   columns.push_back({"technique", false, {}, [&](const Cell& cell) {
-                       return markerSvg(cell.series) + escapeHtml(cell.run.technique);
+                       return markerSvg(cell.series) +
+                              breakable(cell.run.technique.substr(sweep.seriesPrefix.size()));
                      }});
   for (const std::string& name : sweep.varyingColumns) columns.push_back(parameterColumn(sweep, name));
   const bool framed =

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWindowWidthPx = 256, kWindowHeightPx = 192;
+constexpr int kWindowWidthPx = 192, kWindowHeightPx = 144;
 constexpr int kStepPx = 16;       // the window is sought on this grid
 constexpr size_t kMostRows = 72;  // about 10 MB of page
 

@@ -21,7 +21,7 @@ struct PictureRow {
   std::string chosen;  ///< "lowest error of 9 settings"
   std::vector<Picture> pictures;
   int width = 0, height = 0;  ///< of the window
-  std::string window;         ///< "256×192 pixels from (384, 128) of 1024×768"
+  std::string window;         ///< "192×144 pixels from (384, 128) of 1024×768"
   std::string note;           ///< what could not be shown, or the scale of the error map
 };
 

@@ -87,8 +87,15 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
       const Cell& cell = sweep.cells[cellIndex];
       const std::optional<double> x = isCounter ? cell.counter : cell.x;
       if (!x || !cell.y) continue;
-      ChartMark mark{*x, *cell.y,      std::nullopt,      cell.series,
-                     0,  cell.run.key, sweep.label(cell), hoverText(sweep, cell, xAxis, *x)};
+      ChartMark mark{*x,
+                     *cell.y,
+                     std::nullopt,
+                     cell.series,
+                     false,
+                     0,
+                     cell.run.key,
+                     sweep.label(cell),
+                     hoverText(sweep, cell, xAxis, *x)};
       if (!isCounter) {
         mark.interval = cell.interval;
         mark.frontNumber = cell.frontNumber;
@@ -100,6 +107,7 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
       chart.marks.push_back(std::move(mark));
     }
     chart.front = paretoFront(points);
+    for (const size_t place : chart.front) chart.marks[place].onFront = true;
     charts.push_back(std::move(chart));
   }
   const ChartAxis x = makeChartAxis(xs, false), y = makeChartAxis(ys, sweep.y.higherIsBetter);

@@ -22,6 +22,8 @@
   }
   addEventListener("keydown", event => { if (event.key === "Escape") hideTip(); });
 
+  addEventListener("beforeprint", () => { for (const folded of all("details")) folded.open = true; });
+
   // A series is shown or hidden in all charts and legends at once.
   for (const button of all(".legend button"))
     button.addEventListener("click", () => {

@@ -124,6 +124,19 @@ void findFronts(Sweep& sweep) {
   }
 }
 
+// Names are easier to read without the folder that all of them share.
+std::string sharedFolder(const std::vector<Cell>& cells) {
+  if (cells.empty()) return "";
+  std::string shared = cells[0].run.technique;
+  shared.resize(shared.rfind('/') + 1);
+  for (const Cell& cell : cells)
+    while (!cell.run.technique.starts_with(shared)) {
+      shared.pop_back();
+      shared.resize(shared.rfind('/') + 1);
+    }
+  return shared;
+}
+
 // Done beats failed on the same device; what is neither is missing.
 void sortRuns(const store::Store& store, Sweep& sweep) {
   std::set<std::string> settled;
@@ -153,7 +166,8 @@ bool isWholeFrame(const std::string& pass) { return pass == "frame" || pass == "
 
 std::string Sweep::label(const Cell& cell) const {
   const std::string& settings = cell.run.label;
-  std::string out = seriesName == "technique" ? series[cell.series] : cell.run.technique;
+  std::string out =
+      seriesName == "technique" ? series[cell.series] : cell.run.technique.substr(seriesPrefix.size());
   return settings.empty() ? out : out + ", " + settings;
 }
 
@@ -198,6 +212,9 @@ Sweep loadSweep(const store::Store& store, const store::Experiment& experiment) 
     if (cell.panel == sweep.panels.size()) sweep.panels.push_back({panel, {}, {}});
     sweep.panels[cell.panel].cells.push_back(index);
   }
+  sweep.seriesPrefix = sharedFolder(sweep.cells);
+  if (sweep.seriesName == "technique")
+    for (std::string& name : sweep.series) name.erase(0, sweep.seriesPrefix.size());
   sweep.varyingColumns = grouping.columns();
   findFronts(sweep);
   return sweep;

@@ -56,14 +56,15 @@ struct Sweep {
   Axis x, y;
   std::optional<Axis> counter;  ///< machine-independent cost, if the runs have one
   std::string seriesName, panelName;
-  std::vector<std::string> series;
+  std::vector<std::string> series;  ///< as a reader sees them: without `seriesPrefix`
+  std::string seriesPrefix;         ///< folder that all techniques share ("soft_shadows/")
   std::vector<Panel> panels;
   std::vector<std::string> varyingColumns;
   bool software = false;  ///< at least one run was timed on a software renderer
   bool severalDevices = false;
 
   bool isComplete() const { return missing.empty() && failed.empty(); }
-  /// "soft_shadows/pcss, samples=8": what tells this cell from the others of its panel.
+  /// "pcss, samples=8": what tells this cell from the others of its panel.
   std::string label(const Cell& cell) const;
 };
 

@@ -43,6 +43,15 @@ std::string escapeHtml(const std::string& text) {
   return out;
 }
 
+std::string breakable(const std::string& name) {
+  std::string out;
+  for (const char c : escapeHtml(name)) {
+    out += c;
+    if (c == '/' || c == '_') out += "<wbr>";
+  }
+  return out;
+}
+
 std::string formatNumber(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";

@@ -9,6 +9,8 @@ namespace limen::analysis {
 
 /// For HTML text and quoted attributes alike.
 std::string escapeHtml(const std::string& text);
+/// Escaped, with places where a long name may be broken (after / and _).
+std::string breakable(const std::string& name);
 /// Four significant digits, whole numbers below ten million in full.
 std::string formatNumber(double value);
 std::string base64(const std::string& bytes);
