@@ -46,7 +46,6 @@ struct Stage {
   scene::Scene scene;
   frame::GpuScene gpu;
   nlohmann::json facts;
-  double timeS = 0.0;
   // For one image size:
   glm::ivec2 sizePx{0};
   Image mask, shading;
@@ -154,7 +153,6 @@ class GlExecutor : public Executor {
       stageKey_.clear();
       stage_.reset();
       stage_ = std::make_unique<Stage>(scene::buildScene(run.scene.name, run.scene.values));
-      stage_->timeS = run.scene.values.real("time_s");
       const scene::Bounds bounds = stage_->scene.bounds();
       stage_->facts = {
           {"content_hash", stage_->scene.contentHash()},
@@ -171,7 +169,7 @@ class GlExecutor : public Executor {
   /// The receivers' mask, and the unshadowed picture: albedo by the cosine to the light's centre.
   void readStageImages(Stage& stage, glm::ivec2 sizePx) {
     const Stopwatch watch(seconds_["rendering"]);
-    frame::Frame frame(*context_, stage.scene, stage.gpu, sizePx, stage.timeS);
+    frame::Frame frame(*context_, stage.scene, stage.gpu, sizePx);
     frame.begin();
     const Image receivers = frame.get<frame::Receivers>().texture().read();
     const Image normals =
@@ -258,7 +256,7 @@ class GlExecutor : public Executor {
   void prepare(LiveRun& run, const Stage& on) {
     const Stopwatch watch(seconds_["rendering"]);
     run.technique = run.info->make(run.plan->technique.values);
-    run.frame = std::make_unique<frame::Frame>(*context_, on.scene, on.gpu, on.sizePx, on.timeS);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.scene, on.gpu, on.sizePx);
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
@@ -289,12 +287,11 @@ class GlExecutor : public Executor {
                                {"version", info.version},
                                {"values", run.reference.values.toJson()},
                                {"scene", on.facts["content_hash"]},
-                               {"time_s", on.timeS},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},
                                {"device", environment_.device}};
     return references_.get(sha256(identity.dump()), [&] {
       const auto technique = info.make(run.reference.values);
-      frame::Frame frame(*context_, on.scene, on.gpu, on.sizePx, on.timeS);
+      frame::Frame frame(*context_, on.scene, on.gpu, on.sizePx);
       technique->prepare(frame);
       frame.begin();
       technique->render(frame);

@@ -20,6 +20,9 @@ struct JudgedProduct {
   const Image* shading = nullptr;  ///< 3 channels: the scene's unshadowed colour, for pictures
 };
 
+/// Absolute error that error pictures show as white: the same in all runs, so that pictures can be compared.
+inline constexpr double kErrorScale = 0.25;
+
 /// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
 std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct& product,
                                       std::vector<std::pair<std::string, Image>>& maps);
