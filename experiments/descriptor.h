@@ -47,7 +47,8 @@ struct ExpectationStatement {
   Relation relation = Relation::Below;
   double bound = 0.0;  ///< with `relativeTo`, a factor on that run's value
 
-  /// The run to compare with: the one with the same parameters but for what is said here.
+  /// The run to compare with: the same scene and image size but for what is said here; of several runs of
+  /// another technique the one that has the judged run's values of the parameters that both have.
   struct Baseline {
     std::string technique;  ///< "" for the judged run's own
     std::string scene;      ///< "" for the judged run's own

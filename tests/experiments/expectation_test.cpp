@@ -99,6 +99,30 @@ TEST(Expectation, ComparesRunsOfOneTechniqueThatDifferInOneParameter) {
           .held);
 }
 
+/// Labels of the baselines of soft/bitmask (sleep_ms 1 and 2) when soft/pcss is planned with `pcssValues`.
+std::vector<std::string> baselineLabels(const std::string& pcssValues) {
+  const Catalogue catalogue = fakeCatalogue();
+  const Descriptor descriptor = parseDescriptor(
+      "title: a\nquestion: b\nscenes: [{name: grid}]\nmetrics: [crack_count]\n"
+      "techniques: [{name: soft/bitmask, sleep_ms: [1, 2]}, {name: soft/pcss, " +
+          pcssValues +
+          "}]\n"
+          "expect: [{metric: gpu_ms, of: soft/bitmask, below: 1, relative_to: {of: soft/pcss}}]\n",
+      "d.yaml", catalogue, {});
+  const Plan plan = makePlan(descriptor, catalogue);
+  Problems problems("d.yaml");
+  std::vector<std::string> out;
+  const auto resolved = resolve(descriptor.expectations, plan.runs, problems);
+  for (const auto& one : resolved.at(0).cases) out.push_back(plan.runs[*one.baseline].label);
+  return out;
+}
+
+TEST(Expectation, AnotherTechniqueIsMatchedByWhatBothHave) {
+  // One run of the other technique is meant whatever its values; of several, the one with the same value.
+  EXPECT_THAT(baselineLabels("sleep_ms: 3"), testing::ElementsAre("", ""));
+  EXPECT_THAT(baselineLabels("sleep_ms: [2, 1]"), testing::ElementsAre("sleep_ms=1", "sleep_ms=2"));
+}
+
 TEST(Expectation, ABaselineOfZeroNeedsNoDivision) {
   const auto zero = [](const PlannedRun&) { return 0.0; };
   const std::string baseline = "relative_to: {of: soft/pcss, where: {radius: 0.02}}";
