@@ -24,6 +24,9 @@ size_t PassList::indexOf(const std::string& name) {
 
 PassList::Scope PassList::open(const std::string& name) {
   const size_t index = indexOf(name);
+  // The last slot is the frame's own; a pass that came after recording began has none.
+  if (clock_ != Clock::None && frame_ < capacity_ && index + 1 >= slots_)
+    throw std::logic_error("pass '" + name + "' ran for the first time in a timed frame");
   passes_[index].ran = true;
   return {*this, index};
 }
@@ -32,8 +35,6 @@ void PassList::setBytesHeld(const std::string& name, int64_t bytes) { passes_[in
 
 void PassList::mark(size_t slot, bool begin) {
   if (clock_ == Clock::None || frame_ < 0 || frame_ >= capacity_) return;
-  if (slot >= slots_)
-    throw std::logic_error("pass '" + passes_[slot].name + "' ran for the first time in a timed frame");
   const size_t index = (static_cast<size_t>(frame_) * slots_ + slot) * 2 + (begin ? 0 : 1);
   used_[index / 2] = 1;
   if (clock_ == Clock::Gpu) {
