@@ -188,10 +188,9 @@ TEST(MeshScene, StandsOnTheGroundWithTheFilesUnitsAndUpAxis) {
   EXPECT_GT(checks::signedVolume(scene.mesh, scene.parts[1].firstTriangle, scene.parts[1].triangleCount),
             0.0);
 
-  // Its top, (0,1,0) in the file, then points away from the viewer: up is z, where the file goes from -1 to
-  // 0.
+  // Up is then the file's z, which goes from -0.5 to 0.
   const Scene turned = fixtures::build("mesh", {{"up", std::string("z")}});
-  EXPECT_NEAR(turned.casterBounds().high.y, 1.0, 1e-12);
+  EXPECT_NEAR(turned.casterBounds().high.y, 0.5, 1e-12);
   EXPECT_GT(checks::signedVolume(turned.mesh, turned.parts[1].firstTriangle, turned.parts[1].triangleCount),
             0.0);
   EXPECT_NE(turned.contentHash(), scene.contentHash());

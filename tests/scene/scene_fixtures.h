@@ -38,11 +38,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A closed tetrahedron of height 1.
+/// A closed tetrahedron of height 1, 0.5 wide and deep.
 inline const std::string& smallMeshFile() {
   static const TemporaryFolder folder;
   static const std::string file = folder.write(
-      "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+      "tetrahedron.obj", "v 0 0 0\nv 0.5 0 0\nv 0 0 -0.5\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   return file;
 }
 
