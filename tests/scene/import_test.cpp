@@ -124,7 +124,8 @@ TEST_F(Import, GltfNodeTransformsAreAppliedAndMirrorsKeepTheOutsideOut) {
     "materials": [{"name": "m", "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1]}}],
     "buffers": [{"uri": "t.bin", "byteLength": 44}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]},
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0,0,0], "max": [1,1,0]},
                   {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]})");
   ASSERT_EQ(in.mesh.triangles.size(), 2U);
   ASSERT_EQ(in.parts.size(), 2U);
