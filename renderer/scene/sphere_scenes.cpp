@@ -31,7 +31,7 @@ Scene buildSphereGrid(const ParameterValues& values) {
 Scene buildTwoColourLight(const ParameterValues& values) {
   const auto cells = static_cast<int>(values.integer("tessellation"));
   Scene scene;
-  addGround(scene, 10.0);
+  addGround(scene, 9.0);
   addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, cells), {0.75F, 0.75F, 0.75F});
   addPart(scene, "cone", frustum({0.55, 0.0, -0.1}, {0.55, 1.0, -0.1}, 0.35, 0.0, 4 * cells),
           {0.75F, 0.75F, 0.75F});

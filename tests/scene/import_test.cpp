@@ -124,7 +124,8 @@ TEST_F(Import, GltfNodeTransformsAreAppliedAndMirrorsKeepTheOutsideOut) {
     "materials": [{"name": "m", "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1]}}],
     "buffers": [{"uri": "t.bin", "byteLength": 44}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]},
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0,0,0], "max": [1,1,0]},
                   {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]})");
   ASSERT_EQ(in.mesh.triangles.size(), 2U);
   ASSERT_EQ(in.parts.size(), 2U);
@@ -188,10 +189,9 @@ TEST(MeshScene, StandsOnTheGroundWithTheFilesUnitsAndUpAxis) {
   EXPECT_GT(checks::signedVolume(scene.mesh, scene.parts[1].firstTriangle, scene.parts[1].triangleCount),
             0.0);
 
-  // Its top, (0,1,0) in the file, then points away from the viewer: up is z, where the file goes from -1 to
-  // 0.
+  // Up is then the file's z, which goes from -0.5 to 0.
   const Scene turned = fixtures::build("mesh", {{"up", std::string("z")}});
-  EXPECT_NEAR(turned.casterBounds().high.y, 1.0, 1e-12);
+  EXPECT_NEAR(turned.casterBounds().high.y, 0.5, 1e-12);
   EXPECT_GT(checks::signedVolume(turned.mesh, turned.parts[1].firstTriangle, turned.parts[1].triangleCount),
             0.0);
   EXPECT_NE(turned.contentHash(), scene.contentHash());

@@ -38,11 +38,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A closed tetrahedron of height 1.
+/// A closed box of six quads, 0.6 x 1 x 0.5.
 inline const std::string& smallMeshFile() {
   static const TemporaryFolder folder;
   static const std::string file = folder.write(
-      "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+      "box.obj",
+      "v 0 0 0\nv 0.6 0 0\nv 0.6 0 -0.5\nv 0 0 -0.5\nv 0 1 0\nv 0.6 1 0\nv 0.6 1 -0.5\nv 0 1 -0.5\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   return file;
 }
 
