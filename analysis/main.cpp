@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "analysis/report.h"
 #include "base/error.h"
+#include "base/text.h"
 
 namespace {
 
@@ -45,6 +49,15 @@ int main(int argc, char** argv) {
   report->add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
   report->add_flag("--json", json, "print one JSON line for each page");
 
+  // CLI11 would only say that a subcommand is missing.
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    std::fprintf(stderr, "limen-analyse: no command '%s'; %s\n", argv[1],
+                 limen::suggest(argv[1], commands).c_str());
+    return limen::kExitBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

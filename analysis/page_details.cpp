@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "analysis/chart.h"
@@ -13,33 +14,23 @@ namespace {
 
 constexpr double kBytesPerMiB = 1024.0 * 1024.0;
 constexpr size_t kPassColours = 8;
+constexpr size_t kOpenRows = 20;  // with more pictures only the first panel is unfolded
 
-// The settings whose passes a reader wants to see: the front, and of series without a place there the most
-// exact run.
+// One setting of each series: its most exact on the Pareto front, or its most exact at all.
 std::vector<size_t> worthShowing(const Sweep& sweep, const Panel& panel) {
-  std::vector<size_t> shown = panel.front;
-  std::set<size_t> seen;
-  for (const size_t index : shown) seen.insert(sweep.cells[index].series);
-  for (size_t series = 0; series < sweep.series.size(); ++series) {
-    if (seen.count(series)) continue;
-    const Cell* best = nullptr;
-    size_t bestIndex = 0;
-    for (const size_t index : panel.cells) {
-      const Cell& cell = sweep.cells[index];
-      if (cell.series != series || !cell.isDrawn()) continue;
-      if (best == nullptr || (sweep.y.higherIsBetter ? *cell.y > *best->y : *cell.y < *best->y)) {
-        best = &cell;
-        bestIndex = index;
-      }
-    }
-    if (best != nullptr) shown.push_back(bestIndex);
+  const auto isBetter = [&](const Cell& a, const Cell& b) {
+    if ((a.frontNumber > 0) != (b.frontNumber > 0)) return a.frontNumber > 0;
+    return sweep.y.higherIsBetter ? *a.y > *b.y : *a.y < *b.y;
+  };
+  std::map<size_t, size_t> bySeries;
+  for (const size_t index : panel.cells) {
+    const Cell& cell = sweep.cells[index];
+    if (!cell.isDrawn() || (cell.passes.empty() && cell.run.passes.empty())) continue;
+    const auto [entry, fresh] = bySeries.emplace(cell.series, index);
+    if (!fresh && isBetter(cell, sweep.cells[entry->second])) entry->second = index;
   }
-  shown.erase(std::remove_if(shown.begin(), shown.end(),
-                             [&](size_t index) {
-                               const Cell& cell = sweep.cells[index];
-                               return cell.passes.empty() && cell.run.passes.empty();
-                             }),
-              shown.end());
+  std::vector<size_t> shown;
+  for (const auto& [series, index] : bySeries) shown.push_back(index);
   return shown;
 }
 
@@ -53,11 +44,12 @@ double timeOf(const Cell& cell) {
   return std::max(timeOfPasses(cell), cell.frame ? cell.frame->median : 0.0);
 }
 
-std::string renderBar(const Cell& cell, double longest, const std::vector<std::string>& names) {
+// Shares of the frame, not times: costs of one panel spread over decades, and a short bar shows nothing.
+std::string renderBar(const Cell& cell, const std::vector<std::string>& names) {
   std::string out = "<div class=\"bar\">";
   const auto segment = [&](const std::string& name, const std::string& look, double ms) {
-    const double percent = 100.0 * ms / longest;
-    const std::string text = fmt::format("{}: {} ms", name, formatNumber(ms));
+    const double percent = 100.0 * ms / timeOf(cell);
+    const std::string text = fmt::format("{}: {} ms, {:.0f} %", name, formatNumber(ms), percent);
     out += fmt::format("<span class=\"{}\" style=\"width:{:.2f}%\" title=\"{}\">{}</span>", look, percent,
                        escapeHtml(text), percent > 9.0 ? escapeHtml(name) : "");
   };
@@ -66,7 +58,7 @@ std::string renderBar(const Cell& cell, double longest, const std::vector<std::s
     segment(pass.pass, fmt::format("p{}", place % kPassColours), pass.ms.median);
   }
   const double rest = timeOf(cell) - timeOfPasses(cell);
-  if (rest > 0.005 * longest) segment("between passes", "rest", rest);
+  if (rest > 0.005 * timeOf(cell)) segment("between passes", "rest", rest);
   return out + "</div>";
 }
 
@@ -117,8 +109,6 @@ std::string renderPasses(const Sweep& sweep) {
   for (const Panel& panel : sweep.panels) {
     const std::vector<size_t> shown = worthShowing(sweep, panel);
     if (shown.empty()) continue;
-    double longest = 0.0;
-    for (const size_t index : shown) longest = std::max(longest, timeOf(sweep.cells[index]));
     body += "<article class=\"panel\"><h3>" + escapeHtml(panel.title) + "</h3>\n<div class=\"bars-list\">";
     rows += "<tr class=\"group\"><th colspan=\"5\" scope=\"rowgroup\">" + escapeHtml(panel.title) +
             "</th></tr>\n";
@@ -127,17 +117,16 @@ std::string renderPasses(const Sweep& sweep) {
       rows += renderPassRows(sweep, cell);
       if (cell.passes.empty()) continue;
       body += fmt::format("<div class=\"bar-row\"><div>{}</div>{}<div class=\"total\">{} ms</div></div>\n",
-                          renderCellName(sweep, cell), renderBar(cell, longest, names),
-                          formatNumber(timeOf(cell)));
+                          renderCellName(sweep, cell), renderBar(cell, names), formatNumber(timeOf(cell)));
     }
     body += "</div></article>\n";
   }
   if (rows.empty()) return "";
-  return "<section id=\"passes\"><h2>Where the time goes</h2>\n<p>Median time of each pass, for the settings "
-         "of the "
-         "Pareto front and, of series without a place there, the most exact setting. Point at a piece for "
-         "its value. "
-         "All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n<div class=\"panels\">\n" +
+  return "<section id=\"passes\"><h2>Where the time goes</h2>\n<p>Share of each pass in the time of a frame "
+         "(medians), "
+         "for the most exact setting of each series on the Pareto front, or of all if none is there. Point "
+         "at a piece for "
+         "its value. All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n<div class=\"panels\">\n" +
          body +
          "</div>\n<details><summary>As a table, with the memory that passes hold</summary><div "
          "class=\"scroll\"><table>"
@@ -154,10 +143,14 @@ std::string renderPictures(const Sweep& sweep, const Pictures& pictures) {
   std::string out =
       "<section id=\"pictures\"><h2>Pictures</h2>\n<p>" + escapeHtml(pictures.note) +
       " Point at a picture to enlarge the same place in all of its panel; press to hold it.</p>\n";
+  size_t rows = 0;
+  for (const std::vector<PictureRow>& panel : pictures.panels) rows += panel.size();
   std::set<std::string> embedded;
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
     if (pictures.panels[index].empty()) continue;
-    out += "<article><h3>" + escapeHtml(sweep.panels[index].title) + "</h3>\n<div class=\"picture-rows\">\n";
+    const bool open = rows <= kOpenRows || embedded.empty();
+    out += fmt::format("<details{}><summary><h3>{}</h3></summary>\n<div class=\"picture-rows\">\n",
+                       open ? " open" : "", escapeHtml(sweep.panels[index].title));
     for (const PictureRow& row : pictures.panels[index]) {
       const Cell& cell = sweep.cells[row.cell];
       out += fmt::format(
@@ -172,7 +165,7 @@ std::string renderPictures(const Sweep& sweep, const Pictures& pictures) {
       out += "</div><p class=\"why\">" +
              escapeHtml(row.window + (row.window.empty() ? "" : ". ") + row.note) + "</p></div>\n";
     }
-    out += "</div></article>\n";
+    out += "</div></details>\n";
   }
   return out + "</section>\n";
 }

@@ -51,8 +51,10 @@ size_t countTies(const Sweep& sweep, const Panel& panel, const Cell& winner, dou
 
 std::string renderWinner(const Sweep& sweep, const Panel& panel, double level) {
   const Cell* winner = fastestWithin(sweep, panel, level);
-  if (winner == nullptr) return "<td class=\"none\">none reaches it</td>";
-  std::string out = "<td>" + renderCellName(sweep, *winner) + "<span class=\"value\">" +
+  const std::string open = fmt::format("<td data-level=\"{} {}\"", sweep.y.higherIsBetter ? "≥" : "≤",
+                                       escapeHtml(withUnit(level, sweep.y)));
+  if (winner == nullptr) return open + " class=\"none\">none reaches it</td>";
+  std::string out = open + ">" + renderCellName(sweep, *winner) + "<span class=\"value\">" +
                     escapeHtml(describeTime(sweep, *winner, false)) + "</span>";
   if (const size_t ties = countTies(sweep, panel, *winner, level))
     out += fmt::format("<span class=\"ties\">≈ {} more within its interval</span>", ties);

@@ -130,11 +130,26 @@ TEST_F(ReportTest, AnErrorOfZeroIsDrawnAtTheFootAndExplained) {
   EXPECT_THAT(page, HasSubstr("has exactly that value"));
 }
 
-TEST_F(ReportTest, AllErrorsOfZeroAndAnInfiniteRatioAreDrawn) {
-  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.0)};
-  runs[0].measurements.push_back({"psnr", INFINITY, "dB", "error"});
-  write(runs, "zero");
-  EXPECT_EQ(count(report(), "<g class=\"mark "), 1U);
+TEST_F(ReportTest, ErrorsThatAreAllZeroAreDrawn) {
+  write({makeRun("a", "s", 1, {1}, 0.0), makeRun("a", "s", 2, {2}, 0.0)});
+  EXPECT_EQ(count(report(), "<g class=\"mark "), 2U);
+}
+
+TEST_F(ReportTest, AnInfiniteSignalToNoiseRatioIsDrawnAndExplained) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {2}, 0.0)};
+  runs[0].measurements.push_back({"psnr", 20.0, "dB", "error"});
+  runs[1].measurements.push_back({"psnr", INFINITY, "dB", "error"});
+  {
+    store::Store store(folder_.path("s.sqlite"), store::Access::ReadWrite);
+    store::Experiment experiment;
+    experiment.title = "t";
+    experiment.report = {{"x", "gpu_ms"}, {"y", "psnr"}};
+    writeExperiment(store, experiment, runs);
+  }
+  const std::string page = report();
+  EXPECT_EQ(count(page, "<g class=\"mark "), 2U);
+  EXPECT_THAT(page, HasSubstr("data-y=\"inf\""));
+  EXPECT_THAT(page, HasSubstr("has exactly that value"));
 }
 
 TEST_F(ReportTest, ARunWithoutTheErrorStandsInTheTableOnly) {
