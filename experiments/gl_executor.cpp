@@ -15,6 +15,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
+#include "perception/metrics/metric_gpu.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
 
@@ -68,6 +69,7 @@ class GlExecutor : public Executor {
   explicit GlExecutor(const std::string& folder)
       : folder_(folder),
         context_(gl::createHeadlessContext()),
+        metricGpu_(*context_),
         clock_(*context_),
         references_(folder + "/references") {
     const gl::DeviceInfo& device = context_->device();
@@ -226,12 +228,12 @@ class GlExecutor : public Executor {
     std::vector<std::pair<std::string, Image>> maps;
     {
       const Stopwatch watch(seconds_["metrics"]);
-      const JudgedProduct judged{&run.technique->product(),
-                                 referenceTexture ? &*referenceTexture : nullptr,
-                                 &product,
-                                 reference,
-                                 &on.mask,
-                                 &on.shading};
+      const perception::ComparisonInput judged{&run.technique->product(),
+                                               referenceTexture ? &*referenceTexture : nullptr,
+                                               &product,
+                                               reference,
+                                               &on.mask,
+                                               &metricGpu_};
       for (store::Measurement& measurement : judge(plan, judged, maps))
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
@@ -239,6 +241,8 @@ class GlExecutor : public Executor {
     }
     for (const techniques::Counter& counter : counters)
       run.outcome.measurements.push_back({counter.name, counter.value, counter.unit, "counter"});
+    if (reference && plan.artefacts.pictures)
+      run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
@@ -337,6 +341,7 @@ class GlExecutor : public Executor {
 
   std::string folder_;
   std::unique_ptr<gl::Context> context_;
+  perception::MetricGpu metricGpu_;
   GpuClock clock_;
   ReferenceCache references_;
   store::Environment environment_;

@@ -7,7 +7,6 @@
 #include "base/hash.h"
 #include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
-#include "perception/metrics/metric.h"
 
 namespace limen::experiments {
 namespace {
@@ -26,10 +25,8 @@ Image composed(const Image& product, const Image& shading) {
 
 }  // namespace
 
-std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct& product,
+std::vector<store::Measurement> judge(const PlannedRun& run, const perception::ComparisonInput& input,
                                       std::vector<std::pair<std::string, Image>>& maps) {
-  const perception::ComparisonInput input{product.texture, product.referenceTexture, product.image,
-                                          product.reference, product.mask};
   std::vector<store::Measurement> out;
   for (const Choice& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
@@ -71,7 +68,8 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
   }
   for (const auto& [name, map] : maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
-    if (run.artefacts.pictures) picture(kind, perception::errorPicture(map, kind == "error" ? kErrorScale : 1.0));
+    if (run.artefacts.pictures)
+      picture(kind, perception::errorPicture(map, kind == "error" ? kErrorScale : 1.0));
     if (run.artefacts.exr) exr(kind, map);
   }
   return out;

@@ -18,15 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Exit status of the program, 127 if it cannot be started. Its standard output goes to standard error, since
-/// ours may be read by a program.
+/// Exit status of the program, 127 if it cannot be started. Its standard output is dropped: it names the
+/// report, which is ours to do.
 int call(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t child = 0;
   const int failed = posix_spawn(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -46,7 +46,7 @@ ReportResult makeReport(const std::string& store, const std::string& folder) {
   if (status != 0)
     return {"", fmt::format("no report: limen-analyse ended with {}; try: limen analyse {}", status,
                             quoteCommand({command.begin() + 1, command.end()}))};
-  const fs::path page = fs::path(folder) / "index.html";
+  const fs::path page = fs::path(folder) / "report.html";
   const std::string path = fs::exists(page) ? page.string() : folder;
   return {path, "report: " + path};
 }
