@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters along columns, then compares: colour difference, feature difference, FLIP. Each invocation makes RUN pixels one
-// above the other, so that a texel is fetched once for all of them. Out: the map, and each group's sum of it.
+// Filters along columns, then compares: colour difference, feature difference, FLIP. Each invocation makes
+// RUN pixels one above the other, so that a texel is fetched once for all of them. Out: the map, and each
+// group's sum of it.
 #include "perception/metrics/flip/filters.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
@@ -42,8 +43,8 @@ vec3 toHuntLab(vec3 rgb) {
 
 float colourDistance(vec3 a, vec3 b) { return abs(a.x - b.x) + length(a.yz - b.yz); }  // HyAB
 
-// Colour distance raised to 0.7 and spread over [0, 1]: distances up to 0.4 of the largest possible one, that of green
-// and blue, take the first 95 %.
+// Colour distance raised to 0.7 and spread over [0, 1]: distances up to 0.4 of the largest possible one,
+// that of green and blue, take the first 95 %.
 float colourError(float distance) {
   if (distance == 0.0) return 0.0;
   float largest = pow(colourDistance(toHuntLab(vec3(0.0, 1.0, 0.0)), toHuntLab(vec3(0.0, 0.0, 1.0))), 0.7);

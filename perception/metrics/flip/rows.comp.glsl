@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters both images along their rows. Out: the four parts of contrast sensitivity of each image, and the feature
-// detectors' and their Gaussian's answers of both.
+// Filters both images along their rows. Out: the four parts of contrast sensitivity of each image, and the
+// feature detectors' and their Gaussian's answers of both.
 #include "perception/metrics/flip/filters.glsl"
 
 layout(local_size_x = 128, local_size_y = 2) in;
@@ -18,7 +18,8 @@ const int kWidth = 128 + 2 * RADIUS;
 shared vec3 testRow[2][kWidth];  // Y, Cx, Cz
 shared vec3 referenceRow[2][kWidth];
 
-// Linear RGB to YCxCz, the opponent space of the filters: XYZ over the white's XYZ, then as CIELAB without its roots.
+// Linear RGB to YCxCz, the opponent space of the filters: XYZ over the white's XYZ, then as CIELAB without
+// its roots.
 vec3 toOpponent(vec3 rgb) {
   const mat3 kXyzOverWhite = mat3(10135552.0 / 23359437.0, 2613072.0 / 12288897.0, 1425312.0 / 80288307.0,
                                   8788810.0 / 23359437.0, 8788810.0 / 12288897.0, 8788810.0 / 80288307.0,
@@ -33,8 +34,8 @@ bvec3 isNonFinite(vec3 v) { return equal(floatBitsToUint(v) & 0x7f800000u, uvec3
 void filterRow(int row, int centre, bool isTest, out vec4 sensitivitySum, out vec3 featureSum) {
   vec3 middle = isTest ? testRow[row][centre] : referenceRow[row][centre];
   sensitivitySum = sensitivity[RADIUS] * middle.xyzz;
-  // The detectors' weights sum to zero, so they are applied to differences: a flat image then answers exactly zero, and
-  // the square root taken of the answer later has no rounding to blow up.
+  // The detectors' weights sum to zero, so they are applied to differences: a flat image then answers
+  // exactly zero, and the square root taken of the answer later has no rounding to blow up.
   featureSum = vec3(features[RADIUS].x * middle.x, 0.0, 0.0);
   for (int tap = 1; tap <= RADIUS; ++tap) {
     vec3 left = isTest ? testRow[row][centre - tap] : referenceRow[row][centre - tap];
