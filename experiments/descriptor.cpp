@@ -282,7 +282,7 @@ class Reader {
       YamlNode map = item;
       if (item.kind == Kind::Scalar) {
         map.kind = Kind::Map;
-        map.members = {{YamlNode{Kind::Scalar, item.mark, "name", false, {}, {}}, item}};
+        map.members.push_back({YamlNode{Kind::Scalar, item.mark, "name", false, {}, {}}, item});
       }
       const auto entry = readEntry(map, "metric", catalogue_.metrics, false);
       if (!entry) continue;

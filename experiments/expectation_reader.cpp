@@ -40,8 +40,7 @@ class Reader {
  public:
   Reader(const Descriptor& descriptor, const Catalogue& catalogue,
          const std::vector<Parameter>& imageParameters, Problems& problems)
-      : descriptor_(descriptor),
-        catalogue_(catalogue),
+      : catalogue_(catalogue),
         imageParameters_(imageParameters),
         problems_(problems),
         files_(descriptor.path),
@@ -187,7 +186,6 @@ class Reader {
     return statement;
   }
 
-  const Descriptor& descriptor_;
   const Catalogue& catalogue_;
   const std::vector<Parameter>& imageParameters_;
   Problems& problems_;

@@ -137,7 +137,7 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (level.keyPending) {
       // The parser places "nothing" at the next token.
       if (node.kind == YamlNode::Kind::Null) node.mark = level.key.mark;
-      level.node.members.emplace_back(std::move(level.key), std::move(node));
+      level.node.members.push_back({std::move(level.key), std::move(node)});
       level.keyPending = false;
     } else {
       const std::string where = location(file_, node.mark);

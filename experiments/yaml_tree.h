@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace limen::experiments {
@@ -16,6 +15,8 @@ struct Mark {
 /// "FILE:LINE:COLUMN", as compilers print it.
 std::string location(const std::string& file, Mark mark);
 
+struct YamlMember;
+
 /// YAML as descriptors use it: maps, lists and scalars. Unlike a general YAML reader it refuses what hides
 /// meaning or could be a slip (duplicate keys, anchors and aliases, tags, several documents, tabs as
 /// indentation) and keeps whether a scalar was quoted.
@@ -23,14 +24,18 @@ struct YamlNode {
   enum class Kind { Null, Scalar, List, Map };
   Kind kind = Kind::Null;
   Mark mark;
-  std::string text;             ///< Scalar only
-  bool quoted = false;          ///< Scalar only: always text, never a number or boolean
-  std::vector<YamlNode> items;  ///< List only
-  std::vector<std::pair<YamlNode, YamlNode>> members;  ///< Map only; keys are scalars, in order of writing
+  std::string text;                 ///< Scalar only
+  bool quoted = false;              ///< Scalar only: always text, never a number or boolean
+  std::vector<YamlNode> items;      ///< List only
+  std::vector<YamlMember> members;  ///< Map only; keys are scalars, in order of writing
 
   const YamlNode* find(std::string_view key) const;
   /// "a list", "a map", "nothing", "'text'": for messages.
   std::string describe() const;
+};
+
+struct YamlMember {
+  YamlNode key, value;
 };
 
 /// Throws Error naming file, line and column.

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 TEST(YamlTree, KeepsOrderQuotingAndPlace) {
   const YamlNode root = parseYaml("b: \"8\"\na:\n  - 8\n  - {x: true}\nc:\n", "f.yaml");
   ASSERT_EQ(root.members.size(), 3U);
-  EXPECT_EQ(root.members[0].first.text, "b");
+  EXPECT_EQ(root.members[0].key.text, "b");
   EXPECT_TRUE(root.find("b")->quoted);
   const YamlNode& list = *root.find("a");
   ASSERT_EQ(list.items.size(), 2U);
