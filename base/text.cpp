@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace limen {
 namespace {
@@ -61,7 +62,10 @@ std::string suggest(const std::string& name, const std::vector<std::string>& can
 
 std::string shortestNumber(double value) {
   char buffer[40];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  // 100000, not 1e+05.
+  const bool whole = std::fabs(value) < 1e15 && value == std::trunc(value);
+  const auto result = whole ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                            : std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, result.ptr};
 }
 

@@ -35,8 +35,8 @@ Catalogue catalogueFromRegistries() {
     entry.unit = info.unit;
     entry.needsReference = info.needsReference;
   }
-  out.measurements = {"gpu_ms",     "gpu_ms_p95", "wall_ms",         "cpu_ms",
-                      "prepare_ms", "bytes_held", "non_finite_count"};
+  out.measurements = {"gpu_ms",     "gpu_ms_p95", "technique_ms",     "wall_ms",      "cpu_ms",
+                      "prepare_ms", "bytes_held", "non_finite_count", "gpu_clock_mhz"};
   return out;
 }
 

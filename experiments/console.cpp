@@ -203,8 +203,11 @@ std::string describeFinished(const PlannedRun& run, const store::Run& row) {
   const store::Measurement* time = find(row, "gpu_ms");
   if (!time) time = find(row, "wall_ms");
   if (time) append(*time, false);
-  for (const Choice& metric : run.metrics)
-    if (const store::Measurement* measurement = find(row, metric.name)) append(*measurement, true);
+  for (const store::Measurement& measurement : row.measurements)
+    if (std::any_of(run.metrics.begin(), run.metrics.end(), [&](const Choice& metric) {
+          return measurement.name == metric.name || measurement.name.rfind(metric.name + "_", 0) == 0;
+        }))
+      append(measurement, true);
   return out;
 }
 

@@ -17,7 +17,7 @@ std::unique_ptr<SweepObserver> makeProgressBar(std::FILE* terminal);
 /// One plain line a run.
 std::unique_ptr<SweepObserver> makeLinePrinter(std::FILE* out);
 
-/// One JSON object a run; see README for its members.
+/// One JSON object a run: key, status, technique, scene, label, setting, measurements {name: value}, error.
 std::unique_ptr<SweepObserver> makeJsonPrinter(std::FILE* out);
 
 /// Tells two observers.

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "experiments/descriptor_values.h"
 #include "experiments/expectation_reader.h"
+#include "experiments/measurement_name.h"
 #include "experiments/problems.h"
 
 namespace limen::experiments {
@@ -73,7 +74,7 @@ class Reader {
     out_.hash = sha256(text);
     const YamlNode root = parseYaml(text, path);
     if (root.kind == Kind::Null)
-      problems_.add(root.mark, "the file is empty", "see DESIGN.md for a descriptor");
+      problems_.add(root.mark, "the file is empty", "see experiments/descriptors for examples");
     if (root.kind == Kind::List || root.kind == Kind::Scalar)
       problems_.add(root.mark, "the file holds " + root.describe(),
                     "a descriptor is a map: 'title: ...', 'scenes: ...'");
@@ -276,6 +277,7 @@ class Reader {
     if (!isFilledList(node, "metrics",
                       "[" + (catalogue_.metrics.empty() ? "" : catalogue_.metrics.begin()->first) + "]"))
       return;
+    std::vector<Mark> marks;
     for (const YamlNode& item : node.items) {
       YamlNode map = item;
       if (item.kind == Kind::Scalar) {
@@ -285,9 +287,6 @@ class Reader {
       const auto entry = readEntry(map, "metric", catalogue_.metrics, false);
       if (!entry) continue;
       const CatalogueEntry& info = catalogue_.metrics.at(entry->name);
-      if (std::any_of(out_.metrics.begin(), out_.metrics.end(),
-                      [&](const Choice& metric) { return metric.name == entry->name; }))
-        problems_.add(item.mark, "metric '" + entry->name + "' is listed twice", "keep one");
       if (info.needsReference && !referenceNeededAt_)
         referenceNeededAt_ = item.mark, referenceNeededBy_ = entry->name;
       std::map<std::string, ParameterValue> given;
@@ -296,8 +295,18 @@ class Reader {
       const bool complete = std::all_of(
           info.parameters.begin(), info.parameters.end(),
           [&](const Parameter& parameter) { return !parameter.required || given.count(parameter.name); });
-      if (complete)
-        out_.metrics.push_back({entry->name, info.version, ParameterValues(info.parameters, given)});
+      if (!complete) continue;
+      out_.metrics.push_back({entry->name, info.version, ParameterValues(info.parameters, given)});
+      marks.push_back(item.mark);
+    }
+    for (size_t i = 0; i < out_.metrics.size(); ++i) {
+      const Choice& metric = out_.metrics[i];
+      const std::string name =
+          measurementName(metric, out_.metrics, catalogue_.metrics.at(metric.name).parameters);
+      if (std::find(out_.metricNames.begin(), out_.metricNames.end(), name) != out_.metricNames.end())
+        problems_.add(marks[i], "metric '" + name + "' is listed twice",
+                      "keep one, or give them other values");
+      out_.metricNames.push_back(name);
     }
   }
 
@@ -336,7 +345,7 @@ class Reader {
 
   void readReport(const YamlNode* node) {
     out_.report = {{"x", "gpu_ms"},
-                   {"y", out_.metrics.empty() ? "gpu_ms" : out_.metrics[0].name},
+                   {"y", out_.metricNames.empty() ? "gpu_ms" : out_.metricNames[0]},
                    {"series", "technique"},
                    {"panels", "scene"}};
     if (!node || !isMap(*node, "'report'", "{x: gpu_ms, y: rmse, series: technique, panels: scene}")) return;
@@ -344,7 +353,7 @@ class Reader {
     std::vector<std::string> groups = variables(), quantities = groups;
     groups.insert(groups.end(), {"technique", "scene", "image"});
     quantities.insert(quantities.end(), catalogue_.measurements.begin(), catalogue_.measurements.end());
-    for (const Choice& metric : out_.metrics) quantities.push_back(metric.name);
+    quantities.insert(quantities.end(), out_.metricNames.begin(), out_.metricNames.end());
     for (const auto& [key, value] : node->members) {
       if (!out_.report.contains(key.text)) continue;
       const auto word = values_.text(value, key.text);

@@ -47,7 +47,8 @@ struct ExpectationStatement {
   Relation relation = Relation::Below;
   double bound = 0.0;  ///< with `relativeTo`, a factor on that run's value
 
-  /// The run to compare with: the one with the same parameters but for what is said here.
+  /// The run to compare with: the same scene and image size but for what is said here; of several runs of
+  /// another technique the one that has the judged run's values of the parameters that both have.
   struct Baseline {
     std::string technique;  ///< "" for the judged run's own
     std::string scene;      ///< "" for the judged run's own
@@ -70,6 +71,7 @@ struct Descriptor {
   Timing timing;
   Artefacts artefacts;
   std::vector<Choice> metrics;
+  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` give, in the same order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;
   std::map<std::string, std::string>

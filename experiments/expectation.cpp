@@ -40,19 +40,29 @@ bool agree(const ParameterValues& a, const ParameterValues& b, const Selection& 
   });
 }
 
-bool isBaseline(const PlannedRun& candidate, const PlannedRun& judged,
-                const ExpectationStatement& statement) {
+/// Runs that `judged` may be compared with: same scene and size but for what either side pins. Another
+/// technique may differ in its parameters, but where it is planned several times, those that share the judged
+/// run's values are meant.
+std::vector<size_t> baselinesOf(const PlannedRun& judged, const std::vector<PlannedRun>& runs,
+                                const ExpectationStatement& statement) {
   const Baseline& baseline = *statement.relativeTo;
   const std::string& technique = baseline.technique.empty() ? judged.technique.name : baseline.technique;
   const std::string& scene = baseline.scene.empty() ? judged.scene.name : baseline.scene;
-  if (!matches(candidate, technique, scene, baseline.where)) return false;
-  // What either side pins may differ between the two; all else is the same.
   Selection pinned = baseline.where;
   pinned.insert(statement.where.begin(), statement.where.end());
-  const bool sameSize = (pinned.count("width") || candidate.widthPx == judged.widthPx) &&
-                        (pinned.count("height") || candidate.heightPx == judged.heightPx);
-  return sameSize && agree(judged.scene.values, candidate.scene.values, pinned) &&
-         agree(judged.technique.values, candidate.technique.values, pinned);
+  std::vector<size_t> loose, close;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const PlannedRun& candidate = runs[i];
+    const bool sameSize = (pinned.count("width") || candidate.widthPx == judged.widthPx) &&
+                          (pinned.count("height") || candidate.heightPx == judged.heightPx);
+    if (!sameSize || !matches(candidate, technique, scene, baseline.where) ||
+        !agree(judged.scene.values, candidate.scene.values, pinned))
+      continue;
+    loose.push_back(i);
+    if (agree(judged.technique.values, candidate.technique.values, pinned)) close.push_back(i);
+  }
+  const bool strict = technique == judged.technique.name || (loose.size() > 1 && !close.empty());
+  return strict ? close : loose;
 }
 
 /// Planned values of a parameter: for the message when `where` asks for another.
@@ -148,9 +158,7 @@ std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>
       if (!matches(runs[i], statement.technique, statement.scene, statement.where)) continue;
       ResolvedExpectation::Case one{i, {}};
       if (statement.relativeTo) {
-        std::vector<size_t> candidates;
-        for (size_t j = 0; j < runs.size(); ++j)
-          if (isBaseline(runs[j], runs[i], statement)) candidates.push_back(j);
+        const std::vector<size_t> candidates = baselinesOf(runs[i], runs, statement);
         // Without an own selection the statement covers its baseline too; a run is not compared with itself.
         if (candidates.size() == 1 && candidates[0] == i) continue;
         if (candidates.size() != 1) {

@@ -48,7 +48,7 @@ class Reader {
         values_(problems, files_) {
     for (const Entry& entry : descriptor.techniques) addOnce(techniques_, entry.name);
     for (const Entry& entry : descriptor.scenes) addOnce(scenes_, entry.name);
-    for (const Choice& metric : descriptor.metrics) quantities_.push_back(metric.name);
+    quantities_ = descriptor.metricNames;
     quantities_.insert(quantities_.end(), catalogue.measurements.begin(), catalogue.measurements.end());
   }
 

@@ -45,8 +45,7 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   options.root = LIMEN_SOURCE_DIR;
   CLI::App app("Runs what is not done yet of the experiments that the descriptors state.", program);
   app.set_version_flag("--version", versionText(program), "Print version and commit");
-  app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")
-      ->type_name("FILE...");
+  app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")->type_name("FILE");
   app.add_option("--store", options.store, "Result store (default: results/DESCRIPTOR.sqlite)")
       ->type_name("FILE");
   std::string shard;
@@ -69,7 +68,7 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   merge->add_option("out", options.mergeOut, "Store that takes the runs; made if missing")
       ->required()
       ->type_name("OUT");
-  merge->add_option("in", options.mergeIn, "Stores to copy from")->required()->type_name("IN...");
+  merge->add_option("in", options.mergeIn, "Stores to copy from")->required()->type_name("IN");
   merge->add_flag("--json", options.json, "A JSON line on standard output");
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -29,7 +30,13 @@ Mark toMark(const YAML::Mark& mark) { return mark.is_null() ? Mark{} : Mark{mark
 /// Builds the tree from the parser's events.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& file) : file_(file) {}
+  TreeBuilder(const std::string& text, const std::string& file) : file_(file), text_(text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    lineStarts_.push_back(text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0 ? kByteOrderMark.size()
+                                                                                      : 0);
+    for (size_t at = 0; at < text.size(); ++at)
+      if (text[at] == '\n') lineStarts_.push_back(at + 1);
+  }
 
   YamlNode take() { return std::move(root_); }
 
@@ -49,6 +56,7 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node = make(YamlNode::Kind::Scalar, mark, tag, anchor);
     node.text = value;
     node.quoted = tag == "!";
+    if (node.quoted && isNeverClosed(mark)) throw refuse("a quote that is never closed", mark, "close it");
     if (!node.quoted && (value.empty() || value == "~" || value == "null")) node.kind = YamlNode::Kind::Null;
     place(std::move(node));
   }
@@ -86,6 +94,23 @@ class TreeBuilder : public YAML::EventHandler {
     return node;
   }
 
+  /// yaml-cpp lets a quoted scalar end with the file.
+  bool isNeverClosed(const YAML::Mark& mark) const {
+    const auto line = static_cast<size_t>(std::max(0, mark.line));
+    if (line >= lineStarts_.size()) return false;
+    const size_t start = lineStarts_[line] + static_cast<size_t>(std::max(0, mark.column));
+    if (start >= text_.size() || (text_[start] != '"' && text_[start] != '\'')) return false;
+    for (size_t at = start + 1; at < text_.size(); ++at) {
+      const bool escaped =
+          text_[start] == '"' ? text_[at] == '\\' : text_[at] == '\'' && text_.compare(at, 2, "''") == 0;
+      if (escaped)
+        ++at;
+      else if (text_[at] == text_[start])
+        return false;
+    }
+    return true;
+  }
+
   void open(YamlNode node, const YAML::Mark& mark) {
     if (levels_.size() >= kMaxDepth)
       throw refuse(fmt::format("more than {} levels of nesting", kMaxDepth), mark,
@@ -110,6 +135,8 @@ class TreeBuilder : public YAML::EventHandler {
     if (level.node.kind == YamlNode::Kind::List) {
       level.node.items.push_back(std::move(node));
     } else if (level.keyPending) {
+      // The parser places "nothing" at the next token.
+      if (node.kind == YamlNode::Kind::Null) node.mark = level.key.mark;
       level.node.members.emplace_back(std::move(level.key), std::move(node));
       level.keyPending = false;
     } else {
@@ -124,6 +151,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   std::string file_;
+  const std::string& text_;
+  std::vector<size_t> lineStarts_;
   YamlNode root_;
   std::vector<Level> levels_;
   int documents_ = 0;
@@ -215,7 +244,7 @@ std::string YamlNode::describe() const {
 YamlNode parseYaml(const std::string& text, const std::string& file) {
   checkBytes(text, file);
   std::istringstream stream(text);
-  TreeBuilder builder(file);
+  TreeBuilder builder(text, file);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,19 +10,26 @@
 #include "base/image.h"
 #include "base/parameter.h"
 #include "base/registry.h"
-#include "renderer/gl/texture.h"
+
+namespace limen::gl {
+class Texture;
+}
 
 namespace limen::perception {
 
-/// One pair of products to compare. All images have the same size. The textures are what the technique made; the
-/// images are the same values read back (once, for all metrics of a run).
+class MetricGpu;
+
+/// One pair of products to compare. All images have the same size. The textures are what the technique made;
+/// the images are the same values read back (once, for all metrics of a run).
 struct ComparisonInput {
-  const gl::Texture* testTexture = nullptr;       ///< R32F or RGBA32F; null where no GL context exists
+  const gl::Texture* testTexture =
+      nullptr;  ///< R32F or RGBA32F; null: made from the image where one is needed
   const gl::Texture* referenceTexture = nullptr;  ///< same format
-  const Image* test = nullptr;                    ///< 1 (visibility) or 3..4 channels (linear RGB)
+  const Image* test = nullptr;  ///< 1 (visibility) or 3..4 channels (linear RGB; alpha is ignored)
   const Image* reference = nullptr;
   /// 1 where the product means something (receivers), 0 elsewhere; 1 channel. Null: everywhere.
   const Image* mask = nullptr;
+  MetricGpu* gpu = nullptr;  ///< for metrics with needsGl; null where no GL context exists
 };
 
 struct MetricResult {
@@ -29,16 +37,21 @@ struct MetricResult {
   /// Per-pixel map (1 channel, larger is worse), where the metric has one.
   std::optional<Image> map;
   std::string mapName;  ///< "absolute_error", "flip", ...
+  /// Pixels that were judged. With none (an empty region) `value` is what a perfect product would get.
+  int64_t judgedPixels = 0;
 };
 
-/// Registration of a metric: `compare` judges a test product against a reference.
+/// Registration of a metric: `compare` judges a test product against a reference. It throws Error where the
+/// images do not fit together or the reference holds non-finite values. A non-finite test value counts as an
+/// error of 1, the whole range of a product, so that every figure stays finite; non_finite tells such a
+/// product from a bad one.
 struct MetricInfo {
   static constexpr const char* kKind = "metric";
   std::string name;
-  int version = 1;
+  int version = 1;  ///< raised when values change
   std::string summary;
   std::string source;
-  std::string unit;
+  std::string unit;  ///< "" for pure numbers
   bool higherIsBetter = false;
   bool needsGl = false;
   bool needsReference = true;  ///< false: judges the test product alone (non-finite count)

@@ -22,7 +22,7 @@ namespace {
 using techniques::Counter;
 using techniques::TechniqueInfo;
 
-constexpr const char* kName = "references/exact_union";
+constexpr const char* kName = "soft_shadows/exact_union";
 
 /// Light-space box of some triangles.
 struct Box {

@@ -37,7 +37,7 @@ int strataPerAxis(const ParameterValues& values) {
   const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
   if (side * side != samples)
     throw Error("'samples' is " + std::to_string(samples) + ", not a square number",
-                "references/ray_traced_light",
+                "soft_shadows/ray_traced",
                 "give " + std::to_string(side * side) + ", or pattern: random");
   return static_cast<int>(side);
 }
@@ -122,7 +122,7 @@ double halfWidth(const ParameterValues& values) {
 }
 
 const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
-    .name = "references/ray_traced_light",
+    .name = "soft_shadows/ray_traced",
     .version = 1,
     .summary = "Shadow rays to points on the light against the true triangles (Embree)",
     .source = "004_2587a614b209b9c1.txt, section 3.3",

@@ -18,7 +18,7 @@ namespace {
 using techniques::Counter;
 using techniques::TechniqueInfo;
 
-constexpr const char* kName = "references/sampled_light";
+constexpr const char* kName = "soft_shadows/sampled_light";
 
 int gridSide(int64_t samples) {
   const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));

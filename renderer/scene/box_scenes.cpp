@@ -22,7 +22,7 @@ Scene buildBoxUnderLight(const ParameterValues& values) {
 Scene buildTwoBoxes(const ParameterValues& values) {
   const double gap = values.real("gap");
   Scene scene;
-  addGround(scene, 10.0);
+  addGround(scene, 9.0);
   addPart(scene, "low_box", box({-0.7, 0.0, -0.4}, {0.5, 0.4, 0.5}), {0.45F, 0.55F, 0.7F});
   addPart(scene, "high_box", box({-0.1, 0.4 + gap, -0.3}, {0.7, 0.6 + gap, 0.3}), {0.75F, 0.55F, 0.3F});
   frameStanding(scene, 1.0, 1.0);
@@ -33,13 +33,13 @@ Scene buildTwoBoxes(const ParameterValues& values) {
 Scene buildPole(const ParameterValues& values) {
   const double radius = values.real("radius");
   Scene scene;
-  addGround(scene, 12.0);
+  addGround(scene, 10.0);
   Mesh pole = frustum({0.0, 0.0, 0.0}, {0.0, 1.9, 0.0}, radius, 0.7 * radius, 24);
   append(pole, frustum({0.0, 1.88, 0.0}, {0.5, 1.96, 0.0}, 0.6 * radius, 0.6 * radius, 24));
   append(pole, box({0.42, 1.9, -0.07}, {0.72, 1.96, 0.07}));
   addPart(scene, "pole", pole, {0.4F, 0.4F, 0.42F});
   scene.lights = {lightTowards({-3.2, 4.2, 2.4}, {0.3, 0.6, 0.0}, {0.3, 0.3})};
-  setStillCamera(scene, orbitCamera({0.6, 0.6, -0.3}, 4.6, 12.0, 40.0));
+  setStillCamera(scene, orbitCamera({0.6, 0.6, -0.3}, 4.6, 12.0, 44.0));
   return scene;
 }
 
@@ -47,7 +47,7 @@ const Registered<SceneInfo> kBoxUnderLight{
     SceneInfo{.name = "box_under_light",
               .version = 1,
               .summary = "Box below a larger light: a shadow map from the centre sees only its top",
-              .source = "004_2587a614b209b9c1.txt, Fig. 4.3",
+              .source = "Schwarz 2009, Fig. 4.3",
               .parameters = {realParameter("box_height", 1.0, 0.05, 2.0, "m",
                                            "Height of the box; the light is at 3.2 m")},
               .build = buildBoxUnderLight}};
@@ -64,7 +64,7 @@ const Registered<SceneInfo> kPole{SceneInfo{
     .name = "pole",
     .version = 1,
     .summary = "Street lamp: one thin shadow from contact to far penumbra",
-    .source = "004_2587a614b209b9c1.txt, Fig. 3.2",
+    .source = "Schwarz 2009, Fig. 3.2",
     .parameters = {realParameter("radius", 0.04, 0.002, 0.2, "m", "Radius of the pole at its foot")},
     .build = buildPole}};
 

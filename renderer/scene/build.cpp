@@ -49,7 +49,7 @@ std::vector<Parameter> commonParameters() {
       realParameter("scale", 1.0, 1e-6, 1e6, "", "Scales the whole world about the origin"),
       realParameter("offset", 0.0, 0.0, 1e6, "scene diagonals", "Moves the whole world along (1,1,1)"),
       realParameter("light_size", 1.0, 0.001, 100.0, "", "Multiplies the light's extents",
-                    "004_2587a614b209b9c1.txt, chapters 3 to 5"),
+                    "Schwarz 2009, chapters 3 to 5"),
       choiceParameter("light_shape", kAsBuilt, {kAsBuilt, "rectangle", "disc", "polygon"},
                       "Shape of the light within its extents; polygon: a hexagon"),
       realParameter("time_s", 0.0, 0.0, 3600.0, "s",

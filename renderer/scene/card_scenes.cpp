@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flat occluders parallel to a horizontal light, for which visibility has a closed form.
+#include "base/error.h"
+#include "base/text.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 
@@ -22,17 +24,27 @@ AreaLight lightAbove(glm::dvec2 size) {
 /// Occluder fusion: cards below the topmost one, none of which a shadow map from the light's centre can see.
 /// Projective cards all have the same projection from the light's centre. Umbra cards are the sections of the
 /// topmost card's umbra, so that no light ray meets one that has not met the topmost: visibility on the
-/// ground is then the same for any number of cards (as long as light_size is at most 1).
+/// ground is then the same for any number of cards (as long as light_size is at most 1). Strips are a
+/// staircase of narrow cards that lie side by side as seen from the light's centre, so that the map misses
+/// nothing: receivers beyond its deep end see them overlap on the light, the more the more there are.
 Scene buildCardStack(const ParameterValues& values) {
-  constexpr double kTop = 1.2, kHalf = 0.35, kLightSize = 0.3;
+  constexpr double kTop = 1.2, kHalf = 0.35, kLightSize = 0.3, kStripTangent = 0.04;
   const double depthOfTop = kLightHeight - kTop;
-  const bool projective = values.text("fit") == "projective";
+  const std::string& fit = values.text("fit");
+  const int64_t count = values.integer("cards");
+  const double spacing = values.real("spacing");
+  if (spacing * static_cast<double>(count - 1) >= kTop)
+    throw Error("a stack of " + std::to_string(count) + " cards with 'spacing' " + shortestNumber(spacing) +
+                    " m reaches below the ground",
+                "card_stack", "keep (cards - 1) * spacing below " + shortestNumber(kTop) + " m");
   Mesh cards;
-  for (int64_t i = 0; i < values.integer("cards"); ++i) {
-    const double drop = values.real("spacing") * static_cast<double>(i);
-    const double grown = (depthOfTop + drop) / depthOfTop;
-    const double half = projective ? kHalf * grown : kHalf * grown - 0.5 * kLightSize * (grown - 1.0);
-    append(cards, flatCard({0.0, kTop - drop, 0.0}, glm::dvec2(half)));
+  for (int64_t i = 0; i < count; ++i) {
+    const double drop = spacing * static_cast<double>(i);
+    const double depth = depthOfTop + drop, grown = depth / depthOfTop;
+    const double half = fit == "umbra" ? kHalf * grown - 0.5 * kLightSize * (grown - 1.0) : kHalf * grown;
+    const bool strip = fit == "strips";
+    const double centre = strip ? kStripTangent * (static_cast<double>(i) + 0.5) * depth : 0.0;
+    append(cards, flatCard({centre, kTop - drop, 0.0}, {strip ? 0.5 * kStripTangent * depth : half, half}));
   }
   Scene scene;
   addGround(scene, 12.0);
@@ -74,13 +86,13 @@ const Registered<SceneInfo> kCardStack{SceneInfo{
     .version = 1,
     .summary =
         "Parallel cards one below another that cover each other as seen from the light: occluder fusion",
-    .source = "004_2587a614b209b9c1.txt, section 4.2",
+    .source = "Schwarz 2009, section 4.2",
     .parameters = {integerParameter("cards", 8, 1, 64, "cards", "Number of cards"),
-                   realParameter("spacing", 0.01, 0.0001, 0.018, "m", "Vertical distance between two cards"),
+                   realParameter("spacing", 0.01, 0.0001, 0.15, "m", "Vertical distance between two cards"),
                    choiceParameter(
-                       "fit", "projective", {"projective", "umbra"},
+                       "fit", "projective", {"projective", "umbra", "strips"},
                        "Size of the lower cards: same projection from the light's centre, or the section of "
-                       "the topmost card's umbra")},
+                       "the topmost card's umbra; strips: narrow cards side by side, a step each")},
     .build = buildCardStack}};
 
 const Registered<SceneInfo> kHalfPlane{SceneInfo{

@@ -29,8 +29,8 @@ CameraPath walk(double length) {
            key(8.0, {0.0, 2.0, -0.8 * half}, {0.9, 0.2, -half - 1.2})}};
 }
 
-/// Two rows of columns along z without a ceiling. The light stands high at the left, so that shadows cross
-/// the aisle.
+/// Two rows of columns along z without a ceiling. The light stands at the left, so that shadows cross the
+/// aisle, and the higher the longer the hall, so that all of the ground is before it.
 Scene buildColumnsHall(const ParameterValues& values) {
   const auto perRow = static_cast<int>(values.integer("columns_per_row"));
   const auto segments = static_cast<int>(values.integer("segments"));
@@ -40,9 +40,11 @@ Scene buildColumnsHall(const ParameterValues& values) {
     for (const double side : {-1.0, 1.0})
       append(columns, column({side * kAisle, 0.0, 0.5 * length - kPitch * i}, segments));
   Scene scene;
-  addGround(scene, 2.0 * length + 24.0);
+  const double ground = length + 14.0;
+  addGround(scene, ground);
   addPart(scene, "columns", columns, {0.72F, 0.68F, 0.6F});
-  scene.lights = {lightTowards({-3.5, 6.5, 0.25 * length + 1.0}, {0.0, 0.5, 0.0}, {0.5, 0.5})};
+  scene.lights = {
+      lightTowards(ground * glm::dvec3(-0.225, 0.4, 0.125), {0.0, 0.5, 0.0}, glm::dvec2(0.025 * ground))};
   if (values.text("camera") == "walk") {
     scene.camera = walk(length);
   } else {

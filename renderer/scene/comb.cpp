@@ -19,9 +19,9 @@ Scene buildComb(const ParameterValues& values) {
   }
   append(fence, box({-0.5 * kLength, 0.8, 0.5 * kThickness}, {0.5 * kLength, 0.86, 1.5 * kThickness}));
   Scene scene;
-  addGround(scene, 12.0);
+  addGround(scene, 11.0);
   addPart(scene, "fence", fence, {0.65F, 0.5F, 0.35F});
-  scene.lights = {lightTowards({-1.4, 3.2, -2.4}, {0.0, 0.2, 0.3}, {0.25, 0.25})};
+  scene.lights = {lightTowards({-1.2, 4.0, -2.0}, {0.0, 0.2, 0.3}, {0.35, 0.35})};
   setStillCamera(scene, orbitCamera({0.1, 0.35, 0.4}, 4.4, 12.0, 38.0));
   return scene;
 }

@@ -68,12 +68,13 @@ class Soup {
         for (glm::dvec3& corner : corner_) corner = touch + 0.2 * (corner - from);
         break;
       }
-      case Flaw::LiesInLight:
+      case Flaw::LiesInLight: {
         corners();
+        const double side = std::copysign(2.0 * kLightSize, corner_[0].x);
         // Beside the light: whether a triangle on it shadows anything has no answer.
-        for (glm::dvec3& corner : corner_)
-          corner = {corner.x + std::copysign(kLightSize, corner_[0].x), kLightHeight, corner.z};
+        for (glm::dvec3& corner : corner_) corner = {corner.x + side, kLightHeight, corner.z};
         break;
+      }
       case Flaw::None:
       case Flaw::Count:
         corners(), sound_ = corner_;
@@ -88,8 +89,9 @@ class Soup {
  private:
   /// A sound triangle of about 0.15 in a slab half-way up.
   void corners() {
-    const glm::dvec3 middle(random_.uniform(-0.8, 0.8), random_.uniform(0.4, 1.4),
-                            random_.uniform(-0.8, 0.8));
+    // Braces fix the order of the draws.
+    const glm::dvec3 middle{random_.uniform(-0.8, 0.8), random_.uniform(0.4, 1.4),
+                            random_.uniform(-0.8, 0.8)};
     for (glm::dvec3& corner : corner_) corner = middle + 0.15 * random_.direction();
   }
   uint32_t place(glm::dvec3 position) {

@@ -76,7 +76,7 @@ const Registered<SceneInfo> kRegistered{SceneInfo{
     .name = "foliage",
     .version = 1,
     .summary = "Small tree with thousands of leaves as plain triangles: huge counts of tiny occluders",
-    .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 5.3",
+    .source = "stand-in for Schwarz 2009, Fig. 5.3",
     .parameters = {integerParameter("leaves", 4000, 0, 100000, "leaves",
                                     "Number of leaves, two triangles each"),
                    realParameter("leaf_size", 0.06, 0.005, 0.3, "m",

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -101,6 +102,35 @@ class Collector {
   std::unordered_map<glm::dvec3, uint32_t, PositionHash> known_;
 };
 
+/// A text PLY that ends early would be read with its last face repeated. One line an element, as the format
+/// has it.
+void refuseCutPly(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  size_t expected = 0, found = 0;
+  bool text = false, body = false;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (body) {
+      found += !first.empty();
+    } else if (first == "format") {
+      text = second == "ascii";
+      if (!text) return;
+    } else if (first == "element") {
+      size_t count = 0;
+      words >> count;
+      expected += count;
+    } else if (first == "end_header") {
+      body = true;
+    }
+  }
+  if (text && found < expected)
+    throw Error(
+        "the file ends after " + std::to_string(found) + " of " + std::to_string(expected) + " elements",
+        path, "copy it again, whole");
+}
+
 /// Before anything walks the indices.
 void refuseBroken(const aiScene& source, const std::string& path) {
   for (unsigned m = 0; m < source.mNumMeshes; ++m) {
@@ -145,6 +175,7 @@ ImportedMesh importMesh(const std::string& path) {
     throw Error("no such mesh file", path, "check the path; it is taken relative to the working folder");
   if (!std::ifstream(path)) throw Error("cannot read the mesh file", path, "check its permissions");
 
+  if (std::filesystem::path(path).extension() == ".ply") refuseCutPly(path);
   Assimp::Importer importer;
   const aiScene* source = importer.ReadFile(path, 0);
   if (source == nullptr || source->mRootNode == nullptr)

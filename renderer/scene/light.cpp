@@ -10,20 +10,27 @@
 namespace limen::scene {
 namespace {
 
-/// Sign of the area of (a, b, c); 0 where rounding could have decided it (forward error bound of the 2x2
-/// determinant: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997).
-int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
-  const double determinant = left - right;
-  const double bound = 4.0 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
+/// A few units in the last place of coordinates of the size of `p`'s and its neighbours'.
+double roundingOf(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+  const glm::dvec2 largest = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(p));
+  return 4.0 * std::numeric_limits<double>::epsilon() * std::max(largest.x, largest.y);
+}
+
+/// Sign of the area of (a, b, p); 0 where the rounding of the coordinates or of the determinant could have
+/// decided it.
+int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+  const glm::dvec2 edge = b - a, to = p - a;
+  const double determinant = edge.x * to.y - edge.y * to.x;
+  const double bound = roundingOf(a, b, p) * (std::abs(edge.x) + std::abs(edge.y));
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   return 0;
 }
 
 bool withinBox(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
-  return p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) && p.y >= std::min(a.y, b.y) &&
-         p.y <= std::max(a.y, b.y);
+  const double margin = roundingOf(a, b, p);
+  return p.x >= std::min(a.x, b.x) - margin && p.x <= std::max(a.x, b.x) + margin &&
+         p.y >= std::min(a.y, b.y) - margin && p.y <= std::max(a.y, b.y) + margin;
 }
 
 bool onSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {

@@ -20,13 +20,11 @@ double reachOf(const Mesh& mesh) {
   return reach;
 }
 
-Scene overGround(const ImportedMesh& imported, bool ground) {
-  Bounds bounds;
-  for (const glm::dvec3& position : imported.mesh.positions) bounds.extend(position);
+Scene overGround(const ImportedMesh& imported, double meshHeight, bool ground) {
   Scene scene;
   const double reach = reachOf(imported.mesh);
   // A flat mesh has no height; the light's size then follows its extent.
-  const double height = std::max(bounds.high.y, 0.1 * reach);
+  const double height = std::max(meshHeight, 0.1 * reach);
   if (ground) addGround(scene, 8.0 * std::max(height, reach));
   addImported(scene, imported);
   frameStanding(scene, height, reach);
@@ -37,7 +35,9 @@ Scene buildMesh(const ParameterValues& values) {
   ImportedMesh imported = importMesh(values.text("file"));
   if (values.text("up") == "z") turnZUpToYUp(imported.mesh);
   standOnGround(imported.mesh, 0.0);
-  return overGround(imported, values.boolean("ground"));
+  double height = 0.0;
+  for (const glm::dvec3& p : imported.mesh.positions) height = std::max(height, p.y);
+  return overGround(imported, height, values.boolean("ground"));
 }
 
 /// 3DS has z up and is read so, but the cat was saved with y up: read, it lies on its back.
@@ -50,8 +50,9 @@ Scene buildModel(const std::string& file, Turned turned) {
   ImportedMesh imported = importMesh(path);
   if (turned == Turned::Over)
     for (glm::dvec3& p : imported.mesh.positions) p = {p.x, -p.z, p.y};
-  standOnGround(imported.mesh, 1.0);
-  return overGround(imported, true);
+  constexpr double kHeight = 1.0;
+  standOnGround(imported.mesh, kHeight);
+  return overGround(imported, kHeight, true);
 }
 
 const Registered<SceneInfo> kMesh{
@@ -68,7 +69,7 @@ const Registered<SceneInfo> kBunny{
     SceneInfo{.name = "bunny",
               .version = 1,
               .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
-              .source = "Stanford 3D Scanning Repository; stand-in for 004_2587a614b209b9c1.txt, Fig. 4.16",
+              .source = "Stanford 3D Scanning Repository; stand-in for Schwarz 2009, Fig. 4.16",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("bunny.obj", Turned::No); }}};
 
@@ -76,7 +77,7 @@ const Registered<SceneInfo> kHorse{
     SceneInfo{.name = "horse",
               .version = 1,
               .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
-              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .source = "stand-in for Schwarz 2009, Fig. 4.28",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("horse.3ds", Turned::No); }}};
 
@@ -84,7 +85,7 @@ const Registered<SceneInfo> kCat{
     SceneInfo{.name = "cat",
               .version = 1,
               .summary = "Cat of height 1 over a plane (package glmark2-data)",
-              .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.28",
+              .source = "stand-in for Schwarz 2009, Fig. 4.28",
               .parameters = {},
               .build = [](const ParameterValues&) { return buildModel("cat.3ds", Turned::Over); }}};
 

@@ -104,11 +104,12 @@ struct Scene {
 
   Bounds bounds() const;                ///< of all finite positions
   Bounds casterBounds() const;          ///< of parts that are not receiverOnly
-  /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera; no names.
+  /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera;
+  /// no names.
   std::string contentHash() const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
-  /// "disc_light" or "polygonal_light" if it has one colour all over, else "multi_part_light"; "several_lights",
-  /// "moving_camera", "casters", "receiver_only_parts".
+  /// "disc_light" or "polygonal_light" if it has one colour all over, else "multi_part_light";
+  /// "several_lights", "moving_camera", "casters", "receiver_only_parts".
   std::set<std::string> traits() const;
 };
 
@@ -127,14 +128,15 @@ struct SceneInfo {
 };
 using SceneRegistry = Registry<SceneInfo>;
 
-/// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its own
-/// diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100), `light_shape`
-/// (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path: the built scene's path is
-/// moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still picture).
+/// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its
+/// own diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100),
+/// `light_shape` (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path: the
+/// built scene's path is moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still
+/// picture).
 std::vector<Parameter> commonParameters();
 
-/// Builds a registered scene and applies the common parameters; what `values` leaves out takes its default. The parts
-/// of the result tile its triangles in order. Throws Error.
+/// Builds a registered scene and applies the common parameters; what `values` leaves out takes its default.
+/// The parts of the result tile its triangles in order. Throws Error.
 Scene buildScene(const std::string& name, const ParameterValues& values);
 
 }  // namespace limen::scene

@@ -69,13 +69,14 @@ Mesh sphere(glm::dvec3 centre, double radius, int cells) {
       for (const int sz : {-1, 1}) {
         const bool mirrored = sx * sy * sz < 0;
         const auto at = [&](int i, int j) { return vertex(sx * (cells - i - j), sy * i, sz * j); };
-        const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-          mesh.triangles.push_back(mirrored ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c));
+        // Braces at the calls fix the order in which vertices are numbered.
+        const auto add = [&](const std::array<uint32_t, 3>& v) {
+          mesh.triangles.push_back(mirrored ? glm::uvec3(v[0], v[2], v[1]) : glm::uvec3(v[0], v[1], v[2]));
         };
         for (int i = 0; i < cells; ++i)
           for (int j = 0; i + j < cells; ++j) {
-            add(at(i, j), at(i + 1, j), at(i, j + 1));
-            if (i + j + 1 < cells) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            add({at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (i + j + 1 < cells) add({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
           }
       }
   return mesh;

@@ -31,7 +31,7 @@ Scene buildSphereGrid(const ParameterValues& values) {
 Scene buildTwoColourLight(const ParameterValues& values) {
   const auto cells = static_cast<int>(values.integer("tessellation"));
   Scene scene;
-  addGround(scene, 10.0);
+  addGround(scene, 9.0);
   addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, cells), {0.75F, 0.75F, 0.75F});
   addPart(scene, "cone", frustum({0.55, 0.0, -0.1}, {0.55, 1.0, -0.1}, 0.35, 0.0, 4 * cells),
           {0.75F, 0.75F, 0.75F});
@@ -47,10 +47,10 @@ const Registered<SceneInfo> kSphereGrid{
     SceneInfo{.name = "sphere_grid",
               .version = 1,
               .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
-              .source = "004_2587a614b209b9c1.txt, Fig. 4.33",
+              .source = "Schwarz 2009, Fig. 4.33",
               .parameters = {integerParameter("spheres_per_axis", 3, 1, 6, "spheres",
                                               "Spheres along each edge of the cube",
-                                              "004_2587a614b209b9c1.txt, Fig. 4.33"),
+                                              "Schwarz 2009, Fig. 4.33"),
                              integerParameter(
                                  "tessellation", 16, 1, 48, "segments",
                                  "Segments in a quarter circle; a sphere has 8 times its square triangles")},
@@ -60,7 +60,7 @@ const Registered<SceneInfo> kTwoColourLight{SceneInfo{
     .name = "two_colour_light",
     .version = 1,
     .summary = "Sphere and cone under a light whose halves differ in colour",
-    .source = "stand-in for 004_2587a614b209b9c1.txt, Fig. 4.4",
+    .source = "stand-in for Schwarz 2009, Fig. 4.4",
     .parameters = {integerParameter("tessellation", 16, 1, 48, "segments", "Segments in a quarter circle")},
     .build = buildTwoColourLight}};
 

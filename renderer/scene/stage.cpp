@@ -54,7 +54,7 @@ void frameStanding(Scene& scene, double height, double reach) {
   const double extent = std::max(height, reach);
   const glm::dvec3 middle(0.0, 0.45 * height, 0.0);
   scene.lights = {
-      lightTowards(middle + extent * glm::dvec3(-1.7, 2.6, 1.2), middle, glm::dvec2(0.2 * height))};
+      lightTowards(middle + extent * glm::dvec3(-1.7, 3.0, 1.2), middle, glm::dvec2(0.2 * height))};
   setStillCamera(scene, orbitCamera({0.25 * extent, 0.3 * height, -0.1 * extent}, 3.4 * extent, 8.0, 40.0));
 }
 

@@ -27,7 +27,8 @@ void setStillCamera(Scene& scene, const Camera& camera);
 
 /// Lights and looks at an object of the given height that stands on the ground at the origin, `reach` being
 /// the radius around the y axis that it fills: the light (a fifth of the height wide) comes from the left,
-/// the camera sees object and shadow.
+/// the camera sees object and shadow. All of a ground up to 9 times the larger of the two wide is before the
+/// light.
 void frameStanding(Scene& scene, double height, double reach);
 
 }  // namespace limen::scene

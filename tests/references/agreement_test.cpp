@@ -52,9 +52,9 @@ class Agreement : public gl::GlTest {
   /// sqrt(ln(2 M / 1e-3) / 2 N), and the mean over all leaves sqrt(ln(2 / 1e-3) / (2 N M)); rounding aside.
   void expectRaysAgreeWithUnion(const scene::Scene& scene, const std::string& name) {
     constexpr int64_t kRays = 256;
-    const Rendered exact = renderReference(context(), scene, "references/exact_union", {}, {48, 48});
+    const Rendered exact = renderReference(context(), scene, "soft_shadows/exact_union", {}, {48, 48});
     for (const char* pattern : {"stratified", "random"}) {
-      const Rendered traced = renderReference(context(), scene, "references/ray_traced_light",
+      const Rendered traced = renderReference(context(), scene, "soft_shadows/ray_traced",
                                               {{"samples", kRays}, {"pattern", pattern}}, {48, 48});
       const Comparison result = compare(traced, exact, traced.errorBound);
       const auto receivers = double(result.receivers);
@@ -122,10 +122,10 @@ TEST_F(Agreement, RaysAgreeWithTheExactUnionUnderALightThatTrianglesCross) {
 TEST_F(Agreement, MapsAgreeWithRaysOnTheSphereGrid) {
   constexpr int kPixels = 96, kSide = 16, kResolution = 512;
   const scene::Scene scene = builtScene("sphere_grid");
-  const Rendered traced = renderReference(context(), scene, "references/ray_traced_light",
+  const Rendered traced = renderReference(context(), scene, "soft_shadows/ray_traced",
                                           {{"samples", int64_t{1024}}}, {kPixels, kPixels});
   const Rendered maps = renderReference(
-      context(), scene, "references/sampled_light",
+      context(), scene, "soft_shadows/sampled_light",
       {{"samples", int64_t{kSide * kSide}}, {"resolution", int64_t{kResolution}}}, {kPixels, kPixels});
   size_t steep = 0;
   for (int y = 1; y + 1 < kPixels; ++y)

@@ -67,7 +67,7 @@ TEST_F(ClosedForm, ExactUnionGivesTheLinearPenumbraOfAHalfPlane) {
     const scene::Scene scene = builtScene("half_plane", {{"edge_height", height}});
     const Edge edge = edgeOf(scene.lights[0]);
     const double width = scene.lights[0].size[edge.axis];
-    const Rendered rendered = renderReference(context(), scene, "references/exact_union", {}, kSize);
+    const Rendered rendered = renderReference(context(), scene, "soft_shadows/exact_union", {}, kSize);
     forGround(rendered, [&](double visibility, glm::dvec3 p) {
       EXPECT_NEAR(visibility,
                   halfPlaneOnRectangle(edge.side * p[edge.axis], edge.side * edge.at, height, width),
@@ -80,7 +80,7 @@ TEST_F(ClosedForm, ExactUnionGivesTheCircularSegmentsOfAHalfPlaneUnderADisc) {
   const scene::Scene scene = builtScene("half_plane", {{"light_shape", "disc"}});
   const Edge edge = edgeOf(scene.lights[0]);
   const double width = scene.lights[0].size[edge.axis];
-  const Rendered rendered = renderReference(context(), scene, "references/exact_union", {}, kSize);
+  const Rendered rendered = renderReference(context(), scene, "soft_shadows/exact_union", {}, kSize);
   forGround(rendered, [&](double visibility, glm::dvec3 p) {
     // dV/ds0 of a disc is at most 4/pi of a rectangle's.
     EXPECT_NEAR(visibility, halfPlaneOnDisc(edge.side * p[edge.axis], edge.side * edge.at, 1.0, width),
@@ -100,7 +100,7 @@ TEST_F(ClosedForm, RayTracedLightGivesTheLinearPenumbraOfAHalfPlane) {
   const Edge edge = edgeOf(scene.lights[0]);
   const double width = scene.lights[0].size[edge.axis];
   const Rendered rendered =
-      renderReference(context(), scene, "references/ray_traced_light", {{"samples", int64_t{1024}}}, kSize);
+      renderReference(context(), scene, "soft_shadows/ray_traced", {{"samples", int64_t{1024}}}, kSize);
   const double bound = stratifiedBound(32, rendered.receiverCount());
   forGround(rendered, [&](double visibility, glm::dvec3 p) {
     EXPECT_NEAR(visibility, halfPlaneOnRectangle(edge.side * p[edge.axis], edge.side * edge.at, 1.0, width),
@@ -113,7 +113,7 @@ TEST_F(ClosedForm, RayTracedLightWithAnyPatternKeepsItsBoundOnADiscLight) {
   const Edge edge = edgeOf(scene.lights[0]);
   const double width = scene.lights[0].size[edge.axis];
   for (const char* pattern : {"stratified", "random"}) {
-    const Rendered rendered = renderReference(context(), scene, "references/ray_traced_light",
+    const Rendered rendered = renderReference(context(), scene, "soft_shadows/ray_traced",
                                               {{"samples", int64_t{256}}, {"pattern", pattern}}, kSize);
     // ln(2 / 0.001) / 512, square root.
     EXPECT_NEAR(rendered.errorBound, 0.12184, 1e-5);
@@ -137,7 +137,7 @@ TEST_F(ClosedForm, SampledLightGivesTheLinearPenumbraOfAHalfPlane) {
   const double width = scene.lights[0].size[edge.axis];
   constexpr int kSide = 16, kResolution = 1024;
   const Rendered rendered =
-      renderReference(context(), scene, "references/sampled_light",
+      renderReference(context(), scene, "soft_shadows/sampled_light",
                       {{"samples", int64_t{kSide * kSide}}, {"resolution", int64_t{kResolution}}}, kSize);
   // The half-plane covers at most [-4.7, 4.7] at a depth of 1, plus a texel's margin on each side.
   const double texel = 2.0 * 4.7 / (kResolution - 2);
@@ -156,7 +156,7 @@ TEST_F(ClosedForm, ExactUnionGivesTheOverlapOfAParallelRectangle) {
     const scene::AreaLight& light = scene.lights[0];
     // "width" lies along the light's x axis.
     const glm::dvec2 half = 0.5 * glm::dvec2(0.6, 0.4), lightHalf = 0.5 * light.size;
-    const Rendered rendered = renderReference(context(), scene, "references/exact_union", {}, {96, 96});
+    const Rendered rendered = renderReference(context(), scene, "soft_shadows/exact_union", {}, {96, 96});
     forGround(rendered, [&](double visibility, glm::dvec3 p) {
       double covered = 1.0;
       for (int axis = 0; axis < 2; ++axis) {

@@ -22,9 +22,9 @@ struct Method {
 
 /// Every reference, at a price that suits a test.
 std::vector<Method> methods() {
-  return {{"references/exact_union", {}},
-          {"references/ray_traced_light", {{"samples", int64_t{64}}}},
-          {"references/sampled_light", {{"samples", int64_t{16}}, {"resolution", int64_t{512}}}}};
+  return {{"soft_shadows/exact_union", {}},
+          {"soft_shadows/ray_traced", {{"samples", int64_t{64}}}},
+          {"soft_shadows/sampled_light", {{"samples", int64_t{16}}, {"resolution", int64_t{512}}}}};
 }
 
 class ExactCases : public gl::GlTest {};
@@ -83,8 +83,8 @@ TEST_F(ExactCases, ASheetHidesThePartOfTheLightBehindItsPlane) {
     for (size_t i = 0; i < rendered.visibility.pixels(); ++i) {
       if (!rendered.isReceiver(i)) continue;
       // Grid methods: the cut lies along the grid, so at most one row of cells is misjudged.
-      const double bound = std::string(method.name) == "references/exact_union"        ? 1e-6
-                           : std::string(method.name) == "references/ray_traced_light" ? 1.0 / 8.0
+      const double bound = std::string(method.name) == "soft_shadows/exact_union"        ? 1e-6
+                           : std::string(method.name) == "soft_shadows/ray_traced" ? 1.0 / 8.0
                                                                                        : 0.5 / 4.0 + 1e-6;
       EXPECT_NEAR(rendered.visibility.data[i], kSeen, bound) << method.name;
     }
@@ -123,9 +123,9 @@ TEST_F(ExactCases, TheSameInputGivesTheSameBytes) {
 
 TEST_F(ExactCases, AnotherSeedGivesOtherSamples) {
   const scene::Scene scene = builtScene("half_plane");
-  const Rendered first = renderReference(context(), scene, "references/ray_traced_light",
+  const Rendered first = renderReference(context(), scene, "soft_shadows/ray_traced",
                                          {{"samples", int64_t{16}}, {"seed", int64_t{1}}}, {48, 48});
-  const Rendered second = renderReference(context(), scene, "references/ray_traced_light",
+  const Rendered second = renderReference(context(), scene, "soft_shadows/ray_traced",
                                           {{"samples", int64_t{16}}, {"seed", int64_t{2}}}, {48, 48});
   EXPECT_NE(first.visibility.data, second.visibility.data);
 }
@@ -134,10 +134,10 @@ TEST_F(ExactCases, AnotherSeedGivesOtherSamples) {
 TEST_F(ExactCases, CardsInTheUmbraOfACardChangeNothing) {
   const Rendered one =
       renderReference(context(), builtScene("card_stack", {{"cards", int64_t{1}}, {"fit", "umbra"}}),
-                      "references/exact_union", {}, kSize);
+                      "soft_shadows/exact_union", {}, kSize);
   const Rendered many =
       renderReference(context(), builtScene("card_stack", {{"cards", int64_t{16}}, {"fit", "umbra"}}),
-                      "references/exact_union", {}, kSize);
+                      "soft_shadows/exact_union", {}, kSize);
   size_t compared = 0;
   for (size_t i = 0; i < one.visibility.pixels(); ++i) {
     // Ground points that both pictures see; lower cards cover some from the camera.
@@ -168,13 +168,13 @@ TEST_F(ExactCases, WrongParametersAreRefusedWithAWayOut) {
     }
     return "no error";
   };
-  EXPECT_NE(message("references/exact_union", {{"max_triangles", int64_t{3}}}).find("max_triangles"),
+  EXPECT_NE(message("soft_shadows/exact_union", {{"max_triangles", int64_t{3}}}).find("max_triangles"),
             std::string::npos);
-  EXPECT_NE(message("references/ray_traced_light", {{"samples", int64_t{1000}}}).find("give 1024"),
+  EXPECT_NE(message("soft_shadows/ray_traced", {{"samples", int64_t{1000}}}).find("give 1024"),
             std::string::npos);
-  EXPECT_NE(message("references/sampled_light", {{"samples", int64_t{1000}}}).find("give 1024"),
+  EXPECT_NE(message("soft_shadows/sampled_light", {{"samples", int64_t{1000}}}).find("give 1024"),
             std::string::npos);
-  EXPECT_EQ(message("references/ray_traced_light", {{"samples", int64_t{1000}}, {"pattern", "random"}}),
+  EXPECT_EQ(message("soft_shadows/ray_traced", {{"samples", int64_t{1000}}, {"pattern", "random"}}),
             "no error");
 }
 

@@ -43,11 +43,13 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   pyramid.minimum().bindTexture(1);
   pyramid.maximum().bindTexture(2);
   levels_ = pyramid.levels();
+  maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
   return pyramid.frustum();
 }
 
 void OccluderSearch::configure(const gl::Program& program) const {
   program.set("levels", levels_);
+  program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
   program.set("budgetPerAxis",
               budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));

@@ -8,6 +8,8 @@
 layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
 layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
 uniform int levels, refinements, budgetPerAxis;
+// Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
+uniform int maxIterations;
 
 void clearGathered();
 void accumulate(vec2 low, vec2 high);
@@ -95,6 +97,11 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   const int level = microOccluderLevel(area);
   levelUsed = uint(level);
   const ivec2 low = area.low >> level, high = (area.high - 1) >> level;
+  const ivec2 count = high - low + 1;
+  if (float(count.x + 1) * float(count.y) > float(maxIterations)) {
+    pixelClass = kCutShort;
+    return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
+  }
   const float depth = biasedDepth(p, level);
   const vec2 perTexel = tangentSize / float(resolution) * float(1 << level);
   // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + 1/2.

@@ -20,7 +20,7 @@ class OccluderSearch : public VisibilityTechnique {
 
  private:
   int budget_, refinements_;
-  int levels_ = 0;
+  int levels_ = 0, maxIterations_ = 0;
 };
 
 }  // namespace limen::techniques

@@ -17,7 +17,7 @@ uniform vec2 lightSize;  // full extents
 uniform int resolution;
 uniform float bias, slopeBias;
 
-const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u;
+const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u, kCutShort = 5u;
 
 // Classes and work of this pixel; the compiler removes them where nobody counts.
 uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed = 0u;

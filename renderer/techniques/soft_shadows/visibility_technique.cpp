@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {
@@ -18,7 +20,8 @@ enum PixelClass : uint32_t {
   Umbra = 2,
   Processed = 3,
   Outside = 4,
-  ClassCount = 5
+  CutShort = 5,
+  ClassCount = 6
 };
 
 std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
@@ -33,6 +36,10 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
     levels += counts[i + 3];
   }
   const double all = static_cast<double>(counts.size()) / 4.0;
+  if (pixels[CutShort] > 0.0)
+    throw Error(shortestNumber(pixels[CutShort]) +
+                    " pixels need more loop iterations than this software renderer grants",
+                {}, "set 'budget', lower 'resolution', or run on a GPU");
   const double processed = pixels[Processed];
   const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
   const double mean = perProcessed(occluders);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "analysis/report.h"
+#include "base/error.h"
+#include "base/text.h"
+
+namespace {
+
+using limen::analysis::ReportOptions;
+using limen::analysis::ReportResult;
+
+void print(const ReportResult& result, bool json) {
+  if (json) {
+    const nlohmann::json line = {
+        {"event", "report"},         {"page", result.page},
+        {"title", result.title},     {"experiment", result.hash},
+        {"runs", result.runs},       {"failed", result.failed},
+        {"missing", result.missing}, {"broken_expectations", result.brokenExpectations}};
+    std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::printf("%s\n", result.page.c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Says what sweeps and studies found. Needs no GPU.", "limen-analyse");
+  app.set_version_flag("--version", "limen-analyse " LIMEN_VERSION);
+  app.require_subcommand(1);
+
+  ReportOptions options;
+  bool json = false;
+  CLI::App* report = app.add_subcommand("report", "HTML page and CSV tables of a sweep: speed against error");
+  report->add_option("STORE", options.storePath, "result store that limen-sweep wrote")->required();
+  report->add_option("-o,--output", options.folder, "folder for report.html, CSV tables, charts and pictures")
+      ->required();
+  report->add_option(
+      "--experiment", options.experiment,
+      "title or hash (8 digits or more) of one experiment; otherwise all of the store, each in a folder "
+      "of its own if there are several");
+  report->add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
+  report->add_flag("--json", json, "print one JSON line for each page");
+
+  // CLI11 would only say that a subcommand is missing.
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    std::fprintf(stderr, "limen-analyse: no command '%s'; %s\n", argv[1],
+                 limen::suggest(argv[1], commands).c_str());
+    return limen::kExitBadInput;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? limen::kExitSuccess : limen::kExitBadInput;
+  }
+  try {
+    for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
+  } catch (const limen::Error& error) {
+    std::fprintf(stderr, "limen-analyse: %s\n", error.what());
+    return limen::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "limen-analyse: %s\n", error.what());
+    return limen::kExitFailedRuns;
+  }
+  return limen::kExitSuccess;
+}

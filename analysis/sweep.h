@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics.h"
+#include "experiments/store/store.h"
+
+namespace limen::analysis {
+
+/// A quantity on an axis: a measurement or a numeric parameter.
+struct Axis {
+  std::string name;
+  std::string title;  ///< "GPU time (ms)"
+  std::string unit;
+  std::string pass;             ///< frame_time rows that it is the median of; "": none
+  bool higherIsBetter = false;  ///< PSNR, SSIM: drawn upside down on a linear axis
+};
+
+/// Times of one pass over the frames of a run.
+struct PassTime {
+  std::string pass;
+  Summary ms;
+};
+
+/// A finished run with what the report needs of it.
+struct Cell {
+  store::Run run;
+  size_t series = 0, panel = 0;         ///< indices into Sweep
+  std::optional<double> x, y, counter;  ///< values on the axes
+  std::optional<Summary> frame;         ///< of the x axis' pass, milliseconds
+  std::optional<Interval> interval;     ///< of the median of that
+  std::vector<PassTime> passes;
+  std::map<std::string, std::string> varying;  ///< column -> value, of what varies among the runs
+  int frontNumber = 0;                         ///< place on the panel's Pareto front, from 1; 0: not on it
+  bool isDrawn() const { return x && y; }
+};
+
+struct Panel {
+  std::string title;
+  std::vector<size_t> cells, front;  ///< indices into Sweep::cells; the front from fast to exact
+};
+
+/// One experiment of a store, sorted for a report.
+struct Sweep {
+  store::Experiment experiment;
+  std::vector<store::Expectation> expectations;
+  std::vector<store::Environment> environments;  ///< those that its runs were measured in
+  std::vector<Cell> cells;
+  std::vector<store::Run> failed;
+  std::vector<store::PlanEntry> missing;  ///< neither done nor failed: never run, or given up
+  size_t planned = 0;
+  Axis x, y;
+  std::optional<Axis> counter;  ///< machine-independent cost, if the runs have one
+  std::string seriesName, panelName;
+  std::vector<std::string> series;  ///< as a reader sees them: without `seriesPrefix`
+  std::string seriesPrefix;         ///< folder that all techniques share ("soft_shadows/")
+  std::vector<Panel> panels;
+  std::vector<std::string> varyingColumns;
+  bool software = false;  ///< at least one run was timed on a software renderer
+  bool severalDevices = false;
+
+  bool isComplete() const { return missing.empty() && failed.empty(); }
+  /// "pcss, samples=8": what tells this cell from the others of its panel.
+  std::string label(const Cell& cell) const;
+};
+
+/// Reads an experiment from a store and computes statistics and Pareto fronts.
+Sweep loadSweep(const store::Store& store, const store::Experiment& experiment);
+
+/// The frame's own times, as opposed to those of a pass within it.
+bool isWholeFrame(const std::string& pass);
+
+}  // namespace limen::analysis

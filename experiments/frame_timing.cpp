@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/frame_timing.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <map>
+
+namespace limen::experiments {
+namespace {
+
+using std::chrono::steady_clock;
+
+int64_t threadCpuNanoseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+double secondsSince(steady_clock::time_point start) {
+  return std::chrono::duration<double>(steady_clock::now() - start).count();
+}
+
+/// Linear interpolation between order statistics (Hyndman and Fan, type 7).
+double quantileMs(std::vector<int64_t> nanoseconds, double q) {
+  std::sort(nanoseconds.begin(), nanoseconds.end());
+  const double at = q * static_cast<double>(nanoseconds.size() - 1);
+  const auto below = static_cast<size_t>(at);
+  const size_t above = std::min(below + 1, nanoseconds.size() - 1);
+  const double share = at - static_cast<double>(below);
+  return 1e-6 * ((1.0 - share) * static_cast<double>(nanoseconds[below]) +
+                 share * static_cast<double>(nanoseconds[above]));
+}
+
+/// Every technique of every family needs these; they are not its own cost.
+bool isGBuffer(const std::string& pass) { return pass == "frame/triangle_ids" || pass == "frame/receivers"; }
+
+}  // namespace
+
+void FrameTiming::warmUp(frame::Frame& frame, techniques::Technique& technique) const {
+  const auto start = steady_clock::now();
+  for (int i = 0; i < std::max(timing_.warmup, 1) && (i == 0 || secondsSince(start) < 2.0); ++i) {
+    frame.begin();
+    technique.render(frame);
+    frame.end();
+    if (clock_ == gl::Clock::Wall) glFinish();
+  }
+}
+
+void FrameTiming::measureRound(frame::Frame& frame, techniques::Technique& technique, int round,
+                               double maxSeconds) {
+  // Frames are shared evenly; the first rounds take what is left over.
+  const int planned = timing_.frames / timing_.rounds + (round < timing_.frames % timing_.rounds ? 1 : 0);
+  glFinish();
+  frame.passes().startRecording(clock_, planned);
+  const auto start = steady_clock::now();
+  int done = 0;
+  for (; done < planned && (done == 0 || secondsSince(start) < maxSeconds); ++done) {
+    const auto wall = steady_clock::now();
+    const int64_t cpu = threadCpuNanoseconds();
+    frame.begin();
+    technique.render(frame);
+    frame.end();
+    times_.push_back({frames_ + done, round, "cpu", threadCpuNanoseconds() - cpu});
+    times_.push_back(
+        {frames_ + done, round, "wall",
+         std::chrono::duration_cast<std::chrono::nanoseconds>(steady_clock::now() - wall).count()});
+    // A long queue would let seconds of work pass before the limit above is seen.
+    if (done == 0 && planned > 1) glFinish();
+  }
+  for (const gl::PassTime& time : frame.passes().finishRecording())
+    times_.push_back({frames_ + time.frame, round, time.pass, time.nanoseconds});
+  frames_ += done;
+}
+
+std::vector<store::Measurement> FrameTiming::summarise() const {
+  std::map<std::string, std::vector<int64_t>> byPass;
+  std::map<int, int64_t> own;
+  for (const store::FrameTime& time : times_) {
+    byPass[time.pass].push_back(time.nanoseconds);
+    if (time.pass == "frame") own[time.frame] += time.nanoseconds;
+    if (isGBuffer(time.pass)) own[time.frame] -= time.nanoseconds;
+  }
+  std::vector<int64_t> ownTimes;
+  for (const auto& [frame, nanoseconds] : own) ownTimes.push_back(nanoseconds);
+  std::vector<store::Measurement> out;
+  const auto add = [&](const std::string& name, const std::vector<int64_t>& values, double q) {
+    if (!values.empty()) out.push_back({name, quantileMs(values, q), "ms", "time"});
+  };
+  add("gpu_ms", byPass["frame"], 0.5);
+  add("gpu_ms_p95", byPass["frame"], 0.95);
+  add("technique_ms", ownTimes, 0.5);
+  add("wall_ms", byPass["wall"], 0.5);
+  add("cpu_ms", byPass["cpu"], 0.5);
+  out.push_back({"timed_frames", static_cast<double>(frames_), "", "fact"});
+  return out;
+}
+
+}  // namespace limen::experiments

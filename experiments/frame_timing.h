@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "experiments/executor.h"
+#include "experiments/gpu_clock.h"
+#include "renderer/frame/frame.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::experiments {
+
+/// Times one technique over the rounds of a batch.
+class FrameTiming {
+ public:
+  FrameTiming(Timing timing, gl::Clock clock) : timing_(timing), clock_(clock) {}
+
+  /// Frames that are rendered but not timed. A slow technique gets fewer: at least one, then as many as fit
+  /// two seconds.
+  void warmUp(frame::Frame& frame, techniques::Technique& technique) const;
+  /// One round of timed frames. `maxSeconds` cuts a round of a slow technique short, to no fewer than one
+  /// frame.
+  void measureRound(frame::Frame& frame, techniques::Technique& technique, int round, double maxSeconds);
+
+  const std::vector<store::FrameTime>& times() const { return times_; }
+  /// gpu_ms and its p95, technique_ms, wall_ms, cpu_ms, timed_frames.
+  std::vector<store::Measurement> summarise() const;
+
+ private:
+  Timing timing_;
+  gl::Clock clock_;
+  int frames_ = 0;
+  std::vector<store::FrameTime> times_;
+};
+
+}  // namespace limen::experiments

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/gl_executor.h"
+
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <map>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "experiments/frame_timing.h"
+#include "experiments/gpu_clock.h"
+#include "experiments/interrupt.h"
+#include "experiments/product_judge.h"
+#include "experiments/reference_cache.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::experiments {
+namespace {
+
+using std::chrono::steady_clock;
+
+/// Slow techniques get fewer timed frames than asked for: a run's timing ends after this.
+constexpr double kMaxTimingSeconds = 20.0;
+
+/// Adds its lifetime to a total.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(steady_clock::now()) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  steady_clock::time_point start_;
+};
+
+/// A scene as all runs of a batch share it.
+struct Stage {
+  explicit Stage(scene::Scene built) : scene(std::move(built)), gpu(scene) {}
+
+  scene::Scene scene;
+  frame::GpuScene gpu;
+  nlohmann::json facts;
+  // For one image size:
+  glm::ivec2 sizePx{0};
+  Image mask, shading;
+};
+
+/// One run of a batch while it is worked on.
+struct LiveRun {
+  size_t index = 0;
+  const PlannedRun* plan = nullptr;
+  const techniques::TechniqueInfo* info = nullptr;
+  std::unique_ptr<frame::Frame> frame;
+  std::unique_ptr<techniques::Technique> technique;
+  std::optional<FrameTiming> timing;
+  std::future<std::vector<store::Artefact>> artefacts;
+  RunOutcome outcome;
+};
+
+class GlExecutor : public Executor {
+ public:
+  explicit GlExecutor(const std::string& folder)
+      : folder_(folder),
+        context_(gl::createHeadlessContext()),
+        clock_(*context_),
+        references_(folder + "/references") {
+    const gl::DeviceInfo& device = context_->device();
+    environment_.device = device.line();
+    environment_.software = device.software;
+    environment_.facts["gpu"] = {{"vendor", device.vendor},
+                                 {"renderer", device.renderer},
+                                 {"version", device.version},
+                                 {"platform", device.platform},
+                                 {"software", device.software}};
+    environment_.facts["gpu_candidates"] = gl::headlessCandidates();
+  }
+
+  const store::Environment& environment() const override { return environment_; }
+
+  void execute(std::span<const PlannedRun> batch,
+               const std::function<void(size_t, RunOutcome)>& finished) override {
+    const Stopwatch total(seconds_["total"]);
+    std::vector<LiveRun> live;
+    for (size_t i = 0; i < batch.size(); ++i) {
+      throwIfInterrupted();
+      LiveRun run;
+      run.index = i;
+      run.plan = &batch[i];
+      attempt(run, [&] { begin(run); });
+      if (run.outcome.error.empty())
+        live.push_back(std::move(run));
+      else
+        finish(run, finished);
+    }
+    const int rounds = batch.empty() ? 0 : batch[0].timing.rounds;
+    for (int round = 0; round < rounds; ++round)
+      for (LiveRun& run : live) {
+        throwIfInterrupted();
+        if (run.outcome.error.empty()) attempt(run, [&] { time(run, round, rounds); });
+        if (round + 1 == rounds) finish(run, finished);
+      }
+  }
+
+  nlohmann::json account() const override {
+    nlohmann::json out;
+    double accounted = 0.0;
+    for (const auto& [name, seconds] : seconds_) {
+      out[name + "_s"] = seconds;
+      if (name == "rendering" || name == "metrics" || name == "references") accounted += seconds;
+    }
+    const auto total = seconds_.find("total");
+    if (total != seconds_.end() && total->second > 0.0)
+      out["overhead_share"] = 1.0 - accounted / total->second;
+    return out;
+  }
+
+ private:
+  /// What a run throws is its own error; the others go on.
+  template <class Work>
+  void attempt(LiveRun& run, Work work) {
+    try {
+      work();
+      context_->checkDebugMessages();
+    } catch (const std::exception& error) {
+      run.outcome.error = error.what();
+      context_->takeDebugMessages();
+    }
+  }
+
+  void finish(LiveRun& run, const std::function<void(size_t, RunOutcome)>& finished) {
+    attempt(run, [&] {
+      if (run.artefacts.valid()) {
+        const Stopwatch watch(seconds_["artefacts"]);
+        run.outcome.artefacts = run.artefacts.get();
+      }
+    });
+    // GPU memory of a finished run serves nobody.
+    run.technique.reset();
+    run.frame.reset();
+    finished(run.index, std::move(run.outcome));
+  }
+
+  Stage& stage(const PlannedRun& run) {
+    const std::string key = run.scene.name + run.scene.values.toJson().dump();
+    if (key != stageKey_) {
+      const Stopwatch watch(seconds_["scenes"]);
+      stageKey_.clear();
+      stage_.reset();
+      stage_ = std::make_unique<Stage>(scene::buildScene(run.scene.name, run.scene.values));
+      const scene::Bounds bounds = stage_->scene.bounds();
+      stage_->facts = {
+          {"content_hash", stage_->scene.contentHash()},
+          {"triangles", stage_->scene.mesh.triangles.size()},
+          {"bounds",
+           {{bounds.low.x, bounds.low.y, bounds.low.z}, {bounds.high.x, bounds.high.y, bounds.high.z}}}};
+      stageKey_ = key;
+    }
+    const glm::ivec2 sizePx(run.widthPx, run.heightPx);
+    if (stage_->sizePx != sizePx) readStageImages(*stage_, sizePx);
+    return *stage_;
+  }
+
+  /// The receivers' mask, and the unshadowed picture: albedo by the cosine to the light's centre.
+  void readStageImages(Stage& stage, glm::ivec2 sizePx) {
+    const Stopwatch watch(seconds_["rendering"]);
+    frame::Frame frame(*context_, stage.scene, stage.gpu, sizePx);
+    frame.begin();
+    const Image receivers = frame.get<frame::Receivers>().texture().read();
+    const Image normals =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture().read();
+    const Image positions =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Position}).texture().read();
+    const Image albedo =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Albedo}).texture().read();
+    frame.end();
+    stage.mask = Image(sizePx.x, sizePx.y, 1);
+    stage.shading = Image(sizePx.x, sizePx.y, 3);
+    const glm::dvec3 light =
+        stage.scene.lights.empty() ? glm::dvec3(0.0) : stage.scene.lights[0].centre - stage.gpu.anchor();
+    for (size_t i = 0; i < stage.mask.pixels(); ++i) {
+      const bool receiver = receivers.data[4 * i + 3] >= 0.0F;
+      stage.mask.data[i] = receiver ? 1.0F : 0.0F;
+      if (!receiver) continue;
+      const glm::dvec3 toLight =
+          light - glm::dvec3(positions.data[4 * i], positions.data[4 * i + 1], positions.data[4 * i + 2]);
+      const double cosine =
+          glm::dot(glm::dvec3(normals.data[4 * i], normals.data[4 * i + 1], normals.data[4 * i + 2]),
+                   toLight / glm::length(toLight));
+      for (size_t c = 0; c < 3; ++c)
+        stage.shading.data[3 * i + c] = albedo.data[4 * i + c] * static_cast<float>(std::max(cosine, 0.0));
+    }
+    stage.sizePx = sizePx;
+    clock_.touch();
+  }
+
+  /// Prepares a run, renders it once and judges the product.
+  void begin(LiveRun& run) {
+    const PlannedRun& plan = *run.plan;
+    run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
+    Stage& on = stage(plan);
+    run.outcome.sceneFacts = on.facts;
+    requireTraits(*run.info, on.scene);
+    prepare(run, on);
+    Image product;
+    std::vector<techniques::Counter> counters;
+    {
+      const Stopwatch watch(seconds_["rendering"]);
+      product = run.technique->product().read();
+      counters = run.technique->count(*run.frame);
+      clock_.touch();
+    }
+    const Image* reference = nullptr;
+    std::optional<gl::Texture> referenceTexture;
+    if (!plan.reference.name.empty()) {
+      const Stopwatch watch(seconds_["references"]);
+      reference = &referenceFor(plan, on);
+      referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
+      referenceTexture->write(*reference);
+    }
+    std::vector<std::pair<std::string, Image>> maps;
+    {
+      const Stopwatch watch(seconds_["metrics"]);
+      const JudgedProduct judged{&run.technique->product(),
+                                 referenceTexture ? &*referenceTexture : nullptr,
+                                 &product,
+                                 reference,
+                                 &on.mask,
+                                 &on.shading};
+      for (store::Measurement& measurement : judge(plan, judged, maps))
+        run.outcome.measurements.push_back(std::move(measurement));
+      countNonFinite(product, run.outcome);
+      clock_.touch();
+    }
+    for (const techniques::Counter& counter : counters)
+      run.outcome.measurements.push_back({counter.name, counter.value, counter.unit, "counter"});
+    startArtefacts(run, on, std::move(product), reference, std::move(maps));
+    run.timing.emplace(plan.timing,
+                       environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
+  }
+
+  static void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {
+    const std::set<std::string> traits = scene.traits();
+    for (const std::string& need : info.needs)
+      if (!traits.count(need))
+        throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
+                        "' with these parameters has not",
+                    {}, "choose another light or another technique");
+  }
+
+  void prepare(LiveRun& run, const Stage& on) {
+    const Stopwatch watch(seconds_["rendering"]);
+    run.technique = run.info->make(run.plan->technique.values);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.scene, on.gpu, on.sizePx);
+    const double compiledBefore = context_->programs().compileMs();
+    const auto start = steady_clock::now();
+    run.technique->prepare(*run.frame);
+    // The first frame allocates the shared inputs, which is preparation too.
+    run.frame->begin();
+    run.technique->render(*run.frame);
+    run.frame->end();
+    glFinish();
+    const double ms = std::chrono::duration<double, std::milli>(steady_clock::now() - start).count();
+    const double compileMs = context_->programs().compileMs() - compiledBefore;
+    run.outcome.measurements.push_back({"prepare_ms", ms - compileMs, "ms", "time"});
+    for (const gl::PassList::Pass& pass : run.frame->passes().passes())
+      run.outcome.passes.push_back({pass.name, pass.bytesHeld});
+    clock_.touch();
+  }
+
+  static void countNonFinite(const Image& product, RunOutcome& outcome) {
+    const auto count = std::count_if(product.data.begin(), product.data.end(),
+                                     [](float value) { return !std::isfinite(value); });
+    outcome.measurements.push_back({"non_finite_count", static_cast<double>(count), "", "error"});
+    if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
+  }
+
+  const Image& referenceFor(const PlannedRun& run, const Stage& on) {
+    const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.reference.name);
+    requireTraits(info, on.scene);
+    nlohmann::json identity = {{"reference", info.name},
+                               {"version", info.version},
+                               {"values", run.reference.values.toJson()},
+                               {"scene", on.facts["content_hash"]},
+                               {"size_px", {on.sizePx.x, on.sizePx.y}},
+                               {"device", environment_.device}};
+    return references_.get(sha256(identity.dump()), [&] {
+      const auto technique = info.make(run.reference.values);
+      frame::Frame frame(*context_, on.scene, on.gpu, on.sizePx);
+      technique->prepare(frame);
+      frame.begin();
+      technique->render(frame);
+      frame.end();
+      Image product = technique->product().read();
+      context_->checkDebugMessages();
+      clock_.touch();
+      return product;
+    });
+  }
+
+  void startArtefacts(LiveRun& run, const Stage& on, Image product, const Image* reference,
+                      std::vector<std::pair<std::string, Image>> maps) {
+    if (!run.plan->artefacts.pictures && !run.plan->artefacts.exr) return;
+    auto write = [plan = run.plan, folder = folder_, shading = on.shading, product = std::move(product),
+                  reference = reference ? std::optional(*reference) : std::nullopt, maps = std::move(maps)] {
+      return writeArtefacts(*plan, folder, product, reference ? &*reference : nullptr, shading, maps);
+    };
+    // Beside the GPU's work; but where a CPU plays GPU, files must not be compressed while frames are timed.
+    run.artefacts = std::async(std::launch::async, std::move(write));
+    if (environment_.software) {
+      const Stopwatch watch(seconds_["artefacts"]);
+      run.artefacts.wait();
+    }
+  }
+
+  void time(LiveRun& run, int round, int rounds) {
+    const Stopwatch watch(seconds_["rendering"]);
+    clock_.wake();
+    run.timing->warmUp(*run.frame, *run.technique);
+    run.timing->measureRound(*run.frame, *run.technique, round, kMaxTimingSeconds / rounds);
+    clock_.touch();
+    if (round + 1 < rounds) return;
+    for (store::Measurement& measurement : run.timing->summarise())
+      run.outcome.measurements.push_back(measurement);
+    run.outcome.frameTimes = run.timing->times();
+    int64_t bytes = 0;
+    for (const store::Pass& pass : run.outcome.passes) bytes += pass.bytesHeld;
+    run.outcome.measurements.push_back({"bytes_held", static_cast<double>(bytes), "byte", "fact"});
+    if (const auto mhz = clock_.measureMhz())
+      run.outcome.measurements.push_back({"gpu_clock_mhz", *mhz, "MHz", "fact"});
+  }
+
+  std::string folder_;
+  std::unique_ptr<gl::Context> context_;
+  GpuClock clock_;
+  ReferenceCache references_;
+  store::Environment environment_;
+  std::string stageKey_;
+  std::unique_ptr<Stage> stage_;
+  std::map<std::string, double> seconds_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder) {
+  return std::make_unique<GlExecutor>(resultsFolder);
+}
+
+}  // namespace limen::experiments

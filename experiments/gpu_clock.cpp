@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/gpu_clock.h"
+
+#include <epoxy/gl.h>
+
+#include "renderer/gl/buffer.h"
+
+namespace limen::experiments {
+
+using std::chrono::steady_clock;
+
+GpuClock::GpuClock(gl::Context& context) : software_(context.device().software) {
+  if (software_) return;
+  busy_ = &context.programs().compute("experiments/gpu_busy.comp.glsl");
+  if (epoxy_has_gl_extension("GL_ARB_shader_clock"))
+    counter_ = &context.programs().compute("experiments/gpu_clock.comp.glsl");
+}
+
+void GpuClock::spin(int repetitions) {
+  const gl::Buffer out(64, nullptr);
+  out.bindStorage(0);
+  for (int i = 0; i < repetitions; ++i) busy_->dispatch({64 * 1024, 1}, {64, 1});
+  glFinish();
+}
+
+void GpuClock::wake() {
+  if (software_ || steady_clock::now() - lastWork_ < std::chrono::seconds(1)) return;
+  const auto start = steady_clock::now();
+  while (steady_clock::now() - start < std::chrono::milliseconds(500)) spin(16);
+  touch();
+}
+
+std::optional<double> GpuClock::measureMhz() {
+  if (!counter_) return {};
+  constexpr double kTicks = 2e6;
+  const gl::Buffer out(64, nullptr);
+  out.bindStorage(0);
+  GLuint query = 0;
+  glCreateQueries(GL_TIME_ELAPSED, 1, &query);
+  counter_->set("ticks", static_cast<uint32_t>(kTicks));
+  glBeginQuery(GL_TIME_ELAPSED, query);
+  counter_->dispatch({1, 1}, {1, 1});
+  glEndQuery(GL_TIME_ELAPSED);
+  GLuint64 nanoseconds = 0;
+  glGetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds);
+  glDeleteQueries(1, &query);
+  const auto counted = out.read<uint32_t>(0, 1);
+  touch();
+  return nanoseconds > 0 ? std::optional(counted[0] * 1e3 / static_cast<double>(nanoseconds)) : std::nullopt;
+}
+
+}  // namespace limen::experiments

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/executor.h"
+
+namespace limen::experiments {
+
+/// Name under which a metric's value is stored: the metric's own, followed by the values that are not its
+/// defaults when a descriptor asks for the metric more than once ("rmse", "rmse_penumbra"). `declared`: the
+/// metric's parameters.
+std::string measurementName(const Choice& metric, const std::vector<Choice>& all,
+                            const std::vector<Parameter>& declared);
+
+}  // namespace limen::experiments

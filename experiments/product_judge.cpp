@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/product_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "experiments/measurement_name.h"
+#include "perception/metrics/error_map.h"
+#include "perception/metrics/metric.h"
+
+namespace limen::experiments {
+namespace {
+
+/// What a person looks at: the scene's colour with the visibility applied, or the colour product itself.
+Image composed(const Image& product, const Image& shading) {
+  Image out(product.width, product.height, 3);
+  for (size_t i = 0; i < out.pixels(); ++i)
+    for (size_t c = 0; c < 3; ++c) {
+      const float value = product.channels == 1 ? product.data[i] * shading.data[3 * i + c]
+                                                : product.data[i * static_cast<size_t>(product.channels) + c];
+      out.data[3 * i + c] = value;
+    }
+  return out;
+}
+
+}  // namespace
+
+std::vector<store::Measurement> judge(const PlannedRun& run, const JudgedProduct& product,
+                                      std::vector<std::pair<std::string, Image>>& maps) {
+  const perception::ComparisonInput input{product.texture, product.referenceTexture, product.image,
+                                          product.reference, product.mask};
+  std::vector<store::Measurement> out;
+  for (const Choice& metric : run.metrics) {
+    const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
+    perception::MetricResult result = info.compare(input, metric.values);
+    const std::string name = measurementName(metric, run.metrics, info.parameters);
+    out.push_back(
+        {name, std::isfinite(result.value) ? std::optional(result.value) : std::nullopt, info.unit, "error"});
+    const bool known =
+        std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.first == result.mapName; });
+    if (result.map && !known) maps.emplace_back(result.mapName, std::move(*result.map));
+  }
+  return out;
+}
+
+std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::string& folder,
+                                            const Image& product, const Image* reference,
+                                            const Image& shading,
+                                            const std::vector<std::pair<std::string, Image>>& maps) {
+  std::vector<store::Artefact> out;
+  const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
+  const auto keep = [&](const std::string& kind, const std::string& file) {
+    out.push_back({kind, base + file, sha256File(folder + "/" + base + file)});
+  };
+  const auto picture = [&](const std::string& kind, const Image& image) {
+    writePng(folder + "/" + base + kind + ".png", image);
+    keep(kind + "_png", kind + ".png");
+  };
+  const auto exr = [&](const std::string& kind, const Image& image) {
+    writeExr(folder + "/" + base + kind + ".exr", image);
+    keep(kind + "_exr", kind + ".exr");
+  };
+  if (run.artefacts.pictures) {
+    picture("product", perception::displayPicture(composed(product, shading)));
+    if (reference) picture("reference", perception::displayPicture(composed(*reference, shading)));
+  }
+  if (run.artefacts.exr) {
+    exr("product", product);
+    if (reference) exr("reference", *reference);
+  }
+  for (const auto& [name, map] : maps) {
+    const std::string kind = name == "absolute_error" ? "error" : name;
+    if (run.artefacts.pictures) picture(kind, perception::errorPicture(map, kind == "error" ? kErrorScale : 1.0));
+    if (run.artefacts.exr) exr(kind, map);
+  }
+  return out;
+}
+
+}  // namespace limen::experiments

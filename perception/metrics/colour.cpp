@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/metrics/colour.h"
+
+#include <cmath>
+
+namespace limen::perception {
+namespace {
+
+double labCurve(double t) {
+  constexpr double kDelta = 6.0 / 29.0;
+  return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
+}
+
+}  // namespace
+
+double encodeSrgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+double relativeLuminance(const std::array<double, 3>& linearRgb) {
+  return 0.2126 * linearRgb[0] + 0.7152 * linearRgb[1] + 0.0722 * linearRgb[2];
+}
+
+Lab labFromLinearRgb(const std::array<double, 3>& linearRgb) {
+  // XYZ over the white's XYZ. The primaries and white of sRGB are given to four decimals, which makes the
+  // matrix one of fractions; each row is divided by its sum, since white is (1, 1, 1).
+  const auto [r, g, b] = linearRgb;
+  const double x = (10135552.0 * r + 8788810.0 * g + 4435075.0 * b) / 23359437.0;
+  const double y = (2613072.0 * r + 8788810.0 * g + 887015.0 * b) / 12288897.0;
+  const double z = (1425312.0 * r + 8788810.0 * g + 70074185.0 * b) / 80288307.0;
+  const double fx = labCurve(x), fy = labCurve(y), fz = labCurve(z);
+  return {116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)};
+}
+
+double differenceCie94(const Lab& reference, const Lab& test) {
+  const double referenceChroma = std::hypot(reference.a, reference.b);
+  const double lightness = reference.lightness - test.lightness;
+  const double chroma = referenceChroma - std::hypot(test.a, test.b);
+  const double da = reference.a - test.a, db = reference.b - test.b;
+  // Rounding can make the hue's share of equal hues a little negative.
+  const double hueSquared = std::fmax(0.0, da * da + db * db - chroma * chroma);
+  const double chromaScale = 1.0 + 0.045 * referenceChroma, hueScale = 1.0 + 0.015 * referenceChroma;
+  return std::sqrt(lightness * lightness + chroma * chroma / (chromaScale * chromaScale) +
+                   hueSquared / (hueScale * hueScale));
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/metrics/comparison.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "perception/metrics/row_sums.h"
+
+namespace limen::perception {
+namespace {
+
+std::string sizeText(const Image& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height) + " x " +
+         std::to_string(image.channels);
+}
+
+const Image& present(const Image* image, const std::string& metric, const char* role) {
+  if (!image || image->data.empty())
+    throw Error("metric '" + metric + "' has no " + role + " image", {}, "name a reference and render both");
+  return *image;
+}
+
+double clampToDisplay(double value) { return std::clamp(value, 0.0, 1.0); }
+
+}  // namespace
+
+Parameter regionParameter() {
+  return choiceParameter(
+      "region", "receivers", {"all", "receivers", "penumbra"},
+      "pixels that are judged; penumbra: receivers whose reference visibility is between 0 and 1");
+}
+
+Region regionOf(const ParameterValues& values) {
+  const std::string& name = values.text("region");
+  return name == "all" ? Region::All : name == "penumbra" ? Region::Penumbra : Region::Receivers;
+}
+
+Comparison::Comparison(const ComparisonInput& input, const std::string& metric, Region region)
+    : test_(present(input.test, metric, "test")),
+      reference_(present(input.reference, metric, "reference")),
+      mask_(input.mask),
+      region_(region) {
+  if (test_.width != reference_.width || test_.height != reference_.height ||
+      test_.channels != reference_.channels)
+    throw Error(
+        "metric '" + metric + "' compares images of " + sizeText(test_) + " and " + sizeText(reference_), {},
+        "give both the same size and kind");
+  if (test_.channels == 2)
+    throw Error("metric '" + metric + "' cannot judge images of 2 channels", {}, "give 1, 3 or 4 channels");
+  if (mask_ && (mask_->width != test_.width || mask_->height != test_.height || mask_->channels != 1))
+    throw Error("metric '" + metric + "': the mask is " + sizeText(*mask_) + ", the image " + sizeText(test_),
+                {}, "give a mask of the same size with 1 channel");
+  if (region == Region::Penumbra && channels() != 1)
+    throw Error("metric '" + metric + "': a colour product has no penumbra", {},
+                "use region: receivers or all");
+  const auto badIn = [&](int y) {
+    double bad = 0.0;
+    for (int x = 0; x < width(); ++x)
+      for (int c = 0; c < channels(); ++c) bad += std::isfinite(reference_.at(x, y, c)) ? 0.0 : 1.0;
+    return bad;
+  };
+  if (const double bad = sumRows(height(), static_cast<size_t>(width()), badIn); bad > 0.0)
+    throw Error("metric '" + metric + "': the reference holds " + std::to_string(static_cast<int64_t>(bad)) +
+                    " non-finite values",
+                {}, "nothing can be judged against it: mend the reference");
+  judgedPixels_ = static_cast<int64_t>(sumRows(height(), static_cast<size_t>(width()), [&](int y) {
+    double judged = 0.0;
+    for (int x = 0; x < width(); ++x) judged += judges(x, y) ? 1.0 : 0.0;
+    return judged;
+  }));
+}
+
+void Comparison::requireVisibility(const std::string& metric) const {
+  if (channels() != 1)
+    throw Error("metric '" + metric + "' judges visibility only, not colour", {},
+                "remove it for techniques whose product is a colour image");
+}
+
+std::array<double, 3> Comparison::shownReference(int x, int y) const {
+  if (channels() == 1) {
+    const double grey = clampToDisplay(reference_.at(x, y));
+    return {grey, grey, grey};
+  }
+  std::array<double, 3> shown{};
+  for (int c = 0; c < 3; ++c) shown[static_cast<size_t>(c)] = clampToDisplay(reference_.at(x, y, c));
+  return shown;
+}
+
+std::array<double, 3> Comparison::shownTest(int x, int y) const {
+  std::array<double, 3> shown = shownReference(x, y);
+  for (int c = 0; c < 3; ++c) {
+    double& value = shown[static_cast<size_t>(c)];
+    const float test = test_.at(x, y, std::min(c, channels() - 1));
+    value = std::isfinite(test) ? clampToDisplay(test) : value < 0.5 ? 1.0 : 0.0;
+  }
+  return shown;
+}
+
+}  // namespace limen::perception

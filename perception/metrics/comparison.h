@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "perception/metrics/metric.h"
+
+namespace limen::perception {
+
+/// Which pixels a metric judges.
+enum class Region {
+  All,        ///< every pixel
+  Receivers,  ///< where the mask is set; every pixel without a mask
+  Penumbra    ///< receivers whose reference visibility lies strictly between 0 and 1
+};
+
+/// The parameter `region` and its value.
+Parameter regionParameter();
+Region regionOf(const ParameterValues& values);
+
+/// A checked pair of products and the region in which they are compared.
+class Comparison {
+ public:
+  /// Throws Error if an image is missing, if sizes or channels differ, if the reference has a non-finite
+  /// value, or if a penumbra is asked for in a colour product. `metric` is named in errors.
+  Comparison(const ComparisonInput& input, const std::string& metric, Region region);
+
+  /// Throws Error unless the products are visibility images.
+  void requireVisibility(const std::string& metric) const;
+
+  int width() const { return test_.width; }
+  int height() const { return test_.height; }
+  /// 1 or 3: alpha is no part of a product.
+  int channels() const { return test_.channels < 3 ? 1 : 3; }
+  const Image& test() const { return test_; }
+  const Image& reference() const { return reference_; }
+  int64_t judgedPixels() const { return judgedPixels_; }
+
+  bool judges(int x, int y) const {
+    if (region_ == Region::All) return true;
+    if (mask_ && !(mask_->at(x, y) > 0.5F)) return false;
+    return region_ == Region::Receivers || (reference_.at(x, y) > 0.0F && reference_.at(x, y) < 1.0F);
+  }
+  /// test - reference. Non-finite test values: -1 for minus infinity, else +1.
+  double error(int x, int y, int channel) const {
+    const double test = test_.at(x, y, channel);
+    if (!std::isfinite(test)) return std::isinf(test) && test < 0.0 ? -1.0 : 1.0;
+    return test - double{reference_.at(x, y, channel)};
+  }
+  /// What a display would show: linear RGB clamped to [0, 1]; visibility as grey. A non-finite test channel
+  /// shows whichever of 0 and 1 is farther from the reference.
+  std::array<double, 3> shownTest(int x, int y) const;
+  std::array<double, 3> shownReference(int x, int y) const;
+
+ private:
+  const Image& test_;
+  const Image& reference_;
+  const Image* mask_;
+  Region region_;
+  int64_t judgedPixels_ = 0;
+};
+
+}  // namespace limen::perception

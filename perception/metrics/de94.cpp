@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <vector>
+
+#include "perception/metrics/colour.h"
+#include "perception/metrics/comparison.h"
+#include "perception/metrics/quantile.h"
+#include "perception/metrics/row_sums.h"
+
+namespace limen::perception {
+namespace {
+
+MetricResult measure(const ComparisonInput& input, const ParameterValues& values) {
+  const Comparison pair(input, "de94", regionOf(values));
+  MetricResult result;
+  result.judgedPixels = pair.judgedPixels();
+  std::vector<double> differences(pair.test().pixels());
+  const auto index = [&](int x, int y) { return static_cast<size_t>(y) * pair.width() + x; };
+  Image map(pair.width(), pair.height(), 1);
+  const double sum = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    CompensatedSum row;
+    for (int x = 0; x < pair.width(); ++x) {
+      if (!pair.judges(x, y)) continue;
+      const double difference = differenceCie94(labFromLinearRgb(pair.shownReference(x, y)),
+                                                labFromLinearRgb(pair.shownTest(x, y)));
+      differences[index(x, y)] = difference;
+      map.at(x, y) = static_cast<float>(difference);
+      row.add(difference);
+    }
+    return row.value();
+  });
+  if (result.judgedPixels > 0) {
+    const std::string& statistic = values.text("statistic");
+    if (statistic == "mean") {
+      result.value = sum / static_cast<double>(result.judgedPixels);
+    } else if (statistic == "max") {
+      result.value = *std::max_element(differences.begin(), differences.end());
+    } else {
+      std::vector<double> judged;
+      judged.reserve(static_cast<size_t>(result.judgedPixels));
+      for (int y = 0; y < pair.height(); ++y)
+        for (int x = 0; x < pair.width(); ++x)
+          if (pair.judges(x, y)) judged.push_back(differences[index(x, y)]);
+      result.value = nearestRank(judged, 0.99);
+    }
+  }
+  result.map = std::move(map);
+  result.mapName = "de94";
+  return result;
+}
+
+MetricInfo de94Metric() {
+  MetricInfo info;
+  info.name = "de94";
+  info.summary = "CIELAB difference CIE94 (graphic arts) of the images as an sRGB display shows them";
+  info.source = "CIE 116-1995";
+  info.unit = "dE94";
+  info.parameters = {
+      choiceParameter("statistic", "mean", {"mean", "max", "p99"}, "how the pixels' values are pooled"),
+      regionParameter()};
+  info.compare = &measure;
+  return info;
+}
+
+const Registered<MetricInfo> kRegistered{de94Metric()};
+
+}  // namespace
+}  // namespace limen::perception

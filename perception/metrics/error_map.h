@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/image.h"
+
+namespace limen::perception {
+
+/// Smallest of 1, 2 and 5 times a power of ten that no finite value of the map exceeds; 1 for a map without
+/// errors.
+double errorScale(const Image& map);
+
+/// A 1-channel map as a picture to look at: 3 channels, ready for writePng(). Painted in "magma", a colour
+/// map of even perceptual steps from black (0 and below) to pale yellow (`scale` and above). Non-finite
+/// values are bright green, a colour that the map does not hold. `scale` 0 stands for errorScale(map); state
+/// the scale beside the picture, and give the same one for pictures that are to be compared.
+Image errorPicture(const Image& map, double scale = 0.0);
+
+/// A product as an sRGB display shows it: clamped to [0, 1] and coded, 3 channels, ready for writePng().
+/// Visibility (1 channel) becomes grey, alpha is dropped, pixels with a non-finite value are bright green.
+Image displayPicture(const Image& linear);
+
+}  // namespace limen::perception

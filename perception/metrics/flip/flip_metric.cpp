@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "perception/metrics/comparison.h"
+#include "perception/metrics/flip/flip_gpu.h"
+#include "perception/metrics/metric_gpu.h"
+
+namespace limen::perception {
+namespace {
+
+gl::Texture upload(const Image& image) {
+  const bool grey = image.channels == 1;
+  gl::Texture texture(grey ? gl::Format::R32F : gl::Format::RGBA32F, {image.width, image.height});
+  if (image.channels != 3) {
+    texture.write(image);
+    return texture;
+  }
+  Image padded(image.width, image.height, 4, 1.0F);
+  for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    std::copy_n(image.data.begin() + static_cast<std::ptrdiff_t>(3 * pixel), 3,
+                padded.data.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+  texture.write(padded);
+  return texture;
+}
+
+MetricResult measure(const ComparisonInput& input, const ParameterValues& values) {
+  const Comparison pair(input, "flip", Region::All);
+  if (!input.gpu)
+    throw Error("metric 'flip' needs an OpenGL context", {},
+                "run it where OpenGL 4.5 is found, or use ssim or de94");
+  const glm::ivec2 sizePx(pair.width(), pair.height());
+  const double pixelsPerDegree = values.real("pixels_per_degree");
+  std::shared_ptr<void>& kept = input.gpu->kept("flip");
+  auto* flip = static_cast<FlipGpu*>(kept.get());
+  if (!flip || flip->sizePx() != sizePx || flip->pixelsPerDegree() != pixelsPerDegree) {
+    kept.reset();  // frees the memory before the next one takes it
+    const auto made = std::make_shared<FlipGpu>(input.gpu->context(), sizePx, pixelsPerDegree);
+    flip = made.get();
+    kept = made;
+  }
+  std::optional<gl::Texture> test, reference;
+  if (!input.testTexture) test.emplace(upload(*input.test));
+  if (!input.referenceTexture) reference.emplace(upload(*input.reference));
+
+  MetricResult result;
+  result.value =
+      flip->compute(test ? *test : *input.testTexture, reference ? *reference : *input.referenceTexture);
+  result.judgedPixels = pair.judgedPixels();
+  result.map = flip->map().read();
+  result.mapName = "flip";
+  return result;
+}
+
+MetricInfo flipMetric() {
+  MetricInfo info;
+  info.name = "flip";
+  info.summary = "mean LDR-FLIP error: how much a viewer notices when the images are shown in turn";
+  info.source = "Andersson et al. 2020";
+  info.needsGl = true;
+  info.parameters = {realParameter("pixels_per_degree", FlipGpu::kDefaultPixelsPerDegree,
+                                   FlipGpu::kLeastPixelsPerDegree, FlipGpu::kMostPixelsPerDegree, "px/deg",
+                                   "pixels per degree of visual angle at the viewer's eye",
+                                   "Andersson et al. 2020")};
+  info.compare = &measure;
+  return info;
+}
+
+const Registered<MetricInfo> kRegistered{flipMetric()};
+
+}  // namespace
+}  // namespace limen::perception

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Filters both images along their rows. Out: the four parts of contrast sensitivity of each image, and the feature
+// detectors' and their Gaussian's answers of both.
+#include "perception/metrics/flip/filters.glsl"
+
+layout(local_size_x = 128, local_size_y = 2) in;
+
+layout(binding = 0) uniform sampler2D testImage;
+layout(binding = 1) uniform sampler2D referenceImage;
+layout(binding = 0, rgba32f) uniform writeonly image2D testSensitivity;
+layout(binding = 1, rgba32f) uniform writeonly image2D referenceSensitivity;
+layout(binding = 2, rgba32f) uniform writeonly image2D detectors;  // test edge, point; reference edge, point
+layout(binding = 3, rg32f) uniform writeonly image2D smoothed;     // test, reference
+
+uniform bool grey;  // visibility: one channel
+
+const int kWidth = 128 + 2 * RADIUS;
+shared vec3 testRow[2][kWidth];  // Y, Cx, Cz
+shared vec3 referenceRow[2][kWidth];
+
+// Linear RGB to YCxCz, the opponent space of the filters: XYZ over the white's XYZ, then as CIELAB without its roots.
+vec3 toOpponent(vec3 rgb) {
+  const mat3 kXyzOverWhite = mat3(10135552.0 / 23359437.0, 2613072.0 / 12288897.0, 1425312.0 / 80288307.0,
+                                  8788810.0 / 23359437.0, 8788810.0 / 12288897.0, 8788810.0 / 80288307.0,
+                                  4435075.0 / 23359437.0, 887015.0 / 12288897.0, 70074185.0 / 80288307.0);
+  vec3 xyz = kXyzOverWhite * rgb;
+  return vec3(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z));
+}
+
+// By the bits, since a compiler may take isnan() for false.
+bvec3 isNonFinite(vec3 v) { return equal(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)); }
+
+void filterRow(int row, int centre, bool isTest, out vec4 sensitivitySum, out vec3 featureSum) {
+  vec3 middle = isTest ? testRow[row][centre] : referenceRow[row][centre];
+  sensitivitySum = sensitivity[RADIUS] * middle.xyzz;
+  // The detectors' weights sum to zero, so they are applied to differences: a flat image then answers exactly zero, and
+  // the square root taken of the answer later has no rounding to blow up.
+  featureSum = vec3(features[RADIUS].x * middle.x, 0.0, 0.0);
+  for (int tap = 1; tap <= RADIUS; ++tap) {
+    vec3 left = isTest ? testRow[row][centre - tap] : referenceRow[row][centre - tap];
+    vec3 right = isTest ? testRow[row][centre + tap] : referenceRow[row][centre + tap];
+    vec3 both = left + right;
+    vec4 kernel = features[RADIUS + tap];
+    sensitivitySum += sensitivity[RADIUS + tap] * both.xyzz;
+    featureSum += kernel.xyz * vec3(both.x, right.x - left.x, (left.x - middle.x) + (right.x - middle.x));
+  }
+  // Features are sought in luminance scaled to [0, 1].
+  featureSum = featureSum / 116.0 + vec3(16.0 / 116.0, 0.0, 0.0);
+}
+
+void main() {
+  ivec2 size = textureSize(testImage, 0);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  int row = int(gl_LocalInvocationID.y);
+  int first = int(gl_WorkGroupID.x) * 128 - RADIUS;
+  for (int i = int(gl_LocalInvocationID.x); i < kWidth; i += 128) {
+    ivec2 source = clamp(ivec2(first + i, pixel.y), ivec2(0), size - 1);
+    vec3 test = texelFetch(testImage, source, 0).rgb;
+    vec3 reference = texelFetch(referenceImage, source, 0).rgb;
+    if (grey) {
+      test = test.rrr;
+      reference = reference.rrr;
+    }
+    // The clamped linear values are what a display makes of their sRGB code: no need to encode and decode.
+    reference = clamp(reference, 0.0, 1.0);
+    test = mix(clamp(test, 0.0, 1.0), vec3(lessThan(reference, vec3(0.5))), isNonFinite(test));
+    testRow[row][i] = toOpponent(test);
+    referenceRow[row][i] = toOpponent(reference);
+  }
+  barrier();
+  if (any(greaterThanEqual(pixel, size))) return;
+
+  int centre = int(gl_LocalInvocationID.x) + RADIUS;
+  vec4 sensitivitySum;
+  vec3 testFeatures, referenceFeatures;
+  filterRow(row, centre, true, sensitivitySum, testFeatures);
+  imageStore(testSensitivity, pixel, sensitivitySum);
+  filterRow(row, centre, false, sensitivitySum, referenceFeatures);
+  imageStore(referenceSensitivity, pixel, sensitivitySum);
+  imageStore(detectors, pixel, vec4(testFeatures.yz, referenceFeatures.yz));
+  imageStore(smoothed, pixel, vec4(testFeatures.x, referenceFeatures.x, 0.0, 0.0));
+}

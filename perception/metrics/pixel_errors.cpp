@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors pixel by pixel: rmse, mae, largest_error, signed_error, p99_error and psnr. Means run over pixels
+// and colour channels; a pixel's own error, where one figure is wanted (largest, p99, map), is that of its
+// worst channel.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "perception/metrics/comparison.h"
+#include "perception/metrics/quantile.h"
+#include "perception/metrics/row_sums.h"
+
+namespace limen::perception {
+namespace {
+
+/// Equal images have no finite PSNR; this is what they get, as does any error below 1e-10.
+constexpr double kPsnrCapDb = 200.0;
+
+/// Mean of function(error) over judged pixels and channels; 0 for an empty region.
+template <class Function>
+double meanOverErrors(const Comparison& pair, Function function) {
+  if (pair.judgedPixels() == 0) return 0.0;
+  const double sum = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    CompensatedSum row;
+    for (int x = 0; x < pair.width(); ++x) {
+      if (!pair.judges(x, y)) continue;
+      for (int c = 0; c < pair.channels(); ++c) row.add(function(pair.error(x, y, c)));
+    }
+    return row.value();
+  });
+  return sum / (static_cast<double>(pair.judgedPixels()) * pair.channels());
+}
+
+double pixelError(const Comparison& pair, int x, int y) {
+  double largest = 0.0;
+  for (int c = 0; c < pair.channels(); ++c) largest = std::max(largest, std::abs(pair.error(x, y, c)));
+  return largest;
+}
+
+std::vector<double> judgedErrors(const Comparison& pair) {
+  std::vector<double> errors;
+  errors.reserve(static_cast<size_t>(pair.judgedPixels()));
+  for (int y = 0; y < pair.height(); ++y)
+    for (int x = 0; x < pair.width(); ++x)
+      if (pair.judges(x, y)) errors.push_back(pixelError(pair, x, y));
+  return errors;
+}
+
+Image absoluteErrorMap(const Comparison& pair) {
+  Image map(pair.width(), pair.height(), 1);
+  forEachRow(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    for (int x = 0; x < pair.width(); ++x)
+      if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(pixelError(pair, x, y));
+  });
+  return map;
+}
+
+double rootMeanSquare(const Comparison& pair) {
+  return std::sqrt(meanOverErrors(pair, [](double error) { return error * error; }));
+}
+
+double meanAbsolute(const Comparison& pair) {
+  return meanOverErrors(pair, [](double error) { return std::abs(error); });
+}
+
+double meanSigned(const Comparison& pair) {
+  return meanOverErrors(pair, [](double error) { return error; });
+}
+
+double largest(const Comparison& pair) {
+  const std::vector<double> errors = judgedErrors(pair);
+  return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+}
+
+double percentile99(const Comparison& pair) {
+  std::vector<double> errors = judgedErrors(pair);
+  return nearestRank(errors, 0.99);
+}
+
+double peakSignalToNoise(const Comparison& pair) {
+  const double rms = rootMeanSquare(pair);
+  return rms > 0.0 ? std::min(kPsnrCapDb, -20.0 * std::log10(rms)) : kPsnrCapDb;
+}
+
+MetricInfo pixelMetric(const std::string& name, const std::string& summary,
+                       double (*measure)(const Comparison&), bool withMap) {
+  MetricInfo info;
+  info.name = name;
+  info.summary = summary;
+  info.parameters = {regionParameter()};
+  info.compare = [name, measure, withMap](const ComparisonInput& input, const ParameterValues& values) {
+    const Comparison pair(input, name, regionOf(values));
+    MetricResult result;
+    result.value = measure(pair);
+    result.judgedPixels = pair.judgedPixels();
+    if (withMap) {
+      result.map = absoluteErrorMap(pair);
+      result.mapName = "absolute_error";
+    }
+    return result;
+  };
+  return info;
+}
+
+MetricInfo psnrMetric() {
+  MetricInfo info = pixelMetric(
+      "psnr", "peak signal-to-noise ratio for a peak of 1; at most 200 dB, which equal images get",
+      &peakSignalToNoise, false);
+  info.unit = "dB";
+  info.higherIsBetter = true;
+  return info;
+}
+
+const Registered<MetricInfo> kRmse{pixelMetric("rmse", "root mean square error", &rootMeanSquare, true)};
+const Registered<MetricInfo> kMae{pixelMetric("mae", "mean absolute error", &meanAbsolute, true)};
+const Registered<MetricInfo> kSigned{
+    pixelMetric("signed_error", "mean of test minus reference; below 0 the test is too dark (over-shadowed)",
+                &meanSigned, false)};
+const Registered<MetricInfo> kLargest{pixelMetric("largest_error", "largest absolute error", &largest, true)};
+const Registered<MetricInfo> kPercentile{pixelMetric(
+    "p99_error", "99th percentile (nearest rank) of the pixels' absolute errors", &percentile99, true)};
+const Registered<MetricInfo> kPsnr{psnrMetric()};
+
+}  // namespace
+}  // namespace limen::perception

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/metrics/row_sums.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace limen::perception {
+
+void forEachRow(int rows, size_t pixelsPerRow, const std::function<void(int)>& work) {
+  // Starting a thread costs about as much as a few thousand pixels.
+  constexpr size_t kPixelsPerThread = 16384;
+  const size_t worthwhile = 1 + static_cast<size_t>(std::max(rows, 0)) * pixelsPerRow / kPixelsPerThread;
+  const size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const size_t threadCount = std::min(worthwhile, cores);
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex failureMutex;
+  const auto run = [&] {
+    try {
+      for (int row = next++; row < rows; row = next++) work(row);
+    } catch (...) {
+      const std::lock_guard lock(failureMutex);
+      if (!failure) failure = std::current_exception();
+      next = rows;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (size_t i = 1; i < threadCount; ++i) threads.emplace_back(run);
+  run();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+double sumRows(int rows, size_t pixelsPerRow, const std::function<double(int)>& rowSum) {
+  std::vector<double> sums(static_cast<size_t>(std::max(rows, 0)));
+  forEachRow(rows, pixelsPerRow, [&](int row) { sums[static_cast<size_t>(row)] = rowSum(row); });
+  CompensatedSum total;
+  for (const double sum : sums) total.add(sum);
+  return total.value();
+}
+
+}  // namespace limen::perception

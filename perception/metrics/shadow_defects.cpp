@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Defects of visibility images that a mean error hides: leaks, acne and banding.
+#include <algorithm>
+#include <cmath>
+
+#include "perception/metrics/comparison.h"
+#include "perception/metrics/row_sums.h"
+
+namespace limen::perception {
+namespace {
+
+constexpr double kUmbraBelow = 0.02;  ///< reference visibility that counts as full shadow
+constexpr double kLeakAbove = 0.05;   ///< excess of light in full shadow that counts as a leak
+constexpr double kAcneBelow = 0.98;   ///< visibility of a fully lit point that counts as acne
+
+bool leaks(double reference, double error) { return reference < kUmbraBelow && error > kLeakAbove; }
+bool isAcne(double reference, double error) { return reference == 1.0 && reference + error < kAcneBelow; }
+
+/// Share of the receivers with the defect. A non-finite value is a leak in full shadow and acne in full
+/// light.
+template <class Defect>
+MetricResult shareWith(const ComparisonInput& input, const std::string& metric, Defect defect) {
+  const Comparison pair(input, metric, Region::Receivers);
+  pair.requireVisibility(metric);
+  MetricResult result;
+  result.judgedPixels = pair.judgedPixels();
+  Image map(pair.width(), pair.height(), 1);
+  const double count = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    double found = 0.0;
+    for (int x = 0; x < pair.width(); ++x) {
+      if (!pair.judges(x, y)) continue;
+      const bool finite = std::isfinite(pair.test().at(x, y));
+      const double reference = pair.reference().at(x, y);
+      const double error = finite ? pair.error(x, y, 0) : reference < 0.5 ? 1.0 : -1.0;
+      if (!defect(reference, error)) continue;
+      found += 1.0;
+      map.at(x, y) = static_cast<float>(std::abs(error));
+    }
+    return found;
+  });
+  if (result.judgedPixels > 0) result.value = count / static_cast<double>(result.judgedPixels);
+  result.map = std::move(map);
+  result.mapName = metric;
+  return result;
+}
+
+/// Largest step of `value` between neighbours (right and below) that are both judged.
+template <class Value>
+double largestStep(const Comparison& pair, Value value) {
+  double largest = 0.0;
+  for (int y = 0; y < pair.height(); ++y)
+    for (int x = 0; x < pair.width(); ++x) {
+      if (!pair.judges(x, y)) continue;
+      if (x + 1 < pair.width() && pair.judges(x + 1, y))
+        largest = std::max(largest, std::abs(value(x + 1, y) - value(x, y)));
+      if (y + 1 < pair.height() && pair.judges(x, y + 1))
+        largest = std::max(largest, std::abs(value(x, y + 1) - value(x, y)));
+    }
+  return largest;
+}
+
+MetricResult measureBandStep(const ComparisonInput& input, const ParameterValues& values) {
+  const Comparison pair(input, "band_step", regionOf(values));
+  pair.requireVisibility("band_step");
+  const auto reference = [&](int x, int y) { return double{pair.reference().at(x, y)}; };
+  const auto test = [&](int x, int y) { return reference(x, y) + pair.error(x, y, 0); };
+  MetricResult result;
+  result.judgedPixels = pair.judgedPixels();
+  result.value = largestStep(pair, test) - largestStep(pair, reference);
+  return result;
+}
+
+MetricInfo leaksMetric() {
+  MetricInfo info;
+  info.name = "leaks";
+  info.summary = "share of receivers in full shadow (reference below 0.02) that get over 0.05 too much light";
+  info.compare = [](const ComparisonInput& input, const ParameterValues&) {
+    return shareWith(input, "leaks", leaks);
+  };
+  return info;
+}
+
+MetricInfo acneMetric() {
+  MetricInfo info;
+  info.name = "acne";
+  info.summary = "share of receivers that are fully lit in the reference but below 0.98";
+  info.compare = [](const ComparisonInput& input, const ParameterValues&) {
+    return shareWith(input, "acne", isAcne);
+  };
+  return info;
+}
+
+MetricInfo bandStepMetric() {
+  MetricInfo info;
+  info.name = "band_step";
+  info.summary =
+      "largest step between neighbouring pixels, less that of the reference (bands, seams); use region: "
+      "penumbra where "
+      "the reference has hard edges";
+  info.parameters = {regionParameter()};
+  info.compare = &measureBandStep;
+  return info;
+}
+
+const Registered<MetricInfo> kLeaks{leaksMetric()};
+const Registered<MetricInfo> kAcne{acneMetric()};
+const Registered<MetricInfo> kBandStep{bandStepMetric()};
+
+}  // namespace
+}  // namespace limen::perception

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "analysis/report.h"
+#include "analysis/text_output.h"
+#include "tests/analysis/synthetic_store.h"
+
+namespace limen::analysis {
+namespace {
+
+using testing::HasSubstr;
+
+// Runs before the page's own script, so that it sees every error of that.
+const char* const kCatchErrors =
+    "<script>window.problems=[];addEventListener('error',e=>problems.push(String(e.message)));</script>";
+
+// Uses the page as a reader would and writes what it finds into the page.
+const char* const kProbe = R"js(<script>
+(() => {
+  const all = (s, r = document) => [...r.querySelectorAll(s)], out = {};
+  const marks = () => all("#speed .mark"), shown = list => list.filter(m => m.getClientRects().length).length;
+  out.marks = marks().length;
+  out.keys = [...new Set(marks().map(m => m.dataset.run))].length;
+  out.labelled = marks().filter(m => m.dataset.label && isFinite(m.dataset.x) && isFinite(m.dataset.y)
+    && m.getAttribute("aria-label")).length;
+  out.series = [...new Set(marks().map(m => m.dataset.series))].length;
+  out.legend = all("#speed .legend button").length;
+  out.panels = all("#speed .panel").length;
+  out.shown = shown(marks());
+  const ids = all("[id]").map(e => e.id);
+  out.duplicateIds = ids.filter((id, i) => ids.indexOf(id) !== i);
+
+  const mark = marks()[7], tip = document.getElementById("tip");
+  out.tipBefore = tip.hidden;
+  mark.dispatchEvent(new Event("pointerenter"));
+  out.tip = tip.hidden ? "" : tip.textContent;
+  out.markX = mark.dataset.x; out.markLabel = mark.dataset.label;
+  mark.dispatchEvent(new Event("pointerleave"));
+  out.tipAfter = tip.hidden;
+
+  const button = all("#speed .legend button")[1];
+  out.ofSeries = all('.mark[data-series="1"]').length;
+  button.click();
+  out.shownOfSeries = shown(all('.mark[data-series="1"]'));
+  out.shownOthers = shown(all('.mark:not([data-series="1"])')) === all('.mark:not([data-series="1"])').length;
+  out.pressed = all('.legend button[data-series="1"]').map(b => b.getAttribute("aria-pressed"));
+  button.click();
+  out.shownAgain = shown(all('.mark[data-series="1"]'));
+
+  const headings = all("#runs thead th"), column = headings.findIndex(h => h.textContent.startsWith("rmse"));
+  const values = () => all("#runs tbody tr").map(r => Number(r.cells[column].dataset.v));
+  headings[column].querySelector("button").click();
+  out.ascending = values(); out.sortName = headings[column].getAttribute("aria-sort");
+  headings[column].querySelector("button").click();
+  out.descending = values();
+  out.rows = values().length;
+  const counter = headings.findIndex(h => h.textContent.startsWith("micro_occluders"));
+  for (let press = 0; press < 2; ++press) {
+    headings[counter].querySelector("button").click();
+    const filled = all("#runs tbody tr").map(r => r.cells[counter].textContent !== "");
+    out["emptyLast" + press] = filled.lastIndexOf(true) < filled.indexOf(false);
+  }
+
+  const lens = document.querySelector(".lens"), group = lens.closest(".picture-rows");
+  const box = lens.getBoundingClientRect();
+  out.lensWidth = box.width; out.pictureWidth = lens.querySelector("svg").viewBox.baseVal.width;
+  lens.dispatchEvent(new PointerEvent("pointermove", {clientX: box.left + box.width / 2, clientY: box.top + box.height / 4}));
+  out.enlarged = all(".lens svg", group).filter(s => s.style.transform === "scale(4)"
+    && s.style.transformOrigin.startsWith("50% 25%")).length;
+  out.pictures = all(".lens svg", group).length;
+  out.brokenPictures = all(".lens svg").filter(s => !s.firstElementChild).length;
+  out.sideways = document.documentElement.scrollWidth > innerWidth;
+  out.problems = window.problems;
+  const pre = document.createElement("pre");
+  pre.id = "probe"; pre.textContent = JSON.stringify(out);
+  document.body.append(pre);
+})();
+</script>)js";
+
+std::string findBrowser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
+  return {};
+}
+
+std::string dumpDom(const std::string& browser, const TemporaryFolder& folder, const std::string& page,
+                    const std::string& size) {
+  const std::string out = folder.path("dom.html");
+  const std::string command =
+      "timeout 100 " + browser +
+      " --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+      "--disable-component-update --disable-sync --virtual-time-budget=5000 --user-data-dir=" +
+      folder.path("profile") + " --window-size=" + size + " --dump-dom 'file://" + page + "' >" + out +
+      " 2>/dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return readFileBytes(out);
+}
+
+nlohmann::json probe(const std::string& browser, const TemporaryFolder& folder, const std::string& page,
+                     const std::string& size) {
+  std::string text = readFileBytes(page);
+  text.insert(text.find("<head>") + 6, kCatchErrors);
+  text.insert(text.rfind("</body>"), kProbe);
+  writeFileBytes(page, text);
+  const std::string dom = dumpDom(browser, folder, page, size);
+  const std::string open = "<pre id=\"probe\">";
+  const size_t begin = dom.find(open);
+  if (begin == std::string::npos) return {{"problems", {"the probe did not run"}}};
+  std::string json = dom.substr(begin + open.size(), dom.find("</pre>", begin) - begin - open.size());
+  for (const auto& [entity, letter] :
+       {std::pair<std::string, std::string>{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
+    for (size_t at; (at = json.find(entity)) != std::string::npos;) json.replace(at, entity.size(), letter);
+  return nlohmann::json::parse(json);
+}
+
+TEST(ReportPage, WorksInABrowser) {
+  const std::string browser = findBrowser();
+  if (browser.empty())
+    GTEST_SKIP() << "no Chromium on this machine: install the package chromium to test the page";
+  const TemporaryFolder folder;
+  const size_t runs = writeLargeExperiment(folder.path("s.sqlite"), true);
+  const std::string page = writeReports({folder.path("s.sqlite"), folder.path("out"), "", false}).at(0).page;
+  const nlohmann::json found = probe(browser, folder, page, "1280,1600");
+
+  EXPECT_EQ(found.at("problems"), nlohmann::json::array());
+  EXPECT_EQ(found.at("duplicateIds"), nlohmann::json::array());
+  EXPECT_EQ(found.at("marks"), runs);
+  EXPECT_EQ(found.at("keys"), runs);
+  EXPECT_EQ(found.at("labelled"), runs);
+  EXPECT_EQ(found.at("shown"), runs);
+  EXPECT_EQ(found.at("series"), 6);
+  EXPECT_EQ(found.at("legend"), 6);
+  EXPECT_EQ(found.at("panels"), 3);
+
+  EXPECT_EQ(found.at("tipBefore"), true);
+  const std::string tip = found.at("tip");
+  EXPECT_THAT(tip, HasSubstr(found.at("markLabel").get<std::string>()));
+  for (const char* part : {"samples: ", "(ms): ", "RMSE: ", "["}) EXPECT_THAT(tip, HasSubstr(part));
+  EXPECT_THAT(tip, HasSubstr(formatNumber(std::stod(found.at("markX").get<std::string>()))));
+  EXPECT_EQ(found.at("tipAfter"), true);
+
+  EXPECT_GT(found.at("ofSeries"), 0);
+  EXPECT_EQ(found.at("shownOfSeries"), 0) << "hidden in all panels";
+  EXPECT_EQ(found.at("shownOthers"), true);
+  for (const nlohmann::json& pressed : found.at("pressed")) EXPECT_EQ(pressed, "false");
+  EXPECT_EQ(found.at("shownAgain"), found.at("ofSeries"));
+
+  const std::vector<double> ascending = found.at("ascending"), descending = found.at("descending");
+  EXPECT_EQ(found.at("rows"), runs);
+  EXPECT_TRUE(std::is_sorted(ascending.begin(), ascending.end()));
+  EXPECT_TRUE(std::is_sorted(descending.rbegin(), descending.rend()));
+  EXPECT_LT(ascending.front(), ascending.back());
+  EXPECT_EQ(found.at("sortName"), "ascending");
+  EXPECT_EQ(found.at("emptyLast0"), true);
+  EXPECT_EQ(found.at("emptyLast1"), true);
+
+  EXPECT_EQ(found.at("enlarged"), found.at("pictures"));
+  EXPECT_EQ(found.at("pictures"), 6 * 3 * 3) << "six techniques, three settings, three pictures";
+  EXPECT_EQ(found.at("lensWidth"), found.at("pictureWidth")) << "a picture is not scaled";
+  EXPECT_EQ(found.at("brokenPictures"), 0);
+  EXPECT_EQ(found.at("sideways"), false);
+}
+
+TEST(ReportPage, DoesNotScrollSidewaysOnAPhone) {
+  const std::string browser = findBrowser();
+  if (browser.empty())
+    GTEST_SKIP() << "no Chromium on this machine: install the package chromium to test the page";
+  const TemporaryFolder folder;
+  writeLargeExperiment(folder.path("s.sqlite"), true);
+  const std::string page = writeReports({folder.path("s.sqlite"), folder.path("out"), "", false}).at(0).page;
+  const nlohmann::json found = probe(browser, folder, page, "500,900");
+  EXPECT_EQ(found.at("problems"), nlohmann::json::array());
+  EXPECT_EQ(found.at("sideways"), false);
+}
+
+}  // namespace
+}  // namespace limen::analysis

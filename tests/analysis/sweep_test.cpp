@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/sweep.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/analysis/synthetic_store.h"
+
+namespace limen::analysis {
+namespace {
+
+using testing::ElementsAre;
+
+class SweepTest : public testing::Test {
+ protected:
+  Sweep load(std::vector<store::Run> runs, const nlohmann::json& report = nlohmann::json::object(),
+             const std::vector<store::PlanEntry>& missing = {}) {
+    store::Experiment experiment;
+    experiment.title = "t";
+    experiment.report = report;
+    const int64_t id = writeExperiment(store_, experiment, std::move(runs), missing);
+    for (const store::Experiment& one : store_.experiments())
+      if (one.id == id) return loadSweep(store_, one);
+    ADD_FAILURE();
+    return {};
+  }
+
+  TemporaryFolder folder_;
+  store::Store store_{folder_.path("s.sqlite"), store::Access::ReadWrite};
+};
+
+TEST_F(SweepTest, TheFrontOfAPanelHoldsWhatNothingBeats) {
+  // b is slower and worse than a; c is slower but better; another scene is another panel.
+  const Sweep sweep = load({makeRun("x/a", "s", 1, {1, 1, 1}, 0.5), makeRun("x/b", "s", 1, {2, 2, 2}, 0.6),
+                            makeRun("x/c", "s", 1, {3, 3, 3}, 0.1), makeRun("x/b", "r", 1, {9, 9, 9}, 0.9)});
+  ASSERT_EQ(sweep.panels.size(), 2U);
+  EXPECT_EQ(sweep.panels[0].title, "s");
+  EXPECT_THAT(sweep.panels[0].front, ElementsAre(0, 2));
+  EXPECT_THAT(sweep.panels[1].front, ElementsAre(3));
+  EXPECT_EQ(sweep.cells[2].frontNumber, 2);
+  EXPECT_EQ(sweep.cells[1].frontNumber, 0);
+  EXPECT_THAT(sweep.series, ElementsAre("a", "b", "c"));
+  EXPECT_EQ(sweep.seriesPrefix, "x/");
+  EXPECT_EQ(sweep.label(sweep.cells[2]), "c, samples=1");
+}
+
+TEST_F(SweepTest, TimesAreMediansOfFramesWithIntervalsByRounds) {
+  const Sweep sweep = load({makeRun("a", "s", 1, {1, 1, 1, 2, 2, 2, 3, 3, 3}, 0.5)});
+  const Cell& cell = sweep.cells.at(0);
+  EXPECT_EQ(cell.x, 2.0);
+  EXPECT_EQ(cell.frame->median, 2.0);
+  EXPECT_EQ(cell.frame->n, 9U);
+  EXPECT_TRUE(cell.interval->byRounds);
+  EXPECT_EQ(cell.interval->low, 1.0);
+  EXPECT_EQ(cell.interval->high, 3.0);
+}
+
+TEST_F(SweepTest, APeakSignalToNoiseRatioIsBetterWhenHigher) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0), makeRun("b", "s", 1, {2}, 0),
+                                  makeRun("c", "s", 1, {3}, 0)};
+  const double psnr[] = {30, 20, 40};
+  for (size_t i = 0; i < 3; ++i) runs[i].measurements.push_back({"psnr", psnr[i], "dB", "error"});
+  EXPECT_THAT(load(runs, {{"x", "gpu_ms"}, {"y", "psnr"}}).panels[0].front, ElementsAre(0, 2));
+}
+
+TEST_F(SweepTest, ASceneThatVariesGivesAPanelForEachOfItsSettings) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {1}, 0.2)};
+  runs[1].parameters["scene"]["size"] = 2.5;
+  const Sweep sweep = load(runs);
+  ASSERT_EQ(sweep.panels.size(), 2U);
+  EXPECT_EQ(sweep.panels[1].title, "s, size=2.5");
+  EXPECT_THAT(sweep.varyingColumns, ElementsAre("samples", "size"));
+  EXPECT_EQ(sweep.cells[1].varying.at("samples"), "2");
+  EXPECT_EQ(sweep.cells[1].varying.count("bias"), 0U) << "what does not vary is no column";
+}
+
+TEST_F(SweepTest, PanelsAndSeriesCanBeParametersAndAnAxisToo) {
+  const Sweep sweep = load({makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 4, {1}, 0.2)},
+                           {{"x", "samples"}, {"y", "rmse"}, {"series", "samples"}, {"panels", "technique"}});
+  EXPECT_THAT(sweep.series, ElementsAre("samples=1", "samples=4"));
+  EXPECT_EQ(sweep.panels.at(0).title, "a");
+  EXPECT_EQ(sweep.cells[1].x, 4.0);
+}
+
+TEST_F(SweepTest, MissingFailedAndUnfinishedRunsAreCounted) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("b", "s", 1, {1}, 0.1)};
+  runs[1].status = "failed";
+  runs[1].error = "non-finite values";
+  const store::Run claimed = makeRun("c", "s", 1, {1}, 0.1);
+  store_.claim(claimed);
+  const Sweep sweep = load(runs, {}, {{claimed.key, "c", "s", ""}, {"never started", "d", "s", ""}});
+  EXPECT_EQ(sweep.planned, 4U);
+  EXPECT_EQ(sweep.cells.size(), 1U);
+  ASSERT_EQ(sweep.failed.size(), 1U);
+  EXPECT_EQ(sweep.failed[0].error, "non-finite values");
+  ASSERT_EQ(sweep.missing.size(), 2U);
+  EXPECT_EQ(sweep.missing[0].technique, "c");
+  EXPECT_FALSE(sweep.isComplete());
+}
+
+TEST_F(SweepTest, TimesOfTwoDevicesAreNotCompared) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("b", "s", 1, {5}, 0.2)};
+  runs[1].device = "slow GPU";
+  const Sweep sweep = load(runs);
+  EXPECT_TRUE(sweep.severalDevices);
+  ASSERT_EQ(sweep.panels.size(), 2U);
+  EXPECT_EQ(sweep.panels[1].front.size(), 1U);
+}
+
+TEST_F(SweepTest, TheCounterThatMostRunsHaveIsTheSecondAxis) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {1}, 0.2),
+                                  makeRun("a", "s", 3, {1}, 0.2)};
+  for (size_t i = 0; i < 3; ++i) {
+    runs[i].measurements.push_back({"constant", 7, "", "counter"});
+    runs[i].measurements.push_back({"nodes_per_px", 10.0 + static_cast<double>(i), "1/px", "counter"});
+  }
+  runs[0].measurements.push_back({"rare", 1, "", "counter"});
+  const Sweep sweep = load(runs);
+  ASSERT_TRUE(sweep.counter);
+  EXPECT_EQ(sweep.counter->name, "nodes_per_px");
+  EXPECT_EQ(sweep.cells[2].counter, 12.0);
+}
+
+}  // namespace
+}  // namespace limen::analysis

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/descriptor.h"
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "tests/experiments/fake_bench.h"
+
+namespace limen::experiments {
+namespace {
+
+Descriptor parse(const std::string& text) { return parseDescriptor(text, "d.yaml", fakeCatalogue(), {}); }
+
+TEST(Descriptor, ReadsEveryKey) {
+  const Descriptor descriptor =
+      parse(validDescriptor() +
+            "features: [SS-12, SS-13]\nartefacts: {pictures: false, exr: true}\n"
+            "expect:\n  - {metric: rmse, of: soft/bitmask, where: {samples: 8}, below: 0.2}\n");
+  EXPECT_EQ(descriptor.title, "Bitmask against a filtered map");
+  EXPECT_EQ(descriptor.question, "Which is nearer to the sampled light?");
+  EXPECT_EQ(descriptor.source, "Test 2024, section 1");
+  EXPECT_EQ(descriptor.hash, sha256(descriptor.text));
+  EXPECT_EQ(descriptor.features, (std::vector<std::string>{"SS-12", "SS-13"}));
+  ASSERT_EQ(descriptor.techniques.size(), 2U);
+  ASSERT_EQ(descriptor.techniques[0].axes.size(), 1U);
+  EXPECT_EQ(descriptor.techniques[0].axes[0].values.size(), 3U);
+  EXPECT_EQ(descriptor.techniques[0].axes[0].values[2], ParameterValue(int64_t{32}));
+  // A whole number stands for a real one where a real one is declared.
+  EXPECT_EQ(descriptor.scenes[0].axes[0].values[1], ParameterValue(1.0));
+  ASSERT_TRUE(descriptor.reference);
+  EXPECT_EQ(descriptor.reference->name, "soft/sampled");
+  EXPECT_EQ(descriptor.timing.frames, 4);
+  EXPECT_EQ(descriptor.timing.batch, Timing{}.batch);
+  EXPECT_FALSE(descriptor.artefacts.pictures);
+  EXPECT_TRUE(descriptor.artefacts.exr);
+  ASSERT_EQ(descriptor.expectations.size(), 1U);
+  EXPECT_EQ(descriptor.expectations[0].text, "rmse of soft/bitmask where samples=8 below 0.2");
+  EXPECT_EQ(descriptor.report["panels"], "scene");
+}
+
+TEST(Descriptor, NeedsNoReferenceForMetricsThatJudgeOneImage) {
+  const Descriptor descriptor = parse(
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: colour/lambert}, {name: "
+      "soft/pcss}]\n"
+      "metrics: [crack_count]\n");
+  EXPECT_FALSE(descriptor.reference);
+  EXPECT_EQ(descriptor.images.size(), 1U);
+}
+
+TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
+  EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+                  "report: {x: micro_occluders_per_px, y: samples_per_px}\n")
+                .report["x"],
+            "micro_occluders_per_px");
+}
+
+TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {
+  const Descriptor descriptor = parse(
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+      "reference: {name: soft/sampled}\n"
+      "metrics: [rmse, flip, {name: flip, ppd: 30}]\n"
+      "expect: [{metric: flip_30, below: 0.1}]\nreport: {y: flip_30}\n");
+  EXPECT_EQ(descriptor.metricNames, (std::vector<std::string>{"rmse", "flip", "flip_30"}));
+  // Alone, a metric has its plain name whatever its values.
+  EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+                  "reference: {name: soft/sampled}\nmetrics: [{name: flip, ppd: 30}]\n")
+                .metricNames,
+            std::vector<std::string>{"flip"});
+}
+
+TEST(Descriptor, NumbersInTheFormsOfYaml) {
+  const Descriptor descriptor = parse(
+      "title: a\nquestion: b\nscenes: [{name: grid, light_size: [+1, 2., .5, 1e1, 2.5E-1]}]\n"
+      "techniques: [{name: soft/pcss}]\n");
+  const std::vector<ParameterValue> expected = {1.0, 2.0, 0.5, 10.0, 0.25};
+  EXPECT_EQ(descriptor.scenes[0].axes[0].values, expected);
+}
+
+}  // namespace
+}  // namespace limen::experiments

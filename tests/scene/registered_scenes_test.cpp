@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/scene/light.h"
+#include "tests/scene/geometry_checks.h"
+#include "tests/scene/scene_fixtures.h"
+
+namespace limen::scene {
+namespace {
+
+using fixtures::build;
+using fixtures::EveryScene;
+using fixtures::Given;
+
+void expectSound(const Scene& scene) {
+  for (const glm::dvec3& p : scene.mesh.positions)
+    ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  for (const glm::uvec3& triangle : scene.mesh.triangles)
+    for (int k = 0; k < 3; ++k) ASSERT_LT(triangle[k], scene.mesh.positions.size());
+  size_t next = 0;
+  for (const Part& part : scene.parts) {
+    EXPECT_EQ(part.firstTriangle, next) << part.name;
+    EXPECT_LT(part.material, scene.materials.size()) << part.name;
+    next += part.triangleCount;
+  }
+  EXPECT_EQ(next, scene.mesh.triangles.size());
+  EXPECT_FALSE(scene.casterBounds().empty());
+  ASSERT_FALSE(scene.lights.empty());
+  for (const AreaLight& light : scene.lights) {
+    EXPECT_NO_THROW(checkLight(light, "test"));
+    EXPECT_GT(light.area(), 0.0);
+  }
+  const Camera camera = scene.camera.at(0.0);
+  EXPECT_GT(glm::length(camera.target - camera.eye), 0.0);
+  EXPECT_TRUE(std::isfinite(glm::length(camera.eye)));
+  for (const Material& material : scene.materials)
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(material.albedo[k] >= 0.0F && material.albedo[k] <= 1.0F);
+}
+
+/// Both ends of a range, or every choice.
+std::vector<ParameterValue> extremes(const Parameter& parameter) {
+  switch (parameter.type) {
+    case ParameterType::Boolean:
+      return {false, true};
+    case ParameterType::Integer:
+      return {static_cast<int64_t>(*parameter.minimum), static_cast<int64_t>(*parameter.maximum)};
+    case ParameterType::Real:
+      return {*parameter.minimum, *parameter.maximum};
+    case ParameterType::Choice:
+      return {parameter.choices.begin(), parameter.choices.end()};
+    default:
+      return {};
+  }
+}
+
+TEST_P(EveryScene, BuildsWithDefaults) { expectSound(build(GetParam())); }
+
+TEST_P(EveryScene, BuildsAtBothEndsOfEveryParameter) {
+  for (const Parameter& parameter : SceneRegistry::instance().get(GetParam()).allParameters())
+    for (const ParameterValue& value : extremes(parameter)) {
+      SCOPED_TRACE(parameter.name + " = " + toText(value));
+      expectSound(build(GetParam(), Given{{parameter.name, value}}));
+    }
+}
+
+TEST_P(EveryScene, IsTheSameTwice) {
+  EXPECT_EQ(build(GetParam()).contentHash(), build(GetParam()).contentHash());
+}
+
+TEST_P(EveryScene, IsChangedByEveryParameterOfItsOwn) {
+  const std::string plain = build(GetParam()).contentHash();
+  const std::vector<Parameter>& own = SceneRegistry::instance().get(GetParam()).parameters;
+  for (const Parameter& parameter : own) {
+    std::set<std::string> hashes;
+    for (const ParameterValue& value : extremes(parameter))
+      hashes.insert(build(GetParam(), Given{{parameter.name, value}}).contentHash());
+    // A file has no range.
+    EXPECT_TRUE(hashes.empty() || hashes.size() >= 2) << parameter.name;
+  }
+}
+
+TEST_P(EveryScene, SaysWhatItIs) {
+  const SceneInfo& info = SceneRegistry::instance().get(GetParam());
+  EXPECT_FALSE(info.summary.empty());
+  EXPECT_FALSE(info.source.empty());
+  EXPECT_GE(info.version, 1);
+  for (const Parameter& parameter : info.parameters) {
+    EXPECT_FALSE(parameter.description.empty()) << parameter.name;
+    const bool number = parameter.type == ParameterType::Real || parameter.type == ParameterType::Integer;
+    EXPECT_EQ(number, parameter.minimum && parameter.maximum) << parameter.name;
+    if (!parameter.required) {
+      EXPECT_NO_THROW(validate(parameter, parameter.defaultValue, "test"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(SceneRegistry::instance().names()),
+                         fixtures::nameOf);
+
+TEST(SphereGrid, HasTheSpheresAndTrianglesItSays) {
+  const Scene scene = build("sphere_grid", {{"spheres_per_axis", int64_t{4}}, {"tessellation", int64_t{5}}});
+  EXPECT_EQ(scene.parts[1].triangleCount, 4U * 4 * 4 * 8 * 5 * 5);
+}
+
+TEST(DegenerateSoup, HasItsFlawsAboveASoundGround) {
+  const Scene scene = build("degenerate_soup");
+  size_t noArea = 0, repeatedIndex = 0, inLightPlane = 0, touching = 0;
+  const double lightY = scene.lights[0].centre.y;
+  for (const Part& part : scene.parts)
+    for (size_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t) {
+      const glm::dvec3 a = checks::corner(scene.mesh, t, 0), b = checks::corner(scene.mesh, t, 1),
+                       c = checks::corner(scene.mesh, t, 2);
+      // Twice the area, against the rounding of a triangle whose corners lie on a line.
+      const bool flat = glm::length(glm::cross(b - a, c - a)) < 1e-15;
+      if (part.receiverOnly) {
+        ASSERT_FALSE(flat);
+        continue;
+      }
+      const glm::uvec3 index = scene.mesh.triangles[t];
+      noArea += flat;
+      repeatedIndex += index.x == index.y || index.y == index.z || index.x == index.z;
+      const int atLight = (a.y == lightY) + (b.y == lightY) + (c.y == lightY);
+      inLightPlane += atLight == 3;
+      touching += atLight == 1;
+      EXPECT_LE(std::max({a.y, b.y, c.y}), lightY);
+    }
+  // Every tenth of 600 is of each kind; repeated vertices, lines and points have no area.
+  EXPECT_EQ(repeatedIndex, 60U);
+  EXPECT_EQ(noArea, 180U);
+  EXPECT_EQ(inLightPlane, 60U);
+  EXPECT_EQ(touching, 60U);
+}
+
+}  // namespace
+}  // namespace limen::scene
