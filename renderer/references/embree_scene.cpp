@@ -8,9 +8,10 @@ namespace limen::references {
 namespace {
 
 /// Hits nearer than this many plane tolerances are tested again in double precision. A start rounded to float
-/// can make a hit out of a miss only within a few tolerances over the sine of the angle to the surface; 4096
-/// covers angles down to a sixtieth of a degree.
-constexpr double kNearTolerances = 4096.0;
+/// can make a hit out of a miss as far away as the rounding (less than a tolerance) over the sine of the
+/// angle between ray and surface; 32768 covers angles down to 3e-5, and is still less than a hundredth of the
+/// scene.
+constexpr double kNearTolerances = 32768.0;
 
 struct ShadowQuery {
   RTCIntersectContext context;  // first: Embree hands it back
