@@ -96,7 +96,8 @@ std::string readOnlyUri(const std::string& path) {
     }
   }
   const fs::path folder = fs::absolute(path).parent_path();
-  const bool untouched = access(folder.c_str(), W_OK) != 0 && !fs::exists(path + "-wal");
+  const std::string log = path + "-wal";
+  const bool untouched = access(folder.c_str(), W_OK) != 0 && (!fs::exists(log) || fs::is_empty(log));
   return uri + (untouched ? "?mode=ro&immutable=1" : "?mode=ro");
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "analysis/text_output.h"
 #include "base/error.h"
