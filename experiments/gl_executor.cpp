@@ -240,7 +240,8 @@ class GlExecutor : public Executor {
       clock_.touch();
     }
     for (const techniques::Counter& counter : counters)
-      run.outcome.measurements.push_back({counter.name, counter.value, counter.unit, "counter"});
+      run.outcome.measurements.push_back(
+          {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"});
     if (reference && plan.artefacts.pictures)
       run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
     startArtefacts(run, on, std::move(product), reference, std::move(maps));

@@ -21,11 +21,12 @@ enum class ProductKind {
 };
 std::string toText(ProductKind kind);
 
-/// A machine-independent cost or a fact about the product.
+/// A machine-independent figure that a technique counts.
 struct Counter {
   std::string name;  ///< snake_case with unit: "micro_occluders_per_px"
   double value = 0.0;
   std::string unit;
+  bool isCost = true;  ///< work done; otherwise a fact about how the product came about
 };
 
 /// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each frame.

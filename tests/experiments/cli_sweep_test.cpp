@@ -173,12 +173,12 @@ TEST_F(SweepCli, ReportIsLeftToTheSiblingProgram) {
   const CallResult without = call({"d.yaml"});
   EXPECT_EQ(without.exitCode, 0) << "a missing report program is no error";
   EXPECT_THAT(without.out, HasSubstr("no report: limen-analyse is not built"));
-  write("limen-analyse", "#!/bin/sh\necho \"$@\"\nmkdir -p \"$4\"\necho page > \"$4/report.html\"\n");
+  write("limen-analyse", "#!/bin/sh\necho \"$@\" > arguments\nmkdir -p \"$4\"\necho page > \"$4/report.html\"\n");
   chmod(path("limen-analyse").c_str(), 0755);
   const CallResult with = call({"d.yaml", "--json"});
   EXPECT_EQ(with.exitCode, 0);
   EXPECT_EQ(jsonLines(with.out).back()["report"], "results/d_report/report.html");
-  EXPECT_THAT(with.err, HasSubstr("report results/d.sqlite -o results/d_report --force"));
+  EXPECT_THAT(read("arguments"), HasSubstr("report results/d.sqlite -o results/d_report --force"));
   write("limen-analyse", "#!/bin/sh\nexit 3\n");
   const CallResult failing = call({"d.yaml"});
   EXPECT_EQ(failing.exitCode, 0);

@@ -26,9 +26,10 @@ enum PixelClass : uint32_t {
 
 std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
   std::array<double, ClassCount> pixels{};
-  double occluders = 0.0, occludersSquared = 0.0, fetches = 0.0, levels = 0.0;
+  double occluders = 0.0, occludersSquared = 0.0, fetches = 0.0, allFetches = 0.0, levels = 0.0;
   for (size_t i = 0; i < counts.size(); i += 4) {
     pixels.at(counts[i]) += 1.0;
+    allFetches += counts[i + 2];
     if (counts[i] != Processed) continue;
     occluders += counts[i + 1];
     occludersSquared += double(counts[i + 1]) * counts[i + 1];
@@ -40,19 +41,20 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
     throw Error(shortestNumber(pixels[CutShort]) +
                     " pixels need more loop iterations than this software renderer grants",
                 {}, "set 'budget', lower 'resolution', or run on a GPU");
-  const double processed = pixels[Processed];
+  const double processed = pixels[Processed], receivers = all - pixels[NotReceiver];
   const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
   const double mean = perProcessed(occluders);
   const double variance = perProcessed(occludersSquared) - mean * mean;
-  return {{"receivers_share", (all - pixels[NotReceiver]) / all, ""},
-          {"lit_share", pixels[Lit] / all, ""},
-          {"umbra_share", pixels[Umbra] / all, ""},
-          {"processed_share", processed / all, ""},
-          {"outside_map_share", pixels[Outside] / all, ""},
-          {"micro_occluders_per_px", mean, ""},
-          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), ""},
-          {"fetches_per_px", perProcessed(fetches), ""},
-          {"level_mean", perProcessed(levels), ""}};
+  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0, "", true},
+          {"fetches_per_px", perProcessed(fetches), "", true},
+          {"micro_occluders_per_px", mean, "", true},
+          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
+          {"level_mean", perProcessed(levels), "", false},
+          {"receivers_share", receivers / all, "", false},
+          {"lit_share", pixels[Lit] / all, "", false},
+          {"umbra_share", pixels[Umbra] / all, "", false},
+          {"processed_share", processed / all, "", false},
+          {"outside_map_share", pixels[Outside] / all, "", false}};
 }
 
 }  // namespace
