@@ -37,8 +37,7 @@ int strataPerAxis(const ParameterValues& values) {
   const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
   if (side * side != samples)
     throw Error("'samples' is " + std::to_string(samples) + ", not a square number",
-                "soft_shadows/ray_traced",
-                "give " + std::to_string(side * side) + ", or pattern: random");
+                "soft_shadows/ray_traced", "give " + std::to_string(side * side) + ", or pattern: random");
   return static_cast<int>(side);
 }
 

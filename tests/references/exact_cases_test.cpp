@@ -83,9 +83,9 @@ TEST_F(ExactCases, ASheetHidesThePartOfTheLightBehindItsPlane) {
     for (size_t i = 0; i < rendered.visibility.pixels(); ++i) {
       if (!rendered.isReceiver(i)) continue;
       // Grid methods: the cut lies along the grid, so at most one row of cells is misjudged.
-      const double bound = std::string(method.name) == "soft_shadows/exact_union"        ? 1e-6
+      const double bound = std::string(method.name) == "soft_shadows/exact_union"  ? 1e-6
                            : std::string(method.name) == "soft_shadows/ray_traced" ? 1.0 / 8.0
-                                                                                       : 0.5 / 4.0 + 1e-6;
+                                                                                   : 0.5 / 4.0 + 1e-6;
       EXPECT_NEAR(rendered.visibility.data[i], kSeen, bound) << method.name;
     }
   }
