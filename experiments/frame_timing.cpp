@@ -42,7 +42,7 @@ bool isGBuffer(const std::string& pass) { return pass == "frame/triangle_ids" ||
 
 void FrameTiming::warmUp(frame::Frame& frame, techniques::Technique& technique) const {
   const auto start = steady_clock::now();
-  for (int i = 0; i < std::max(timing_.warmup, 1) && (i == 0 || secondsSince(start) < 2.0); ++i) {
+  for (int i = 0; i < std::max(timing_.warmup, 1) && (i == 0 || secondsSince(start) < 0.5); ++i) {
     frame.begin();
     technique.render(frame);
     frame.end();

@@ -25,7 +25,7 @@ namespace {
 using std::chrono::steady_clock;
 
 /// Slow techniques get fewer timed frames than asked for: a run's timing ends after this.
-constexpr double kMaxTimingSeconds = 20.0;
+constexpr double kMaxTimingSeconds = 8.0;
 
 /// Adds its lifetime to a total.
 class Stopwatch {
