@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "renderer/frame/compute_raster.h"
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
@@ -16,8 +17,8 @@ namespace limen::frame {
 
 class Frame;
 
-/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first time a
-/// frame asks for it and never otherwise; its memory is kept for the next frame.
+/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first
+/// time a frame asks for it and never otherwise; its memory is kept for the next frame.
 class FrameInput {
  public:
   virtual ~FrameInput() = default;
@@ -25,12 +26,13 @@ class FrameInput {
   virtual void make(Frame& frame) = 0;
 };
 
-/// One view of one scene, rendered over and over. Inputs are asked for by type: `frame.get<ShadowMap>(settings)`.
-/// An input class has a constructor (Frame&, Settings...) and each setting has `std::string key() const`.
+/// One view of one scene, rendered over and over. Inputs are asked for by type:
+/// `frame.get<ShadowMap>(settings)`. An input class has a constructor (Frame&, Settings...) and each setting
+/// has `std::string key() const`.
 class Frame {
  public:
   Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gpuScene, glm::ivec2 sizePx,
-        double timeS = 0.0);
+        double timeS = 0.0, Raster raster = Raster::Auto);
 
   gl::Context& context() { return context_; }
   const scene::Scene& scene() const { return scene_; }
@@ -38,6 +40,8 @@ class Frame {
   glm::ivec2 sizePx() const { return sizePx_; }
   const scene::Camera& camera() const { return camera_; }
   gl::PassList& passes() { return passes_; }
+  /// How the G-buffer is rasterised; shadow maps have a setting of their own.
+  Raster raster() const { return raster_; }
 
   /// Camera space (looking along -z) of positions relative to the scene's anchor.
   const glm::dmat4& anchorToCamera() const { return anchorToCamera_; }
@@ -72,6 +76,7 @@ class Frame {
   const scene::Scene& scene_;
   const GpuScene& gpuScene_;
   glm::ivec2 sizePx_;
+  Raster raster_;
   scene::Camera camera_;
   glm::dmat4 anchorToCamera_;
   double tanHalfFov_;

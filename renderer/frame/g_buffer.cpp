@@ -13,19 +13,26 @@ constexpr const char* kResolve = "renderer/frame/g_buffer.comp.glsl";
 gl::Format formatOf(Channel channel) {
   switch (channel) {
     case Channel::Position:
-    case Channel::Normal: return gl::Format::RGBA32F;
-    case Channel::Albedo: return gl::Format::RGBA8;
-    case Channel::Depth: return gl::Format::R32F;
+    case Channel::Normal:
+      return gl::Format::RGBA32F;
+    case Channel::Albedo:
+      return gl::Format::RGBA8;
+    case Channel::Depth:
+      return gl::Format::R32F;
   }
   return gl::Format::R32F;
 }
 
 gl::ShaderDefines definesOf(Channel channel) {
   switch (channel) {
-    case Channel::Position: return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
-    case Channel::Normal: return {{"CHANNEL_NORMAL", "1"}, {"OUT_FORMAT", "rgba32f"}};
-    case Channel::Albedo: return {{"CHANNEL_ALBEDO", "1"}, {"OUT_FORMAT", "rgba8"}};
-    case Channel::Depth: return {{"CHANNEL_DEPTH", "1"}, {"OUT_FORMAT", "r32f"}};
+    case Channel::Position:
+      return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Normal:
+      return {{"CHANNEL_NORMAL", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Albedo:
+      return {{"CHANNEL_ALBEDO", "1"}, {"OUT_FORMAT", "rgba8"}};
+    case Channel::Depth:
+      return {{"CHANNEL_DEPTH", "1"}, {"OUT_FORMAT", "r32f"}};
   }
   return {};
 }
@@ -48,28 +55,26 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
 
 }  // namespace
 
-TriangleIds::TriangleIds(Frame& frame)
-    : ids_(gl::Format::R32UI, frame.sizePx()),
-      depth_(gl::Format::Depth32F, frame.sizePx()),
-      framebuffer_({&ids_}, &depth_) {
-  frame.context().programs().get({"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
-  frame.passes().setBytesHeld("frame/triangle_ids", ids_.bytes() + depth_.bytes());
+TriangleIds::TriangleIds(Frame& frame) {
+  int64_t bytes = 0;
+  if (chosenRaster(frame.raster(), frame.context()) == Raster::Compute) {
+    compute_ = std::make_unique<ComputeRaster>(frame.context(), frame.sizePx(), true);
+    bytes = compute_->bytes();
+  } else {
+    gl::Texture ids(gl::Format::R32UI, frame.sizePx()), depth(gl::Format::Depth32F, frame.sizePx());
+    gl::Framebuffer framebuffer({&ids}, &depth);
+    bytes = ids.bytes() + depth.bytes();
+    const gl::Program& program = frame.context().programs().get(
+        {"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
+    hardware_.reset(new HardwareTarget{program, std::move(ids), std::move(depth), std::move(framebuffer)});
+  }
+  frame.passes().setBytesHeld("frame/triangle_ids", bytes);
 }
 
 void TriangleIds::make(Frame& frame) {
   const auto scope = frame.passes().open("frame/triangle_ids");
-  const gl::Program& program = frame.context().programs().get(
-      {"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
-  framebuffer_.bind();
-  constexpr std::array<GLuint, 4> kBackground = {kNone, 0, 0, 0};
-  constexpr GLfloat kFar = 0.0F;  // reversed depth: 0 is infinitely far
-  glClearBufferuiv(GL_COLOR, 0, kBackground.data());
-  glClearBufferfv(GL_DEPTH, 0, &kFar);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glDisable(GL_CULL_FACE);
-  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near plane is
-  // a small part of the distance to the scene, whatever the scene's scale.
+  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near
+  // plane is a small part of the distance to the scene, whatever the scene's scale.
   const double reach = glm::length(glm::dvec3(frame.anchorToCamera() * glm::dvec4(0.0, 0.0, 0.0, 1.0))) +
                        frame.scene().bounds().diagonal();
   const double near = 1e-4 * (reach > 0.0 ? reach : 1.0);
@@ -78,8 +83,21 @@ void TriangleIds::make(Frame& frame) {
   projection[1][1] = 1.0 / frame.tanHalfFov();
   projection[2][3] = -1.0;
   projection[3][2] = near;
-  program.use();
-  program.set("anchorToClip", glm::mat4(projection * frame.anchorToCamera()));
+  const glm::mat4 clip(projection * frame.anchorToCamera());
+  if (compute_) {
+    compute_->draw(frame.gpuScene(), clip, near);
+    return;
+  }
+  hardware_->framebuffer.bind();
+  constexpr std::array<GLuint, 4> kBackground = {kNone, 0, 0, 0};
+  constexpr GLfloat kFar = 0.0F;  // reversed depth: 0 is infinitely far
+  glClearBufferuiv(GL_COLOR, 0, kBackground.data());
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_CULL_FACE);
+  hardware_->program.use();
+  hardware_->program.set("anchorToClip", clip);
   frame.gpuScene().draw();
   glDisable(GL_DEPTH_TEST);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -100,7 +118,8 @@ GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
 void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "frame/" + setting_.key()); }
 
 Receivers::Receivers(Frame& frame)
-    : program_(frame.context().programs().compute(kResolve, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
+    : program_(frame.context().programs().compute(kResolve,
+                                                  {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
       texture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
 }

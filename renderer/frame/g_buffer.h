@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "renderer/frame/compute_raster.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 
 namespace limen::frame {
 
-/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out from it in
-/// compute by intersecting the pixel's ray with the triangle, which is both faster and more exact than interpolated
-/// attributes.
+/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out
+/// from it in compute by intersecting the pixel's ray with the triangle, which is both faster and more exact
+/// than interpolated attributes.
 class TriangleIds : public FrameInput {
  public:
   static constexpr const char* kName = "triangle_ids";
@@ -17,11 +18,16 @@ class TriangleIds : public FrameInput {
   explicit TriangleIds(Frame& frame);
   void make(Frame& frame) override;
   /// R32UI; kNone: background.
-  const gl::Texture& texture() const { return ids_; }
+  const gl::Texture& texture() const { return hardware_ ? hardware_->ids : compute_->ids(); }
 
  private:
-  gl::Texture ids_, depth_;
-  gl::Framebuffer framebuffer_;
+  struct HardwareTarget {
+    const gl::Program& program;
+    gl::Texture ids, depth;
+    gl::Framebuffer framebuffer;
+  };
+  std::unique_ptr<HardwareTarget> hardware_;
+  std::unique_ptr<ComputeRaster> compute_;
 };
 
 /// G-buffer channels, each an input of its own.
@@ -50,9 +56,10 @@ class GBufferChannel : public FrameInput {
   gl::Texture texture_;
 };
 
-/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin, z along its
-/// direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth slope that biases need;
-/// w = -1: not a receiver (background, behind the light's plane, or turned away from the light's centre).
+/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin,
+/// z along its direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth
+/// slope that biases need; w = -1: not a receiver (background, behind the light's plane, or turned away from
+/// the light's centre).
 class Receivers : public FrameInput {
  public:
   static constexpr const char* kName = "receivers";

@@ -16,31 +16,44 @@ int levelCount(int resolution) {
 
 }  // namespace
 
-ShadowRaster::ShadowRaster(gl::Context& context, int resolution)
-    : program_(context.programs().get({"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"})),
-      depth_(gl::Format::Depth32F, glm::ivec2(resolution)),
-      framebuffer_({}, &depth_) {}
+ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster) {
+  if (chosenRaster(raster, context) == Raster::Compute) {
+    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), false);
+    return;
+  }
+  gl::Texture depth(gl::Format::Depth32F, glm::ivec2(resolution));
+  const std::vector<std::string> shaders = {"renderer/frame/shadow.vert.glsl",
+                                            "renderer/frame/shadow.frag.glsl"};
+  gl::Framebuffer framebuffer({}, &depth);
+  hardware_.reset(
+      new HardwareTarget{context.programs().get(shaders), std::move(depth), std::move(framebuffer)});
+}
 
 void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
-  framebuffer_.bind();
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  const glm::mat4 clip(frustum.clipFromLight() * toLight);
+  if (compute_) {
+    compute_->draw(frame.gpuScene(), clip, frustum.near);
+    return;
+  }
+  hardware_->framebuffer.bind();
   constexpr GLfloat kFar = 0.0F;
   glClearBufferfv(GL_DEPTH, 0, &kFar);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDisable(GL_CULL_FACE);
-  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
-  program_.use();
-  program_.set("anchorToClip", glm::mat4(frustum.clipFromLight() * toLight));
+  hardware_->program.use();
+  hardware_->program.set("anchorToClip", clip);
   frame.gpuScene().draw();
   glDisable(GL_DEPTH_TEST);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
-    : raster_(frame.context(), settings.resolution),
+    : raster_(frame.context(), settings.resolution, settings.raster),
       frustum_(LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution)),
       pass_("frame/shadow_raster") {
-  frame.passes().setBytesHeld(pass_, raster_.depth().bytes());
+  frame.passes().setBytesHeld(pass_, raster_.bytes());
 }
 
 void ShadowDepth::make(Frame& frame) {
@@ -70,7 +83,8 @@ void ShadowMap::make(Frame& frame) {
 
 MinMaxPyramid::MinMaxPyramid(Frame& frame, ShadowMapSettings settings)
     : settings_(settings),
-      first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl", {{"FROM_DEPTH", "1"}})),
+      first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl",
+                                                {{"FROM_DEPTH", "1"}})),
       next_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl")),
       minimum_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution)),
       maximum_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
@@ -102,7 +116,8 @@ void MinMaxPyramid::make(Frame& frame) {
     for (int i = 0; i < 3; ++i) {
       // Levels past the last are bound to the last and never written.
       minimum_.bindImage(1 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + 1 + i, count - 1));
-      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + i, maximum_.levels() - 1));
+      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write,
+                         std::min(base + i, maximum_.levels() - 1));
     }
     program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -3,27 +3,29 @@
 
 #include <vector>
 
+#include "renderer/frame/compute_raster.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 
 namespace limen::frame {
 
-/// View from a point of the light's plane along the light's direction, in tangents: texel coordinate u in [0,1] of a map
-/// looks along x/z = low.x + u (high.x - low.x). Rows grow with y.
+/// View from a point of the light's plane along the light's direction, in tangents: texel coordinate u in
+/// [0,1] of a map looks along x/z = low.x + u (high.x - low.x). Rows grow with y.
 struct LightFrustum {
-  glm::dvec2 offset{0.0};                ///< the eye on the light's plane, light space
-  glm::dvec2 low{-1.0}, high{1.0};       ///< tangents at the map's edges
-  double near = 1e-3;                    ///< light-space z of the near plane; what lies nearer is not seen
-  glm::dmat4 clipFromLight() const;      ///< reversed depth, infinite far plane: depth = near / z
+  glm::dvec2 offset{0.0};            ///< the eye on the light's plane, light space
+  glm::dvec2 low{-1.0}, high{1.0};   ///< tangents at the map's edges
+  double near = 1e-3;                ///< light-space z of the near plane; what lies nearer is not seen
+  glm::dmat4 clipFromLight() const;  ///< reversed depth, infinite far plane: depth = near / z
 };
 
 /// Casters of a scene in the space of its first light, from which frusta are fitted.
 class LightCasters {
  public:
   explicit LightCasters(const scene::Scene& scene);
-  /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from `offset`, with
-  /// a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees from the light's direction,
-  /// the near plane to 1/1000 of the farthest caster: nearer occluders are cut off.
+  /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from
+  /// `offset`, with a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees
+  /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are cut
+  /// off.
   LightFrustum fit(glm::dvec2 offset, int resolution) const;
 
  private:
@@ -31,22 +33,31 @@ class LightCasters {
   double farthest_ = 0.0;
 };
 
-/// Depth-only raster of the scene from a point of the light: D32F, near / z, 0 where nothing is.
+/// Depth image of the scene from a point of the light: near / z, 0 where nothing is.
 class ShadowRaster {
  public:
-  ShadowRaster(gl::Context& context, int resolution);
+  ShadowRaster(gl::Context& context, int resolution, Raster raster);
   void draw(Frame& frame, const LightFrustum& frustum) const;
-  const gl::Texture& depth() const { return depth_; }
+  /// One channel of 32-bit float, to be read by texelFetch.
+  const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
+  int64_t bytes() const { return hardware_ ? hardware_->depth.bytes() : compute_->bytes(); }
 
  private:
-  const gl::Program& program_;
-  gl::Texture depth_;
-  gl::Framebuffer framebuffer_;
+  struct HardwareTarget {
+    const gl::Program& program;
+    gl::Texture depth;
+    gl::Framebuffer framebuffer;
+  };
+  std::unique_ptr<HardwareTarget> hardware_;
+  std::unique_ptr<ComputeRaster> compute_;
 };
 
 struct ShadowMapSettings {
   int resolution = 1024;  ///< texels a side; a power of two
-  std::string key() const { return std::to_string(resolution); }
+  Raster raster = Raster::Auto;
+  std::string key() const {
+    return std::to_string(resolution) + "/" + std::to_string(static_cast<int>(raster));
+  }
 };
 
 /// Raster from the centre of the light.
@@ -84,9 +95,9 @@ class ShadowMap : public FrameInput {
   std::string pass_;
 };
 
-/// Hierarchical shadow map (HSM): minimum and maximum of z over 2^i x 2^i texels. The thesis (section 4.1) keeps both in
-/// one two-channel texture; here they are two, because the loop over micro-occluders reads the minimum alone and the
-/// maximum of level 0 is never needed: 6.7 MB instead of 10.7 MB at 1024 x 1024.
+/// Hierarchical shadow map (HSM): minimum and maximum of z over 2^i x 2^i texels. The thesis (section 4.1)
+/// keeps both in one two-channel texture; here they are two, because the loop over micro-occluders reads the
+/// minimum alone and the maximum of level 0 is never needed: 6.7 MB instead of 10.7 MB at 1024 x 1024.
 class MinMaxPyramid : public FrameInput {
  public:
   static constexpr const char* kName = "min_max_pyramid";

@@ -4,13 +4,29 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/image.h"
 
 namespace limen::gl {
 
-enum class Format { R8, R16F, R32F, RG16F, RG32F, RGBA8, RGBA16F, RGBA32F, R8UI, R32UI, RG32UI, RGBA16UI, RGBA32UI, Depth32F };
+enum class Format {
+  R8,
+  R16F,
+  R32F,
+  RG16F,
+  RG32F,
+  RGBA8,
+  RGBA16F,
+  RGBA32F,
+  R8UI,
+  R32UI,
+  RG32UI,
+  RGBA16UI,
+  RGBA32UI,
+  Depth32F
+};
 
 int bytesPerTexel(Format format);
 int channelCount(Format format);
@@ -22,12 +38,16 @@ enum class Access { Read, Write, ReadWrite };
 /// Immutable 2D texture or, with layers > 0, 2D array.
 class Texture {
  public:
-  Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0, Sampling sampling = Sampling::Nearest);
+  Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0,
+          Sampling sampling = Sampling::Nearest);
   ~Texture();
   Texture(Texture&& other) noexcept;
   Texture& operator=(Texture&& other) noexcept;
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
+
+  /// The same memory under another format of the same size a texel; lives on its own.
+  Texture viewAs(Format format) const;
 
   uint32_t id() const { return id_; }
   Format format() const { return format_; }
@@ -47,10 +67,12 @@ class Texture {
   void write(const Image& image, int level = 0) const;
 
  private:
+  Texture() = default;
+  void setSampling(Sampling sampling) const;
   uint32_t id_ = 0;
-  Format format_;
-  glm::ivec2 sizePx_;
-  int levels_, layers_;
+  Format format_ = Format::R32F;
+  glm::ivec2 sizePx_{0};
+  int levels_ = 1, layers_ = 0;
 };
 
 /// Render target: colour textures and a depth texture, all of one size, not owned.
@@ -59,6 +81,7 @@ class Framebuffer {
   /// Throws std::runtime_error if the driver calls the combination incomplete.
   Framebuffer(const std::vector<const Texture*>& colours, const Texture* depth);
   ~Framebuffer();
+  Framebuffer(Framebuffer&& other) noexcept : id_(std::exchange(other.id_, 0)), sizePx_(other.sizePx_) {}
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
   uint32_t id() const { return id_; }

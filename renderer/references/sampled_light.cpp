@@ -43,12 +43,12 @@ class SampledLight : public techniques::Technique {
     const scene::AreaLight& light = frame.scene().lights.at(0);
     for (const glm::dvec2 unit : lightPoints(light))
       frusta_.push_back(casters.fit((unit - 0.5) * light.size, resolution_));
-    raster_.emplace(frame.context(), resolution_);
+    raster_.emplace(frame.context(), resolution_, frame.raster());
     accumulate_ = &frame.context().programs().compute("renderer/references/sampled_light.comp.glsl");
     resolve_ = &frame.context().programs().compute("renderer/references/sampled_light_resolve.comp.glsl");
     counts_.emplace(gl::Format::R32UI, frame.sizePx());
     product_.emplace(gl::Format::R32F, frame.sizePx());
-    frame.passes().setBytesHeld("sampled_light/maps", raster_->depth().bytes() + counts_->bytes());
+    frame.passes().setBytesHeld("sampled_light/maps", raster_->bytes() + counts_->bytes());
     frame.passes().setBytesHeld("sampled_light/resolve", product_->bytes());
   }
 

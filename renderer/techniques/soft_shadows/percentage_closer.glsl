@@ -21,5 +21,5 @@ float percentageCloser(vec2 centre, vec2 size, float depth) {
 // Bias for a window: the receiver's plane leaves its depth by the slope times half the window, not half a texel.
 float windowDepth(vec4 receiver, vec2 sizeTexels) {
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution);
-  return receiver.z - bias * receiver.z - receiver.w * texel * (slopeBias + 0.5 * max(sizeTexels.x, sizeTexels.y));
+  return receiver.z - bias * receiver.z - boundedSlope(receiver) * texel * (slopeBias + 0.5 * max(sizeTexels.x, sizeTexels.y));
 }

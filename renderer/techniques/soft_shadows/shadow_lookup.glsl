@@ -15,7 +15,7 @@ uniform vec2 tangentLow, tangentSize;  // x/z, y/z at the map's lower edge, and 
 uniform float near;
 uniform vec2 lightSize;  // full extents
 uniform int resolution;
-uniform float bias, slopeBias;
+uniform float bias, slopeBias, maxSlope;
 
 const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u, kCutShort = 5u;
 
@@ -25,11 +25,15 @@ uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed =
 // Position of a point in the map, in texels of level 0.
 vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * float(resolution); }
 
+// Slope of the receiver's plane, for biases. At grazing light it has no bound, and a bias that followed it would let light
+// through whatever lies near.
+float boundedSlope(vec4 receiver) { return min(receiver.w, maxSlope * receiver.z); }
+
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
 // change of the receiver's own plane over `slopeBias` texels (the slope sums both axes).
 float biasedDepth(vec4 receiver, int level) {
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
-  return receiver.z - bias * receiver.z - slopeBias * receiver.w * texel;
+  return receiver.z - bias * receiver.z - slopeBias * boundedSlope(receiver) * texel;
 }
 
 void store(ivec2 pixel, float visibility) {

@@ -57,26 +57,40 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
           {"outside_map_share", pixels[Outside] / all, "", false}};
 }
 
+frame::Raster rasterOf(const std::string& name) {
+  return name == "auto"      ? frame::Raster::Auto
+         : name == "compute" ? frame::Raster::Compute
+                             : frame::Raster::Hardware;
+}
+
 }  // namespace
 
 VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                                          gl::ShaderDefines defines)
-    : map_{std::stoi(values.text("resolution"))},
+    : map_{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))},
       bias_(values.real("bias")),
       slopeBias_(values.real("slope_bias")),
+      maxSlope_(values.real("max_slope")),
       shader_(std::move(shader)),
       pass_(std::move(pass)),
       defines_(std::move(defines)) {}
 
 std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
-  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
-                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
-          realParameter("bias", 1e-4, 0.0, 0.1, "",
-                        "Constant depth bias as a share of the receiver's distance from the light's plane",
-                        "Schwarz 2009, section 4.4.5 (value not given there)"),
-          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
-                        "Depth bias by the receiver's slope, in texels of the level that is read",
-                        "Schwarz 2009, section 4.4.5 (reconstructed)")};
+  return {
+      choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
+                      "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
+      realParameter("bias", 1e-4, 0.0, 0.1, "",
+                    "Constant depth bias as a share of the receiver's distance from the light's plane",
+                    "Schwarz 2009, section 4.4.5 (value not given there)"),
+      realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
+                    "Depth bias by the receiver's slope, in texels of the level that is read",
+                    "Schwarz 2009, section 4.4.5 (reconstructed)"),
+      realParameter(
+          "max_slope", 10.0, 0.1, 1e6, "",
+          "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
+      choiceParameter(
+          "raster", "compute", {"compute", "hardware"},
+          "How the shadow map is rasterised: in compute shaders or by the driver; auto: compute on a GPU")};
 }
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
@@ -103,6 +117,7 @@ void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, c
   program.set("resolution", map_.resolution);
   program.set("bias", static_cast<float>(bias_));
   program.set("slopeBias", static_cast<float>(slopeBias_));
+  program.set("maxSlope", static_cast<float>(maxSlope_));
   configure(program);
   receivers.bindTexture(0);
   visibility_->bindImage(0, gl::Access::Write);

@@ -21,7 +21,7 @@ class VisibilityTechnique : public Technique {
   /// Shares of lit, umbra, processed and outside pixels; micro-occluders and fetches per processed pixel.
   std::vector<Counter> count(frame::Frame& frame) override;
 
-  /// Parameters that `values` must hold: resolution, bias, slope_bias.
+  /// Parameters that `values` must hold: resolution, bias, slope_bias, max_slope, raster.
   static std::vector<Parameter> commonParameters(double defaultSlopeBias);
 
  protected:
@@ -40,7 +40,7 @@ class VisibilityTechnique : public Technique {
   void run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts);
 
   frame::ShadowMapSettings map_;
-  double bias_, slopeBias_;
+  double bias_, slopeBias_, maxSlope_;
   std::string shader_, pass_;
   gl::ShaderDefines defines_;
   const gl::Program* program_ = nullptr;

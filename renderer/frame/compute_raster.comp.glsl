@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
+// Without LARGE: an invocation a triangle; those with many pixels are queued in runs. With LARGE: the queue, a
+// group a run.
+#include "renderer/frame/scene_buffers.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0, r32ui) uniform coherent uimage2D depthImage;
+#ifdef IDS
+layout(binding = 1, r32ui) uniform coherent uimage2D idImage;
+#endif
+layout(std430, binding = 3) buffer Queue {
+  uint queued;
+  uint padding[3];
+  uvec2 runs[];  // triangle, first pixel of the run in its bounding box
+};
+
+uniform mat4 anchorToClip;
+uniform float near;
+uniform ivec2 sizePx;
+uniform uint triangleCount;
+
+const int kSmall = 64;    // pixels of a bounding box that one invocation takes on
+const int kRun = 4096;    // pixels of a run
+
+struct Triangle {
+  vec3 a, b, c;   // clip space x, y, w
+  ivec2 low, size;  // bounding box in pixels
+};
+
+vec3 clipPosition(uint vertex) {
+  precise const vec4 clip = anchorToClip * vec4(scenePosition(vertex), 1.0);
+  return clip.xyw;
+}
+
+// Pixel coordinates of a clip position, centre of pixel (0, 0) at 0. Row 0 is the top of clip space.
+vec2 pixelOf(vec3 v) { return (vec2(v.x, -v.y) / v.z * 0.5 + 0.5) * vec2(sizePx) - 0.5; }
+
+Triangle load(uint index) {
+  const uvec3 vertices = sceneTriangle(index);
+  Triangle t;
+  t.a = clipPosition(vertices.x);
+  t.b = clipPosition(vertices.y);
+  t.c = clipPosition(vertices.z);
+  t.low = ivec2(0);
+  t.size = ivec2(0);
+  const float nearest = min(t.a.z, min(t.b.z, t.c.z));
+  if (max(t.a.z, max(t.b.z, t.c.z)) < near) return t;
+  t.size = sizePx;
+  // A triangle that reaches nearer than the near plane may show anywhere.
+  if (nearest >= near) {
+    const vec2 a = pixelOf(t.a), b = pixelOf(t.b), c = pixelOf(t.c);
+    // One pixel of slack for the rounding of the quotients, far off the screen included.
+    const vec2 limit = vec2(sizePx) + 1.0;
+    const vec2 low = clamp(min(a, min(b, c)) - 0.01, vec2(-1.0), limit), high = clamp(max(a, max(b, c)) + 0.01, vec2(-1.0), limit);
+    t.low = max(ivec2(ceil(low)), ivec2(0));
+    t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
+  }
+  return t;
+}
+
+float product(vec2 a, vec2 b) {
+  precise const float result = a.x * b.y - a.y * b.x;
+  return result;
+}
+
+void shade(Triangle t, uint index, ivec2 pixel) {
+  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
+  precise const vec2 a = t.a.xy - ndc * t.a.z, b = t.b.xy - ndc * t.b.z, c = t.c.xy - ndc * t.c.z;
+  const float u = product(b, c), v = product(c, a), w = product(a, b);
+  const bool positive = u >= 0.0 && v >= 0.0 && w >= 0.0, negative = u <= 0.0 && v <= 0.0 && w <= 0.0;
+  precise const float sum = u + v + w;
+  if (!(positive || negative) || sum == 0.0) return;
+  precise const float distance = (u * t.a.z + v * t.b.z + w * t.c.z) / sum;
+  if (!(distance >= near)) return;
+  precise const float depth = near / distance;
+  const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
+#ifdef IDS
+  if (imageLoad(depthImage, pixel).x == bits) imageAtomicMin(idImage, pixel, index);
+#else
+  // The plain read may be old; it only saves atomics that cannot win.
+  if (imageLoad(depthImage, pixel).x < bits) imageAtomicMax(depthImage, pixel, bits);
+#endif
+}
+
+void shadeRun(Triangle t, uint index, int first, int end, int start, int stride) {
+  for (int i = first + start; i < end; i += stride) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
+}
+
+#ifdef LARGE
+void main() {
+  const uint count = min(queued, QUEUE_CAPACITY);
+  for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
+    const uint index = runs[item].x;
+    const Triangle t = load(index);
+    const int first = int(runs[item].y);
+    shadeRun(t, index, first, min(first + kRun, t.size.x * t.size.y), int(gl_LocalInvocationID.x), 64);
+  }
+}
+#else
+void main() {
+  const uint index = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
+  if (gl_GlobalInvocationID.x >= (1u << 20) || index >= triangleCount) return;
+  const Triangle t = load(index);
+  const int pixels = t.size.x * t.size.y;
+  if (pixels <= kSmall) {
+    shadeRun(t, index, 0, pixels, 0, 1);
+    return;
+  }
+  for (int first = 0; first < pixels; first += kRun) {
+    const uint slot = atomicAdd(queued, 1u);
+    if (slot < QUEUE_CAPACITY)
+      runs[slot] = uvec2(index, uint(first));
+    else
+      shadeRun(t, index, first, min(first + kRun, pixels), 0, 1);
+  }
+}
+#endif

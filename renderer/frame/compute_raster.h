@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "renderer/frame/gpu_scene.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/context.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::frame {
+
+/// How triangles become pixels. On a GPU with few raster units the compute form is many times faster, on a
+/// software renderer many times slower; both see the same pixel centres and differ only where an edge passes
+/// within rounding of one.
+enum class Raster {
+  Auto,      ///< Compute on a GPU, Hardware on a software renderer
+  Hardware,  ///< the driver's rasteriser
+  Compute    ///< ComputeRaster
+};
+
+/// Auto resolved for a context.
+Raster chosenRaster(Raster raster, const gl::Context& context);
+
+/// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
+/// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views
+/// without a far plane.
+///
+/// Each pixel's coverage and depth come from the vertices shifted to that pixel, q_i = (x_i, y_i) - pixel *
+/// w_i in clip space: the signs of q_j x q_k say inside or outside, and these products are the barycentric
+/// weights of the point seen. Triangles that share an edge compute it from the same numbers, so there are no
+/// cracks; there is no clipping, since a triangle that reaches behind the eye needs none. Two-dimensional
+/// homogeneous rasterisation is due to Olano and Greer 1997. Small triangles take one invocation each; large
+/// ones are cut into runs of pixels for groups.
+class ComputeRaster {
+ public:
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds);
+
+  /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
+  void draw(const GpuScene& scene, const glm::mat4& clip, double near) const;
+
+  const gl::Texture& depth() const { return depth_; }  ///< R32F
+  const gl::Texture& ids() const { return *ids_; }     ///< R32UI
+  int64_t bytes() const;
+
+ private:
+  void pass(const gl::Program& small, const gl::Program& large, const GpuScene& scene) const;
+
+  const gl::Program &smallDepth_, &largeDepth_;
+  const gl::Program *smallIds_ = nullptr, *largeIds_ = nullptr;
+  gl::Texture depthBits_;
+  gl::Texture depth_;
+  std::optional<gl::Texture> ids_;
+  gl::Buffer queue_;
+};
+
+}  // namespace limen::frame
