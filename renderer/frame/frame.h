@@ -16,8 +16,8 @@ namespace limen::frame {
 
 class Frame;
 
-/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first time a
-/// frame asks for it and never otherwise; its memory is kept for the next frame.
+/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first
+/// time a frame asks for it and never otherwise; its memory is kept for the next frame.
 class FrameInput {
  public:
   virtual ~FrameInput() = default;
@@ -25,8 +25,9 @@ class FrameInput {
   virtual void make(Frame& frame) = 0;
 };
 
-/// One view of one scene, rendered over and over. Inputs are asked for by type: `frame.get<ShadowMap>(settings)`.
-/// An input class has a constructor (Frame&, Settings...) and each setting has `std::string key() const`.
+/// One view of one scene, rendered over and over. Inputs are asked for by type:
+/// `frame.get<ShadowMap>(settings)`. An input class has a constructor (Frame&, Settings...) and each setting
+/// has `std::string key() const`.
 class Frame {
  public:
   Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gpuScene, glm::ivec2 sizePx,

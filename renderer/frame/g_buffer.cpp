@@ -13,19 +13,26 @@ constexpr const char* kResolve = "renderer/frame/g_buffer.comp.glsl";
 gl::Format formatOf(Channel channel) {
   switch (channel) {
     case Channel::Position:
-    case Channel::Normal: return gl::Format::RGBA32F;
-    case Channel::Albedo: return gl::Format::RGBA8;
-    case Channel::Depth: return gl::Format::R32F;
+    case Channel::Normal:
+      return gl::Format::RGBA32F;
+    case Channel::Albedo:
+      return gl::Format::RGBA8;
+    case Channel::Depth:
+      return gl::Format::R32F;
   }
   return gl::Format::R32F;
 }
 
 gl::ShaderDefines definesOf(Channel channel) {
   switch (channel) {
-    case Channel::Position: return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
-    case Channel::Normal: return {{"CHANNEL_NORMAL", "1"}, {"OUT_FORMAT", "rgba32f"}};
-    case Channel::Albedo: return {{"CHANNEL_ALBEDO", "1"}, {"OUT_FORMAT", "rgba8"}};
-    case Channel::Depth: return {{"CHANNEL_DEPTH", "1"}, {"OUT_FORMAT", "r32f"}};
+    case Channel::Position:
+      return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Normal:
+      return {{"CHANNEL_NORMAL", "1"}, {"OUT_FORMAT", "rgba32f"}};
+    case Channel::Albedo:
+      return {{"CHANNEL_ALBEDO", "1"}, {"OUT_FORMAT", "rgba8"}};
+    case Channel::Depth:
+      return {{"CHANNEL_DEPTH", "1"}, {"OUT_FORMAT", "r32f"}};
   }
   return {};
 }
@@ -52,7 +59,8 @@ TriangleIds::TriangleIds(Frame& frame)
     : ids_(gl::Format::R32UI, frame.sizePx()),
       depth_(gl::Format::Depth32F, frame.sizePx()),
       framebuffer_({&ids_}, &depth_) {
-  frame.context().programs().get({"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
+  frame.context().programs().get(
+      {"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"});
   frame.passes().setBytesHeld("frame/triangle_ids", ids_.bytes() + depth_.bytes());
 }
 
@@ -68,8 +76,8 @@ void TriangleIds::make(Frame& frame) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDisable(GL_CULL_FACE);
-  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near plane is
-  // a small part of the distance to the scene, whatever the scene's scale.
+  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near
+  // plane is a small part of the distance to the scene, whatever the scene's scale.
   const double reach = glm::length(glm::dvec3(frame.anchorToCamera() * glm::dvec4(0.0, 0.0, 0.0, 1.0))) +
                        frame.scene().bounds().diagonal();
   const double near = 1e-4 * (reach > 0.0 ? reach : 1.0);
@@ -100,7 +108,8 @@ GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
 void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "frame/" + setting_.key()); }
 
 Receivers::Receivers(Frame& frame)
-    : program_(frame.context().programs().compute(kResolve, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
+    : program_(frame.context().programs().compute(kResolve,
+                                                  {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
       texture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
 }

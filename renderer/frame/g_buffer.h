@@ -6,9 +6,9 @@
 
 namespace limen::frame {
 
-/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out from it in
-/// compute by intersecting the pixel's ray with the triangle, which is both faster and more exact than interpolated
-/// attributes.
+/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out
+/// from it in compute by intersecting the pixel's ray with the triangle, which is both faster and more exact
+/// than interpolated attributes.
 class TriangleIds : public FrameInput {
  public:
   static constexpr const char* kName = "triangle_ids";
@@ -50,9 +50,10 @@ class GBufferChannel : public FrameInput {
   gl::Texture texture_;
 };
 
-/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin, z along its
-/// direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth slope that biases need;
-/// w = -1: not a receiver (background, behind the light's plane, or turned away from the light's centre).
+/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin,
+/// z along its direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth
+/// slope that biases need; w = -1: not a receiver (background, behind the light's plane, or turned away from
+/// the light's centre).
 class Receivers : public FrameInput {
  public:
   static constexpr const char* kName = "receivers";

@@ -8,7 +8,8 @@
 
 namespace limen::frame {
 
-/// A scene's geometry in GPU memory. Positions are float, relative to the anchor (the centre of the scene's bounds).
+/// A scene's geometry in GPU memory. Positions are float, relative to the anchor (the centre of the scene's
+/// bounds).
 class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);

@@ -54,12 +54,14 @@ LightFrustum LightCasters::fit(glm::dvec2 offset, int resolution) const {
       const glm::dvec3 &a = vertices_[i + corner], &b = vertices_[i + (corner + 1) % 3];
       if (a.z >= nearLimit) include(a);
       // An edge through the near limit leaves the visible half there.
-      if ((a.z < nearLimit) != (b.z < nearLimit)) include(a + (b - a) * ((nearLimit - a.z) / (b.z - a.z)) + glm::dvec3(0, 0, 1e-12 * nearLimit));
+      if ((a.z < nearLimit) != (b.z < nearLimit))
+        include(a + (b - a) * ((nearLimit - a.z) / (b.z - a.z)) + glm::dvec3(0, 0, 1e-12 * nearLimit));
     }
   if (low.x > high.x || low.y > high.y) return frustum;  // no caster in front of the light
   low = glm::max(low, -kMaxTangent), high = glm::min(high, kMaxTangent);
   low = glm::min(low, high);
-  // A flat caster still needs a map with an area; then one texel of margin, so that the edge texels are empty.
+  // A flat caster still needs a map with an area; then one texel of margin, so that the edge texels are
+  // empty.
   const glm::dvec2 centre = 0.5 * (low + high);
   glm::dvec2 half = glm::max(0.5 * (high - low), 1e-6);
   half *= resolution > 2 ? double(resolution) / (resolution - 2) : 1.0 + 1e-6;

@@ -17,7 +17,8 @@ int levelCount(int resolution) {
 }  // namespace
 
 ShadowRaster::ShadowRaster(gl::Context& context, int resolution)
-    : program_(context.programs().get({"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"})),
+    : program_(
+          context.programs().get({"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"})),
       depth_(gl::Format::Depth32F, glm::ivec2(resolution)),
       framebuffer_({}, &depth_) {}
 
@@ -70,7 +71,8 @@ void ShadowMap::make(Frame& frame) {
 
 MinMaxPyramid::MinMaxPyramid(Frame& frame, ShadowMapSettings settings)
     : settings_(settings),
-      first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl", {{"FROM_DEPTH", "1"}})),
+      first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl",
+                                                {{"FROM_DEPTH", "1"}})),
       next_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl")),
       minimum_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution)),
       maximum_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
@@ -102,7 +104,8 @@ void MinMaxPyramid::make(Frame& frame) {
     for (int i = 0; i < 3; ++i) {
       // Levels past the last are bound to the last and never written.
       minimum_.bindImage(1 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + 1 + i, count - 1));
-      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + i, maximum_.levels() - 1));
+      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write,
+                         std::min(base + i, maximum_.levels() - 1));
     }
     program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -8,22 +8,23 @@
 
 namespace limen::frame {
 
-/// View from a point of the light's plane along the light's direction, in tangents: texel coordinate u in [0,1] of a map
-/// looks along x/z = low.x + u (high.x - low.x). Rows grow with y.
+/// View from a point of the light's plane along the light's direction, in tangents: texel coordinate u in
+/// [0,1] of a map looks along x/z = low.x + u (high.x - low.x). Rows grow with y.
 struct LightFrustum {
-  glm::dvec2 offset{0.0};                ///< the eye on the light's plane, light space
-  glm::dvec2 low{-1.0}, high{1.0};       ///< tangents at the map's edges
-  double near = 1e-3;                    ///< light-space z of the near plane; what lies nearer is not seen
-  glm::dmat4 clipFromLight() const;      ///< reversed depth, infinite far plane: depth = near / z
+  glm::dvec2 offset{0.0};            ///< the eye on the light's plane, light space
+  glm::dvec2 low{-1.0}, high{1.0};   ///< tangents at the map's edges
+  double near = 1e-3;                ///< light-space z of the near plane; what lies nearer is not seen
+  glm::dmat4 clipFromLight() const;  ///< reversed depth, infinite far plane: depth = near / z
 };
 
 /// Casters of a scene in the space of its first light, from which frusta are fitted.
 class LightCasters {
  public:
   explicit LightCasters(const scene::Scene& scene);
-  /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from `offset`, with
-  /// a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees from the light's direction,
-  /// the near plane to 1/1000 of the farthest caster: nearer occluders are cut off.
+  /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from
+  /// `offset`, with a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees
+  /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are cut
+  /// off.
   LightFrustum fit(glm::dvec2 offset, int resolution) const;
 
  private:
@@ -84,9 +85,9 @@ class ShadowMap : public FrameInput {
   std::string pass_;
 };
 
-/// Hierarchical shadow map (HSM): minimum and maximum of z over 2^i x 2^i texels. The thesis (section 4.1) keeps both in
-/// one two-channel texture; here they are two, because the loop over micro-occluders reads the minimum alone and the
-/// maximum of level 0 is never needed: 6.7 MB instead of 10.7 MB at 1024 x 1024.
+/// Hierarchical shadow map (HSM): minimum and maximum of z over 2^i x 2^i texels. The thesis (section 4.1)
+/// keeps both in one two-channel texture; here they are two, because the loop over micro-occluders reads the
+/// minimum alone and the maximum of level 0 is never needed: 6.7 MB instead of 10.7 MB at 1024 x 1024.
 class MinMaxPyramid : public FrameInput {
  public:
   static constexpr const char* kName = "min_max_pyramid";

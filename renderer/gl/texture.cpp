@@ -18,25 +18,41 @@ struct FormatFacts {
 
 FormatFacts factsOf(Format format) {
   switch (format) {
-    case Format::R8: return {GL_R8, GL_RED, GL_FLOAT, 1, 1};
-    case Format::R16F: return {GL_R16F, GL_RED, GL_FLOAT, 1, 2};
-    case Format::R32F: return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
-    case Format::RG16F: return {GL_RG16F, GL_RG, GL_FLOAT, 2, 4};
-    case Format::RG32F: return {GL_RG32F, GL_RG, GL_FLOAT, 2, 8};
-    case Format::RGBA8: return {GL_RGBA8, GL_RGBA, GL_FLOAT, 4, 4};
-    case Format::RGBA16F: return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 4, 8};
-    case Format::RGBA32F: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 16};
-    case Format::R8UI: return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, 1};
-    case Format::R32UI: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, 4};
-    case Format::RG32UI: return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 2, 8};
-    case Format::RGBA16UI: return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 8};
-    case Format::RGBA32UI: return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 16};
-    case Format::Depth32F: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
+    case Format::R8:
+      return {GL_R8, GL_RED, GL_FLOAT, 1, 1};
+    case Format::R16F:
+      return {GL_R16F, GL_RED, GL_FLOAT, 1, 2};
+    case Format::R32F:
+      return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
+    case Format::RG16F:
+      return {GL_RG16F, GL_RG, GL_FLOAT, 2, 4};
+    case Format::RG32F:
+      return {GL_RG32F, GL_RG, GL_FLOAT, 2, 8};
+    case Format::RGBA8:
+      return {GL_RGBA8, GL_RGBA, GL_FLOAT, 4, 4};
+    case Format::RGBA16F:
+      return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 4, 8};
+    case Format::RGBA32F:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 16};
+    case Format::R8UI:
+      return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, 1};
+    case Format::R32UI:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, 4};
+    case Format::RG32UI:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 2, 8};
+    case Format::RGBA16UI:
+      return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 8};
+    case Format::RGBA32UI:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 16};
+    case Format::Depth32F:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
   }
   return {};
 }
 
-glm::ivec2 levelSize(glm::ivec2 size, int level) { return glm::max(glm::ivec2(size.x >> level, size.y >> level), 1); }
+glm::ivec2 levelSize(glm::ivec2 size, int level) {
+  return glm::max(glm::ivec2(size.x >> level, size.y >> level), 1);
+}
 
 GLenum accessOf(Access access) {
   return access == Access::Read ? GL_READ_ONLY : access == Access::Write ? GL_WRITE_ONLY : GL_READ_WRITE;
@@ -58,7 +74,7 @@ Texture::Texture(Format format, glm::ivec2 sizePx, int levels, int layers, Sampl
   else
     glTextureStorage2D(id_, levels, facts.internal, sizePx.x, sizePx.y);
   const GLint magnify = sampling == Sampling::Linear ? GL_LINEAR : GL_NEAREST;
-  const GLint minify = levels == 1                      ? magnify
+  const GLint minify = levels == 1                    ? magnify
                        : sampling == Sampling::Linear ? GL_LINEAR_MIPMAP_LINEAR
                                                       : GL_NEAREST_MIPMAP_NEAREST;
   glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, magnify);
@@ -114,8 +130,8 @@ Image Texture::read(int level) const {
   const glm::ivec2 size = levelSize(sizePx_, level);
   Image image(size.x, size.y, facts.channels);
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-  glGetTextureImage(id_, level, facts.external, GL_FLOAT, static_cast<GLsizei>(image.data.size() * sizeof(float)),
-                    image.data.data());
+  glGetTextureImage(id_, level, facts.external, GL_FLOAT,
+                    static_cast<GLsizei>(image.data.size() * sizeof(float)), image.data.data());
   return image;
 }
 
@@ -125,14 +141,17 @@ std::vector<uint32_t> Texture::readUint(int level) const {
   const glm::ivec2 size = levelSize(sizePx_, level);
   std::vector<uint32_t> data(static_cast<size_t>(size.x) * size.y * facts.channels);
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-  glGetTextureImage(id_, level, facts.external, GL_UNSIGNED_INT, static_cast<GLsizei>(data.size() * 4), data.data());
+  glGetTextureImage(id_, level, facts.external, GL_UNSIGNED_INT, static_cast<GLsizei>(data.size() * 4),
+                    data.data());
   return data;
 }
 
 void Texture::write(const Image& image, int level) const {
   const FormatFacts facts = factsOf(format_);
-  assert(image.channels == facts.channels && levelSize(sizePx_, level) == glm::ivec2(image.width, image.height));
-  glTextureSubImage2D(id_, level, 0, 0, image.width, image.height, facts.external, GL_FLOAT, image.data.data());
+  assert(image.channels == facts.channels &&
+         levelSize(sizePx_, level) == glm::ivec2(image.width, image.height));
+  glTextureSubImage2D(id_, level, 0, 0, image.width, image.height, facts.external, GL_FLOAT,
+                      image.data.data());
 }
 
 Framebuffer::Framebuffer(const std::vector<const Texture*>& colours, const Texture* depth) {

@@ -10,7 +10,22 @@
 
 namespace limen::gl {
 
-enum class Format { R8, R16F, R32F, RG16F, RG32F, RGBA8, RGBA16F, RGBA32F, R8UI, R32UI, RG32UI, RGBA16UI, RGBA32UI, Depth32F };
+enum class Format {
+  R8,
+  R16F,
+  R32F,
+  RG16F,
+  RG32F,
+  RGBA8,
+  RGBA16F,
+  RGBA32F,
+  R8UI,
+  R32UI,
+  RG32UI,
+  RGBA16UI,
+  RGBA32UI,
+  Depth32F
+};
 
 int bytesPerTexel(Format format);
 int channelCount(Format format);
@@ -22,7 +37,8 @@ enum class Access { Read, Write, ReadWrite };
 /// Immutable 2D texture or, with layers > 0, 2D array.
 class Texture {
  public:
-  Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0, Sampling sampling = Sampling::Nearest);
+  Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0,
+          Sampling sampling = Sampling::Nearest);
   ~Texture();
   Texture(Texture&& other) noexcept;
   Texture& operator=(Texture&& other) noexcept;
