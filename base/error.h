@@ -6,8 +6,8 @@
 
 namespace limen {
 
-/// An error that a user can cause and mend. `what` names the thing, `where` the file and line (or the command-line
-/// option), `mend` what to do about it. Programmer errors are assertions, never this.
+/// An error that a user can cause and mend. `what` names the thing, `where` the file and line (or the
+/// command-line option), `mend` what to do about it. Programmer errors are assertions, never this.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& what, const std::string& where = {}, const std::string& mend = {})

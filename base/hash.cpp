@@ -25,7 +25,8 @@ constexpr std::array<uint32_t, 64> kRound = {
 }  // namespace
 
 Sha256::Sha256()
-    : state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19} {}
+    : state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19} {
+}
 
 void Sha256::block(const uint8_t* data) {
   std::array<uint32_t, 64> w;
@@ -39,9 +40,10 @@ void Sha256::block(const uint8_t* data) {
   }
   auto [a, b, c, d, e, f, g, h] = state_;
   for (size_t i = 0; i < 64; ++i) {
-    const uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + ((e & f) ^ (~e & g)) +
-                        kRound[i] + w[i];
-    const uint32_t t2 = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
+    const uint32_t t1 =
+        h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + ((e & f) ^ (~e & g)) + kRound[i] + w[i];
+    const uint32_t t2 =
+        (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
     h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
   }
   const std::array<uint32_t, 8> sum = {a, b, c, d, e, f, g, h};
@@ -92,7 +94,8 @@ std::string sha256File(const std::string& path) {
   if (!file) throw Error("cannot read '" + path + "'", {}, "check that the file exists and is readable");
   Sha256 hash;
   std::vector<char> piece(1 << 16);
-  while (const size_t read = std::fread(piece.data(), 1, piece.size(), file.get())) hash.update(piece.data(), read);
+  while (const size_t read = std::fread(piece.data(), 1, piece.size(), file.get()))
+    hash.update(piece.data(), read);
   if (std::ferror(file.get())) throw Error("cannot read '" + path + "'", {}, "is it a folder?");
   return hash.hex();
 }

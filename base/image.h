@@ -18,7 +18,9 @@ struct Image {
 
   size_t pixels() const { return static_cast<size_t>(width) * height; }
   float& at(int x, int y, int c = 0) { return data[(static_cast<size_t>(y) * width + x) * channels + c]; }
-  float at(int x, int y, int c = 0) const { return data[(static_cast<size_t>(y) * width + x) * channels + c]; }
+  float at(int x, int y, int c = 0) const {
+    return data[(static_cast<size_t>(y) * width + x) * channels + c];
+  }
 };
 
 /// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error.

@@ -12,19 +12,25 @@ namespace limen {
 
 std::string describeType(ParameterType type) {
   switch (type) {
-    case ParameterType::Boolean: return "true or false";
-    case ParameterType::Integer: return "whole number";
-    case ParameterType::Real: return "number";
-    case ParameterType::Choice: return "choice";
-    case ParameterType::Text: return "text";
-    case ParameterType::File: return "path of a file";
+    case ParameterType::Boolean:
+      return "true or false";
+    case ParameterType::Integer:
+      return "whole number";
+    case ParameterType::Real:
+      return "number";
+    case ParameterType::Choice:
+      return "choice";
+    case ParameterType::Text:
+      return "text";
+    case ParameterType::File:
+      return "path of a file";
   }
   return {};
 }
 
 Parameter booleanParameter(std::string name, bool defaultValue, std::string description, std::string source) {
-  return {std::move(name), ParameterType::Boolean, defaultValue,      {}, {}, {}, {}, std::move(description),
-          std::move(source), false};
+  return {std::move(name),        ParameterType::Boolean, defaultValue, {}, {}, {}, {},
+          std::move(description), std::move(source),      false};
 }
 
 Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minimum, int64_t maximum,
@@ -41,21 +47,30 @@ Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minim
           false};
 }
 
-Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum, std::string unit,
-                        std::string description, std::string source) {
-  return {std::move(name), ParameterType::Real, defaultValue,           minimum,           maximum,
-          {},              std::move(unit),     std::move(description), std::move(source), false};
+Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum,
+                        std::string unit, std::string description, std::string source) {
+  return {std::move(name), ParameterType::Real,    defaultValue,      minimum, maximum, {},
+          std::move(unit), std::move(description), std::move(source), false};
 }
 
 Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
                           std::string description, std::string source) {
   assert(std::find(choices.begin(), choices.end(), defaultValue) != choices.end());
-  return {std::move(name), ParameterType::Choice, std::move(defaultValue), {},   {}, std::move(choices), {},
-          std::move(description), std::move(source), false};
+  return {std::move(name),
+          ParameterType::Choice,
+          std::move(defaultValue),
+          {},
+          {},
+          std::move(choices),
+          {},
+          std::move(description),
+          std::move(source),
+          false};
 }
 
 Parameter fileParameter(std::string name, std::string description) {
-  return {std::move(name), ParameterType::File, std::string{}, {}, {}, {}, {}, std::move(description), {}, true};
+  return {
+      std::move(name), ParameterType::File, std::string{}, {}, {}, {}, {}, std::move(description), {}, true};
 }
 
 std::string describeRange(const Parameter& parameter) {
@@ -70,7 +85,8 @@ std::string describeRange(const Parameter& parameter) {
 ParameterValue validate(const Parameter& parameter, const ParameterValue& value, const std::string& where) {
   const auto refuse = [&](const std::string& mend = {}) -> Error {
     const std::string allowed = "allowed: " + describeRange(parameter);
-    return Error("'" + parameter.name + "' is " + toText(value), where, mend.empty() ? allowed : mend + "; " + allowed);
+    return Error("'" + parameter.name + "' is " + toText(value), where,
+                 mend.empty() ? allowed : mend + "; " + allowed);
   };
   ParameterValue result = value;
   switch (parameter.type) {
@@ -97,21 +113,25 @@ ParameterValue validate(const Parameter& parameter, const ParameterValue& value,
       throw refuse(nearest.empty() ? "" : "did you mean '" + nearest + "'?");
     }
   }
-  const double number = std::holds_alternative<int64_t>(result)  ? static_cast<double>(std::get<int64_t>(result))
+  const double number = std::holds_alternative<int64_t>(result)
+                            ? static_cast<double>(std::get<int64_t>(result))
                         : std::holds_alternative<double>(result) ? std::get<double>(result)
                                                                  : 0.0;
-  if ((parameter.minimum && number < *parameter.minimum) || (parameter.maximum && number > *parameter.maximum))
+  if ((parameter.minimum && number < *parameter.minimum) ||
+      (parameter.maximum && number > *parameter.maximum))
     throw refuse();
   return result;
 }
 
 ParameterValues::ParameterValues(const std::vector<Parameter>& declared,
-                                 const std::map<std::string, ParameterValue>& given, const std::string& where) {
+                                 const std::map<std::string, ParameterValue>& given,
+                                 const std::string& where) {
   std::vector<std::string> names;
   for (const Parameter& parameter : declared) names.push_back(parameter.name);
   for (const auto& [name, value] : given) {
-    const auto match = std::find_if(declared.begin(), declared.end(),
-                                    [&name = name](const Parameter& parameter) { return parameter.name == name; });
+    const auto match =
+        std::find_if(declared.begin(), declared.end(),
+                     [&name = name](const Parameter& parameter) { return parameter.name == name; });
     if (match == declared.end()) throw Error("unknown parameter '" + name + "'", where, suggest(name, names));
     values_[name] = validate(*match, value, where);
   }

@@ -33,11 +33,12 @@ struct Parameter {
   bool required = false;                   ///< no default: the descriptor must give it
 };
 
-Parameter booleanParameter(std::string name, bool defaultValue, std::string description, std::string source = {});
+Parameter booleanParameter(std::string name, bool defaultValue, std::string description,
+                           std::string source = {});
 Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minimum, int64_t maximum,
                            std::string unit, std::string description, std::string source = {});
-Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum, std::string unit,
-                        std::string description, std::string source = {});
+Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum,
+                        std::string unit, std::string description, std::string source = {});
 Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
                           std::string description, std::string source = {});
 Parameter fileParameter(std::string name, std::string description);
@@ -45,16 +46,16 @@ Parameter fileParameter(std::string name, std::string description);
 /// "whole number from 1 to 4096", "one of a, b, c", "number from 0 to 1 (m)".
 std::string describeRange(const Parameter& parameter);
 
-/// Checks type and range. Returns the value converted to the parameter's type (an integer is accepted for a Real).
-/// Throws Error whose message says what was found and what is allowed; `where` goes into the error.
+/// Checks type and range. Returns the value converted to the parameter's type (an integer is accepted for a
+/// Real). Throws Error whose message says what was found and what is allowed; `where` goes into the error.
 ParameterValue validate(const Parameter& parameter, const ParameterValue& value, const std::string& where);
 
 /// A complete set of values for one declaration list: every declared name has a value.
 class ParameterValues {
  public:
   ParameterValues() = default;
-  /// Takes the defaults of `declared` and overrides them with `given`. Throws Error on an unknown name (with the
-  /// nearest known one), a bad value or a missing required parameter.
+  /// Takes the defaults of `declared` and overrides them with `given`. Throws Error on an unknown name (with
+  /// the nearest known one), a bad value or a missing required parameter.
   ParameterValues(const std::vector<Parameter>& declared, const std::map<std::string, ParameterValue>& given,
                   const std::string& where = {});
 

@@ -11,8 +11,8 @@
 
 namespace limen {
 
-/// All scenes, techniques or metrics of the program, by path-like name ("soft_shadows/bitmask"). `Info` has members
-/// `name` and a static `kKind` ("technique") that error messages use.
+/// All scenes, techniques or metrics of the program, by path-like name ("soft_shadows/bitmask"). `Info` has
+/// members `name` and a static `kKind` ("technique") that error messages use.
 template <class Info>
 class Registry {
  public:
@@ -50,7 +50,8 @@ class Registry {
   std::map<std::string, Info> entries_;
 };
 
-/// Registers at program start: `const Registered<SceneInfo> kRegistered{SceneInfo{...}};` at the end of a .cpp.
+/// Registers at program start: `const Registered<SceneInfo> kRegistered{SceneInfo{...}};` at the end of a
+/// .cpp.
 template <class Info>
 struct Registered {
   explicit Registered(Info info) { Registry<Info>::instance().add(std::move(info)); }

@@ -6,13 +6,15 @@
 
 namespace limen {
 
-/// The candidate with the smallest edit distance to `name`, or "" if none is near enough to be a plausible slip.
+/// The candidate with the smallest edit distance to `name`, or "" if none is near enough to be a plausible
+/// slip.
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
 
 /// "a, b, c"
 std::string join(const std::vector<std::string>& parts, const std::string& separator = ", ");
 
-/// Sentence fragment for an unknown name: "did you mean 'x'? known: a, b, c" (the list is cut after 12 names).
+/// Sentence fragment for an unknown name: "did you mean 'x'? known: a, b, c" (the list is cut after 12
+/// names).
 std::string suggest(const std::string& name, const std::vector<std::string>& candidates);
 
 /// Shortest decimal text that reads back to exactly `value`.

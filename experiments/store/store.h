@@ -73,8 +73,8 @@ struct Run {
 
 enum class Access { ReadOnly, ReadWrite };
 
-/// One SQLite file (schema.sql). Write-ahead log, foreign keys on, waits for other writers. Every member throws Error:
-/// a file that is no store, a newer schema, a full disk.
+/// One SQLite file (schema.sql). Write-ahead log, foreign keys on, waits for other writers. Every member
+/// throws Error: a file that is no store, a newer schema, a full disk.
 class Store {
  public:
   /// ReadWrite creates a missing file and migrates an old one; ReadOnly refuses a missing file.
@@ -85,15 +85,17 @@ class Store {
 
   const std::string& path() const { return path_; }
 
-  /// Inserts the experiment and its plan, or finds the one with the same hash (whose plan is replaced). Returns its id.
+  /// Inserts the experiment and its plan, or finds the one with the same hash (whose plan is replaced).
+  /// Returns its id.
   int64_t putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan);
   /// Returns the row id of an environment with the same facts, made if need be.
   int64_t putEnvironment(const Environment& environment);
   void putExpectations(int64_t experiment, const std::vector<Expectation>& expectations);
 
   enum class Claim { Claimed, AlreadyDone, HeldByOther };
-  /// Takes (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over a failed one
-  /// or one whose owner is dead (same host and no such process, or older than `staleSeconds` on another host).
+  /// Takes (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over
+  /// a failed one or one whose owner is dead (same host and no such process, or older than `staleSeconds` on
+  /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
   void finish(const Run& run);
@@ -106,13 +108,13 @@ class Store {
   std::vector<Expectation> expectations(int64_t experiment) const;
   std::vector<Environment> environments() const;
   Environment environment(int64_t id) const;
-  /// Runs of an experiment in plan order with their measurements, passes and artefacts; frame times only on request.
-  /// A plan entry without a row is absent.
+  /// Runs of an experiment in plan order with their measurements, passes and artefacts; frame times only on
+  /// request. A plan entry without a row is absent.
   std::vector<Run> runs(int64_t experiment, bool withFrameTimes = false) const;
   std::vector<Run> allRuns(bool withFrameTimes = false) const;
 
-  /// Copies what `other` has and this has not: finished runs win over failed ones; artefact files are copied too.
-  /// Returns the number of runs added.
+  /// Copies what `other` has and this has not: finished runs win over failed ones; artefact files are copied
+  /// too. Returns the number of runs added.
   int64_t merge(const Store& other);
 
  private:

@@ -13,7 +13,8 @@ class Buffer {
   /// `data` may be null: contents undefined. Size 0 becomes 16 bytes, since GL knows no empty buffers.
   Buffer(int64_t bytes, const void* data);
   template <class T>
-  explicit Buffer(const std::vector<T>& data) : Buffer(static_cast<int64_t>(data.size() * sizeof(T)), data.data()) {}
+  explicit Buffer(const std::vector<T>& data)
+      : Buffer(static_cast<int64_t>(data.size() * sizeof(T)), data.data()) {}
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;

@@ -12,7 +12,9 @@ PassList::~PassList() {
   if (!queries_.empty()) glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
 }
 
-PassList::Scope::Scope(PassList& list, size_t index) : list_(list), index_(index) { list_.mark(index_, true); }
+PassList::Scope::Scope(PassList& list, size_t index) : list_(list), index_(index) {
+  list_.mark(index_, true);
+}
 PassList::Scope::~Scope() { list_.mark(index_, false); }
 
 size_t PassList::indexOf(const std::string& name) {
@@ -31,7 +33,9 @@ PassList::Scope PassList::open(const std::string& name) {
   return {*this, index};
 }
 
-void PassList::setBytesHeld(const std::string& name, int64_t bytes) { passes_[indexOf(name)].bytesHeld = bytes; }
+void PassList::setBytesHeld(const std::string& name, int64_t bytes) {
+  passes_[indexOf(name)].bytesHeld = bytes;
+}
 
 void PassList::mark(size_t slot, bool begin) {
   if (clock_ == Clock::None || frame_ < 0 || frame_ >= capacity_) return;

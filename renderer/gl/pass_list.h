@@ -8,8 +8,8 @@
 
 namespace limen::gl {
 
-/// How passes are timed. A software renderer's timer queries are wrong, so it is timed with the host's clock between
-/// calls of glFinish.
+/// How passes are timed. A software renderer's timer queries are wrong, so it is timed with the host's clock
+/// between calls of glFinish.
 enum class Clock { None, Gpu, Wall };
 
 /// Time of one pass of one frame. The pass "frame" is the whole frame.
@@ -19,8 +19,9 @@ struct PassTime {
   int64_t nanoseconds = 0;
 };
 
-/// The passes of a frame: their order, the bytes they hold and, while recording, their times. Timestamps are written
-/// into queries made ahead and are read only when recording has ended, so a frame never waits for them.
+/// The passes of a frame: their order, the bytes they hold and, while recording, their times. Timestamps are
+/// written into queries made ahead and are read only when recording has ended, so a frame never waits for
+/// them.
 class PassList {
  public:
   struct Pass {
@@ -68,10 +69,10 @@ class PassList {
   std::vector<Pass> passes_;
   Clock clock_ = Clock::None;
   int frame_ = -1, capacity_ = 0;
-  size_t slots_ = 0;                      // passes + 1 (the frame itself, last)
-  std::vector<uint32_t> queries_;         // [frame][slot][begin, end]
+  size_t slots_ = 0;               // passes + 1 (the frame itself, last)
+  std::vector<uint32_t> queries_;  // [frame][slot][begin, end]
   std::vector<HostClock::time_point> marks_;
-  std::vector<uint8_t> used_;             // [frame][slot]
+  std::vector<uint8_t> used_;  // [frame][slot]
 };
 
 }  // namespace limen::gl

@@ -11,12 +11,10 @@ namespace limen::gl {
 namespace {
 
 GLenum stageOf(const std::string& path) {
-  static const std::map<std::string, GLenum> kStages = {{".vert.glsl", GL_VERTEX_SHADER},
-                                                        {".frag.glsl", GL_FRAGMENT_SHADER},
-                                                        {".comp.glsl", GL_COMPUTE_SHADER},
-                                                        {".geom.glsl", GL_GEOMETRY_SHADER},
-                                                        {".tesc.glsl", GL_TESS_CONTROL_SHADER},
-                                                        {".tese.glsl", GL_TESS_EVALUATION_SHADER}};
+  static const std::map<std::string, GLenum> kStages = {
+      {".vert.glsl", GL_VERTEX_SHADER},       {".frag.glsl", GL_FRAGMENT_SHADER},
+      {".comp.glsl", GL_COMPUTE_SHADER},      {".geom.glsl", GL_GEOMETRY_SHADER},
+      {".tesc.glsl", GL_TESS_CONTROL_SHADER}, {".tese.glsl", GL_TESS_EVALUATION_SHADER}};
   for (const auto& [suffix, stage] : kStages)
     if (path.ends_with(suffix)) return stage;
   throw std::logic_error("shader '" + path + "' names no stage");

@@ -47,7 +47,9 @@ class Program {
 class ProgramCache {
  public:
   const Program& get(const std::vector<std::string>& paths, const ShaderDefines& defines = {});
-  const Program& compute(const std::string& path, const ShaderDefines& defines = {}) { return get({path}, defines); }
+  const Program& compute(const std::string& path, const ShaderDefines& defines = {}) {
+    return get({path}, defines);
+  }
   /// Time spent compiling so far; lets preparation be told from it.
   double compileMs() const { return compileMs_; }
   /// Forgets all programs, so that changed sources are read again. References die.

@@ -22,9 +22,9 @@ struct ShaderText {
 };
 
 /// Reads shader `path` (from the repository root, e.g. "renderer/frame/g_buffer.comp.glsl"), resolves
-/// `#include "path"` (each file once) and puts `#version 450 core` and the defines in front. Files come from the source
-/// tree if LIMEN_SHADER_ROOT names one or the build does not embed shaders, else from the program itself. Throws
-/// Error: missing file, include cycle.
+/// `#include "path"` (each file once) and puts `#version 450 core` and the defines in front. Files come from
+/// the source tree if LIMEN_SHADER_ROOT names one or the build does not embed shaders, else from the program
+/// itself. Throws Error: missing file, include cycle.
 ShaderText loadShader(const std::string& path, const ShaderDefines& defines = {});
 
 /// Replaces the file numbers of a driver's log ("0(12)", "0:12(3)") by paths.

@@ -24,13 +24,13 @@ struct Part {
   std::string name;
   uint32_t firstTriangle = 0, triangleCount = 0;
   uint32_t material = 0;
-  /// Lies beneath or behind everything and never shadows another part (a ground plane); shadow maps are fitted to the
-  /// other parts only. It is drawn into shadow maps all the same.
+  /// Lies beneath or behind everything and never shadows another part (a ground plane); shadow maps are
+  /// fitted to the other parts only. It is drawn into shadow maps all the same.
   bool receiverOnly = false;
 };
 
-/// Indexed triangles in world space. Positions are double so that a scene far from the origin loses nothing; what goes
-/// to the GPU is taken relative to an anchor near the geometry.
+/// Indexed triangles in world space. Positions are double so that a scene far from the origin loses nothing;
+/// what goes to the GPU is taken relative to an anchor near the geometry.
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::uvec3> triangles;  ///< vertex indices; counter-clockwise seen from outside
@@ -50,8 +50,9 @@ struct AreaLight {
   LightShape shape = LightShape::Rectangle;
   glm::dvec3 centre{0.0};
   glm::dvec3 axisX{1.0, 0.0, 0.0}, axisY{0.0, 1.0, 0.0};  ///< unit, perpendicular
-  glm::dvec2 size{1.0};                                   ///< full extents of the bounding rectangle, world units
-  std::vector<glm::dvec2> outline;  ///< Polygon only: vertices in unit light coordinates, counter-clockwise, simple
+  glm::dvec2 size{1.0};  ///< full extents of the bounding rectangle, world units
+  std::vector<glm::dvec2>
+      outline;  ///< Polygon only: vertices in unit light coordinates, counter-clockwise, simple
   std::vector<LightPart> parts{{}};
 
   glm::dvec3 direction() const { return glm::cross(axisX, axisY); }
@@ -73,8 +74,8 @@ struct Camera {
   double verticalFovDeg = 45.0;
 };
 
-/// Key-framed camera, times in seconds, ascending. Positions by centripetal-free cubic Hermite (Catmull-Rom tangents),
-/// clamped at both ends; one key is a still camera.
+/// Key-framed camera, times in seconds, ascending. Positions by centripetal-free cubic Hermite (Catmull-Rom
+/// tangents), clamped at both ends; one key is a still camera.
 struct CameraPath {
   struct Key {
     double timeS = 0.0;
@@ -102,8 +103,8 @@ struct Scene {
   std::vector<AreaLight> lights;
   CameraPath camera;
 
-  Bounds bounds() const;                ///< of all finite positions
-  Bounds casterBounds() const;          ///< of parts that are not receiverOnly
+  Bounds bounds() const;        ///< of all finite positions
+  Bounds casterBounds() const;  ///< of parts that are not receiverOnly
   /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera;
   /// no names.
   std::string contentHash() const;

@@ -43,18 +43,17 @@ Scene buildTwoColourLight(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kSphereGrid{
-    SceneInfo{.name = "sphere_grid",
-              .version = 1,
-              .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
-              .source = "Schwarz 2009, Fig. 4.33",
-              .parameters = {integerParameter("spheres_per_axis", 3, 1, 6, "spheres",
-                                              "Spheres along each edge of the cube",
-                                              "Schwarz 2009, Fig. 4.33"),
-                             integerParameter(
-                                 "tessellation", 16, 1, 48, "segments",
-                                 "Segments in a quarter circle; a sphere has 8 times its square triangles")},
-              .build = buildSphereGrid}};
+const Registered<SceneInfo> kSphereGrid{SceneInfo{
+    .name = "sphere_grid",
+    .version = 1,
+    .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
+    .source = "Schwarz 2009, Fig. 4.33",
+    .parameters = {integerParameter("spheres_per_axis", 3, 1, 6, "spheres",
+                                    "Spheres along each edge of the cube", "Schwarz 2009, Fig. 4.33"),
+                   integerParameter(
+                       "tessellation", 16, 1, 48, "segments",
+                       "Segments in a quarter circle; a sphere has 8 times its square triangles")},
+    .build = buildSphereGrid}};
 
 const Registered<SceneInfo> kTwoColourLight{SceneInfo{
     .name = "two_colour_light",

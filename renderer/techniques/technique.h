@@ -16,7 +16,8 @@ namespace limen::techniques {
 
 /// What a technique makes. Products of one kind can be compared.
 enum class ProductKind {
-  Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside receivers
+  Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
+               ///< receivers
   Colour       ///< RGBA32F, linear radiance, alpha 1
 };
 std::string toText(ProductKind kind);
@@ -29,18 +30,20 @@ struct Counter {
   bool isCost = true;  ///< work done; otherwise a fact about how the product came about
 };
 
-/// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each frame.
+/// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each
+/// frame.
 class Technique {
  public:
   virtual ~Technique() = default;
 
-  /// Compiles programs, allocates and precomputes. Timed apart from the frame. render() allocates and compiles nothing.
+  /// Compiles programs, allocates and precomputes. Timed apart from the frame. render() allocates and
+  /// compiles nothing.
   virtual void prepare(frame::Frame& frame) = 0;
   /// Renders one frame into product(). Passes are opened with frame.passes().
   virtual void render(frame::Frame& frame) = 0;
   virtual const gl::Texture& product() const = 0;
-  /// Costs that do not depend on the machine, counted in a pass of their own outside the timed frames. Called after
-  /// render().
+  /// Costs that do not depend on the machine, counted in a pass of their own outside the timed frames. Called
+  /// after render().
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
@@ -61,8 +64,8 @@ struct TechniqueInfo {
   bool onCpu = false;
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.
   std::function<std::unique_ptr<Technique>(const ParameterValues&)> make;
-  /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with sampling
-  /// error; null: exact.
+  /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
+  /// sampling error; null: exact.
   std::function<double(const ParameterValues&)> errorBound;
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;

@@ -21,7 +21,8 @@ TEST(NearestName, StaysSilentWhenNothingIsNear) {
 
 TEST(ShortestNumber, ReadsBackToTheSameValue) {
   EXPECT_EQ(shortestNumber(0.1), "0.1");
-  for (const double value : {1.0 / 3.0, 1e-300, 123456789.125}) EXPECT_EQ(std::stod(shortestNumber(value)), value);
+  for (const double value : {1.0 / 3.0, 1e-300, 123456789.125})
+    EXPECT_EQ(std::stod(shortestNumber(value)), value);
 }
 
 }  // namespace

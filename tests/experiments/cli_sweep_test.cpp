@@ -173,7 +173,8 @@ TEST_F(SweepCli, ReportIsLeftToTheSiblingProgram) {
   const CallResult without = call({"d.yaml"});
   EXPECT_EQ(without.exitCode, 0) << "a missing report program is no error";
   EXPECT_THAT(without.out, HasSubstr("no report: limen-analyse is not built"));
-  write("limen-analyse", "#!/bin/sh\necho \"$@\" > arguments\nmkdir -p \"$4\"\necho page > \"$4/report.html\"\n");
+  write("limen-analyse",
+        "#!/bin/sh\necho \"$@\" > arguments\nmkdir -p \"$4\"\necho page > \"$4/report.html\"\n");
   chmod(path("limen-analyse").c_str(), 0755);
   const CallResult with = call({"d.yaml", "--json"});
   EXPECT_EQ(with.exitCode, 0);

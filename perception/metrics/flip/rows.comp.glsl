@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters both images along their rows. Out: the four parts of contrast sensitivity of each image, and the
 // feature detectors' and their Gaussian's answers of both.
+#include "perception/metrics/flip/exact.glsl"
 #include "perception/metrics/flip/filters.glsl"
 
 layout(local_size_x = 128, local_size_y = 2) in;
@@ -24,14 +25,17 @@ vec3 toOpponent(vec3 rgb) {
   const mat3 kXyzOverWhite = mat3(10135552.0 / 23359437.0, 2613072.0 / 12288897.0, 1425312.0 / 80288307.0,
                                   8788810.0 / 23359437.0, 8788810.0 / 12288897.0, 8788810.0 / 80288307.0,
                                   4435075.0 / 23359437.0, 887015.0 / 12288897.0, 70074185.0 / 80288307.0);
-  vec3 xyz = kXyzOverWhite * rgb;
-  return vec3(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z));
+  precise vec3 xyz = transform(kXyzOverWhite, rgb);
+  precise vec3 opponent =
+      vec3(fma(116.0, xyz.y, -16.0), 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z));
+  return opponent;
 }
 
 // By the bits, since a compiler may take isnan() for false.
 bvec3 isNonFinite(vec3 v) { return equal(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)); }
 
-void filterRow(int row, int centre, bool isTest, out vec4 sensitivitySum, out vec3 featureSum) {
+void filterRow(int row, int centre, bool isTest, precise out vec4 sensitivitySum,
+               precise out vec3 featureSum) {
   vec3 middle = isTest ? testRow[row][centre] : referenceRow[row][centre];
   sensitivitySum = sensitivity[RADIUS] * middle.xyzz;
   // The detectors' weights sum to zero, so they are applied to differences: a flat image then answers
@@ -40,13 +44,13 @@ void filterRow(int row, int centre, bool isTest, out vec4 sensitivitySum, out ve
   for (int tap = 1; tap <= RADIUS; ++tap) {
     vec3 left = isTest ? testRow[row][centre - tap] : referenceRow[row][centre - tap];
     vec3 right = isTest ? testRow[row][centre + tap] : referenceRow[row][centre + tap];
-    vec3 both = left + right;
-    vec4 kernel = features[RADIUS + tap];
-    sensitivitySum += sensitivity[RADIUS + tap] * both.xyzz;
-    featureSum += kernel.xyz * vec3(both.x, right.x - left.x, (left.x - middle.x) + (right.x - middle.x));
+    precise vec3 both = left + right;
+    precise vec3 differences = vec3(both.x, right.x - left.x, (left.x - middle.x) + (right.x - middle.x));
+    sensitivitySum = fma(sensitivity[RADIUS + tap], both.xyzz, sensitivitySum);
+    featureSum = fma(features[RADIUS + tap].xyz, differences, featureSum);
   }
   // Features are sought in luminance scaled to [0, 1].
-  featureSum = featureSum / 116.0 + vec3(16.0 / 116.0, 0.0, 0.0);
+  featureSum = fma(featureSum, vec3(1.0 / 116.0), vec3(16.0 / 116.0, 0.0, 0.0));
 }
 
 void main() {
