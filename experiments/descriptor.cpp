@@ -20,19 +20,19 @@ using Kind = YamlNode::Kind;
 
 const std::vector<Parameter>& imageParameters() {
   // 16,384 texels is what OpenGL 4.5 promises for a texture's side.
-  static const std::vector<Parameter> parameters = {
+  static const std::vector<Parameter> kParameters = {
       integerParameter("width", 1024, 1, 16384, "px", "Image width"),
       integerParameter("height", 768, 1, 16384, "px", "Image height")};
-  return parameters;
+  return kParameters;
 }
 
 const std::vector<Parameter>& timingParameters() {
-  static const std::vector<Parameter> parameters = {
+  static const std::vector<Parameter> kParameters = {
       integerParameter("warmup", Timing{}.warmup, 0, 10000, "frames", "Frames thrown away before each round"),
       integerParameter("frames", Timing{}.frames, 1, 100000, "frames", "Timed frames in all"),
       integerParameter("rounds", Timing{}.rounds, 1, 1000, "", "Interleaved rounds"),
       integerParameter("batch", Timing{}.batch, 1, 256, "runs", "Runs whose rounds are interleaved")};
-  return parameters;
+  return kParameters;
 }
 
 const Parameter* findParameter(const std::vector<Parameter>& parameters, const std::string& name) {
