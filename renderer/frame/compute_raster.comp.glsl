@@ -5,9 +5,12 @@
 #include "renderer/frame/scene_buffers.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0, r32ui) uniform coherent uimage2D depthImage;
+// A buffer, not an image: its atomics without a result cost no waiting.
 #ifdef IDS
-layout(binding = 1, r32ui) uniform coherent uimage2D idImage;
+layout(std430, binding = 4) readonly buffer Depths { uint depths[]; };
+layout(std430, binding = 5) buffer Ids { uint ids[]; };
+#else
+layout(std430, binding = 4) buffer Depths { uint depths[]; };
 #endif
 layout(std430, binding = 3) buffer Queue {
   uint queued;
@@ -20,8 +23,8 @@ uniform float near;
 uniform ivec2 sizePx;
 uniform uint triangleCount;
 
-const int kSmall = 64;    // pixels of a bounding box that one invocation takes on
-const int kRun = 4096;    // pixels of a run
+const int kSmall = 32;   // pixels of a bounding box that one invocation takes on
+const int kRun = 1024;   // pixels of a run
 
 struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
@@ -75,16 +78,27 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   if (!(distance >= near)) return;
   precise const float depth = near / distance;
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
+  const int at = pixel.y * sizePx.x + pixel.x;
 #ifdef IDS
-  if (imageLoad(depthImage, pixel).x == bits) imageAtomicMin(idImage, pixel, index);
+  if (depths[at] == bits) atomicMin(ids[at], index);
 #else
-  // The plain read may be old; it only saves atomics that cannot win.
-  if (imageLoad(depthImage, pixel).x < bits) imageAtomicMax(depthImage, pixel, bits);
+  atomicMax(depths[at], bits);
 #endif
 }
 
+// Pixels [first, end) of the bounding box, every `stride`-th from `start`; one division a run, none a pixel.
 void shadeRun(Triangle t, uint index, int first, int end, int start, int stride) {
-  for (int i = first + start; i < end; i += stride) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
+  int x = (first + start) % t.size.x, y = (first + start) / t.size.x;
+  const int stepX = stride % t.size.x, stepY = stride / t.size.x;
+  for (int i = first + start; i < end; i += stride) {
+    shade(t, index, t.low + ivec2(x, y));
+    x += stepX;
+    y += stepY;
+    if (x >= t.size.x) {
+      x -= t.size.x;
+      ++y;
+    }
+  }
 }
 
 #ifdef LARGE

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kQueueCapacity =
     1 << 18;  // runs of pixels of large triangles; more are rasterised where they are found
-constexpr int kLargeGroups = 1024;
+constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
 
 const gl::Program& program(gl::Context& context, bool large, bool ids) {
@@ -28,52 +28,59 @@ Raster chosenRaster(Raster raster, const gl::Context& context) {
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds)
     : smallDepth_(program(context, false, false)),
       largeDepth_(program(context, true, false)),
-      depthBits_(gl::Format::R32UI, sizePx),
-      depth_(depthBits_.viewAs(gl::Format::R32F)),
-      queue_(16 + int64_t{kQueueCapacity} * 8, nullptr) {
+      finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
+                                         withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
+      requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
+      depth_(gl::Format::R32F, sizePx),
+      queue_(16 + int64_t{kQueueCapacity} * 8, nullptr),
+      depthBits_(int64_t{4} * sizePx.x * sizePx.y, nullptr) {
+  // Every frame leaves the buffers cleared for the next; the first needs them so, too.
+  queue_.clearUint(0);
+  depthBits_.clearUint(0);
   if (!withIds) return;
   smallIds_ = &program(context, false, true);
   largeIds_ = &program(context, true, true);
   ids_.emplace(gl::Format::R32UI, sizePx);
+  idBits_.emplace(depthBits_.bytes(), nullptr);
+  idBits_->clearUint(kNoTriangle);
 }
 
 int64_t ComputeRaster::bytes() const {
-  return depthBits_.bytes() + (ids_ ? ids_->bytes() : 0) + queue_.bytes();
+  return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() + idBits_->bytes() : 0);
 }
 
 void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, const GpuScene& scene) const {
-  const uint32_t zero = 0;
-  glClearNamedBufferSubData(queue_.id(), GL_R32UI, 0, 16, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
   const int triangles = static_cast<int>(scene.triangleCount());
-  small.use();
-  const int columns = std::min(triangles, kPerRow);
-  glDispatchCompute(static_cast<GLuint>((columns + 63) / 64),
-                    static_cast<GLuint>((triangles + kPerRow - 1) / kPerRow), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  large.use();
-  glDispatchCompute(kLargeGroups, 1, 1);
-  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {64, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  large.dispatch({kLargeGroups, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void ComputeRaster::draw(const GpuScene& scene, const glm::mat4& clip, double near) const {
-  depthBits_.clearUint(glm::uvec4(0));
-  if (ids_) ids_->clearUint(glm::uvec4(kNoTriangle));
   scene.bindStorage(0);
   queue_.bindStorage(3);
+  depthBits_.bindStorage(4);
+  depth_.bindImage(0, gl::Access::Write);
   for (const gl::Program* each : {&smallDepth_, &largeDepth_, smallIds_, largeIds_}) {
     if (!each) continue;
     each->set("anchorToClip", clip);
     each->set("near", static_cast<float>(near));
-    each->set("sizePx", depthBits_.sizePx());
+    each->set("sizePx", depth_.sizePx());
     each->set("triangleCount", scene.triangleCount());
   }
-  depthBits_.bindImage(0, gl::Access::ReadWrite);
   pass(smallDepth_, largeDepth_, scene);
-  if (!ids_) return;
-  ids_->bindImage(1, gl::Access::ReadWrite);
-  pass(*smallIds_, *largeIds_, scene);
+  if (ids_) {
+    idBits_->bindStorage(5);
+    ids_->bindImage(1, gl::Access::Write);
+    requeue_.dispatch({1, 1}, {1, 1});
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    pass(*smallIds_, *largeIds_, scene);
+  }
+  finish_.set("sizePx", depth_.sizePx());
+  finish_.dispatch(depth_.sizePx(), {64, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace limen::frame

@@ -46,12 +46,12 @@ class ComputeRaster {
  private:
   void pass(const gl::Program& small, const gl::Program& large, const GpuScene& scene) const;
 
-  const gl::Program &smallDepth_, &largeDepth_;
+  const gl::Program &smallDepth_, &largeDepth_, &finish_, &requeue_;
   const gl::Program *smallIds_ = nullptr, *largeIds_ = nullptr;
-  gl::Texture depthBits_;
   gl::Texture depth_;
   std::optional<gl::Texture> ids_;
-  gl::Buffer queue_;
+  gl::Buffer queue_, depthBits_;
+  std::optional<gl::Buffer> idBits_;
 };
 
 }  // namespace limen::frame

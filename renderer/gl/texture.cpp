@@ -73,29 +73,14 @@ Texture::Texture(Format format, glm::ivec2 sizePx, int levels, int layers, Sampl
     glTextureStorage3D(id_, levels, facts.internal, sizePx.x, sizePx.y, layers);
   else
     glTextureStorage2D(id_, levels, facts.internal, sizePx.x, sizePx.y);
-  setSampling(sampling);
-}
-
-void Texture::setSampling(Sampling sampling) const {
   const GLint magnify = sampling == Sampling::Linear ? GL_LINEAR : GL_NEAREST;
-  const GLint minify = levels_ == 1                   ? magnify
+  const GLint minify = levels == 1                    ? magnify
                        : sampling == Sampling::Linear ? GL_LINEAR_MIPMAP_LINEAR
                                                       : GL_NEAREST_MIPMAP_NEAREST;
   glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, magnify);
   glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, minify);
   glTextureParameteri(id_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(id_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-Texture Texture::viewAs(Format format) const {
-  assert(bytesPerTexel(format) == bytesPerTexel(format_));
-  Texture view;
-  view.format_ = format, view.sizePx_ = sizePx_, view.levels_ = levels_, view.layers_ = layers_;
-  glGenTextures(1, &view.id_);
-  glTextureView(view.id_, layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, id_, factsOf(format).internal, 0,
-                static_cast<GLuint>(levels_), 0, static_cast<GLuint>(std::max(layers_, 1)));
-  view.setSampling(Sampling::Nearest);
-  return view;
 }
 
 Texture::~Texture() {

@@ -46,9 +46,6 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  /// The same memory under another format of the same size a texel; lives on its own.
-  Texture viewAs(Format format) const;
-
   uint32_t id() const { return id_; }
   Format format() const { return format_; }
   glm::ivec2 sizePx() const { return sizePx_; }
@@ -67,12 +64,10 @@ class Texture {
   void write(const Image& image, int level = 0) const;
 
  private:
-  Texture() = default;
-  void setSampling(Sampling sampling) const;
   uint32_t id_ = 0;
-  Format format_ = Format::R32F;
-  glm::ivec2 sizePx_{0};
-  int levels_ = 1, layers_ = 0;
+  Format format_;
+  glm::ivec2 sizePx_;
+  int levels_, layers_;
 };
 
 /// Render target: colour textures and a depth texture, all of one size, not owned.
