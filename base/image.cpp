@@ -48,6 +48,8 @@ Image readImage(const std::string& path) {
 void writeExr(const std::string& path, const Image& image) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
+  // Else the library writes the time of day, and equal images would be different files.
+  spec.attribute("DateTime", "");
   writeAtomically(path, spec, image.data);
 }
 
