@@ -110,7 +110,7 @@ check "and leaves alone what only tests need" not called chromium
 check "it says what is missing and what for" told 'libepoxy-dev         OpenGL and EGL entry points (build)'
 check "package lists at hand are not fetched again" not called 'apt-get.*update'
 check "it configures the release preset" called 'cmake --preset release'
-check "it builds the one program" called '--target limen-sweep'
+check "it builds the program and the one that writes its report" called '--target limen-sweep limen-analyse$'
 check "the program gets the arguments and the caller's folder" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:a.yaml b c"
 check "the exit code is the program's" is $status 7
 
@@ -132,6 +132,12 @@ touch "$tree/base/text.cpp"
 run sweep
 check "a changed source is built" called '--target limen-sweep'
 check "without configuring again" not called '--preset'
+age
+rm "$tree/build/release/bin/limen-analyse"
+run sweep
+check "a sweep without its report's program builds it" called '--target limen-sweep limen-analyse$'
+run analyse
+check "analyse is built alone" called '--target limen-analyse$'
 age
 rm "$tree/base/hash.cpp"
 run sweep
