@@ -20,9 +20,11 @@ const gl::Program& program(gl::Context& context, bool large, bool ids) {
 
 }  // namespace
 
-Raster chosenRaster(Raster raster, const gl::Context& context) {
+Raster chosenRaster(Raster raster, const gl::Context& context, uint32_t triangleCount, bool depthOnly) {
   if (raster != Raster::Auto) return raster;
-  return context.device().software ? Raster::Hardware : Raster::Compute;
+  constexpr uint32_t kManyTriangles = 32768;
+  const bool compute = !context.device().software && !depthOnly && triangleCount >= kManyTriangles;
+  return compute ? Raster::Compute : Raster::Hardware;
 }
 
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds)

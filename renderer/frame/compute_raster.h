@@ -10,17 +10,18 @@
 
 namespace limen::frame {
 
-/// How triangles become pixels. On a GPU with few raster units the compute form is many times faster, on a
-/// software renderer many times slower; both see the same pixel centres and differ only where an edge passes
-/// within rounding of one.
+/// How triangles become pixels. Both see the same pixel centres and differ only where an edge passes within
+/// rounding of one.
 enum class Raster {
-  Auto,      ///< Compute on a GPU, Hardware on a software renderer
+  Auto,      ///< what was measured to be faster, see chosenRaster()
   Hardware,  ///< the driver's rasteriser
   Compute    ///< ComputeRaster
 };
 
-/// Auto resolved for a context.
-Raster chosenRaster(Raster raster, const gl::Context& context);
+/// Auto resolved for an image of a scene with that many triangles. On an NVIDIA H200, compute takes 0.13 ms
+/// for a G-buffer of 72,000 triangles at 1920 x 1080 where the driver's rasteriser takes 0.5 to 0.9 ms, but
+/// is no faster for depth alone, nor for few large triangles; on software renderers it is many times slower.
+Raster chosenRaster(Raster raster, const gl::Context& context, uint32_t triangleCount, bool depthOnly);
 
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
 /// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views

@@ -208,7 +208,7 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .name = kName,
     .version = 1,
     .summary = "Exact visible area of the light: union of all triangles' projections, double precision",
-    .source = "004_2587a614b209b9c1.txt, section 3.3 (beam tracing)",
+    .source = "Schwarz 2009, section 3.3 (beam tracing)",
     .parameters = {integerParameter(
         "max_triangles", 20000, 1, 10000000, "triangles",
         "Scenes with more triangles are refused: time grows with triangles times pixels")},

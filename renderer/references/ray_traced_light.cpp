@@ -124,7 +124,7 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .name = "soft_shadows/ray_traced",
     .version = 1,
     .summary = "Shadow rays to points on the light against the true triangles (Embree)",
-    .source = "004_2587a614b209b9c1.txt, section 3.3",
+    .source = "Schwarz 2009, section 3.3",
     .parameters = {integerParameter("samples", 1024, 16, 65536, "rays",
                                     "Shadow rays a receiver; a square number if stratified"),
                    choiceParameter("pattern", "stratified", {"stratified", "random"},

@@ -135,9 +135,9 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .name = kName,
     .version = 1,
     .summary = "Mean of hard shadow maps from a grid of points on the light",
-    .source = "004_2587a614b209b9c1.txt, section 3.3",
+    .source = "Schwarz 2009, section 3.3",
     .parameters = {integerParameter("samples", 1024, 1, 4096, "maps", "Shadow maps; a square number",
-                                    "004_2587a614b209b9c1.txt, section 3.3"),
+                                    "Schwarz 2009, section 3.3"),
                    integerParameter("resolution", 1024, 64, 4096, "texels", "Side of each shadow map"),
                    choiceParameter(
                        "pattern", "grid", {"grid", "jittered"},

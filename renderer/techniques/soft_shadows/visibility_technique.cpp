@@ -76,21 +76,20 @@ VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::str
       defines_(std::move(defines)) {}
 
 std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
-  return {
-      choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
-                      "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
-      realParameter("bias", 1e-4, 0.0, 0.1, "",
-                    "Constant depth bias as a share of the receiver's distance from the light's plane",
-                    "Schwarz 2009, section 4.4.5 (value not given there)"),
-      realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
-                    "Depth bias by the receiver's slope, in texels of the level that is read",
-                    "Schwarz 2009, section 4.4.5 (reconstructed)"),
-      realParameter(
-          "max_slope", 10.0, 0.1, 1e6, "",
-          "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
-      choiceParameter(
-          "raster", "compute", {"compute", "hardware"},
-          "How the shadow map is rasterised: in compute shaders or by the driver; auto: compute on a GPU")};
+  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
+                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
+          realParameter("bias", 1e-4, 0.0, 0.1, "",
+                        "Constant depth bias as a share of the receiver's distance from the light's plane",
+                        "Schwarz 2009, section 4.4.5 (value not given there)"),
+          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
+                        "Depth bias by the receiver's slope, in texels of the level that is read",
+                        "Schwarz 2009, section 4.4.5 (reconstructed)"),
+          realParameter(
+              "max_slope", 10.0, 0.1, 1e6, "",
+              "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
+          choiceParameter("raster", "compute", {"compute", "hardware"},
+                          "How the shadow map is rasterised: in compute shaders or by the driver; auto: what "
+                          "was measured to be faster")};
 }
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
