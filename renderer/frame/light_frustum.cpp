@@ -58,6 +58,7 @@ LightFrustum LightCasters::fit(glm::dvec2 offset, int resolution) const {
         include(a + (b - a) * ((nearLimit - a.z) / (b.z - a.z)) + glm::dvec3(0, 0, 1e-12 * nearLimit));
     }
   if (low.x > high.x || low.y > high.y) return frustum;  // no caster in front of the light
+  frustum.castersCut = glm::any(glm::lessThan(glm::min(low, -high), glm::dvec2(-kMaxTangent)));
   low = glm::max(low, -kMaxTangent), high = glm::min(high, kMaxTangent);
   low = glm::min(low, high);
   // A flat caster still needs a map with an area; then one texel of margin, so that the edge texels are

@@ -12,9 +12,10 @@ namespace limen::frame {
 /// View from a point of the light's plane along the light's direction, in tangents: texel coordinate u in
 /// [0,1] of a map looks along x/z = low.x + u (high.x - low.x). Rows grow with y.
 struct LightFrustum {
-  glm::dvec2 offset{0.0};            ///< the eye on the light's plane, light space
-  glm::dvec2 low{-1.0}, high{1.0};   ///< tangents at the map's edges
-  double near = 1e-3;                ///< light-space z of the near plane; what lies nearer is not seen
+  glm::dvec2 offset{0.0};           ///< the eye on the light's plane, light space
+  glm::dvec2 low{-1.0}, high{1.0};  ///< tangents at the map's edges
+  double near = 1e-3;               ///< light-space z of the near plane; what lies nearer is not seen
+  bool castersCut = false;  ///< some casters lie outside, more than 75 degrees off the light's direction
   glm::dmat4 clipFromLight() const;  ///< reversed depth, infinite far plane: depth = near / z
 };
 

@@ -3,6 +3,7 @@
 // carries the aliasing and the biases of its maps.
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -90,9 +91,15 @@ class SampledLight : public techniques::Technique {
 
   const gl::Texture& product() const override { return *product_; }
 
+  /// A map that leaves casters out shows light where there may be none: the share of such maps is to be read
+  /// beside the product.
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto maps = double(frusta_.size());
-    return {{"shadow_maps", maps, ""}, {"triangles_drawn", maps * frame.gpuScene().triangleCount(), ""}};
+    const auto cut = std::count_if(frusta_.begin(), frusta_.end(),
+                                   [](const frame::LightFrustum& frustum) { return frustum.castersCut; });
+    return {{"shadow_maps", maps, "", true},
+            {"triangles_drawn", maps * frame.gpuScene().triangleCount(), "", true},
+            {"maps_cutting_casters_share", double(cut) / maps, "", false}};
   }
 
  private:
