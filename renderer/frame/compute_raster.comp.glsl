@@ -39,6 +39,23 @@ vec3 clipPosition(uint vertex) {
 // Pixel coordinates of a clip position, centre of pixel (0, 0) at 0. Row 0 is the top of clip space.
 vec2 pixelOf(vec3 v) { return (vec2(v.x, -v.y) / v.z * 0.5 + 0.5) * vec2(sizePx) - 0.5; }
 
+// Extends pixel bounds by what an edge shows in front of the near plane: its start, and where it passes the plane.
+void extendBounds(vec3 from, vec3 to, inout vec2 low, inout vec2 high) {
+  if (from.z >= near) {
+    const vec2 at = pixelOf(from);
+    low = min(low, at);
+    high = max(high, at);
+  }
+  if ((from.z >= near) != (to.z >= near)) {
+    vec3 crossing = mix(from, to, (near - from.z) / (to.z - from.z));
+    crossing.z = near;
+    // At the near plane a pixel is a tiny length; a share of the picture covers the rounding of the crossing.
+    const vec2 at = pixelOf(crossing), slack = 1e-3 * (abs(at) + vec2(sizePx));
+    low = min(low, at - slack);
+    high = max(high, at + slack);
+  }
+}
+
 Triangle load(uint index) {
   const uvec3 vertices = sceneTriangle(index);
   Triangle t;
@@ -47,18 +64,18 @@ Triangle load(uint index) {
   t.c = clipPosition(vertices.z);
   t.low = ivec2(0);
   t.size = ivec2(0);
-  const float nearest = min(t.a.z, min(t.b.z, t.c.z));
   if (max(t.a.z, max(t.b.z, t.c.z)) < near) return t;
-  t.size = sizePx;
-  // A triangle that reaches nearer than the near plane may show anywhere.
-  if (nearest >= near) {
-    const vec2 a = pixelOf(t.a), b = pixelOf(t.b), c = pixelOf(t.c);
-    // One pixel of slack for the rounding of the quotients, far off the screen included.
-    const vec2 limit = vec2(sizePx) + 1.0;
-    const vec2 low = clamp(min(a, min(b, c)) - 0.01, vec2(-1.0), limit), high = clamp(max(a, max(b, c)) + 0.01, vec2(-1.0), limit);
-    t.low = max(ivec2(ceil(low)), ivec2(0));
-    t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
-  }
+  vec2 low = vec2(1e30), high = vec2(-1e30);
+  extendBounds(t.a, t.b, low, high);
+  extendBounds(t.b, t.c, low, high);
+  extendBounds(t.c, t.a, low, high);
+  // Slack for the rounding of the quotients, far off the screen included.
+  const vec2 limit = vec2(sizePx) + 1.0;
+  low = clamp(low - 0.01, vec2(-1.0), limit);
+  high = clamp(high + 0.01, vec2(-1.0), limit);
+  t.low = max(ivec2(ceil(low)), ivec2(0));
+  t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
+  if (t.size.x == 0 || t.size.y == 0) t.size = ivec2(0);
   return t;
 }
 

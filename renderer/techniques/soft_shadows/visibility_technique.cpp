@@ -87,7 +87,7 @@ std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlope
           realParameter(
               "max_slope", 10.0, 0.1, 1e6, "",
               "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
-          choiceParameter("raster", "compute", {"compute", "hardware"},
+          choiceParameter("raster", "auto", {"auto", "compute", "hardware"},
                           "How the shadow map is rasterised: in compute shaders or by the driver; auto: what "
                           "was measured to be faster")};
 }
