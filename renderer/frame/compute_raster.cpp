@@ -20,11 +20,9 @@ const gl::Program& program(gl::Context& context, bool large, bool ids) {
 
 }  // namespace
 
-Raster chosenRaster(Raster raster, const gl::Context& context, uint32_t triangleCount, bool depthOnly) {
+Raster chosenRaster(Raster raster, const gl::Context& context) {
   if (raster != Raster::Auto) return raster;
-  constexpr uint32_t kManyTriangles = 32768;
-  const bool compute = !context.device().software && !depthOnly && triangleCount >= kManyTriangles;
-  return compute ? Raster::Compute : Raster::Hardware;
+  return context.device().software ? Raster::Hardware : Raster::Compute;
 }
 
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds)

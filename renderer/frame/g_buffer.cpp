@@ -57,8 +57,7 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
 
 TriangleIds::TriangleIds(Frame& frame) {
   int64_t bytes = 0;
-  if (chosenRaster(frame.raster(), frame.context(), frame.gpuScene().triangleCount(), false) ==
-      Raster::Compute) {
+  if (chosenRaster(frame.raster(), frame.context()) == Raster::Compute) {
     compute_ = std::make_unique<ComputeRaster>(frame.context(), frame.sizePx(), true);
     bytes = compute_->bytes();
   } else {

@@ -17,7 +17,7 @@ int levelCount(int resolution) {
 }  // namespace
 
 ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster) {
-  if (chosenRaster(raster, context, 0, true) == Raster::Compute) {
+  if (chosenRaster(raster, context) == Raster::Compute) {
     compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), false);
     return;
   }
