@@ -198,7 +198,6 @@ class GlExecutor : public Executor {
         stage.shading.data[3 * i + c] = albedo.data[4 * i + c] * static_cast<float>(std::max(cosine, 0.0));
     }
     stage.sizePx = sizePx;
-    clock_.touch();
   }
 
   /// Prepares a run, renders it once and judges the product.
@@ -215,7 +214,6 @@ class GlExecutor : public Executor {
       const Stopwatch watch(seconds_["rendering"]);
       product = run.technique->product().read();
       counters = run.technique->count(*run.frame);
-      clock_.touch();
     }
     const Image* reference = nullptr;
     std::optional<gl::Texture> referenceTexture;
@@ -237,7 +235,6 @@ class GlExecutor : public Executor {
       for (store::Measurement& measurement : judge(plan, judged, maps))
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
-      clock_.touch();
     }
     for (const techniques::Counter& counter : counters)
       run.outcome.measurements.push_back(
@@ -275,7 +272,6 @@ class GlExecutor : public Executor {
     run.outcome.measurements.push_back({"prepare_ms", ms - compileMs, "ms", "time"});
     for (const gl::PassList::Pass& pass : run.frame->passes().passes())
       run.outcome.passes.push_back({pass.name, pass.bytesHeld});
-    clock_.touch();
   }
 
   static void countNonFinite(const Image& product, RunOutcome& outcome) {
@@ -303,7 +299,6 @@ class GlExecutor : public Executor {
       frame.end();
       Image product = technique->product().read();
       context_->checkDebugMessages();
-      clock_.touch();
       return product;
     });
   }

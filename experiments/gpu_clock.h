@@ -15,7 +15,8 @@ class GpuClock {
  public:
   explicit GpuClock(gl::Context& context);
 
-  /// Call when the GPU has just been given work.
+  /// Call after frames have been timed. Scattered work (a picture here, a metric there) does not keep the
+  /// clock up and does not count.
   void touch() { lastWork_ = std::chrono::steady_clock::now(); }
   /// Keeps the GPU busy for half a second if it was left alone for more than a second.
   void wake();
