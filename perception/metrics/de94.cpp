@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/quantile.h"
 #include "perception/metrics/row_sums.h"

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 
 namespace limen::perception {
 namespace {

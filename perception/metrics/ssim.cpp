@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/row_sums.h"
 

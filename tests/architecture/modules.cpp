@@ -23,7 +23,10 @@ const std::vector<Module>& modules() {
        {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
         "renderer/references", "perception"},
        true},
-      {"perception", {"base", "renderer/gl"}, true},
+      // The half of perception that runs anywhere.
+      {"perception/vision", {"base"}, false},
+      {"perception/multiscale", {"base", "perception/vision"}, false},
+      {"perception", {"base", "renderer/gl", "perception/vision", "perception/multiscale"}, true},
       {"experiments/store", {"base"}, false},
       {"experiments",
        {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
@@ -48,8 +51,11 @@ const Module* moduleOf(const std::string& path) {
 }
 
 bool mayUse(const Module& user, const Module& used) {
-  return user.folder == used.folder ||
-         std::find(user.mayUse.begin(), user.mayUse.end(), used.folder) != user.mayUse.end();
+  if (user.folder == used.folder) return true;
+  // Who may use perception may use its parts.
+  return std::any_of(user.mayUse.begin(), user.mayUse.end(), [&](const std::string& folder) {
+    return used.folder == folder || (folder == "perception" && used.folder.rfind("perception/", 0) == 0);
+  });
 }
 
 bool namesGl(const std::string& name) {

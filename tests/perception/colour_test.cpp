@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "metric_helpers.h"
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 
 namespace limen::perception {
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/glm.hpp>
 
 namespace limen::perception {
 
@@ -12,9 +13,19 @@ struct Lab {
 
 /// IEC 61966-2-1 transfer curve. Argument and result in [0, 1].
 double encodeSrgb(double linear);
+double decodeSrgb(double value);
 /// Rec. 709 luminance of linear RGB, relative to white.
 double relativeLuminance(const std::array<double, 3>& linearRgb);
+/// CIE XYZ (D65, Y of white = 1) of linear Rec. 709 RGB.
+glm::dvec3 xyzFromLinearRgb(const std::array<double, 3>& linearRgb);
+/// White of sRGB: (0.95047, 1, 1.08883).
+glm::dvec3 whiteXyz();
 Lab labFromLinearRgb(const std::array<double, 3>& linearRgb);
+/// Hunt-Pointer-Estevez cone responses of XYZ, normalised so that D65 of Y = 1 gives (1, 1, 1). Schwarz 2009,
+/// section 10.3.
+glm::dvec3 lmsFromXyz(const glm::dvec3& xyz);
+/// Hunt's opponent axes: A = 2L + M + S/20, a = L - 12M/11 + S/11, b = (L + M - 2S)/9.
+glm::dvec3 opponentFromLms(const glm::dvec3& lms);
 
 /// CIE94 colour difference for graphic arts (kL = 1, K1 = 0.045, K2 = 0.015). Not symmetric: chroma is
 /// weighed by the reference's. Source: CIE 116-1995.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/metrics/colour.h"
+#include "perception/vision/colour.h"
 
 #include <cmath>
 
@@ -15,6 +15,28 @@ double labCurve(double t) {
 
 double encodeSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+double decodeSrgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+glm::dvec3 whiteXyz() { return {0.95047, 1.0, 1.08883}; }
+
+glm::dvec3 xyzFromLinearRgb(const std::array<double, 3>& linearRgb) {
+  const auto [r, g, b] = linearRgb;
+  return {0.4124564 * r + 0.3575761 * g + 0.1804375 * b, 0.2126729 * r + 0.7151522 * g + 0.0721750 * b,
+          0.0193339 * r + 0.1191920 * g + 0.9503041 * b};
+}
+
+glm::dvec3 lmsFromXyz(const glm::dvec3& xyz) {
+  return {0.40024 * xyz.x + 0.70760 * xyz.y - 0.08081 * xyz.z,
+          -0.22630 * xyz.x + 1.16532 * xyz.y + 0.04570 * xyz.z, 0.91822 * xyz.z};
+}
+
+glm::dvec3 opponentFromLms(const glm::dvec3& lms) {
+  return {2.0 * lms.x + lms.y + lms.z / 20.0, lms.x - 12.0 * lms.y / 11.0 + lms.z / 11.0,
+          (lms.x + lms.y - 2.0 * lms.z) / 9.0};
 }
 
 double relativeLuminance(const std::array<double, 3>& linearRgb) {

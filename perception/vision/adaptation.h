@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace limen::perception {
+
+/// How the constants of Daly 1998 follow the adaptation luminance: as Barten 2003 moves its peak. Schwarz
+/// 2009, section 10.3. At 100 cd/m2 they are 1.14 and 0.67. Luminances are clamped to [1e-4, 1e4] cd/m2.
+double daly98C0(double luminanceCdM2, double areaDeg2);
+double daly98C1(double luminanceCdM2, double areaDeg2);
+
+/// 5 - 3 tanh(0.4 lg L).
+double pupilDiameterMm(double luminanceCdM2);
+double retinalIlluminanceTd(double luminanceCdM2);
+/// Factor on Kelly 1983's chromatic sensitivity: sqrt(E(L) / E(reference)).
+double chromaticScale(double luminanceCdM2, double referenceCdM2 = 35.0);
+
+}  // namespace limen::perception
