@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace limen::perception {
+
+/// Each adds its subcommands; a subcommand's callback does the work, sets `exitCode` (0: fine, 1: a limit
+/// given with --fail-above is exceeded) and throws Error for bad input.
+void addModelCommands(CLI::App& app, int& exitCode);  ///< csf, tvi, masking, display
+void addImageCommands(CLI::App& app, int& exitCode);  ///< threshold, pop, compare
+
+}  // namespace limen::perception
