@@ -155,16 +155,22 @@ std::vector<BandPeak> measureBandPeaks(const std::function<std::vector<Plane>(co
     if (cycles == previous) continue;
     previous = cycles;
     const double w = 2.0 * kPi * cycles / width;
-    // At Nyquist a sine vanishes on the pixels: all gratings are cosines.
-    Plane grating(width, sweep.heightPx);
-    for (int y = 0; y < grating.height; ++y)
-      for (int x = 0; x < width; ++x) grating.at(x, y) = 1.0 + 0.5 * std::cos(w * x);
-    // The mean of a cosine's projection on itself is a half, but one at Nyquist.
-    const double scale = cycles * 2 == width ? 2.0 : 4.0;
-    const std::vector<Plane> levels = decompose(grating);
-    for (size_t i = 0; i < static_cast<size_t>(count) && i + 1 < levels.size(); ++i)
-      responses[i].push_back({static_cast<double>(cycles) / width,
-                              scale * std::abs(bandAmplitude(levels, static_cast<int>(i), sweep, w))});
+    // e^iwx in two parts: a cosine alone would be taken for its conjugate where a coarse level's samples
+    // cannot tell the two.
+    Plane cosine(width, sweep.heightPx), sine = cosine;
+    for (int y = 0; y < cosine.height; ++y)
+      for (int x = 0; x < width; ++x) {
+        cosine.at(x, y) = 1.0 + 0.5 * std::cos(w * x);
+        sine.at(x, y) = 1.0 + 0.5 * std::sin(w * x);
+      }
+    const std::vector<Plane> levels = decompose(cosine), quadrature = decompose(sine);
+    for (size_t i = 0; i < static_cast<size_t>(count) && i + 1 < levels.size(); ++i) {
+      const int level = static_cast<int>(i);
+      const std::complex<double> both =
+          bandAmplitude(levels, level, sweep, w) +
+          std::complex<double>(0.0, 1.0) * bandAmplitude(quadrature, level, sweep, w);
+      responses[i].push_back({static_cast<double>(cycles) / width, 2.0 * std::abs(both)});
+    }
   }
   std::vector<BandPeak> out;
   for (const std::vector<BandPeak>& response : responses) out.push_back(vertex(response));

@@ -40,7 +40,7 @@ std::vector<BandPeak> stackBandPeaks(const Kernel& kernel, int count, double sig
 /// amplitude 1/2 and returns Gaussian levels, each at its own size (as gaussianPyramid() or a stack does).
 /// With `upsampler` the bands are formed as the pyramid forms them, else from the levels' amplitudes alone.
 struct GratingSweep {
-  int widthPx = 4096, heightPx = 64;
+  int widthPx = 2048, heightPx = 64;
   double lowestCyclesPerPx = 0.006, step = 1.04;
   bool upsampled = false;
   PyramidSettings settings;

@@ -171,22 +171,25 @@ TEST(Pyramid, ContrastOfAGratingIsItsBandGainTimesItsContrast) {
   EXPECT_NEAR(largest, 0.5 * 0.559652, 0.003);
 }
 
-TEST(Pyramid, AgreesWithTheTrueStackWhereItDoubles) {
-  // A smooth image: what remains between a pyramid upsampled with its kernel and Gaussians of its variance is
-  // their fourth moment.
-  Plane image(128, 128);
-  for (int y = 0; y < 128; ++y)
-    for (int x = 0; x < 128; ++x)
-      image.at(x, y) = 100.0 + 50.0 * std::sin(2.0 * M_PI * x / 40.0) * std::cos(2.0 * M_PI * y / 50.0);
+TEST(Pyramid, DiffersFromAGaussianOfItsVarianceByTheTransferFunctions) {
+  // One grating a side, so that filters only change its amplitude: 50 (prod cos^4 - exp(-w^2 sigma^2 / 2)).
+  Plane image(256, 256);
+  const double wx = 2.0 * M_PI / 32.0, wy = 2.0 * M_PI / 64.0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) image.at(x, y) = 100.0 + 50.0 * std::cos(wx * x) * std::cos(wy * y);
   PyramidSettings settings;
-  settings.upsampler = Upsampler::Expand;
   const std::vector<Plane> dilated = dilatedStack(image, settings);
   for (int level = 1; level < 4; ++level) {
-    // Variance (4^i - 1) / 3 of the dilated kernels.
-    const double sigma = std::sqrt((std::pow(4.0, level) - 1.0) / 3.0);
+    const double sigma = std::sqrt((std::pow(4.0, level) - 1.0) / 3.0);  // 1 + 4 + 16 ... of the kernels
     const Plane gaussian =
-        resample(image, gaussianTaps(128, sigma, Border::Clamp), gaussianTaps(128, sigma, Border::Clamp));
-    EXPECT_LT(largestDifference(dilated[static_cast<size_t>(level)], gaussian), 0.01 * 50.0) << level;
+        resample(image, gaussianTaps(256, sigma, Border::Clamp), gaussianTaps(256, sigma, Border::Clamp));
+    double product = 1.0;
+    for (int k = 0; k < level; ++k)
+      product *= std::pow(std::cos(wx * (1 << k) / 2) * std::cos(wy * (1 << k) / 2), 4);
+    const double gauss = std::exp(-0.5 * sigma * sigma * (wx * wx + wy * wy));
+    // Pixel (128, 128) is a crest far from the border.
+    EXPECT_NEAR(dilated[static_cast<size_t>(level)].at(128, 128), 100.0 + 50.0 * product, 1e-9) << level;
+    EXPECT_NEAR(gaussian.at(128, 128), 100.0 + 50.0 * gauss, 1e-6) << level;
   }
 }
 
