@@ -18,8 +18,9 @@ std::string text(const char* value) { return value; }
 
 TEST(ThresholdSettings, NameModelsThatExist) {
   for (const Parameter& parameter : thresholdMapParameters()) {
-    if (parameter.name == "csf")
+    if (parameter.name == "csf") {
       for (const std::string& name : parameter.choices) EXPECT_NO_THROW(makeCsf(name)) << name;
+    }
     if (parameter.name == "masking") {
       for (const std::string& name : parameter.choices) EXPECT_NO_THROW(makeMasking(name)) << name;
       EXPECT_EQ(parameter.choices.size(), MaskingRegistry::instance().names().size());

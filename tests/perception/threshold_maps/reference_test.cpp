@@ -23,9 +23,10 @@ TEST(ThresholdMap, OfAFlatFieldIsAFifthOfTheTvi) {
             Plane(97, 64, 100.0), kStudyPpd,
             settingsOf(
                 {{"decomposition", text(decomposition)}, {"f_rule", text(rule)}, {"flat_rule", text(flat)}}));
+        // exact: what rounding leaves of the contrasts decides the elevation
+        if (text(flat) == "exact") continue;
         for (const double value : map.thresholdCdM2.data)
-          // exact: what rounding leaves of the contrasts decides the elevation
-          if (text(flat) == "smooth") ASSERT_NEAR(value, 0.2 * std::pow(10.0, 0.745), 1e-9);
+          ASSERT_NEAR(value, 0.2 * std::pow(10.0, 0.745), 1e-9);
       }
   EXPECT_NEAR(computeThresholdMap(Plane(1, 1, 100.0), kStudyPpd, {}).thresholdCdM2.at(0, 0), 1.11181, 5e-6);
 }
@@ -166,11 +167,17 @@ TEST(ThresholdMap, OfAnImageAtTwiceTheDistanceIsThatOfTheImageShrunk) {
       for (int x = w / 4; x < w * 3 / 4; ++x) sum += map.thresholdCdM2.at(x, y);
     return sum / (0.25 * w * w);
   };
-  const double near =
-      mean(computeThresholdMap(grating(512, 64.0), 2 * kStudyPpd, settingsOf({{"levels", int64_t{8}}})));
-  const double shrunk = mean(computeThresholdMap(grating(256, 32.0), kStudyPpd, {}));
-  // The ratio of the first two peaks is 3.97, not 2, so bands do not correspond exactly: within 5 %.
-  EXPECT_NEAR(near / shrunk, 1.0, 0.05);
+  const auto ratio = [&](const char* decomposition) {
+    const std::map<std::string, ParameterValue> given = {{"decomposition", text(decomposition)},
+                                                         {"levels", int64_t{8}}};
+    return mean(computeThresholdMap(grating(512, 64.0), 2 * kStudyPpd, settingsOf(given))) /
+           mean(computeThresholdMap(grating(256, 32.0), kStudyPpd, settingsOf(given)));
+  };
+  // Doubling Gaussians differ by the finest band alone, which such a grating hardly enters.
+  EXPECT_NEAR(ratio("true_stack"), 1.0, 0.01);
+  // A pyramid's variance at level 2 is 5 % short of doubling twice, which its contrasts follow; they enter
+  // the elevation with a power below 2.
+  EXPECT_NEAR(ratio("stack"), 1.0, 0.1);
 }
 
 TEST(ThresholdMap, AdaptsToOneDegree) {
