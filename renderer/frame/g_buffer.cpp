@@ -125,6 +125,11 @@ Receivers::Receivers(Frame& frame)
 }
 
 void Receivers::make(Frame& frame) {
+  if (frame.scene().lights.empty()) {
+    const auto scope = frame.passes().open("frame/receivers");
+    texture_.clear(glm::vec4(0.0F, 0.0F, 0.0F, -1.0F));
+    return;
+  }
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
   resolve(frame, program_, texture_, "frame/receivers");

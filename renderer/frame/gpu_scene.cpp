@@ -33,7 +33,8 @@ glm::dvec3 anchorOf(const scene::Scene& scene) {
 }  // namespace
 
 GpuScene::GpuScene(const scene::Scene& scene)
-    : anchor_(anchorOf(scene)),
+    : scene_(scene),
+      anchor_(anchorOf(scene)),
       triangleCount_(static_cast<uint32_t>(scene.mesh.triangles.size())),
       positions_(relativePositions(scene, anchor_)),
       indices_(scene.mesh.triangles),
@@ -48,7 +49,14 @@ GpuScene::GpuScene(const scene::Scene& scene)
 
 GpuScene::~GpuScene() { glDeleteVertexArrays(1, &vertexArray_); }
 
-int64_t GpuScene::bytes() const { return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes(); }
+int64_t GpuScene::bytes() const {
+  return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes() + (surface_ ? surface_->bytes() : 0);
+}
+
+const SurfaceBuffers& GpuScene::surface() const {
+  if (!surface_) surface_.emplace(scene_, anchor_);
+  return *surface_;
+}
 
 void GpuScene::draw() const {
   glBindVertexArray(vertexArray_);

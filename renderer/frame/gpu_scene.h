@@ -2,14 +2,16 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
+#include "renderer/frame/surface_buffers.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::frame {
 
 /// A scene's geometry in GPU memory. Positions are float, relative to the anchor (the centre of the scene's
-/// bounds).
+/// bounds). The scene must outlive it.
 class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
@@ -25,11 +27,15 @@ class GpuScene {
   void draw() const;
   /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, materials.
   void bindStorage(uint32_t firstBinding) const;
+  /// Made when first asked for.
+  const SurfaceBuffers& surface() const;
 
  private:
+  const scene::Scene& scene_;
   glm::dvec3 anchor_;
   uint32_t triangleCount_, vertexArray_ = 0;
   gl::Buffer positions_, indices_, triangleAlbedo_;
+  mutable std::optional<SurfaceBuffers> surface_;
 };
 
 }  // namespace limen::frame

@@ -21,6 +21,11 @@ const char* const kAsBuilt = "as_built";
   for (const glm::uvec3& triangle : scene.mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
       if (triangle[corner] >= scene.mesh.positions.size()) return false;
+  const size_t vertices = scene.mesh.positions.size();
+  if (!scene.mesh.normals.empty() && scene.mesh.normals.size() != vertices) return false;
+  if (!scene.mesh.attributes.empty() && scene.mesh.attributes.size() != vertices) return false;
+  for (const Material& material : scene.materials)
+    if (material.surface == SurfaceKind::BicubicPatch && material.patch >= scene.patches.size()) return false;
   return next == scene.mesh.triangles.size() && !scene.camera.keys.empty();
 }
 
@@ -29,6 +34,9 @@ template <class Map>
 void mapWorld(Scene& scene, Map map) {
   for (glm::dvec3& position : scene.mesh.positions) position = map(position);
   for (AreaLight& light : scene.lights) light.centre = map(light.centre);
+  for (Material& material : scene.materials) material.pattern.origin = map(material.pattern.origin);
+  for (BicubicPatch& patch : scene.patches)
+    for (glm::dvec3& point : patch.points) point = map(point);
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);
@@ -75,6 +83,7 @@ Scene buildScene(const std::string& name, const ParameterValues& values) {
   if (scale != 1.0) {
     mapWorld(scene, [&](glm::dvec3 p) { return p * scale; });
     for (AreaLight& light : scene.lights) light.size *= scale;
+    for (Material& material : scene.materials) material.pattern.size *= scale;
   }
   if (const double offset = complete.real("offset"); offset != 0.0) {
     const glm::dvec3 shift(offset * scene.bounds().diagonal() / std::sqrt(3.0));

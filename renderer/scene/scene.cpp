@@ -2,6 +2,7 @@
 #include "renderer/scene/scene.h"
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "base/hash.h"
@@ -21,6 +22,7 @@ class Feed {
   }
   void vector(glm::dvec3 v) { value(v.x), value(v.y), value(v.z); }
   void vector(glm::vec3 v) { value(v.x), value(v.y), value(v.z); }
+  void text(const char* word) { hash_.update(word, std::strlen(word) + 1); }
   void vector(glm::dvec2 v) { value(v.x), value(v.y); }
   void outline(const std::vector<glm::dvec2>& points) {
     value(static_cast<uint64_t>(points.size()));
@@ -51,6 +53,29 @@ void feed(Feed& out, const CameraPath& path) {
     out.value(key.timeS);
     out.vector(key.camera.eye), out.vector(key.camera.target), out.vector(key.camera.up);
     out.value(key.camera.verticalFovDeg);
+  }
+}
+
+/// What only some scenes have. Each stands behind a word of its own, so that scenes without keep their hash.
+void feedExtras(Feed& out, const Scene& scene) {
+  static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16, "arrays are hashed without padding");
+  if (!scene.mesh.normals.empty()) out.text("normals"), out.array(scene.mesh.normals);
+  if (!scene.mesh.attributes.empty()) out.text("attributes"), out.array(scene.mesh.attributes);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    if (material.surface != SurfaceKind::Mesh) {
+      out.text("surface"), out.value(static_cast<uint64_t>(i));
+      out.value(static_cast<int32_t>(material.surface)), out.value(material.patch);
+    }
+    const Pattern& pattern = material.pattern;
+    if (pattern.kind == Pattern::Kind::None) continue;
+    out.text("pattern"), out.value(static_cast<uint64_t>(i));
+    out.value(static_cast<int32_t>(pattern.kind)), out.value(pattern.size), out.value(pattern.contrast);
+    out.value(pattern.octaves), out.vector(pattern.origin);
+  }
+  for (const BicubicPatch& patch : scene.patches) {
+    out.text("patch");
+    for (const glm::dvec3& point : patch.points) out.vector(point);
   }
 }
 
@@ -91,6 +116,7 @@ std::string Scene::contentHash() const {
   out.value(static_cast<uint64_t>(lights.size()));
   for (const AreaLight& light : lights) feed(out, light);
   feed(out, camera);
+  feedExtras(out, *this);
   return out.hex();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -13,10 +14,35 @@
 
 namespace limen::scene {
 
+/// Solid texture: reflectance by place, so that a picture has contrast wherever one cuts the solid. Factor of
+/// the albedo: 1 + contrast * s with s in [-1, 1]; the product is clamped to 0..1.
+struct Pattern {
+  enum class Kind {
+    None,
+    Checker,    ///< s = +1 and -1 in cubes of edge `size`
+    ValueNoise  ///< random values on a lattice of pitch `size`, interpolated (quintic); octaves halve both
+  };
+  Kind kind = Kind::None;
+  double size = 0.1;       ///< world units, > 0
+  double contrast = 0.5;   ///< 0..1
+  int octaves = 4;         ///< ValueNoise only
+  glm::dvec3 origin{0.0};  ///< a lattice point, world space
+};
+
+/// How a surface's normal or light comes about where it is more than its triangles.
+enum class SurfaceKind {
+  Mesh,          ///< vertex normals if the mesh has them, else flat
+  BicubicPatch,  ///< normal of the patch Scene::patches[Material::patch] at the parameters in attributes.xy
+  Aperture       ///< lit through a horizon cone: attributes = (axis, angle in rad) a vertex
+};
+
 /// Diffuse surface. Further properties come with the techniques that need them.
 struct Material {
   std::string name;
   glm::vec3 albedo{0.7F};  ///< linear reflectance, 0..1
+  Pattern pattern{};
+  SurfaceKind surface = SurfaceKind::Mesh;
+  uint32_t patch = 0;  ///< BicubicPatch only
 };
 
 /// A run of triangles with one material.
@@ -34,6 +60,16 @@ struct Part {
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::uvec3> triangles;  ///< vertex indices; counter-clockwise seen from outside
+  /// Empty or one a vertex: unit, outward; the zero vector where a vertex has none (its triangles are flat).
+  std::vector<glm::vec3> normals;
+  /// Empty or one a vertex; what it means says Material::surface.
+  std::vector<glm::vec4> attributes;
+};
+
+/// Uniform bicubic B-spline patch over (u, v) in [0,1]^2: control point i + 4 j belongs to the i-th basis
+/// function in u and the j-th in v.
+struct BicubicPatch {
+  std::array<glm::dvec3, 16> points{};
 };
 
 enum class LightShape { Rectangle, Disc, Polygon };
@@ -102,6 +138,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<AreaLight> lights;
   CameraPath camera;
+  std::vector<BicubicPatch> patches;
 
   Bounds bounds() const;        ///< of all finite positions
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
