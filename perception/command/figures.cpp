@@ -57,14 +57,14 @@ std::vector<std::string> exceeded(const Figures& figures, const std::vector<Limi
     const auto figure =
         std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == limit.figure; });
     if (figure == figures.end() || (!figure->value && !figure->reason.empty()))
-      throw Error("'" + limit.figure + "' cannot be judged" +
-                      (figure == figures.end() ? "" : ": " + figure->reason),
-                  limit.below ? "--fail-below" : "--fail-above", "leave this limit out, or mend what is missing");
+      throw Error(
+          "'" + limit.figure + "' cannot be judged" + (figure == figures.end() ? "" : ": " + figure->reason),
+          limit.below ? "--fail-below" : "--fail-above", "leave this limit out, or mend what is missing");
     if (!figure->value) continue;
     if (limit.below ? *figure->value < limit.value : *figure->value > limit.value)
       out.push_back(fmt::format("{} is {}{}, {} {}", figure->name, numberText(*figure->value),
-                                figure->unit.empty() ? "" : " " + figure->unit, limit.below ? "below" : "above",
-                                shortestNumber(limit.value)));
+                                figure->unit.empty() ? "" : " " + figure->unit,
+                                limit.below ? "below" : "above", shortestNumber(limit.value)));
   }
   return out;
 }
@@ -91,14 +91,17 @@ nlohmann::json FigureSummary::toJson() const {
     for (const double value : series.values) sum.add(value);
     std::vector<double> values = series.values;
     const auto [least, most] = std::minmax_element(series.values.begin(), series.values.end());
-    const auto frame = [&](auto at) { return series.frames[static_cast<size_t>(at - series.values.begin())]; };
-    out[series.figure.name] = {{"frames", values.size()},
-                               {"mean", sum.value() / static_cast<double>(values.size())},
-                               {"median", nearestRank(values, 0.5)},
-                               {"min", *least},
-                               {"min_frame", frame(least)},
-                               {"max", *most},
-                               {"max_frame", frame(std::max_element(series.values.begin(), series.values.end()))}};
+    const auto frame = [&](auto at) {
+      return series.frames[static_cast<size_t>(at - series.values.begin())];
+    };
+    out[series.figure.name] = {
+        {"frames", values.size()},
+        {"mean", sum.value() / static_cast<double>(values.size())},
+        {"median", nearestRank(values, 0.5)},
+        {"min", *least},
+        {"min_frame", frame(least)},
+        {"max", *most},
+        {"max_frame", frame(std::max_element(series.values.begin(), series.values.end()))}};
   }
   return out;
 }
@@ -106,8 +109,8 @@ nlohmann::json FigureSummary::toJson() const {
 std::string FigureSummary::table() const {
   size_t width = 6;
   for (const Series& series : series_) width = std::max(width, series.figure.name.size());
-  std::string out = fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>12}  worst frame\n", "", width, "mean", "median",
-                                "min", "max");
+  std::string out = fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>12}  worst frame\n", "", width, "mean",
+                                "median", "min", "max");
   const nlohmann::json all = toJson();
   for (const Series& series : series_) {
     const nlohmann::json& row = all.at(series.figure.name);
@@ -116,8 +119,9 @@ std::string FigureSummary::table() const {
       continue;
     }
     const auto number = [&](const char* key) { return numberText(row.at(key).get<double>()); };
-    out += fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>12}  {}\n", series.figure.name, width, number("mean"),
-                       number("median"), number("min"), number("max"), worstFrame(series.figure.name));
+    out +=
+        fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>12}  {}\n", series.figure.name, width, number("mean"),
+                    number("median"), number("min"), number("max"), worstFrame(series.figure.name));
   }
   return out;
 }
@@ -138,8 +142,8 @@ std::string figureTable(const Figures& figures) {
   for (const Figure& figure : figures) width = std::max(width, figure.name.size());
   std::string out;
   for (const Figure& figure : figures) {
-    const std::string value = figure.value ? numberText(*figure.value) + (figure.unit.empty() ? "" : " " + figure.unit)
-                                           : "none";
+    const std::string value =
+        figure.value ? numberText(*figure.value) + (figure.unit.empty() ? "" : " " + figure.unit) : "none";
     const std::string note = figure.value ? figure.meaning : figure.reason;
     out += fmt::format("  {:<{}}  {:<18}{}\n", figure.name, width, value, note.empty() ? "" : " " + note);
   }
@@ -148,7 +152,8 @@ std::string figureTable(const Figures& figures) {
 
 nlohmann::json figuresAsJson(const Figures& figures) {
   nlohmann::json out = nlohmann::json::object();
-  for (const Figure& figure : figures) out[figure.name] = figure.value ? nlohmann::json(*figure.value) : nullptr;
+  for (const Figure& figure : figures)
+    out[figure.name] = figure.value ? nlohmann::json(*figure.value) : nullptr;
   return out;
 }
 

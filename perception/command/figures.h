@@ -33,8 +33,8 @@ struct Limit {
 std::vector<Limit> parseLimits(const std::vector<std::string>& above, const std::vector<std::string>& below,
                                const Figures& known, const std::string& bare);
 
-/// What is exceeded, in words for stderr: "rmse is 0.2, above 0.1". A figure without a value because nothing was
-/// there to rate passes. Throws Error for one that could not be computed (reason with `required`).
+/// What is exceeded, in words for stderr: "rmse is 0.2, above 0.1". A figure without a value because nothing
+/// was there to rate passes. Throws Error for one that could not be computed (reason with `required`).
 std::vector<std::string> exceeded(const Figures& figures, const std::vector<Limit>& limits);
 
 /// Figures of many frames: mean, median, extremes with the frames that have them.

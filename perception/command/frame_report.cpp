@@ -90,7 +90,8 @@ void ReportPrinter::printText(const FrameReport& report) const {
     for (const std::string& name : header_.primaryFigures)
       for (const Figure& figure : report.figures)
         if (figure.name == name)
-          line += (line.empty() ? "" : ", ") + name + " " + (figure.value ? numberText(*figure.value) : "none");
+          line +=
+              (line.empty() ? "" : ", ") + name + " " + (figure.value ? numberText(*figure.value) : "none");
     std::printf("%s: %s\n", report.frame.label().c_str(), line.c_str());
   }
   std::fflush(stdout);

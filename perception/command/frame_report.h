@@ -39,8 +39,8 @@ struct FrameReport {
 /// "Limen 0.1.0 (commit 0123456789)": who says so.
 std::string limenVersion();
 
-/// Prints what a command finds: text, or with --json one JSON object for a single image; for a sequence a line
-/// for each frame and a last line that sums up. Warnings go to stderr as well.
+/// Prints what a command finds: text, or with --json one JSON object for a single image; for a sequence a
+/// line for each frame and a last line that sums up. Warnings go to stderr as well.
 class ReportPrinter {
  public:
   ReportPrinter(ReportHeader header, size_t frames, std::vector<Limit> limits);

@@ -84,10 +84,11 @@ void judgeRange(InputImage& input) {
 
 const std::vector<Parameter>& inputParameters() {
   static const std::vector<Parameter> kParameters = {
-      choiceParameter("values", "auto", {"auto", "coded", "linear", "luminance"},
-                      "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is "
-                      "the display's white; luminance: light in cd/m2; auto: integers are coded, "
-                      "floating-point numbers linear"),
+      choiceParameter(
+          "values", "auto", {"auto", "coded", "linear", "luminance"},
+          "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is "
+          "the display's white; luminance: light in cd/m2; auto: integers are coded, "
+          "floating-point numbers linear"),
       choiceParameter("alpha", "over_black", {"over_black", "ignore"},
                       "over_black: in front of black, in light; ignore: colours as the file has them")};
   return kParameters;
@@ -105,9 +106,15 @@ Image InputImage::shown() const {
 }
 
 nlohmann::json InputImage::toJson() const {
-  nlohmann::json out = {{"path", path},          {"sha256", sha256},         {"width_px", width()},
-                        {"height_px", height()}, {"channels", linear.channels}, {"kind", kind},
-                        {"assumed", assumed},    {"non_finite", nonFinite},  {"clipped_px", clippedPx}};
+  nlohmann::json out = {{"path", path},
+                        {"sha256", sha256},
+                        {"width_px", width()},
+                        {"height_px", height()},
+                        {"channels", linear.channels},
+                        {"kind", kind},
+                        {"assumed", assumed},
+                        {"non_finite", nonFinite},
+                        {"clipped_px", clippedPx}};
   if (!alpha.empty()) out["alpha"] = alpha;
   return out;
 }
@@ -133,7 +140,8 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
   if (out.coded) {
     out.values = light;
     for (float& value : light.data)
-      value = std::isfinite(value) ? static_cast<float>(display.decode(std::clamp(value, 0.0F, 1.0F))) : value;
+      value =
+          std::isfinite(value) ? static_cast<float>(display.decode(std::clamp(value, 0.0F, 1.0F))) : value;
   } else if (values == "luminance") {
     // The screen adds its black to all that it shows.
     const double black = display.blackLevelCdM2(), span = display.whiteLevelCdM2() - black;
@@ -145,7 +153,8 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
     if (opaque) {
       out.alpha = "alpha is 1 everywhere";
     } else if (input.text("alpha") == "ignore") {
-      out.alpha = file.premultiplied ? "alpha ignored, colours are multiplied by it in the file" : "alpha ignored";
+      out.alpha =
+          file.premultiplied ? "alpha ignored, colours are multiplied by it in the file" : "alpha ignored";
     } else {
       out.alpha = "in front of black";
       if (!file.premultiplied) {
@@ -181,12 +190,12 @@ Image readMap(const std::string& path, const std::string& option, int channels, 
     throw Error(error.message(), option, error.mend());
   }
   if (map.width != like.width() || map.height != like.height())
-    throw Error(fmt::format("'{}' is {} x {}, the images are {} x {}", path, map.width, map.height, like.width(),
-                            like.height()),
+    throw Error(fmt::format("'{}' is {} x {}, the images are {} x {}", path, map.width, map.height,
+                            like.width(), like.height()),
                 option, "give a map of the images' size");
   if (map.channels < channels)
-    throw Error(fmt::format("'{}' has {} channel{}", path, map.channels, map.channels == 1 ? "" : "s"), option,
-                fmt::format("it takes {}", channels));
+    throw Error(fmt::format("'{}' has {} channel{}", path, map.channels, map.channels == 1 ? "" : "s"),
+                option, fmt::format("it takes {}", channels));
   return map;
 }
 

@@ -110,9 +110,8 @@ ImageSequence globbed(const std::string& argument) {
     for (size_t i = 0; i < found.gl_pathc; ++i)
       if (fs::is_regular_file(found.gl_pathv[i])) sequence.frames.push_back({found.gl_pathv[i], {}});
   globfree(&found);
-  std::sort(sequence.frames.begin(), sequence.frames.end(), [](const SequenceFrame& a, const SequenceFrame& b) {
-    return naturallyLess(a.path, b.path);
-  });
+  std::sort(sequence.frames.begin(), sequence.frames.end(),
+            [](const SequenceFrame& a, const SequenceFrame& b) { return naturallyLess(a.path, b.path); });
   return sequence;
 }
 
@@ -160,7 +159,8 @@ ImageSequence expandImages(const std::string& argument) {
   } else {
     throw Error("no such image '" + argument + "'", {}, "check the path");
   }
-  if (sequence.frames.empty()) throw Error("no file fits '" + argument + "'", {}, "check the path and the pattern");
+  if (sequence.frames.empty())
+    throw Error("no file fits '" + argument + "'", {}, "check the path and the pattern");
   return sequence;
 }
 
@@ -192,7 +192,9 @@ std::vector<FrameSet> alignSequences(const std::vector<ImageSequence>& sequences
   return frames;
 }
 
-bool hasNumberPlace(const std::string& path) { return findPlace(fs::path(path).filename().string()).has_value(); }
+bool hasNumberPlace(const std::string& path) {
+  return findPlace(fs::path(path).filename().string()).has_value();
+}
 
 std::string fillNumber(const std::string& pattern, const FrameSet& frame) {
   const fs::path path(pattern);

@@ -30,9 +30,9 @@ ImageSequence expandImages(const std::string& argument);
 
 /// Images that belong together: one of each argument.
 struct FrameSet {
-  size_t index = 0;                 ///< from 0
-  std::optional<int64_t> number;    ///< common to all
-  std::vector<std::string> paths;   ///< in the order of the sequences; "" for an argument that was not given
+  size_t index = 0;                ///< from 0
+  std::optional<int64_t> number;   ///< common to all
+  std::vector<std::string> paths;  ///< in the order of the sequences; "" for an argument that was not given
   /// "frame 12" or, without a number, the file name of the first.
   std::string label() const;
 };

@@ -58,8 +58,8 @@ void OutputFiles::addFile(const std::string& option, const std::string& pattern,
     throw Error("'" + pattern + "' does not end in " + join(endings, " or "), option,
                 "the ending says what is written");
   if (frames_.size() > 1 && !hasNumberPlace(pattern))
-    throw Error(fmt::format("'{}' has no place for the numbers of {} frames", pattern, frames_.size()), option,
-                "put %04d in the name");
+    throw Error(fmt::format("'{}' has no place for the numbers of {} frames", pattern, frames_.size()),
+                option, "put %04d in the name");
   for (const FrameSet& frame : frames_) {
     const std::string path = fillNumber(pattern, frame);
     refuseInputs(option, path);

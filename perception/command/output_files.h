@@ -19,13 +19,16 @@ class OutputFiles {
   /// A file (of each frame) named by an option; "" is passed over. Throws Error: an ending other than
   /// `endings` (".png"), a sequence without a place for the number, an output that is an input or another
   /// output.
-  void addFile(const std::string& option, const std::string& pattern, const std::vector<std::string>& endings);
+  void addFile(const std::string& option, const std::string& pattern,
+               const std::vector<std::string>& endings);
   /// A folder named by an option; frames of a sequence get folders of their own in it. Throws Error if it is
   /// a file, or holds an input.
   void addFolder(const std::string& option, const std::string& folder);
 
   /// What the pattern or folder means for a frame.
-  std::string file(const std::string& pattern, const FrameSet& frame) const { return fillNumber(pattern, frame); }
+  std::string file(const std::string& pattern, const FrameSet& frame) const {
+    return fillNumber(pattern, frame);
+  }
   std::string folder(const std::string& folder, const FrameSet& frame) const;
 
  private:

@@ -46,7 +46,8 @@ ParameterValue typed(const Parameter& parameter, const std::string& text) {
 }  // namespace
 
 std::vector<ParameterValues> parseSettings(const std::vector<std::string>& texts,
-                                           const std::vector<SettingsGroup>& groups, const std::string& where) {
+                                           const std::vector<SettingsGroup>& groups,
+                                           const std::string& where) {
   std::vector<std::map<std::string, ParameterValue>> given(groups.size());
   std::vector<std::string> known;
   for (const SettingsGroup& group : groups)
@@ -94,7 +95,8 @@ nlohmann::json settingsAsJson(const std::vector<SettingsGroup>& groups) {
   return out;
 }
 
-nlohmann::json valuesAsJson(const std::vector<SettingsGroup>& groups, const std::vector<ParameterValues>& values) {
+nlohmann::json valuesAsJson(const std::vector<SettingsGroup>& groups,
+                            const std::vector<ParameterValues>& values) {
   nlohmann::json out = nlohmann::json::object();
   for (size_t g = 0; g < groups.size(); ++g) {
     if (groups[g].name.empty()) {
@@ -106,12 +108,14 @@ nlohmann::json valuesAsJson(const std::vector<SettingsGroup>& groups, const std:
   return out;
 }
 
-std::string changedSettings(const std::vector<SettingsGroup>& groups, const std::vector<ParameterValues>& values) {
+std::string changedSettings(const std::vector<SettingsGroup>& groups,
+                            const std::vector<ParameterValues>& values) {
   std::vector<std::string> changed;
   for (size_t g = 0; g < groups.size(); ++g)
     for (const Parameter& parameter : groups[g].parameters) {
       const ParameterValue& value = values[g].all().at(parameter.name);
-      if (value != parameter.defaultValue) changed.push_back(fullName(groups[g], parameter) + " " + toText(value));
+      if (value != parameter.defaultValue)
+        changed.push_back(fullName(groups[g], parameter) + " " + toText(value));
     }
   return join(changed);
 }
