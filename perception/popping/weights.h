@@ -39,11 +39,4 @@ struct FlickerInput {
 /// discontinuity do not flicker.
 Image flickerWeight(const FlickerInput& input, const PoppingSettings& settings = {});
 
-/// The comparator of section 10.4: largest CIE94 difference between the two frames, actual as the reference.
-/// Linear or display-coded as in PoppingInput.
-struct LargestColourDifference {
-  double value = 0.0;
-  int x = 0, y = 0;
-};
-
 }  // namespace limen::perception

@@ -105,7 +105,7 @@ void Shaded::make(Frame& frame) {
   }
   ids.bindTexture(0);
   texture_.bindImage(0, gl::Access::Write);
-  frame.gpuScene().bindStorage(0);
+  frame.geometry().bindStorage(0);
   frame.gpuScene().surface().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
