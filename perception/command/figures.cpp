@@ -22,7 +22,7 @@ Limit parseLimit(const std::string& text, bool below, const Figures& known, cons
   limit.below = below;
   limit.figure = split == std::string::npos ? bare : text.substr(0, split);
   const std::string number = split == std::string::npos ? text : text.substr(split + 1);
-  if (limit.figure.empty()) throw Error("'" + text + "' names no figure", option, "write NAME=VALUE");
+  if (limit.figure.empty()) throw Error("'" + text + "' names no figure", option, "write FIGURE=VALUE");
   const auto figure =
       std::find_if(known.begin(), known.end(), [&](const Figure& f) { return f.name == limit.figure; });
   if (figure == known.end()) {
@@ -141,12 +141,24 @@ std::string figureTable(const Figures& figures) {
   size_t width = 0;
   for (const Figure& figure : figures) width = std::max(width, figure.name.size());
   std::string out;
+  std::vector<std::pair<std::string, std::vector<std::string>>> absent;  // by reason
   for (const Figure& figure : figures) {
-    const std::string value =
-        figure.value ? numberText(*figure.value) + (figure.unit.empty() ? "" : " " + figure.unit) : "none";
-    const std::string note = figure.value ? figure.meaning : figure.reason;
-    out += fmt::format("  {:<{}}  {:<18}{}\n", figure.name, width, value, note.empty() ? "" : " " + note);
+    if (figure.value || figure.reason.empty()) {
+      const std::string value =
+          figure.value ? numberText(*figure.value) + (figure.unit.empty() ? "" : " " + figure.unit) : "none";
+      out += fmt::format("  {:<{}}  {:<18}{}\n", figure.name, width, value,
+                         figure.meaning.empty() ? "" : " " + figure.meaning);
+      continue;
+    }
+    const auto known = std::find_if(absent.begin(), absent.end(),
+                                    [&](const auto& entry) { return entry.first == figure.reason; });
+    if (known == absent.end()) {
+      absent.push_back({figure.reason, {figure.name}});
+    } else {
+      known->second.push_back(figure.name);
+    }
   }
+  for (const auto& [reason, names] : absent) out += "  not available: " + join(names) + ": " + reason + "\n";
   return out;
 }
 

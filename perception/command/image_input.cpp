@@ -164,6 +164,10 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
     }
   }
   judgeRange(out);
+  if (out.width() > display.resolutionPx.x || out.height() > display.resolutionPx.y)
+    out.warnings.push_back(
+        fmt::format("{} x {} pixels do not fit the display's {} x {}; judged at its pixel pitch", out.width(),
+                    out.height(), display.resolutionPx.x, display.resolutionPx.y));
   if (values == "luminance")
     for (float& value : light.data)
       if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
