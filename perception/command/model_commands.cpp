@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "perception/command/commands.h"
@@ -190,7 +191,8 @@ std::string describeConstants(const std::vector<Parameter>& declared) {
 }
 
 void printJson(nlohmann::json object) {
-  object["version"] = LIMEN_VERSION;
+  object["version"] = projectVersion();
+  object["commit"] = buildCommit();
   std::printf("%s\n", object.dump().c_str());
 }
 
