@@ -11,6 +11,7 @@
 #include "perception/command/image_metrics.h"
 #include "perception/command/image_options.h"
 #include "perception/command/output_files.h"
+#include "perception/command/popping_report.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric.h"
 
@@ -22,13 +23,44 @@ struct CompareOptions : ImageOptions {
   std::vector<std::string> metrics;
 };
 
-std::vector<std::string> metricNames(const CompareOptions& options) {
-  std::vector<std::string> names = options.metrics.empty() ? defaultMetrics() : options.metrics;
-  for (size_t i = 0; i < names.size(); ++i)
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i))
-      throw Error("'" + names[i] + "' is named twice", "--metrics", "name each metric once");
-  return names;
+/// Named like a metric: the popping predictor on the pair, with nothing moving.
+constexpr const char* kJnd = "jnd";
+
+/// What is to be run, each with its settings (same order); `jnd` apart from the metrics.
+struct Selection {
+  std::vector<std::string> metrics;
+  bool jnd = false;
+  std::vector<SettingsGroup> groups;  ///< of the metrics, then of jnd
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all = metrics;
+    if (jnd) all.emplace_back(kJnd);
+    return all;
+  }
+};
+
+Selection select(std::vector<std::string> asked, const DisplayProfile& display) {
+  if (asked.empty()) {
+    asked = defaultMetrics();
+    asked.emplace_back(kJnd);
+  }
+  Selection out;
+  for (auto name = asked.begin(); name != asked.end(); ++name) {
+    if (std::find(asked.begin(), name, *name) != name)
+      throw Error("'" + *name + "' is named twice", "--metrics", "name each metric once");
+    if (*name == kJnd) {
+      out.jnd = true;
+    } else {
+      out.metrics.push_back(*name);
+    }
+  }
+  out.groups = metricSettings(out.metrics, display);
+  if (out.jnd) out.groups.push_back({kJnd, poppingParameters()});
+  return out;
+}
+
+void append(Figures& figures, const Figures& more) {
+  figures.insert(figures.end(), more.begin(), more.end());
 }
 
 /// EXR of the values and PNG to look at. Returns what was written.
@@ -46,18 +78,20 @@ void writeMap(const MetricMap& map, const std::string& folder, const std::string
 
 int compare(const CompareOptions& options, const std::vector<std::string>& words) {
   const DisplayProfile display = readDisplay(options.displayName);
-  const std::vector<std::string> names = metricNames(options);
-  const std::vector<SettingsGroup> groups = metricSettings(names, display);
+  const Selection selected = select(options.metrics, display);
   if (options.list) {
-    printSettings(options, groups);
+    printSettings(options, selected.groups);
     return kExitSuccess;
   }
   if (options.test.empty() || options.reference.empty())
     throw Error("an image is missing", "compare", "name two: limen-perceive compare IMAGE REFERENCE");
-  const std::vector<ParameterValues> values = parseSettings(options.set, groups, "--set");
+  const std::vector<ParameterValues> values = parseSettings(options.set, selected.groups, "--set");
+  const PoppingSettings popping = selected.jnd ? PoppingSettings::from(values.back()) : PoppingSettings{};
   const ParameterValues input = options.input();
-  ImageMetrics metrics(names, values);
-  const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, metrics.declared(), "");
+  ImageMetrics metrics(selected.metrics, values);
+  Figures declared = metrics.declared();
+  if (selected.jnd) append(declared, declaredPoppingFigures());
+  const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, declared, "");
 
   const ImageSequence tests = expandImages(options.test), references = expandImages(options.reference);
   const std::vector<FrameSet> frames = alignSequences({tests, references});
@@ -68,16 +102,16 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
 
   ReportHeader header;
   header.command = "compare";
-  const std::string changed = changedSettings(groups, values);
-  header.statement = limenVersion() + " image comparison (" + join(names) +
+  const std::string changed = changedSettings(selected.groups, values);
+  header.statement = limenVersion() + " image comparison (" + join(selected.names()) +
+                     (selected.jnd ? ": popping predictor of " + poppingModelText(popping) : "") +
                      (changed.empty() ? "" : "; " + changed) + "), display " + display.line();
   header.words = words;
   header.display = display;
-  header.settings = valuesAsJson(groups, values);
+  header.settings = valuesAsJson(selected.groups, values);
   header.settings["input"] = input.toJson();
-  header.extra = metrics.facts();
   header.json = options.json;
-  header.primaryFigures = {"rmse", "psnr", "ssim", "de94", "flip"};
+  header.primaryFigures = {"rmse", "psnr", "ssim", "de94", "flip", "largest_jnd"};
   ReportPrinter printer(header, frames.size(), limits);
   for (const FrameSet& frame : frames) {
     InputImage test = readInput(frame.paths[0], display, input);
@@ -88,6 +122,19 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
     report.inputs = {{"image", &test}, {"reference", &reference}};
     std::vector<MetricMap> maps;
     report.figures = metrics.run(test, reference, options.mapFolder.empty() ? nullptr : &maps);
+    report.extra = metrics.facts();
+    if (selected.jnd) {
+      PoppingInput pair;
+      pair.actual = test.shown();
+      pair.predicted = reference.shown();
+      pair.linear = true;
+      PoppingResult result = predictPopping(pair, display, popping);
+      append(report.figures, poppingFigures(result));
+      report.text = regionTable(result);
+      report.extra = {{"regions_table", regionsAsJson(result)},
+                      {"jnd_model", poppingModelAsJson(result.model)}};
+      if (!options.mapFolder.empty()) maps.push_back({kJnd, std::move(result.jnd)});
+    }
     for (const MetricMap& map : maps)
       writeMap(map, outputs.folder(options.mapFolder, frame), header.statement, report);
     printer.add(report);
@@ -112,7 +159,8 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
   addImageOptions(*command, *options);
   command
       ->add_option("--metrics", options->metrics,
-                   "These metrics only: " + join(MetricRegistry::instance().names()))
+                   "These only: " + join(MetricRegistry::instance().names()) +
+                       ", jnd (the popping predictor, nothing moving)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -127,7 +175,7 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
       ->add_option("--fail-below", options->failBelow, "Exit with 1 if a figure that is better high is below")
       ->type_name("FIGURE=VALUE")
       ->allow_extra_args(false);
-  addSettingsHelp(*command, [] { return metricSettings(defaultMetrics(), displayPreset("schwarz_2009")); });
+  addSettingsHelp(*command, [] { return select({}, displayPreset("schwarz_2009")).groups; });
   command->callback([options, &exitCode, words] { exitCode = compare(*options, words); });
 }
 

@@ -7,6 +7,7 @@ namespace limen::perception {
 
 void addImageCommands(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
   addThresholdCommand(app, exitCode, words);
+  addPopCommand(app, exitCode, words);
   addCompareCommand(app, exitCode, words);
 }
 

@@ -57,6 +57,12 @@ Figures thresholdFigures(const ThresholdMap& map) {
            {}}};
 }
 
+/// Round scale that one pixel in a hundred exceeds at most: single pixels would darken all others.
+double pictureScale(const ThresholdMap& map) {
+  std::vector<double> values = map.thresholdCdM2.data;
+  return errorScale(Image(1, 1, 1, static_cast<float>(nearestRank(values, 0.99))));
+}
+
 bool isPicture(const std::string& path) {
   const std::string end = std::filesystem::path(path).extension().string();
   return end == ".png" || end == ".PNG";
@@ -112,7 +118,7 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
         report.outputs.emplace_back("threshold map, cd/m2", path);
         continue;
       }
-      if (scale <= 0.0) scale = errorScale(picture);
+      if (scale <= 0.0) scale = pictureScale(map);
       const std::string text = "black 0, pale yellow " + shortestNumber(scale) + " cd/m2 and above";
       writePng(path, errorPicture(picture, scale), "threshold map, " + text + "; " + header.statement);
       report.extra["picture_scale_cd_m2"] = scale;
