@@ -32,9 +32,26 @@ std::vector<GpuMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 ancho
 }
 
 std::vector<uint32_t> triangleMaterialsOf(const scene::Scene& scene) {
-  std::vector<uint32_t> out(scene.mesh.triangles.size());
+  std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
   for (const scene::Part& part : scene.parts)
     std::fill_n(out.begin() + part.firstTriangle, part.triangleCount, part.material);
+  for (const scene::LodObject& object : scene.lodObjects)
+    for (int level = 1; level < static_cast<int>(object.levels.size()); ++level) {
+      const scene::TriangleRange range = scene.triangles(object, level);
+      std::fill_n(out.begin() + range.first, range.count, scene.parts[object.part].material);
+    }
+  return out;
+}
+
+/// A vertex attribute of both meshes, or nothing where neither has it.
+template <class Value>
+std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::Mesh::*attribute) {
+  std::vector<Value> out = scene.mesh.*attribute;
+  const std::vector<Value>& more = scene.coarser.*attribute;
+  if (out.empty() && more.empty()) return out;
+  out.resize(scene.mesh.positions.size(), Value(0.0F));
+  out.insert(out.end(), more.begin(), more.end());
+  out.resize(scene.mesh.positions.size() + scene.coarser.positions.size(), Value(0.0F));
   return out;
 }
 
@@ -48,10 +65,10 @@ std::vector<glm::vec4> patchPointsOf(const scene::Scene& scene, glm::dvec3 ancho
 }  // namespace
 
 SurfaceBuffers::SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor)
-    : hasNormals_(!scene.mesh.normals.empty()),
-      hasAttributes_(!scene.mesh.attributes.empty()),
-      normals_(scene.mesh.normals),
-      attributes_(scene.mesh.attributes),
+    : hasNormals_(!scene.mesh.normals.empty() || !scene.coarser.normals.empty()),
+      hasAttributes_(!scene.mesh.attributes.empty() || !scene.coarser.attributes.empty()),
+      normals_(joined(scene, &scene::Mesh::normals)),
+      attributes_(joined(scene, &scene::Mesh::attributes)),
       triangleMaterials_(triangleMaterialsOf(scene)),
       materials_(materialsOf(scene, anchor)),
       patches_(patchPointsOf(scene, anchor)) {}

@@ -61,6 +61,7 @@ void feedExtras(Feed& out, const Scene& scene) {
   static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16, "arrays are hashed without padding");
   if (!scene.mesh.normals.empty()) out.text("normals"), out.array(scene.mesh.normals);
   if (!scene.mesh.attributes.empty()) out.text("attributes"), out.array(scene.mesh.attributes);
+  if (!scene.mesh.morphTargets.empty()) out.text("morph"), out.array(scene.mesh.morphTargets);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     if (material.surface != SurfaceKind::Mesh) {
@@ -77,6 +78,19 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.text("patch");
     for (const glm::dvec3& point : patch.points) out.vector(point);
   }
+  for (const LodObject& object : scene.lodObjects) {
+    out.text("levels"), out.value(object.part), out.value(static_cast<uint64_t>(object.levels.size()));
+    for (const LodLevel& level : object.levels) {
+      out.value(level.firstTriangle), out.value(level.triangleCount);
+      out.value(level.deviation), out.value(level.statedError);
+    }
+    for (const double distance : object.switchDistances) out.value(distance);
+    out.vector(object.bounds.low), out.vector(object.bounds.high);
+  }
+  if (scene.lodObjects.empty()) return;
+  out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
+  out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
+  out.array(scene.coarser.morphTargets);
 }
 
 }  // namespace
@@ -120,6 +134,12 @@ std::string Scene::contentHash() const {
   return out.hex();
 }
 
+TriangleRange Scene::triangles(const LodObject& object, int level) const {
+  const LodLevel& chosen = object.levels.at(static_cast<size_t>(level));
+  const uint32_t before = level == 0 ? 0 : static_cast<uint32_t>(mesh.triangles.size());
+  return {before + chosen.firstTriangle, chosen.triangleCount};
+}
+
 std::set<std::string> Scene::traits() const {
   std::set<std::string> out;
   if (!lights.empty()) {
@@ -133,6 +153,7 @@ std::set<std::string> Scene::traits() const {
     if (lights.size() > 1) out.insert("several_lights");
   }
   if (camera.keys.size() > 1) out.insert("moving_camera");
+  if (!lodObjects.empty()) out.insert("lod_sets");
   for (const Part& part : parts) out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
   return out;
 }

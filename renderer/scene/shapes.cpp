@@ -126,6 +126,15 @@ void append(Mesh& to, const Mesh& mesh) {
   for (const glm::uvec3& triangle : mesh.triangles) to.triangles.push_back(triangle + first);
   appendAttribute(to.normals, mesh.normals, first, to.positions.size());
   appendAttribute(to.attributes, mesh.attributes, first, to.positions.size());
+  if (to.morphTargets.empty() && mesh.morphTargets.empty()) return;
+  // What has nowhere to go stays where it is.
+  to.morphTargets.insert(to.morphTargets.end(),
+                         to.positions.begin() + static_cast<ptrdiff_t>(to.morphTargets.size()),
+                         to.positions.begin() + first);
+  to.morphTargets.insert(to.morphTargets.end(), mesh.morphTargets.begin(), mesh.morphTargets.end());
+  to.morphTargets.insert(to.morphTargets.end(),
+                         to.positions.begin() + static_cast<ptrdiff_t>(to.morphTargets.size()),
+                         to.positions.end());
 }
 
 glm::dvec3 perpendicular(glm::dvec3 direction) {
