@@ -236,9 +236,14 @@ class GlExecutor : public Executor {
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
     }
-    for (const techniques::Counter& counter : counters)
+    for (const techniques::Counter& counter : counters) {
+      const std::vector<std::string>& declared = run.info->counters;
+      if (std::find(declared.begin(), declared.end(), counter.name) == declared.end())
+        throw std::logic_error("technique '" + run.info->name + "' counts '" + counter.name +
+                               "', which it does not declare");
       run.outcome.measurements.push_back(
           {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"});
+    }
     if (reference && plan.artefacts.pictures)
       run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
     startArtefacts(run, on, std::move(product), reference, std::move(maps));

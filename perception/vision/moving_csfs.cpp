@@ -50,6 +50,7 @@ class Daly98 : public Csf {
         c1_(values.real("c1")),
         c2_(values.real("c2")),
         least_(values.real("least_velocity")),
+        reference_(values.real("reference_luminance")),
         adapt_(values.boolean("adapt")) {}
 
   double sensitivity(const CsfPoint& p) const override {
@@ -72,27 +73,27 @@ class Daly98 : public Csf {
   struct Scales {
     double height = 1.0, squeeze = 1.0;
   };
-  /// Of c0 and c1; exactly 1 at 100 cd/m2.
+  /// Of c0 and c1; exactly 1 at the reference luminance.
   Scales scales(const CsfPoint& p) const {
     if (!adapt_) return {};
     // Tables ask for many frequencies and velocities at one luminance.
-    thread_local double lastLuminance = -1.0, lastArea = -1.0;
+    thread_local double lastLuminance = -1.0, lastArea = -1.0, lastReference = -1.0;
     thread_local Scales last;
-    if (p.luminanceCdM2 != lastLuminance || p.areaDeg2 != lastArea) {
+    if (p.luminanceCdM2 != lastLuminance || p.areaDeg2 != lastArea || reference_ != lastReference) {
       const Peak here = barten03Peak(p.luminanceCdM2, p.areaDeg2);
-      const Peak reference = barten03Peak(100.0, p.areaDeg2);
+      const Peak reference = barten03Peak(reference_, p.areaDeg2);
       last = {here.sensitivity / reference.sensitivity, reference.frequencyCpd / here.frequencyCpd};
-      lastLuminance = p.luminanceCdM2, lastArea = p.areaDeg2;
+      lastLuminance = p.luminanceCdM2, lastArea = p.areaDeg2, lastReference = reference_;
     }
     return last;
   }
 
-  double gain_, c0_, c1_, c2_, least_;
+  double gain_, c0_, c1_, c2_, least_, reference_;
   bool adapt_;
 };
 
 CsfInfo daly98(const char* name, const char* summary, const char* source, double c0, double c1, double c2,
-               const char* constantsSource) {
+               const char* constantsSource, double referenceCdM2) {
   CsfInfo info;
   info.name = name;
   info.summary = summary;
@@ -103,11 +104,14 @@ CsfInfo daly98(const char* name, const char* summary, const char* source, double
   info.parameters = {
       gainParameter(),
       leastVelocity(),
-      realParameter("c0", c0, 0.0, 100.0, "", "height, at 100 cd/m2", constantsSource),
-      realParameter("c1", c1, 0.01, 100.0, "", "frequency scale, at 100 cd/m2", constantsSource),
+      realParameter("c0", c0, 0.0, 100.0, "", "height, at the reference luminance", constantsSource),
+      realParameter("c1", c1, 0.01, 100.0, "", "frequency scale, at the reference luminance",
+                    constantsSource),
       realParameter("c2", c2, 0.01, 100.0, "", "velocity scale", constantsSource),
       booleanParameter("adapt", true, "c0 and c1 follow the luminance as Barten 2003 moves its peak",
-                       kAdaptSection)};
+                       kAdaptSection),
+      realParameter("reference_luminance", referenceCdM2, 1e-4, 1e4, "cd/m2", "where c0 and c1 hold",
+                    constantsSource)};
   info.make = [](const ParameterValues& values) -> std::unique_ptr<Csf> {
     return std::make_unique<Daly98>(values);
   };
@@ -119,7 +123,17 @@ const Registered<CsfInfo> kDaly98{daly98("daly98",
                                          "range extrapolated; 0 at rest; luminance "
                                          "is held to [1e-4, 1e4] cd/m2.",
                                          "Daly 1998; Schwarz 2009, (9.4) and section 10.3", 1.14, 0.67, 1.7,
-                                         kSection)};
+                                         kSection, 100.0)};
+
+// The height is that of (9.4); one public implementation multiplies it by c1 once more. Only `gain` would
+// differ.
+const Registered<CsfInfo> kLaird06{
+    daly98("laird06",
+           "Daly 1998 fitted anew to unstabilised moving Gabor patches at 60 cd/m2, adapted to luminance "
+           "from there. "
+           "Beyond its range extrapolated; 0 at rest; luminance is held to [1e-4, 1e4] cd/m2.",
+           "Laird, Rosen, Pelz, Montag and Daly 2006 (doi 10.1117/12.647870)", 0.6329, 0.8404, 0.7986,
+           "Laird et al. 2006", 60.0)};
 
 const Registered<CsfInfo> kBurbeckKelly80{
     CsfInfo{"burbeck_kelly80",

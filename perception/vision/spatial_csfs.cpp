@@ -63,7 +63,7 @@ class Barten03 : public Csf {
  public:
   explicit Barten03(const ParameterValues& values)
       : gain_(values.real("gain")), constants_{values.real("height"),       values.real("optics"),
-                                               values.real("area"),         values.real("cycles"),
+                                               values.real("area_limit"),   values.real("cycles"),
                                                values.real("photon_noise"), values.real("photon_exponent"),
                                                values.real("lateral")} {}
   double sensitivity(const CsfPoint& p) const override {
@@ -85,7 +85,7 @@ const Registered<CsfInfo> kBarten03{CsfInfo{
     {frequencyArgument(0.1, 60.0), luminanceArgument(1e-3, 1e3), areaArgument(0.05, 3600.0)},
     {gainParameter(), constant("height", 5200.0, 0.0, 1e7, "", "height"),
      constant("optics", 0.0016, 0.0, 1.0, "deg2", "blur by the eye's optics"),
-     constant("area", 144.0, 0.0, 1e5, "deg2", "largest area that is integrated over"),
+     constant("area_limit", 144.0, 0.0, 1e5, "deg2", "largest area that is integrated over"),
      constant("cycles", 0.64, 0.0, 100.0, "deg2", "limit on the number of cycles that are integrated"),
      constant("photon_noise", 63.0, 0.0, 1e6, "", "photon noise over neural noise at 1 cd/m2"),
      constant("photon_exponent", 0.83, 0.0, 2.0, "", "how fast photon noise falls with luminance"),

@@ -21,7 +21,11 @@ layout(std430, binding = 3) buffer Queue {
 uniform mat4 anchorToClip;
 uniform float near;
 uniform ivec2 sizePx;
-uniform uint triangleCount;
+uniform uint triangleCount;  // of all ranges
+uniform int rangeCount;      // 0: the triangles from 0 on
+
+// As TriangleRanges has them: first triangle of a range, and the triangles up to its end.
+layout(std430, binding = 6) readonly buffer Ranges { uvec2 ranges[]; };
 
 const int kSmall = 32;   // pixels of a bounding box that one invocation takes on
 const int kRun = 1024;   // pixels of a run
@@ -129,9 +133,24 @@ void main() {
   }
 }
 #else
+// Number in the scene of the n-th triangle drawn.
+uint chosenTriangle(uint n) {
+  if (rangeCount == 0) return n;
+  int low = 0, high = rangeCount - 1;  // the first range that ends after n
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (ranges[middle].y > n)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return ranges[low].x + n - (low > 0 ? ranges[low - 1].y : 0u);
+}
+
 void main() {
-  const uint index = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
-  if (gl_GlobalInvocationID.x >= (1u << 20) || index >= triangleCount) return;
+  const uint drawn = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
+  if (gl_GlobalInvocationID.x >= (1u << 20) || drawn >= triangleCount) return;
+  const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
   if (pixels <= kSmall) {

@@ -49,17 +49,18 @@ int64_t ComputeRaster::bytes() const {
   return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() + idBits_->bytes() : 0);
 }
 
-void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, const GpuScene& scene) const {
+void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const {
   constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
-  const int triangles = static_cast<int>(scene.triangleCount());
+  const int triangles = static_cast<int>(triangleCount);
   small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {64, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   large.dispatch({kLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void ComputeRaster::draw(const GpuScene& scene, const glm::mat4& clip, double near) const {
-  scene.bindStorage(0);
+void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near) const {
+  geometry.bindStorage(0);
+  if (geometry.ranges) geometry.ranges->ranges().bindStorage(6);
   queue_.bindStorage(3);
   depthBits_.bindStorage(4);
   depth_.bindImage(0, gl::Access::Write);
@@ -68,15 +69,16 @@ void ComputeRaster::draw(const GpuScene& scene, const glm::mat4& clip, double ne
     each->set("anchorToClip", clip);
     each->set("near", static_cast<float>(near));
     each->set("sizePx", depth_.sizePx());
-    each->set("triangleCount", scene.triangleCount());
+    each->set("triangleCount", geometry.triangleCount());
+    each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
   }
-  pass(smallDepth_, largeDepth_, scene);
+  pass(smallDepth_, largeDepth_, geometry.triangleCount());
   if (ids_) {
     idBits_->bindStorage(5);
     ids_->bindImage(1, gl::Access::Write);
     requeue_.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    pass(*smallIds_, *largeIds_, scene);
+    pass(*smallIds_, *largeIds_, geometry.triangleCount());
   }
   finish_.set("sizePx", depth_.sizePx());
   finish_.dispatch(depth_.sizePx(), {64, 1});

@@ -38,14 +38,14 @@ class ComputeRaster {
   ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds);
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
-  void draw(const GpuScene& scene, const glm::mat4& clip, double near) const;
+  void draw(const Geometry& geometry, const glm::mat4& clip, double near) const;
 
   const gl::Texture& depth() const { return depth_; }  ///< R32F
   const gl::Texture& ids() const { return *ids_; }     ///< R32UI
   int64_t bytes() const;
 
  private:
-  void pass(const gl::Program& small, const gl::Program& large, const GpuScene& scene) const;
+  void pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const;
 
   const gl::Program &smallDepth_, &largeDepth_, &finish_, &requeue_;
   const gl::Program *smallIds_ = nullptr, *largeIds_ = nullptr;

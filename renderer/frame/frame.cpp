@@ -13,19 +13,44 @@ Frame::Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gp
       gpuScene_(gpuScene),
       sizePx_(sizePx),
       raster_(raster),
-      camera_(scene.camera.at(timeS)) {
+      ownPasses_(std::make_unique<gl::PassList>()),
+      passes_(ownPasses_.get()) {
+  setTime(timeS);
+}
+
+Frame::Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx)
+    : context_(parent.context_),
+      scene_(parent.scene_),
+      gpuScene_(parent.gpuScene_),
+      sizePx_(sizePx),
+      raster_(parent.raster_),
+      passes_(parent.passes_),
+      prefix_(parent.prefix_ + name + "/") {
+  setTime(parent.timeS_);
+}
+
+void Frame::setTime(double timeS) {
+  timeS_ = timeS;
+  camera_ = scene_.camera.at(timeS);
   // Everything is taken relative to the anchor before it becomes float, so distance from the origin costs no
   // precision.
-  const glm::dvec3 anchor = gpuScene.anchor();
+  const glm::dvec3 anchor = gpuScene_.anchor();
   anchorToCamera_ = glm::lookAt(camera_.eye - anchor, camera_.target - anchor, camera_.up);
   tanHalfFov_ = glm::tan(0.5 * glm::radians(camera_.verticalFovDeg));
 }
 
-void Frame::begin() {
-  ++number_;
-  passes_.beginFrame();
+void Frame::setLevels(const scene::LodSelection& selection) {
+  if (!ranges_) ranges_ = std::make_unique<TriangleRanges>(scene_.parts.size());
+  ranges_->set(scene::rangesOf(scene_, selection));
 }
 
-void Frame::end() { passes_.endFrame(); }
+void Frame::begin() {
+  ++number_;
+  if (ownPasses_) ownPasses_->beginFrame();
+}
+
+void Frame::end() {
+  if (ownPasses_) ownPasses_->endFrame();
+}
 
 }  // namespace limen::frame

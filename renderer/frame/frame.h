@@ -11,6 +11,7 @@
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
+#include "renderer/scene/lod_set.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::frame {
@@ -33,13 +34,20 @@ class Frame {
  public:
   Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gpuScene, glm::ivec2 sizePx,
         double timeS = 0.0, Raster raster = Raster::Auto);
+  /// Another view or another choice of levels within a frame of `parent`: inputs of its own, passes in the
+  /// parent's list behind "`name`/". Starts at the parent's time with the finest levels; begin() it after its
+  /// parent.
+  Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx);
 
   gl::Context& context() { return context_; }
   const scene::Scene& scene() const { return scene_; }
   const GpuScene& gpuScene() const { return gpuScene_; }
   glm::ivec2 sizePx() const { return sizePx_; }
   const scene::Camera& camera() const { return camera_; }
-  gl::PassList& passes() { return passes_; }
+  gl::PassList& passes() {
+    passes_->setPrefix(prefix_);
+    return *passes_;
+  }
   /// How the G-buffer is rasterised; shadow maps have a setting of their own.
   Raster raster() const { return raster_; }
 
@@ -48,6 +56,16 @@ class Frame {
   /// tan of half the vertical field of view, and width over height.
   double tanHalfFov() const { return tanHalfFov_; }
   double aspect() const { return double(sizePx_.x) / sizePx_.y; }
+
+  double timeS() const { return timeS_; }
+  /// Moves on the camera path; inputs made before the next begin() are stale.
+  void setTime(double timeS);
+  /// Chooses the levels of the scene's LOD objects (see scene/lod_set.h). Without a call: the finest.
+  void setLevels(const scene::LodSelection& selection);
+  /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
+  void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// What inputs rasterise.
+  Geometry geometry() const { return {gpuScene_, ranges_.get(), positions_}; }
 
   /// Starts a frame: inputs are stale and will be made again when asked for.
   void begin();
@@ -77,10 +95,15 @@ class Frame {
   const GpuScene& gpuScene_;
   glm::ivec2 sizePx_;
   Raster raster_;
+  double timeS_ = 0.0;
   scene::Camera camera_;
-  glm::dmat4 anchorToCamera_;
-  double tanHalfFov_;
-  gl::PassList passes_;
+  glm::dmat4 anchorToCamera_{1.0};
+  double tanHalfFov_ = 1.0;
+  std::unique_ptr<gl::PassList> ownPasses_;  // null in a view within another frame
+  gl::PassList* passes_;
+  std::string prefix_;
+  std::unique_ptr<TriangleRanges> ranges_;
+  const gl::Buffer* positions_ = nullptr;
   std::map<std::string, Entry> entries_;
   uint64_t number_ = 0;
 };

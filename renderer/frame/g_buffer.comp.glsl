@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Works one channel of the G-buffer out of the triangle that each pixel sees.
 #include "renderer/frame/scene_buffers.glsl"
+#include "renderer/frame/seen_point.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform usampler2D triangleIds;
@@ -30,21 +31,9 @@ void main() {
     const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
     const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
     const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
-    // Row 0 is the top of the image.
-    const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
-    const vec3 ray = vec3(ndc * rayScale, -1.0);
-    // Scaled before the product: squares of a tiny scene's areas would leave float's range.
-    const vec3 e1 = b - a, e2 = c - a;
-    const vec3 reach = max(abs(e1), abs(e2));
-    const float unit = 1.0 / max(reach.x, max(reach.y, reach.z));
-    vec3 normal = normalize(cross(e1 * unit, e2 * unit));
-    // Edge-on triangles make the quotient meaningless; the surface cannot lie outside the triangle's own depths.
-    const float nearest = min(-a.z, min(-b.z, -c.z)), farthest = max(-a.z, max(-b.z, -c.z));
-    const float denominator = dot(normal, ray);
-    float depth = dot(normal, a) / denominator;
-    depth = depth > nearest ? min(depth, farthest) : nearest;  // also turns a NaN into `nearest`
-    const vec3 position = ray * depth;
-    if (dot(normal, position) > 0.0) normal = -normal;
+    const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
+    const vec3 normal = seen.normal, position = seen.position;
+    const float depth = seen.depth;
 #ifdef CHANNEL_POSITION
     result = vec4((cameraToAnchor * vec4(position, 1.0)).xyz, 1.0);
 #endif

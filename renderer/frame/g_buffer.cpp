@@ -48,7 +48,7 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   program.set("sizePx", frame.sizePx());
   ids.bindTexture(0);
   out.bindImage(0, gl::Access::Write);
-  frame.gpuScene().bindStorage(0);
+  frame.geometry().bindStorage(0);
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
@@ -76,7 +76,7 @@ void TriangleIds::make(Frame& frame) {
   // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near
   // plane is a small part of the distance to the scene, whatever the scene's scale.
   const double reach = glm::length(glm::dvec3(frame.anchorToCamera() * glm::dvec4(0.0, 0.0, 0.0, 1.0))) +
-                       frame.scene().bounds().diagonal();
+                       frame.gpuScene().diagonal();
   const double near = 1e-4 * (reach > 0.0 ? reach : 1.0);
   glm::dmat4 projection(0.0);
   projection[0][0] = 1.0 / (frame.tanHalfFov() * frame.aspect());
@@ -85,7 +85,7 @@ void TriangleIds::make(Frame& frame) {
   projection[3][2] = near;
   const glm::mat4 clip(projection * frame.anchorToCamera());
   if (compute_) {
-    compute_->draw(frame.gpuScene(), clip, near);
+    compute_->draw(frame.geometry(), clip, near);
     return;
   }
   hardware_->framebuffer.bind();
@@ -98,7 +98,7 @@ void TriangleIds::make(Frame& frame) {
   glDisable(GL_CULL_FACE);
   hardware_->program.use();
   hardware_->program.set("anchorToClip", clip);
-  frame.gpuScene().draw();
+  frame.geometry().draw();
   glDisable(GL_DEPTH_TEST);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -125,6 +125,11 @@ Receivers::Receivers(Frame& frame)
 }
 
 void Receivers::make(Frame& frame) {
+  if (frame.scene().lights.empty()) {
+    const auto scope = frame.passes().open("frame/receivers");
+    texture_.clear(glm::vec4(0.0F, 0.0F, 0.0F, -1.0F));
+    return;
+  }
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
   resolve(frame, program_, texture_, "frame/receivers");

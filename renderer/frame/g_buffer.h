@@ -59,7 +59,7 @@ class GBufferChannel : public FrameInput {
 /// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin,
 /// z along its direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth
 /// slope that biases need; w = -1: not a receiver (background, behind the light's plane, or turned away from
-/// the light's centre).
+/// the light's centre; every pixel of a scene without a light).
 class Receivers : public FrameInput {
  public:
   static constexpr const char* kName = "receivers";

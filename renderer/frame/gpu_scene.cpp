@@ -10,53 +10,90 @@ namespace {
 
 std::vector<glm::vec3> relativePositions(const scene::Scene& scene, glm::dvec3 anchor) {
   std::vector<glm::vec3> out;
-  out.reserve(scene.mesh.positions.size());
-  for (const glm::dvec3& position : scene.mesh.positions) out.emplace_back(position - anchor);
+  out.reserve(scene.mesh.positions.size() + scene.coarser.positions.size());
+  for (const scene::Mesh* mesh : {&scene.mesh, &scene.coarser})
+    for (const glm::dvec3& position : mesh->positions) out.emplace_back(position - anchor);
+  return out;
+}
+
+std::vector<glm::uvec3> joinedIndices(const scene::Scene& scene) {
+  std::vector<glm::uvec3> out = scene.mesh.triangles;
+  const auto first = static_cast<uint32_t>(scene.mesh.positions.size());
+  for (const glm::uvec3& triangle : scene.coarser.triangles) out.push_back(triangle + first);
   return out;
 }
 
 /// One RGBA8-packed albedo a triangle: constant over it, so no vertex has to carry it.
 std::vector<uint32_t> albedos(const scene::Scene& scene) {
-  std::vector<uint32_t> out(scene.mesh.triangles.size());
-  for (const scene::Part& part : scene.parts) {
-    const uint32_t packed = glm::packUnorm4x8(glm::vec4(scene.materials[part.material].albedo, 1.0F));
-    for (uint32_t i = 0; i < part.triangleCount; ++i) out[part.firstTriangle + i] = packed;
-  }
+  std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
+  const auto fill = [&](const scene::TriangleRange& range, uint32_t material) {
+    const uint32_t packed = glm::packUnorm4x8(glm::vec4(scene.materials[material].albedo, 1.0F));
+    std::fill_n(out.begin() + range.first, range.count, packed);
+  };
+  for (const scene::Part& part : scene.parts) fill({part.firstTriangle, part.triangleCount}, part.material);
+  for (const scene::LodObject& object : scene.lodObjects)
+    for (int level = 1; level < static_cast<int>(object.levels.size()); ++level)
+      fill(scene.triangles(object, level), scene.parts[object.part].material);
   return out;
 }
 
-glm::dvec3 anchorOf(const scene::Scene& scene) {
-  const scene::Bounds bounds = scene.bounds();
+glm::dvec3 anchorOf(const scene::Bounds& bounds) {
   return bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
 }
 
 }  // namespace
 
 GpuScene::GpuScene(const scene::Scene& scene)
-    : anchor_(anchorOf(scene)),
+    : scene_(scene),
+      anchor_(anchorOf(scene.bounds())),
+      diagonal_(scene.bounds().diagonal()),
       triangleCount_(static_cast<uint32_t>(scene.mesh.triangles.size())),
+      vertexCount_(static_cast<uint32_t>(scene.mesh.positions.size() + scene.coarser.positions.size())),
       positions_(relativePositions(scene, anchor_)),
-      indices_(scene.mesh.triangles),
-      triangleAlbedo_(albedos(scene)) {
+      indices_(joinedIndices(scene)),
+      triangleAlbedo_(albedos(scene)),
+      firstTriangle_(std::vector<glm::uvec2>{glm::uvec2(0)}) {
   glCreateVertexArrays(1, &vertexArray_);
-  glVertexArrayVertexBuffer(vertexArray_, 0, positions_.id(), 0, sizeof(glm::vec3));
   glVertexArrayAttribFormat(vertexArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(vertexArray_, 0, 0);
   glEnableVertexArrayAttrib(vertexArray_, 0);
+  // One value a draw: an instanced attribute starts at the draw's base instance.
+  glVertexArrayAttribIFormat(vertexArray_, 1, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(vertexArray_, 1, 1);
+  glVertexArrayBindingDivisor(vertexArray_, 1, 1);
+  glEnableVertexArrayAttrib(vertexArray_, 1);
   glVertexArrayElementBuffer(vertexArray_, indices_.id());
 }
 
 GpuScene::~GpuScene() { glDeleteVertexArrays(1, &vertexArray_); }
 
-int64_t GpuScene::bytes() const { return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes(); }
-
-void GpuScene::draw() const {
-  glBindVertexArray(vertexArray_);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangleCount_ * 3), GL_UNSIGNED_INT, nullptr);
+int64_t GpuScene::bytes() const {
+  return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes() + (surface_ ? surface_->bytes() : 0);
 }
 
-void GpuScene::bindStorage(uint32_t firstBinding) const {
-  positions_.bindStorage(firstBinding);
+const SurfaceBuffers& GpuScene::surface() const {
+  if (!surface_) surface_.emplace(scene_, anchor_);
+  return *surface_;
+}
+
+void GpuScene::draw(const TriangleRanges* ranges, const gl::Buffer* positions) const {
+  glVertexArrayVertexBuffer(vertexArray_, 0, (positions ? *positions : positions_).id(), 0,
+                            sizeof(glm::vec3));
+  glVertexArrayVertexBuffer(vertexArray_, 1, (ranges ? ranges->ranges() : firstTriangle_).id(), 0,
+                            sizeof(glm::uvec2));
+  glBindVertexArray(vertexArray_);
+  if (!ranges) {
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangleCount_ * 3), GL_UNSIGNED_INT, nullptr);
+    return;
+  }
+  if (ranges->rangeCount() == 0) return;
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, ranges->commands().id());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, ranges->rangeCount(), 0);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
+void GpuScene::bindStorage(uint32_t firstBinding, const gl::Buffer* positions) const {
+  (positions ? *positions : positions_).bindStorage(firstBinding);
   indices_.bindStorage(firstBinding + 1);
   triangleAlbedo_.bindStorage(firstBinding + 2);
 }

@@ -33,7 +33,7 @@ void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   const glm::mat4 clip(frustum.clipFromLight() * toLight);
   if (compute_) {
-    compute_->draw(frame.gpuScene(), clip, frustum.near);
+    compute_->draw(frame.geometry(), clip, frustum.near);
     return;
   }
   hardware_->framebuffer.bind();
@@ -44,7 +44,7 @@ void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
   glDisable(GL_CULL_FACE);
   hardware_->program.use();
   hardware_->program.set("anchorToClip", clip);
-  frame.gpuScene().draw();
+  frame.geometry().draw();
   glDisable(GL_DEPTH_TEST);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+flat in uint first;
 layout(location = 0) out uint triangle;
 
-void main() { triangle = uint(gl_PrimitiveID); }
+void main() { triangle = first + uint(gl_PrimitiveID); }

@@ -25,7 +25,7 @@ size_t PassList::indexOf(const std::string& name) {
 }
 
 PassList::Scope PassList::open(const std::string& name) {
-  const size_t index = indexOf(name);
+  const size_t index = indexOf(prefix_ + name);
   // The last slot is the frame's own; a pass that came after recording began has none.
   if (clock_ != Clock::None && frame_ < capacity_ && index + 1 >= slots_)
     throw std::logic_error("pass '" + name + "' ran for the first time in a timed frame");
@@ -34,7 +34,7 @@ PassList::Scope PassList::open(const std::string& name) {
 }
 
 void PassList::setBytesHeld(const std::string& name, int64_t bytes) {
-  passes_[indexOf(name)].bytesHeld = bytes;
+  passes_[indexOf(prefix_ + name)].bytesHeld = bytes;
 }
 
 void PassList::mark(size_t slot, bool begin) {

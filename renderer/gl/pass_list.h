@@ -48,6 +48,9 @@ class PassList {
     size_t index_;
   };
   Scope open(const std::string& name);
+  /// Put before the names given to open() and setBytesHeld() from now on, so that the same passes of several
+  /// views in one frame stay apart ("finest/frame/depth").
+  void setPrefix(const std::string& prefix) { prefix_ = prefix; }
   /// Bytes of textures and buffers that the pass's results occupy.
   void setBytesHeld(const std::string& name, int64_t bytes);
 
@@ -67,6 +70,7 @@ class PassList {
   void mark(size_t slot, bool begin);
 
   std::vector<Pass> passes_;
+  std::string prefix_;
   Clock clock_ = Clock::None;
   int frame_ = -1, capacity_ = 0;
   size_t slots_ = 0;               // passes + 1 (the frame itself, last)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -11,6 +12,32 @@ namespace {
 
 const char* const kAsBuilt = "as_built";
 
+[[maybe_unused]] bool wellFormed(const Mesh& mesh) {
+  const size_t vertices = mesh.positions.size();
+  const auto fits = [&](size_t count) { return count == 0 || count == vertices; };
+  if (!fits(mesh.normals.size()) || !fits(mesh.attributes.size()) || !fits(mesh.morphTargets.size()))
+    return false;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      if (triangle[corner] >= vertices) return false;
+  return true;
+}
+
+/// The finest level is the object's part, the others lie in `coarser`, distances ascend.
+[[maybe_unused]] bool wellFormed(const Scene& scene, const LodObject& object) {
+  if (object.part >= scene.parts.size() || object.levels.empty()) return false;
+  const Part& part = scene.parts[object.part];
+  if (object.levels[0].firstTriangle != part.firstTriangle ||
+      object.levels[0].triangleCount != part.triangleCount)
+    return false;
+  for (size_t i = 1; i < object.levels.size(); ++i)
+    if (size_t{object.levels[i].firstTriangle} + object.levels[i].triangleCount >
+        scene.coarser.triangles.size())
+      return false;
+  return object.switchDistances.size() + 1 == object.levels.size() &&
+         std::is_sorted(object.switchDistances.begin(), object.switchDistances.end());
+}
+
 /// The parts tile the triangles in order and name what exists; lights and cameras are usable.
 [[maybe_unused]] bool wellFormed(const Scene& scene) {
   size_t next = 0;
@@ -18,17 +45,27 @@ const char* const kAsBuilt = "as_built";
     if (part.firstTriangle != next || part.material >= scene.materials.size()) return false;
     next += part.triangleCount;
   }
-  for (const glm::uvec3& triangle : scene.mesh.triangles)
-    for (int corner = 0; corner < 3; ++corner)
-      if (triangle[corner] >= scene.mesh.positions.size()) return false;
+  if (!wellFormed(scene.mesh) || !wellFormed(scene.coarser)) return false;
+  for (const LodObject& object : scene.lodObjects)
+    if (!wellFormed(scene, object)) return false;
+  for (const Material& material : scene.materials)
+    if (material.surface == SurfaceKind::BicubicPatch && material.patch >= scene.patches.size()) return false;
   return next == scene.mesh.triangles.size() && !scene.camera.keys.empty();
 }
 
 /// Applies `map` to every position of the world: geometry, lights, cameras.
 template <class Map>
 void mapWorld(Scene& scene, Map map) {
-  for (glm::dvec3& position : scene.mesh.positions) position = map(position);
+  for (Mesh* mesh : {&scene.mesh, &scene.coarser}) {
+    for (glm::dvec3& position : mesh->positions) position = map(position);
+    for (glm::dvec3& target : mesh->morphTargets) target = map(target);
+  }
+  for (LodObject& object : scene.lodObjects)
+    object.bounds = {map(object.bounds.low), map(object.bounds.high)};
   for (AreaLight& light : scene.lights) light.centre = map(light.centre);
+  for (Material& material : scene.materials) material.pattern.origin = map(material.pattern.origin);
+  for (BicubicPatch& patch : scene.patches)
+    for (glm::dvec3& point : patch.points) point = map(point);
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);
@@ -75,6 +112,11 @@ Scene buildScene(const std::string& name, const ParameterValues& values) {
   if (scale != 1.0) {
     mapWorld(scene, [&](glm::dvec3 p) { return p * scale; });
     for (AreaLight& light : scene.lights) light.size *= scale;
+    for (Material& material : scene.materials) material.pattern.size *= scale;
+    for (LodObject& object : scene.lodObjects) {
+      for (LodLevel& level : object.levels) level.deviation *= scale, level.statedError *= scale;
+      for (double& distance : object.switchDistances) distance *= scale;
+    }
   }
   if (const double offset = complete.real("offset"); offset != 0.0) {
     const glm::dvec3 shift(offset * scene.bounds().diagonal() / std::sqrt(3.0));

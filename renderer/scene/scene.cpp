@@ -2,6 +2,7 @@
 #include "renderer/scene/scene.h"
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "base/hash.h"
@@ -21,6 +22,7 @@ class Feed {
   }
   void vector(glm::dvec3 v) { value(v.x), value(v.y), value(v.z); }
   void vector(glm::vec3 v) { value(v.x), value(v.y), value(v.z); }
+  void text(const char* word) { hash_.update(word, std::strlen(word) + 1); }
   void vector(glm::dvec2 v) { value(v.x), value(v.y); }
   void outline(const std::vector<glm::dvec2>& points) {
     value(static_cast<uint64_t>(points.size()));
@@ -52,6 +54,43 @@ void feed(Feed& out, const CameraPath& path) {
     out.vector(key.camera.eye), out.vector(key.camera.target), out.vector(key.camera.up);
     out.value(key.camera.verticalFovDeg);
   }
+}
+
+/// What only some scenes have. Each stands behind a word of its own, so that scenes without keep their hash.
+void feedExtras(Feed& out, const Scene& scene) {
+  static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16, "arrays are hashed without padding");
+  if (!scene.mesh.normals.empty()) out.text("normals"), out.array(scene.mesh.normals);
+  if (!scene.mesh.attributes.empty()) out.text("attributes"), out.array(scene.mesh.attributes);
+  if (!scene.mesh.morphTargets.empty()) out.text("morph"), out.array(scene.mesh.morphTargets);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    if (material.surface != SurfaceKind::Mesh) {
+      out.text("surface"), out.value(static_cast<uint64_t>(i));
+      out.value(static_cast<int32_t>(material.surface)), out.value(material.patch);
+    }
+    const Pattern& pattern = material.pattern;
+    if (pattern.kind == Pattern::Kind::None) continue;
+    out.text("pattern"), out.value(static_cast<uint64_t>(i));
+    out.value(static_cast<int32_t>(pattern.kind)), out.value(pattern.size), out.value(pattern.contrast);
+    out.value(pattern.octaves), out.vector(pattern.origin);
+  }
+  for (const BicubicPatch& patch : scene.patches) {
+    out.text("patch");
+    for (const glm::dvec3& point : patch.points) out.vector(point);
+  }
+  for (const LodObject& object : scene.lodObjects) {
+    out.text("levels"), out.value(object.part), out.value(static_cast<uint64_t>(object.levels.size()));
+    for (const LodLevel& level : object.levels) {
+      out.value(level.firstTriangle), out.value(level.triangleCount);
+      out.value(level.deviation), out.value(level.statedError);
+    }
+    for (const double distance : object.switchDistances) out.value(distance);
+    out.vector(object.bounds.low), out.vector(object.bounds.high);
+  }
+  if (scene.lodObjects.empty()) return;
+  out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
+  out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
+  out.array(scene.coarser.morphTargets);
 }
 
 }  // namespace
@@ -91,7 +130,14 @@ std::string Scene::contentHash() const {
   out.value(static_cast<uint64_t>(lights.size()));
   for (const AreaLight& light : lights) feed(out, light);
   feed(out, camera);
+  feedExtras(out, *this);
   return out.hex();
+}
+
+TriangleRange Scene::triangles(const LodObject& object, int level) const {
+  const LodLevel& chosen = object.levels.at(static_cast<size_t>(level));
+  const uint32_t before = level == 0 ? 0 : static_cast<uint32_t>(mesh.triangles.size());
+  return {before + chosen.firstTriangle, chosen.triangleCount};
 }
 
 std::set<std::string> Scene::traits() const {
@@ -107,6 +153,7 @@ std::set<std::string> Scene::traits() const {
     if (lights.size() > 1) out.insert("several_lights");
   }
   if (camera.keys.size() > 1) out.insert("moving_camera");
+  if (!lodObjects.empty()) out.insert("lod_sets");
   for (const Part& part : parts) out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
   return out;
 }

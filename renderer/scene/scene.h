@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -13,10 +14,35 @@
 
 namespace limen::scene {
 
+/// Solid texture: reflectance by place, so that a picture has contrast wherever one cuts the solid. Factor of
+/// the albedo: 1 + contrast * s with s in [-1, 1]; the product is clamped to 0..1.
+struct Pattern {
+  enum class Kind {
+    None,
+    Checker,    ///< s = +1 and -1 in cubes of edge `size`
+    ValueNoise  ///< random values on a lattice of pitch `size`, interpolated (quintic); octaves halve both
+  };
+  Kind kind = Kind::None;
+  double size = 0.1;       ///< world units, > 0
+  double contrast = 0.5;   ///< 0..1
+  int octaves = 4;         ///< ValueNoise only
+  glm::dvec3 origin{0.0};  ///< a lattice point, world space
+};
+
+/// How a surface's normal or light comes about where it is more than its triangles.
+enum class SurfaceKind {
+  Mesh,          ///< vertex normals if the mesh has them, else flat
+  BicubicPatch,  ///< normal of the patch Scene::patches[Material::patch] at the parameters in attributes.xy
+  Aperture       ///< lit through a horizon cone: attributes = (axis, angle in rad) a vertex
+};
+
 /// Diffuse surface. Further properties come with the techniques that need them.
 struct Material {
   std::string name;
   glm::vec3 albedo{0.7F};  ///< linear reflectance, 0..1
+  Pattern pattern{};
+  SurfaceKind surface = SurfaceKind::Mesh;
+  uint32_t patch = 0;  ///< BicubicPatch only
 };
 
 /// A run of triangles with one material.
@@ -34,6 +60,19 @@ struct Part {
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::uvec3> triangles;  ///< vertex indices; counter-clockwise seen from outside
+  /// Empty or one a vertex: unit, outward; the zero vector where a vertex has none (its triangles are flat).
+  std::vector<glm::vec3> normals;
+  /// Empty or one a vertex; what it means says Material::surface.
+  std::vector<glm::vec4> attributes;
+  /// Empty or one a vertex: where the vertex lies once its level has become the next coarser one; its own
+  /// place where it has nowhere to go.
+  std::vector<glm::dvec3> morphTargets;
+};
+
+/// Uniform bicubic B-spline patch over (u, v) in [0,1]^2: control point i + 4 j belongs to the i-th basis
+/// function in u and the j-th in v.
+struct BicubicPatch {
+  std::array<glm::dvec3, 16> points{};
 };
 
 enum class LightShape { Rectangle, Disc, Polygon };
@@ -94,6 +133,33 @@ struct Bounds {
   double diagonal() const { return empty() ? 0.0 : glm::length(high - low); }
 };
 
+/// A run of triangles of a scene, numbered through Scene::mesh and on through Scene::coarser.
+struct TriangleRange {
+  uint32_t first = 0, count = 0;
+};
+
+/// One level of detail of a placed object.
+struct LodLevel {
+  uint32_t firstTriangle = 0;  ///< in Scene::mesh for level 0, in Scene::coarser for all others
+  uint32_t triangleCount = 0;
+  /// Largest distance found between this level and the finest, world units: two-sided Hausdorff distance
+  /// sampled at vertices and random points; 0 for level 0.
+  double deviation = 0.0;
+  /// What the level's maker states, world units; its meaning is the maker's (see lod_set.h).
+  double statedError = 0.0;
+};
+
+/// An object with levels of detail, placed in the world. All levels have the material of its part.
+struct LodObject {
+  std::string name;
+  uint32_t part = 0;             ///< of Scene::parts: its triangles are level 0
+  std::vector<LodLevel> levels;  ///< finest first, at least one
+  /// Ascending, one fewer than levels: level i + 1 is shown from switchDistances[i] on (distance from the eye
+  /// to the middle of `bounds`, world units). Set by hand, as in Schwarz 2009, section 10.3.5.
+  std::vector<double> switchDistances;
+  Bounds bounds;  ///< of all levels
+};
+
 /// A world to render. Built by a registered scene; constant afterwards.
 struct Scene {
   std::string name;
@@ -102,15 +168,21 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<AreaLight> lights;
   CameraPath camera;
+  std::vector<BicubicPatch> patches;
+  /// Objects that come in several levels of detail. `mesh` holds their finest level, so that whoever knows no
+  /// levels renders the finest scene; the parts of no object are background.
+  std::vector<LodObject> lodObjects;
+  Mesh coarser;  ///< all other levels; its triangles index its own vertices
 
   Bounds bounds() const;        ///< of all finite positions
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
   /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera;
   /// no names.
   std::string contentHash() const;
+  TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has one colour all over, else "multi_part_light";
-  /// "several_lights", "moving_camera", "casters", "receiver_only_parts".
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts".
   std::set<std::string> traits() const;
 };
 

@@ -15,6 +15,15 @@ void addQuad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   mesh.triangles.emplace_back(a, c, d);
 }
 
+/// Keeps a vertex attribute either empty or one a vertex; zeros where one of the two meshes has none.
+template <class Value>
+void appendAttribute(std::vector<Value>& to, const std::vector<Value>& more, size_t before, size_t after) {
+  if (to.empty() && more.empty()) return;
+  to.resize(before, Value(0.0F));
+  to.insert(to.end(), more.begin(), more.end());
+  to.resize(after, Value(0.0F));
+}
+
 }  // namespace
 
 Mesh cardGrid(glm::dvec3 centre, glm::dvec3 halfA, glm::dvec3 halfB, int cells) {
@@ -115,6 +124,17 @@ void append(Mesh& to, const Mesh& mesh) {
   const auto first = static_cast<uint32_t>(to.positions.size());
   to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
   for (const glm::uvec3& triangle : mesh.triangles) to.triangles.push_back(triangle + first);
+  appendAttribute(to.normals, mesh.normals, first, to.positions.size());
+  appendAttribute(to.attributes, mesh.attributes, first, to.positions.size());
+  if (to.morphTargets.empty() && mesh.morphTargets.empty()) return;
+  // What has nowhere to go stays where it is.
+  to.morphTargets.insert(to.morphTargets.end(),
+                         to.positions.begin() + static_cast<ptrdiff_t>(to.morphTargets.size()),
+                         to.positions.begin() + first);
+  to.morphTargets.insert(to.morphTargets.end(), mesh.morphTargets.begin(), mesh.morphTargets.end());
+  to.morphTargets.insert(to.morphTargets.end(),
+                         to.positions.begin() + static_cast<ptrdiff_t>(to.morphTargets.size()),
+                         to.positions.end());
 }
 
 glm::dvec3 perpendicular(glm::dvec3 direction) {

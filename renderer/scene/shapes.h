@@ -30,6 +30,8 @@ Mesh sphere(glm::dvec3 centre, double radius, int cells);
 /// Closed, with caps. Straight from `base` to `top`; a radius of 0 at the top makes a cone.
 Mesh frustum(glm::dvec3 base, glm::dvec3 top, double baseRadius, double topRadius, int segments);
 
+/// Vertices without normals or attributes get zeros where the other mesh has them; morph targets their own
+/// place.
 void append(Mesh& to, const Mesh& mesh);
 
 /// Unit vector perpendicular to the unit vector `direction`.

@@ -67,6 +67,8 @@ struct TechniqueInfo {
   /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
   /// sampling error; null: exact.
   std::function<double(const ParameterValues&)> errorBound;
+  /// Names of all that count() may return: expectations and report axes may name them.
+  std::vector<std::string> counters = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
 

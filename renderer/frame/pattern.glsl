@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solid textures in [-1, 1] over a lattice of pitch 1. Integers decide all random values, so every GPU has the same.
+
+float checker(vec3 at) {
+  const ivec3 cell = ivec3(floor(at));
+  return ((cell.x + cell.y + cell.z) & 1) == 0 ? 1.0 : -1.0;
+}
+
+// Random value of a lattice point: the first word of the hash "pcg3d" (Jarzynski and Olano 2020).
+float latticeValue(ivec3 point) {
+  uvec3 v = uvec3(point) * 1664525u + 1013904223u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  return float(v.x >> 8u) * (2.0 / 16777215.0) - 1.0;
+}
+
+float valueNoise(vec3 at) {
+  const vec3 low = floor(at), f = at - low;
+  const vec3 w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  const ivec3 p = ivec3(low);
+  float corners[4];
+  for (int k = 0; k < 4; ++k) {
+    const ivec3 q = p + ivec3(0, k & 1, k >> 1);
+    corners[k] = mix(latticeValue(q), latticeValue(q + ivec3(1, 0, 0)), w.x);
+  }
+  return mix(mix(corners[0], corners[1], w.y), mix(corners[2], corners[3], w.y), w.z);
+}
+
+// Octaves of half the size and half the amplitude each; amplitudes sum to 1.
+float fractalNoise(vec3 at, int octaves) {
+  float sum = 0.0, amplitude = 1.0, total = 0.0;
+  for (int i = 0; i < octaves; ++i) {
+    // Shifted by more than a cell, so that octaves have no lattice point in common.
+    sum += amplitude * valueNoise(at + vec3(17.31, 7.67, 31.13) * float(i));
+    total += amplitude;
+    amplitude *= 0.5;
+    at *= 2.0;
+  }
+  return total > 0.0 ? sum / total : 0.0;
+}

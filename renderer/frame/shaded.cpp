@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/shaded.h"
+
+#include <epoxy/gl.h>
+
+#include "base/text.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shadow_map.h"
+
+namespace limen::frame {
+namespace {
+
+// Biases of the hard shadow, as soft_shadows/hard has them.
+constexpr float kBias = 1e-4F, kSlopeBias = 1.0F, kMaxSlope = 10.0F;
+
+gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const SurfaceBuffers& surface) {
+  gl::ShaderDefines defines;
+  if (lit) defines["LIT"] = "1";
+  if (lit && setting.shadow) defines["SHADOW"] = "1";
+  if (setting.pattern) defines["PATTERN"] = "1";
+  if (setting.smoothNormals && (surface.hasNormals() || surface.hasAttributes())) defines["SMOOTH"] = "1";
+  if (surface.hasNormals()) defines["NORMALS"] = "1";
+  if (surface.hasAttributes()) defines["ATTRIBUTES"] = "1";
+  return defines;
+}
+
+}  // namespace
+
+std::string ShadedSetting::key() const {
+  std::string out;
+  for (const double value : {ambient, diffuse, specular, shininess, double(background.x),
+                             double(background.y), double(background.z), double(shadowResolution), eyeDtS})
+    out += shortestNumber(value) + "/";
+  for (const bool flag : {smoothNormals, pattern, shadow}) out += flag ? '1' : '0';
+  return out;
+}
+
+std::vector<Parameter> ShadedSetting::parameters() {
+  return {
+      realParameter("ambient", 0.2, 0.0, 1.0, "", "Share of the albedo that is seen without a light"),
+      realParameter("diffuse", 0.8, 0.0, 1.0, "", "Share of the albedo by the cosine to the light"),
+      realParameter("specular", 0.0, 0.0, 4.0, "", "Strength of the highlight (Blinn-Phong)"),
+      realParameter("shininess", 32.0, 1.0, 4096.0, "", "Exponent of the highlight"),
+      realParameter("background", 0.05, 0.0, 1.0, "", "Linear grey where no surface is",
+                    "Schwarz 2009, section 10.4.1 (dark grey; value not given there)"),
+      booleanParameter("smooth_normals", true, "Normals of the vertices or the patch where a mesh has any",
+                       "Schwarz 2009, section 10.4.1"),
+      booleanParameter("pattern", true, "Solid textures of the scene's materials"),
+      booleanParameter("shadow", false, "Hard shadow of the first light")};
+}
+
+ShadedSetting ShadedSetting::from(const ParameterValues& values) {
+  ShadedSetting setting;
+  setting.ambient = values.real("ambient");
+  setting.diffuse = values.real("diffuse");
+  setting.specular = values.real("specular");
+  setting.shininess = values.real("shininess");
+  setting.background = glm::vec3(static_cast<float>(values.real("background")));
+  setting.smoothNormals = values.boolean("smooth_normals");
+  setting.pattern = values.boolean("pattern");
+  setting.shadow = values.boolean("shadow");
+  return setting;
+}
+
+Shaded::Shaded(Frame& frame, ShadedSetting setting)
+    : setting_(std::move(setting)),
+      lit_(!frame.scene().lights.empty()),
+      program_(frame.context().programs().compute("renderer/frame/shaded.comp.glsl",
+                                                  definesOf(setting_, lit_, frame.gpuScene().surface()))),
+      texture_(gl::Format::RGBA32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/shaded", texture_.bytes());
+}
+
+void Shaded::make(Frame& frame) {
+  const gl::Texture& ids = frame.get<TriangleIds>().texture();
+  const gl::Texture* receivers = nullptr;
+  const ShadowMap* map = nullptr;
+  if (lit_ && setting_.shadow) {
+    receivers = &frame.get<Receivers>().texture();
+    map = &frame.get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
+  }
+  const auto scope = frame.passes().open("frame/shaded");
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  program_.set("anchorToCamera", glm::mat4(toCamera));
+  program_.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
+  program_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program_.set("sizePx", frame.sizePx());
+  program_.set("background", setting_.background);
+  program_.set("ambient", static_cast<float>(setting_.ambient));
+  program_.set("diffuse", static_cast<float>(setting_.diffuse));
+  program_.set("specular", static_cast<float>(setting_.specular));
+  program_.set("shininess", static_cast<float>(setting_.shininess));
+  const scene::Camera& seenBy =
+      setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
+  program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
+  if (lit_)
+    program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
+  if (map) {
+    const LightFrustum& frustum = map->frustum();
+    program_.set("tangentLow", glm::vec2(frustum.low));
+    program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+    program_.set("resolution", setting_.shadowResolution);
+    program_.set("bias", kBias);
+    program_.set("slopeBias", kSlopeBias);
+    program_.set("maxSlope", kMaxSlope);
+    receivers->bindTexture(1);
+    map->texture().bindTexture(2);
+  }
+  ids.bindTexture(0);
+  texture_.bindImage(0, gl::Access::Write);
+  frame.geometry().bindStorage(0);
+  frame.gpuScene().surface().bindStorage();
+  program_.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+}  // namespace limen::frame

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/parameter.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::frame {
+
+/// How Shaded lights a scene. The light is the scene's first; a scene without one has ambient light alone.
+struct ShadedSetting {
+  double ambient = 0.2;   ///< share of the albedo that is seen without a light
+  double diffuse = 0.8;   ///< share by the cosine to the light's centre; no fall-off with distance
+  double specular = 0.0;  ///< Blinn-Phong highlight, added
+  double shininess = 32.0;
+  glm::vec3 background{0.05F};  ///< linear; 0.05 is the dark grey 63 of 255 of sRGB
+  bool smoothNormals = true;    ///< vertex or patch normals where the mesh has them
+  bool pattern = true;          ///< solid textures of the materials
+  bool shadow = false;          ///< hard shadow by a map from the light's centre
+  int shadowResolution = 1024;  ///< texels a side, a power of two
+  double eyeDtS = 0.0;          ///< highlights as the camera saw them this long ago
+  std::string key() const;
+
+  /// Declared parameters that shadedSetting() reads: ambient, diffuse, specular, shininess, background,
+  /// smooth_normals, pattern, shadow.
+  static std::vector<Parameter> parameters();
+  static ShadedSetting from(const ParameterValues& values);
+};
+
+/// The picture of a frame: RGBA32F, row 0 at the top, linear display-referred radiance (0..1 for albedos and
+/// lighting shares that sum to 1; highlights may pass 1), alpha 1. Background pixels hold the setting's
+/// constant. Normals are turned to the camera. Terrain is lit through its apertures (Schwarz 2009, 10.3.5).
+class Shaded : public FrameInput {
+ public:
+  static constexpr const char* kName = "shaded";
+  Shaded(Frame& frame, ShadedSetting setting);
+  void make(Frame& frame) override;
+  const gl::Texture& texture() const { return texture_; }
+
+ private:
+  ShadedSetting setting_;
+  bool lit_;
+  const gl::Program& program_;
+  gl::Texture texture_;
+};
+
+}  // namespace limen::frame

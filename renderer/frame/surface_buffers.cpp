@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/surface_buffers.h"
+
+#include <vector>
+
+namespace limen::frame {
+namespace {
+
+/// As struct SurfaceMaterial of surface_buffers.glsl, std430.
+struct GpuMaterial {
+  glm::vec3 albedo;
+  uint32_t surface;
+  glm::vec3 patternOrigin;  // relative to the anchor
+  float patternFrequency;   // 1 / size
+  uint32_t pattern;
+  float patternContrast;
+  int32_t patternOctaves;
+  uint32_t patch;
+};
+static_assert(sizeof(GpuMaterial) == 48);
+
+std::vector<GpuMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 anchor) {
+  std::vector<GpuMaterial> out;
+  for (const scene::Material& material : scene.materials) {
+    const scene::Pattern& pattern = material.pattern;
+    out.push_back({material.albedo, static_cast<uint32_t>(material.surface),
+                   glm::vec3(pattern.origin - anchor), static_cast<float>(1.0 / pattern.size),
+                   static_cast<uint32_t>(pattern.kind), static_cast<float>(pattern.contrast), pattern.octaves,
+                   material.patch});
+  }
+  return out;
+}
+
+std::vector<uint32_t> triangleMaterialsOf(const scene::Scene& scene) {
+  std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
+  for (const scene::Part& part : scene.parts)
+    std::fill_n(out.begin() + part.firstTriangle, part.triangleCount, part.material);
+  for (const scene::LodObject& object : scene.lodObjects)
+    for (int level = 1; level < static_cast<int>(object.levels.size()); ++level) {
+      const scene::TriangleRange range = scene.triangles(object, level);
+      std::fill_n(out.begin() + range.first, range.count, scene.parts[object.part].material);
+    }
+  return out;
+}
+
+/// A vertex attribute of both meshes, or nothing where neither has it.
+template <class Value>
+std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::Mesh::*attribute) {
+  std::vector<Value> out = scene.mesh.*attribute;
+  const std::vector<Value>& more = scene.coarser.*attribute;
+  if (out.empty() && more.empty()) return out;
+  out.resize(scene.mesh.positions.size(), Value(0.0F));
+  out.insert(out.end(), more.begin(), more.end());
+  out.resize(scene.mesh.positions.size() + scene.coarser.positions.size(), Value(0.0F));
+  return out;
+}
+
+std::vector<glm::vec4> patchPointsOf(const scene::Scene& scene, glm::dvec3 anchor) {
+  std::vector<glm::vec4> out;
+  for (const scene::BicubicPatch& patch : scene.patches)
+    for (const glm::dvec3& point : patch.points) out.emplace_back(glm::vec3(point - anchor), 1.0F);
+  return out;
+}
+
+}  // namespace
+
+SurfaceBuffers::SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor)
+    : hasNormals_(!scene.mesh.normals.empty() || !scene.coarser.normals.empty()),
+      hasAttributes_(!scene.mesh.attributes.empty() || !scene.coarser.attributes.empty()),
+      normals_(joined(scene, &scene::Mesh::normals)),
+      attributes_(joined(scene, &scene::Mesh::attributes)),
+      triangleMaterials_(triangleMaterialsOf(scene)),
+      materials_(materialsOf(scene, anchor)),
+      patches_(patchPointsOf(scene, anchor)) {}
+
+void SurfaceBuffers::bindStorage() const {
+  normals_.bindStorage(3);
+  attributes_.bindStorage(4);
+  triangleMaterials_.bindStorage(5);
+  materials_.bindStorage(6);
+  patches_.bindStorage(7);
+}
+
+int64_t SurfaceBuffers::bytes() const {
+  return normals_.bytes() + attributes_.bytes() + triangleMaterials_.bytes() + materials_.bytes() +
+         patches_.bytes();
+}
+
+}  // namespace limen::frame

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene's surfaces as SurfaceBuffers binds them.
+struct SurfaceMaterial {
+  vec3 albedo;
+  uint surface;
+  vec3 patternOrigin;  // relative to the anchor
+  float patternFrequency;
+  uint pattern;
+  float patternContrast;
+  int patternOctaves;
+  uint patchIndex;
+};
+
+layout(std430, binding = 3) readonly buffer Normals { float surfaceNormals[]; };
+layout(std430, binding = 4) readonly buffer Attributes { vec4 surfaceAttributes[]; };
+layout(std430, binding = 5) readonly buffer TriangleMaterials { uint surfaceMaterialOf[]; };
+layout(std430, binding = 6) readonly buffer Materials { SurfaceMaterial surfaceMaterials[]; };
+layout(std430, binding = 7) readonly buffer Patches { vec4 patchPoints[]; };  // 16 a patch, i + 4 j
+
+// As the enumerations of scene.h.
+const uint kSurfaceMesh = 0u, kSurfacePatch = 1u, kSurfaceAperture = 2u;
+const uint kPatternNone = 0u, kPatternChecker = 1u, kPatternNoise = 2u;
+
+vec3 surfaceNormal(uint vertex) {
+  return vec3(surfaceNormals[3u * vertex], surfaceNormals[3u * vertex + 1u], surfaceNormals[3u * vertex + 2u]);
+}
+
+// Uniform cubic B-spline basis and its derivative.
+vec4 splineBasis(float t) {
+  const float s = 1.0 - t;
+  return vec4(s * s * s, 3.0 * t * t * t - 6.0 * t * t + 4.0, 3.0 * s * s * s - 6.0 * s * s + 4.0, t * t * t) / 6.0;
+}
+vec4 splineSlope(float t) {
+  const float s = 1.0 - t;
+  return vec4(-s * s, 3.0 * t * t - 4.0 * t, -3.0 * s * s + 4.0 * s, t * t) / 2.0;
+}
+
+// Unnormalised normal of a bicubic B-spline patch: cross product of its derivatives.
+vec3 patchNormal(uint index, vec2 uv) {
+  const vec4 bu = splineBasis(uv.x), bv = splineBasis(uv.y), du = splineSlope(uv.x), dv = splineSlope(uv.y);
+  vec3 alongU = vec3(0.0), alongV = vec3(0.0);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const vec3 point = patchPoints[16u * index + uint(i + 4 * j)].xyz;
+      alongU += du[i] * bv[j] * point;
+      alongV += bu[i] * dv[j] * point;
+    }
+  return cross(alongU, alongV);
+}
