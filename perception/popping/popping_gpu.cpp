@@ -23,9 +23,9 @@ using gl::Format;
 constexpr glm::ivec2 kGroup{32, 8};
 const std::string kFolder = "perception/popping/gpu/";
 
-// Nodes of the sensitivity table over lg velocity and lg luminance. Some 100 a decade: sensitivities are
+// Nodes of the sensitivity table over lg velocity and lg luminance. Some 65 a decade: sensitivities are
 // straight enough between them for an error below 1e-3 of their value.
-constexpr glm::ivec2 kTableSize{384, 384};
+constexpr glm::ivec2 kTableSize{256, 256};
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
 constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
 
@@ -105,8 +105,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       model_(poppingModel(sizePx.x, sizePx.y, display, settings)),
       defines_(maskingDefines(settings.masking)),
       luminanceOfCones_(luminanceRow()),
-      actual_(Format::RGBA32F, sizePx, model_.gaussianLevels),
-      predicted_(Format::RGBA32F, sizePx, model_.gaussianLevels),
+      cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
       differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
       sensitivities_(Format::RGBA32F, {kTableSize.x, kTableSize.y * std::max(1, model_.contrastLevels)}),
       jnd_(Format::R32F, sizePx),
@@ -115,8 +114,8 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       mean_(8, nullptr),
       regions_(context, sizePx, settings) {
   stageDefines_ = defines_;
-  stageDefines_.push_back({"SHOW_STAGES", "1"});
-  if (settings.collapse == Collapse::Magnitude) defines_.push_back({"COLLAPSE_MAGNITUDE", "1"});
+  stageDefines_["SHOW_STAGES"] = "1";
+  if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
   const glm::dvec3 black = lmsFromXyz(display.xyz({0, 0, 0}));
   conesOfBlack_ = black;
   conesOfLight_ =
@@ -151,9 +150,8 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
     input.predicted->bindTexture(1);
     (actualMove ? actualMove : input.actual)->bindTexture(2);
     (predictedMove ? predictedMove : input.predicted)->bindTexture(3);
-    actual_.bindImage(0, Access::Write);
-    predicted_.bindImage(1, Access::Write);
-    seeds_.bindImage(2, Access::Write);
+    cones_.bindImage(0, Access::Write);
+    seeds_.bindImage(1, Access::Write);
     counters_.bindStorage(0);
     light.set("frameCount", 2);
     light.set("grey", grey ? 1 : 0);
@@ -189,12 +187,10 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
 
 void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
   const gl::Program& reduce = program("reduce");
-  actual_.bindTexture(0);
-  predicted_.bindTexture(1);
+  cones_.bindTexture(0);
   for (int level = 0; level + 1 < model_.gaussianLevels; ++level) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    actual_.bindImage(0, Access::Write, level + 1);
-    predicted_.bindImage(1, Access::Write, level + 1);
+    cones_.bindImage(0, Access::Write, level + 1);
     reduce.set("level", level);
     reduce.use();
     const glm::ivec2 groups = (levelSize(level + 1) + kGroup - 1) / kGroup;
@@ -211,8 +207,7 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
 }
 
 void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
-  actual_.bindTexture(0);
-  predicted_.bindTexture(1);
+  cones_.bindTexture(0);
   sensitivities_.bindTexture(2);
   counters_.bindStorage(0);
   mean_.bindStorage(1);
@@ -297,7 +292,14 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
   const int level = std::stoi(name.substr(underscore + 1));
   const std::string stage = name.substr(0, underscore);
   const bool isPredicted = stage.ends_with("_predicted");
-  if (stage.starts_with("lms_")) return (isPredicted ? predicted_ : actual_).read(level);
+  if (stage.starts_with("lms_")) {
+    const glm::ivec2 size = levelSize(level);
+    Image image(size.x, size.y, 4);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureSubImage(cones_.id(), level, 0, 0, isPredicted ? 1 : 0, size.x, size.y, 1, GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(image.data.size() * sizeof(float)), image.data.data());
+    return image;
+  }
   static const std::vector<std::string> kStages = {"contrast", "luminance", "velocity", "response",
                                                    "difference"};
   const auto index =
@@ -319,7 +321,7 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return actual_.bytes() + predicted_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() +
+  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() +
          seeds_.bytes() + counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
 }
 

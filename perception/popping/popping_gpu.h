@@ -74,7 +74,7 @@ class PoppingPredictorGpu {
   glm::mat3 conesOfLight_;
   glm::vec3 conesOfBlack_;
   glm::vec2 tableLow_, tablePer_;
-  gl::Texture actual_, predicted_;  ///< cone responses and speed, Gaussian pyramids
+  gl::Texture cones_;  ///< Gaussian pyramids of cone responses and speed; layers: actual, predicted
   gl::Texture differences_, sensitivities_, jnd_, seeds_;
   gl::Buffer counters_, mean_;
   RegionsGpu regions_;

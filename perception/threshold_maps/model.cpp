@@ -11,12 +11,18 @@ namespace limen::perception {
 namespace {
 
 // Nodes of the peak sensitivity over lg luminance.
-constexpr double kLgLow = -6.0, kLgHigh = 6.0;
+constexpr double kLgLow = -4.0, kLgHigh = 6.0;
 constexpr int kNodesPerDecade = 100;
 constexpr int kNodes = static_cast<int>((kLgHigh - kLgLow) * kNodesPerDecade) + 1;
+// Fits end here, and so do the GPU's tables.
+constexpr double kLeastCdM2 = 1e-4, kLargestCdM2 = 1e6;
 constexpr double kLargestElevation = 1e12;  ///< as frequencyFactor() holds it
 
 using Settings = ThresholdMapSettings;
+
+double held(double luminanceCdM2) {
+  return luminanceCdM2 > 0.0 ? std::clamp(luminanceCdM2, kLeastCdM2, kLargestCdM2) : kLeastCdM2;
+}
 
 }  // namespace
 
@@ -107,7 +113,7 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
   if (settings.tvi.rfind("from_csf", 0) == 0) {
     // makeTvi() searches the peak at every call.
     const double scale = settings.tvi == "from_csf" ? 1.0 : tviWard(100.0) / (100.0 / peakSensitivity(100.0));
-    tvi_ = [this, scale](double l) { return scale * std::max(l, 1e-6) / peakSensitivity(l); };
+    tvi_ = [this, scale](double l) { return scale * l / peakSensitivity(l); };
   } else {
     tvi_ = makeTvi(settings.tvi, csf_, point_, "tvi");
   }
@@ -115,13 +121,14 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
 
 CsfPoint ThresholdModel::at(int band, double luminanceCdM2) const {
   CsfPoint point = point_;
-  point.luminanceCdM2 = luminanceCdM2;
+  point.luminanceCdM2 = held(luminanceCdM2);
   if (band >= 0) point.frequencyCpd = peaks_[static_cast<size_t>(band)].frequencyCpd(pixelsPerDegree_);
   return point;
 }
 
 double ThresholdModel::peakSensitivity(double luminanceCdM2) const {
-  const double lg = std::log10(std::max(luminanceCdM2, 1e-300));
+  if (lnPeaks_.empty()) return 0.0;
+  const double lg = std::log10(held(luminanceCdM2));
   const double position = (std::clamp(lg, kLgLow, kLgHigh) - kLgLow) * kNodesPerDecade;
   const int i = std::min(static_cast<int>(position), kNodes - 2);
   const double t = position - i;
@@ -131,6 +138,12 @@ double ThresholdModel::peakSensitivity(double luminanceCdM2) const {
   const double value = -t * (t - 1.0) * (t - 2.0) / 6.0 * a + (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * b -
                        (t + 1.0) * t * (t - 2.0) / 2.0 * c + (t + 1.0) * t * (t - 1.0) / 6.0 * d;
   return std::exp(value);
+}
+
+double ThresholdModel::tviCdM2(double luminanceCdM2) const { return tvi_(held(luminanceCdM2)); }
+
+double ThresholdModel::thresholdCdM2(double elevation, double luminanceCdM2) const {
+  return settings_.tviFactor * tviCdM2(luminanceCdM2) * elevation;
 }
 
 double ThresholdModel::sensitivity(int band, double luminanceCdM2) const {

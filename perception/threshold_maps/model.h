@@ -22,7 +22,7 @@ AdaptationBlend adaptationBlend(const ThresholdMapSettings& settings, double pix
 double levelWidthPx(const ThresholdMapSettings& settings, int level);
 
 /// The psychophysical part of a threshold map, bound to one image size and viewing distance: all that is
-/// needed to make dL of adaptation luminance and contrasts.
+/// needed to make dL of adaptation luminance and contrasts. Luminances are held to 1e-4 to 1e6 cd/m2.
 class ThresholdModel {
  public:
   /// Throws Error on names that are not known.
@@ -44,12 +44,10 @@ class ThresholdModel {
   double frequencyElevation(int band, double luminanceCdM2) const;
   /// T_D: by how much contrast raises it; `c` is CSF-normalised.
   double maskingElevation(double c) const { return masking_.elevation(c); }
-  double tviCdM2(double luminanceCdM2) const { return tvi_(luminanceCdM2); }
+  double tviCdM2(double luminanceCdM2) const;
   /// S of |contrasts| at an adaptation luminance.
   double elevation(const std::vector<double>& contrasts, double luminanceCdM2) const;
-  double thresholdCdM2(double elevation, double luminanceCdM2) const {
-    return settings_.tviFactor * tvi_(luminanceCdM2) * elevation;
-  }
+  double thresholdCdM2(double elevation, double luminanceCdM2) const;
 
  private:
   CsfPoint at(int band, double luminanceCdM2) const;

@@ -4,7 +4,8 @@
 #include "perception/popping/gpu/response.glsl"
 
 layout(binding = 3) uniform sampler2D differences;  // contrast level i at mip level i - 1
-layout(binding = 4) uniform sampler2D weights[2];
+layout(binding = 4) uniform sampler2D disocclusion;
+layout(binding = 5) uniform sampler2D flicker;
 layout(binding = 0, r32f) uniform writeonly image2D jnd;
 
 uniform int contrastLevels;
@@ -57,7 +58,7 @@ void main() {
     float weight = 1.0;
     for (int i = 0; i < 2; ++i) {
       if (hasWeight[i] == 0) continue;
-      float value = texelFetch(weights[i], pixel, 0).x;
+      float value = i == 0 ? texelFetch(disocclusion, pixel, 0).x : texelFetch(flicker, pixel, 0).x;
       if (!isnan(value) && !isinf(value)) weight *= clamp(value, 0.0, 1.0);
     }
     float difference = (sum > 0.0 ? pow(sum, 1.0 / exponent) : 0.0);

@@ -4,10 +4,12 @@
 
 layout(local_size_x = 32, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2D frames[2];
-layout(binding = 2) uniform sampler2D displacements[2];
-layout(binding = 0, rgba32f) uniform writeonly image2D cones[2];
-layout(binding = 2, r8ui) uniform writeonly uimage2D seeds;
+layout(binding = 0) uniform sampler2D actual;
+layout(binding = 1) uniform sampler2D predicted;
+layout(binding = 2) uniform sampler2D actualDisplacement;
+layout(binding = 3) uniform sampler2D predictedDisplacement;
+layout(binding = 0, rgba32f) uniform writeonly image2DArray cones;  // layer: 0 actual, 1 predicted
+layout(binding = 1, r8ui) uniform writeonly uimage2D seeds;
 layout(binding = 0, std430) buffer Counters { uint flushed, guarded; };
 
 uniform int frameCount;  // 2; a uniform, so that both frames go through the same code, not through copies of it
@@ -30,14 +32,14 @@ float decode(float value) {
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  bool inside = all(lessThan(pixel, imageSize(cones[0])));
+  bool inside = all(lessThan(pixel, imageSize(cones).xy));
   if (gl_LocalInvocationIndex == 0u) groupFlushed = 0u;
   barrier();
   uint flushedHere = 0u;
   vec3 before = vec3(0.0);
   bool differs = false;
   for (int frame = 0; frame < frameCount && inside; ++frame) {
-    vec3 value = texelFetch(frames[frame], pixel, 0).xyz;
+    vec3 value = frame == 0 ? texelFetch(actual, pixel, 0).xyz : texelFetch(predicted, pixel, 0).xyz;
     if (grey != 0) value.yz = value.xx;
     for (int c = 0; c < 3; ++c) {
       if (isnan(value[c]) || isinf(value[c])) {
@@ -52,14 +54,15 @@ void main() {
                                 fma(conesOfLight[1], light.yyy, fma(conesOfLight[0], light.xxx, conesOfBlack)));
     float speedPx = 0.0;
     if (hasDisplacement != 0) {
-      vec2 move = texelFetch(displacements[frame], pixel, 0).xy;
+      vec2 move = frame == 0 ? texelFetch(actualDisplacement, pixel, 0).xy
+                             : texelFetch(predictedDisplacement, pixel, 0).xy;
       for (int c = 0; c < 2; ++c) {
         if (isnan(move[c]) || isinf(move[c])) ++flushedHere;
         move[c] = clamp(finite(move[c]), -kFarthestPx, kFarthestPx);
       }
       speedPx = length(move);
     }
-    imageStore(cones[frame], pixel, vec4(response, speedPx));
+    imageStore(cones, ivec3(pixel, frame), vec4(response, speedPx));
   }
   if (inside) imageStore(seeds, pixel, uvec4(differs || everySeed != 0 ? 1u : 0u));
   if (flushedHere != 0u) atomicAdd(groupFlushed, flushedHere);

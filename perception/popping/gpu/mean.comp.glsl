@@ -3,7 +3,7 @@
 
 layout(local_size_x = 256) in;
 
-layout(binding = 0) uniform sampler2D cones[2];
+layout(binding = 0) uniform sampler2DArray cones;  // layer: frame
 layout(binding = 1, std430) writeonly buffer Mean { float meanLuminance[2]; };
 
 uniform int level;
@@ -13,11 +13,11 @@ shared float sums[256];
 
 void main() {
   int frame = int(gl_WorkGroupID.x);
-  ivec2 size = textureSize(cones[frame], level);
+  ivec2 size = textureSize(cones, level).xy;
   int index = int(gl_LocalInvocationIndex);
   float sum = 0.0;
   for (int i = index; i < size.x * size.y; i += 256)
-    sum += dot(luminanceOfCones, texelFetch(cones[frame], ivec2(i % size.x, i / size.x), level).xyz);
+    sum += dot(luminanceOfCones, texelFetch(cones, ivec3(i % size.x, i / size.x, frame), level).xyz);
   sums[index] = sum;
   for (int stride = 128; stride > 0; stride /= 2) {
     barrier();

@@ -5,7 +5,7 @@
 
 layout(local_size_x = 32, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2D cones[2];
+layout(binding = 0) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
 layout(binding = 2) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
 layout(binding = 0, std430) buffer Counters { uint flushed, guarded; };
 layout(binding = 1, std430) readonly buffer Mean { float meanLuminance[2]; };
@@ -32,18 +32,18 @@ void prepare() {
   int index = int(gl_LocalInvocationIndex);
   if (index == 0) groupGuarded = 0u;
   ivec2 origin = ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1;
-  ivec2 nextSize = textureSize(cones[0], level + 1), afterSize = textureSize(cones[0], level + 2);
+  ivec2 nextSize = textureSize(cones, level + 1).xy, afterSize = textureSize(cones, level + 2).xy;
   for (int frame = 0; frame < frameCount; ++frame) {
     for (int i = index; i < kNeighbourCount; i += 256) {
       ivec2 place = clamp(origin + ivec2(i % kNeighbours.x, i / kNeighbours.x), ivec2(0), nextSize - 1);
-      next[frame * kNeighbourCount + i] = texelFetch(cones[frame], place, level + 1);
+      next[frame * kNeighbourCount + i] = texelFetch(cones, ivec3(place, frame), level + 1);
       vec3 across = taps(place.x), down = taps(place.y);
       ivec2 centre = place / 2;
       vec4 sum = vec4(0.0);
       for (int dy = -1; dy <= 1; ++dy) {
         vec4 row = vec4(0.0);
         for (int dx = -1; dx <= 1; ++dx)
-          row += across[dx + 1] * texelFetch(cones[frame], clamp(centre + ivec2(dx, dy), ivec2(0), afterSize - 1),
+          row += across[dx + 1] * texelFetch(cones, ivec3(clamp(centre + ivec2(dx, dy), ivec2(0), afterSize - 1), frame),
                                              level + 2);
         sum += down[dy + 1] * row;
       }
@@ -61,19 +61,20 @@ float retinalVelocity(float screenDegS) {
   return screenDegS;
 }
 
+float luminanceOf(ivec3 texel, int from) { return dot(luminanceOfCones, texelFetch(cones, texel, from).xyz); }
+
 float luminanceAt(int frame, ivec2 pixel) {
   if (adaptationSource == 2) return fixedLuminance;
   if (adaptationSource == 1) return meanLuminance[frame];
   int from = max(adaptationLevel, level), shift = from - level;
-  ivec2 size = textureSize(cones[frame], from), first = pixel >> shift;
+  ivec2 size = textureSize(cones, from).xy, first = pixel >> shift;
   vec2 weight = vec2(pixel - (first << shift)) / float(1 << shift);
   ivec2 second = min(first + 1, size - 1);
   first = min(first, size - 1);
-  precise float above = mix(dot(luminanceOfCones, texelFetch(cones[frame], first, from).xyz),
-                            dot(luminanceOfCones, texelFetch(cones[frame], ivec2(second.x, first.y), from).xyz),
-                            weight.x);
-  precise float below = mix(dot(luminanceOfCones, texelFetch(cones[frame], ivec2(first.x, second.y), from).xyz),
-                            dot(luminanceOfCones, texelFetch(cones[frame], second, from).xyz), weight.x);
+  precise float above = mix(luminanceOf(ivec3(first, frame), from),
+                            luminanceOf(ivec3(second.x, first.y, frame), from), weight.x);
+  precise float below = mix(luminanceOf(ivec3(first.x, second.y, frame), from),
+                            luminanceOf(ivec3(second, frame), from), weight.x);
   return mix(above, below, weight.y);
 }
 
@@ -101,7 +102,7 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   precise vec3 difference = vec3(0.0);
   uint guardedHere = 0u;
   for (int frame = 0; frame < frameCount; ++frame) {
-    vec4 own = texelFetch(cones[frame], pixel, level);
+    vec4 own = texelFetch(cones, ivec3(pixel, frame), level);
     precise vec3 finer = vec3(0.0);
     precise vec3 coarser = vec3(0.0);
     for (int dy = -1; dy <= 1; ++dy)
