@@ -6,7 +6,7 @@
 // flat image stays flat to the last bit and a faint band is as exact as a strong one.
 #include "perception/threshold_maps/common.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = THREADS) in;
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 0, r32f) uniform writeonly image2D coarser;
 #if BAND == 32
@@ -18,15 +18,17 @@ uniform int sourceLevel;
 uniform ivec2 upward;    // first entries in Places, columns and rows: finer samples on the coarser level
 uniform ivec2 downward;  // coarser samples on the finer level
 
-const ivec2 kTile = ivec2(64, 32);
-const ivec2 kCoarse = ivec2(34, 18);  // samples around a tile
-const ivec2 kRegion = ivec2(76, 44);  // finer ones that they are made of
-const int kRows = 256 / kCoarse.x;    // of coarse samples at a time
-const int kRun = 8;                   // pixels of an invocation, one below the other
+const ivec2 kTile = ivec2(TILE_X, TILE_Y);
+const ivec2 kCoarse = kTile / 2 + 2;     // samples around a tile
+const ivec2 kRegion = 2 * kCoarse + 8;   // finer ones that they are made of
+const int kRows = THREADS / kCoarse.x;   // of coarse samples at a time
+const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
+const int kLoads = (kRegion.x * kRegion.y + THREADS - 1) / THREADS;
 shared float region[kRegion.x * kRegion.y];
-// As a sample near by and what to add: what is small beside a band must not be lost beside the luminance.
-shared vec2 filteredRows[kCoarse.x * kRegion.y];
-shared vec2 coarse[kCoarse.x * kCoarse.y];
+// What a filtered sample has more than the finer one at its tap 2: what is small beside a band must not be lost
+// beside the luminance.
+shared float rowExcess[kCoarse.x * kRegion.y];
+shared vec2 coarse[kCoarse.x * kCoarse.y];  // a sample near by and the excess over it
 
 // Six weights of a sample `t` right of tap 2.
 void weightsOf(float t, out float w[6]) {
@@ -38,21 +40,22 @@ void weightsOf(float t, out float w[6]) {
   w[5] = t * run.kernel.x;
 }
 
-void loadRegion(int thread, ivec2 from, ivec2 extent, ivec2 fineSize) {
-  const int kColumns = (kRegion.x + 31) / 32;
-  int lane = thread % 32, columns[kColumns];
-  for (int k = 0; k < kColumns; ++k) columns[k] = borderIndex(from.x + lane + 32 * k, fineSize.x);
-  for (int y = thread / 32; y < extent.y; y += 8) {
-    int row = borderIndex(from.y + y, fineSize.y);
-    for (int k = 0; k < kColumns; ++k) {
-      int x = lane + 32 * k;
-      if (x >= extent.x) break;
+// All loads of an invocation are under way before the first is used.
+void loadRegion(int thread, ivec2 from, ivec2 fineSize) {
+  float values[kLoads];
+  for (int k = 0; k < kLoads; ++k) {
+    int i = min(thread + k * THREADS, kRegion.x * kRegion.y - 1);
+    ivec2 at = ivec2(borderIndex(from.x + i % kRegion.x, fineSize.x),
+                     borderIndex(from.y + i / kRegion.x, fineSize.y));
 #if FROM_LEVEL
-      region[y * kRegion.x + x] = texelFetch(source, ivec2(columns[k], row), sourceLevel).r;
+    values[k] = texelFetch(source, at, sourceLevel).r;
 #else
-      region[y * kRegion.x + x] = luminanceOf(texelFetch(source, ivec2(columns[k], row), 0));
+    values[k] = luminanceOf(texelFetch(source, at, 0));
 #endif
-    }
+  }
+  for (int k = 0; k < kLoads; ++k) {
+    int i = thread + k * THREADS;
+    if (i < kRegion.x * kRegion.y) region[i] = values[k];
   }
 }
 
@@ -76,21 +79,21 @@ void main() {
   ivec2 to = ivec2(places[downward.x + insideEnd.x].x, places[downward.y + insideEnd.y].x) + 4;
   ivec2 extent = to - from, count = end - first;
 
-  loadRegion(thread, from, extent, fineSize);
+  loadRegion(thread, from, fineSize);
   barrier();
 
   int column = thread % kCoarse.x, firstRow = thread / kCoarse.x;
   bool works = firstRow < kRows && column < count.x;
+  vec2 place = places[downward.x + clamp(first.x + column, 0, coarseSize.x - 1)];
+  int left = int(place.x) - 2 - from.x;
   if (works) {
-    vec2 place = places[downward.x + clamp(first.x + column, 0, coarseSize.x - 1)];
-    int left = int(place.x) - 2 - from.x;
     float w[6];
     weightsOf(place.y, w);
     for (int y = firstRow; y < extent.y; y += kRows) {
       int at = y * kRegion.x + left;
       float near = region[at + 2], sum = 0.0;
       for (int tap = 0; tap < 6; ++tap) sum += w[tap] * (region[at + tap] - near);
-      filteredRows[y * kCoarse.x + column] = vec2(near, sum);
+      rowExcess[y * kCoarse.x + column] = sum;
     }
   }
   barrier();
@@ -108,14 +111,13 @@ void main() {
   if (works) {
     for (int y = firstRow; y < count.y; y += kRows) {
       ivec2 sampleAt = first + ivec2(column, y);
-      vec2 place = places[downward.y + clamp(sampleAt.y, 0, coarseSize.y - 1)];
-      int at = (int(place.x) - 2 - from.y) * kCoarse.x + column;
-      float w[6], near = filteredRows[at + 2 * kCoarse.x].x, sum = 0.0;
-      weightsOf(place.y, w);
-      for (int tap = 0; tap < 6; ++tap) {
-        vec2 v = filteredRows[at + tap * kCoarse.x];
-        sum += w[tap] * ((v.x - near) + v.y);
-      }
+      vec2 rowPlace = places[downward.y + clamp(sampleAt.y, 0, coarseSize.y - 1)];
+      int top = int(rowPlace.x) - 2 - from.y;
+      float w[6], near = region[(top + 2) * kRegion.x + left + 2], sum = 0.0;
+      weightsOf(rowPlace.y, w);
+      for (int tap = 0; tap < 6; ++tap)
+        sum += w[tap] * ((region[(top + tap) * kRegion.x + left + 2] - near) +
+                         rowExcess[(top + tap) * kCoarse.x + column]);
       coarse[y * kCoarse.x + column] = vec2(near, sum);
       if (all(greaterThanEqual(sampleAt, ownFirst)) && all(lessThan(sampleAt, ownEnd)))
         imageStore(coarser, sampleAt, vec4(near + sum));
@@ -125,8 +127,9 @@ void main() {
   barrier();
   int x = origin.x + thread % kTile.x, y = origin.y + thread / kTile.x * kRun;
   if (x >= fineSize.x) return;
-  vec2 place = places[upward.x + x];
-  int left = int(place.x) - first.x, top = -1000;
+  place = places[upward.x + x];
+  left = int(place.x) - first.x;
+  int top = -1000;
   // Two rows of coarse samples, interpolated along x; they move down with the pixel.
   vec2 upper = vec2(0.0), lower = vec2(0.0);
   for (int i = 0; i < kRun && y <= last.y; ++i, ++y) {

@@ -19,6 +19,12 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
+/// Of the reduction, and invocations of a group.
+const glm::ivec3 kReduce = [] {
+  glm::ivec3 v(32, 32, 256);
+  if (const char* e = std::getenv("LIMEN_TILE")) std::sscanf(e, "%dx%dx%d", &v.x, &v.y, &v.z);
+  return v;
+}();
 /// Levels from 1 that 16 bits store as bands. The rest, a hundredth of all texels, is stored as it is in 32:
 /// the adaptation luminance beside a highlight is a small difference of large bands.
 constexpr int kHalfLevels = 2;
@@ -159,6 +165,9 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
   const std::string folder = "perception/threshold_maps/";
   gl::ProgramCache& programs = context.programs();
   const auto make = [&](const std::string& file, std::vector<const char*> names, gl::ShaderDefines extra) {
+    extra["TILE_X"] = std::to_string(kReduce.x);
+    extra["TILE_Y"] = std::to_string(kReduce.y);
+    extra["THREADS"] = std::to_string(kReduce.z);
     for (const char* name : names) extra[name] = defines_.at(name);
     return &programs.compute(folder + file, extra);
   };
@@ -218,7 +227,7 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
     program.set("downward", downward_[level]);
   };
   setPlaces(*programs_->first, 0);
-  programs_->first->dispatch(sizePx_, kTilePx);
+  programs_->first->dispatch(sizePx_, glm::ivec2(kReduce));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glm::ivec2 size = halvedSize(sizePx_);
   gaussian_->bindTexture(0);
@@ -229,7 +238,7 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
     const gl::Program& program = band ? *programs_->nextWithBand : *programs_->next;
     program.set("sourceLevel", level - 1);
     setPlaces(program, static_cast<size_t>(level));
-    program.dispatch(size, kTilePx);
+    program.dispatch(size, glm::ivec2(kReduce));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     size = halvedSize(size);
   }
