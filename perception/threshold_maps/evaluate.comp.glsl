@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last pass: thresholds from band 0 and the coarser levels. Each group makes a tile of the map. It loads
 // the coarser samples around its tile to shared memory; for a stack it brings them up there, one level at a time,
-// to level 1, so that the stack exists for a tile only. In 16 bits (LAPLACIAN) the first HALF_LEVELS levels are
-// stored as bands, which are added up first: what is small is then stored with its own precision.
+// to level 1, so that the stack exists for a tile only. Band 0 is all that a pixel is
+// read for; in 16 bits (HALF) it is stored as a signed square root.
 #include "perception/threshold_maps/common.glsl"
 #include "perception/threshold_maps/model.glsl"
 
 layout(local_size_x = 256) in;
 layout(binding = 0) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
 layout(binding = 1) uniform sampler2D gaussian;   // levels from 1
-layout(binding = 2) uniform sampler2D laplacian;  // bands from 1
 layout(binding = 0, r32f) uniform writeonly image2D threshold;
 #if STAGES
 layout(binding = 1, rg32f) uniform writeonly image2D stages;
@@ -47,21 +46,12 @@ ivec2 countOf(int i) {
                patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
 }
 
-// Bands in 16 bits are stored as their signed square root.
 float decoded(float code) {
-#if LAPLACIAN
+#if HALF && !FINEST_LUMINANCE
   return code * abs(code);
 #else
   return code;
 #endif
-}
-
-// Stored value of level i at a sample: the level itself, or (LAPLACIAN) its band.
-float stored(int i, ivec2 at) {
-#if LAPLACIAN
-  if (i <= HALF_LEVELS) return decoded(texelFetch(laplacian, at, i - 1).r);
-#endif
-  return texelFetch(gaussian, at, i - 1).r;
 }
 
 float between(float a, float b, float c, float d, vec2 t) {
@@ -107,7 +97,7 @@ void loadStack(int thread) {
     for (int i = thread; i < stride * count.y; i += 256) {
       ivec2 at = ivec2(i % stride, i / stride);
       if (at.x >= count.x) continue;
-      float value = stored(kPlanes, clamp(origin + at, ivec2(0), size - 1));
+      float value = texelFetch(gaussian, clamp(origin + at, ivec2(0), size - 1), kPlanes - 1).r;
       if (kPlanes % 2 == 1)
         atOdd[i] = value;
       else
@@ -128,21 +118,18 @@ void loadStack(int thread) {
       place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
       place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
       int from = (left.y - below.y) * belowStride + left.x - below.x;
-      float own = stored(i, sampleAt), value = 0.0;
+      float own = texelFetch(gaussian, sampleAt, i - 1).r;
       for (int plane = 0; plane < planes; ++plane) {
         if (i % 2 == 1) {
           int q = plane * kCoarserPlaneSize + from;
-          value = between(atEven[q], atEven[q + 1], atEven[q + belowStride], atEven[q + belowStride + 1], t);
-          atOdd[plane * kPlaneSize + p] = value;
+          atOdd[plane * kPlaneSize + p] =
+              between(atEven[q], atEven[q + 1], atEven[q + belowStride], atEven[q + belowStride + 1], t);
         } else {
           int q = plane * kPlaneSize + from;
-          value = between(atOdd[q], atOdd[q + 1], atOdd[q + belowStride], atOdd[q + belowStride + 1], t);
-          atEven[plane * kCoarserPlaneSize + p] = value;
+          atEven[plane * kCoarserPlaneSize + p] =
+              between(atOdd[q], atOdd[q + 1], atOdd[q + belowStride], atOdd[q + belowStride + 1], t);
         }
       }
-#if LAPLACIAN
-      if (i <= HALF_LEVELS) own += value;  // the last plane is level i + 1
-#endif
       if (i % 2 == 1)
         atOdd[planes * kPlaneSize + p] = own;
       else
@@ -153,30 +140,14 @@ void loadStack(int thread) {
 }
 #else
 void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
-#if LAPLACIAN
-  for (int i = kPlanes; i >= 1; --i) {
-    if (i <= HALF_LEVELS) barrier();
-#else
   for (int i = 1; i <= kPlanes; ++i) {
-#endif
     ivec2 origin = originOf(i), count = countOf(i), size = textureSize(gaussian, i - 1);
     int stride = kWidth[i - 1];
     for (int p = thread; p < stride * count.y; p += 256) {
       ivec2 at = ivec2(p % stride, p / stride);
       if (at.x >= count.x) continue;
       ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1);
-      float value = stored(i, sampleAt);
-#if LAPLACIAN
-      if (i <= HALF_LEVELS) {
-        ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i), left;
-        vec2 t;
-        place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
-        place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
-        int q = kStart[i] + (left.y - below.y) * kWidth[i] + left.x - below.x;
-        value += between(level[q], level[q + 1], level[q + kWidth[i]], level[q + kWidth[i] + 1], t);
-      }
-#endif
-      level[kStart[i - 1] + p] = value;
+      level[kStart[i - 1] + p] = texelFetch(gaussian, sampleAt, i - 1).r;
     }
   }
   for (int i = thread; i < kPlanes * kTile.y; i += 256) {
