@@ -15,8 +15,8 @@ layout(binding = 1, r32f) uniform writeonly image2D band;
 layout(binding = 1, r16f) uniform writeonly image2D band;
 #endif
 uniform int sourceLevel;
-uniform ivec2 upward;    // first entries in Places, columns and rows: finer samples on the coarser level
-uniform ivec2 downward;  // coarser samples on the finer level
+uniform ivec2 upward[1];    // first entries in Places, columns and rows: finer samples on the coarser level
+uniform ivec2 downward[1];  // coarser samples on the finer level
 
 const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 const ivec2 kCoarse = kTile / 2 + 2;     // samples around a tile
@@ -71,12 +71,12 @@ void main() {
   ivec2 last = min(origin + kTile, fineSize) - 1;
 
   // Coarse samples around the tile, and the finer samples of those.
-  vec2 startX = places[upward.x + origin.x], startY = places[upward.y + origin.y];
+  vec2 startX = places[upward[0].x + origin.x], startY = places[upward[0].y + origin.y];
   ivec2 first = ivec2(startX.x, startY.x);
-  ivec2 end = ivec2(places[upward.x + last.x].x, places[upward.y + last.y].x) + 2;
+  ivec2 end = ivec2(places[upward[0].x + last.x].x, places[upward[0].y + last.y].x) + 2;
   ivec2 inside = clamp(first, ivec2(0), coarseSize - 1), insideEnd = clamp(end - 1, ivec2(0), coarseSize - 1);
-  ivec2 from = ivec2(places[downward.x + inside.x].x, places[downward.y + inside.y].x) - 2;
-  ivec2 to = ivec2(places[downward.x + insideEnd.x].x, places[downward.y + insideEnd.y].x) + 4;
+  ivec2 from = ivec2(places[downward[0].x + inside.x].x, places[downward[0].y + inside.y].x) - 2;
+  ivec2 to = ivec2(places[downward[0].x + insideEnd.x].x, places[downward[0].y + insideEnd.y].x) + 4;
   ivec2 extent = to - from, count = end - first;
 
   loadRegion(thread, from, fineSize);
@@ -84,7 +84,7 @@ void main() {
 
   int column = thread % kCoarse.x, firstRow = thread / kCoarse.x;
   bool works = firstRow < kRows && column < count.x;
-  vec2 place = places[downward.x + clamp(first.x + column, 0, coarseSize.x - 1)];
+  vec2 place = places[downward[0].x + clamp(first.x + column, 0, coarseSize.x - 1)];
   int left = int(place.x) - 2 - from.x;
   if (works) {
     float w[6];
@@ -101,17 +101,17 @@ void main() {
   // Those whose place on the finer level is in the tile are this group's to write.
   ivec2 ownFirst = first + ivec2(startX.y > 0.0, startY.y > 0.0), ownEnd = coarseSize;
   if (origin.x + kTile.x < fineSize.x) {
-    vec2 next = places[upward.x + origin.x + kTile.x];
+    vec2 next = places[upward[0].x + origin.x + kTile.x];
     ownEnd.x = int(next.x) + int(next.y > 0.0);
   }
   if (origin.y + kTile.y < fineSize.y) {
-    vec2 next = places[upward.y + origin.y + kTile.y];
+    vec2 next = places[upward[0].y + origin.y + kTile.y];
     ownEnd.y = int(next.x) + int(next.y > 0.0);
   }
   if (works) {
     for (int y = firstRow; y < count.y; y += kRows) {
       ivec2 sampleAt = first + ivec2(column, y);
-      vec2 rowPlace = places[downward.y + clamp(sampleAt.y, 0, coarseSize.y - 1)];
+      vec2 rowPlace = places[downward[0].y + clamp(sampleAt.y, 0, coarseSize.y - 1)];
       int top = int(rowPlace.x) - 2 - from.y;
       float w[6], near = region[(top + 2) * kRegion.x + left + 2], sum = 0.0;
       weightsOf(rowPlace.y, w);
@@ -127,13 +127,13 @@ void main() {
   barrier();
   int x = origin.x + thread % kTile.x, y = origin.y + thread / kTile.x * kRun;
   if (x >= fineSize.x) return;
-  place = places[upward.x + x];
+  place = places[upward[0].x + x];
   left = int(place.x) - first.x;
   int top = -1000;
   // Two rows of coarse samples, interpolated along x; they move down with the pixel.
   vec2 upper = vec2(0.0), lower = vec2(0.0);
   for (int i = 0; i < kRun && y <= last.y; ++i, ++y) {
-    vec2 rowPlace = places[upward.y + y];
+    vec2 rowPlace = places[upward[0].y + y];
     int row = int(rowPlace.x) - first.y;
     if (row != top) {
       int at = row * kCoarse.x + left;
