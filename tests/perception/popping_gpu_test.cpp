@@ -390,7 +390,7 @@ TEST_F(PoppingGpu, WeightsMatchTheReference) {
 
   FlickerInput input;
   input.actual = sceneImage(w, h, 0.4);
-  input.predicted = sceneImage(w, h, 0.42);
+  input.predicted = noiseImage(w, h, 3, 6, 0.3, 0.5);
   input.previousShading = noiseImage(w, h, 3, 1, 0.3, 0.5);
   input.previousFrame = noiseImage(w, h, 3, 2, 0.3, 0.5);
   input.displacement = noiseImage(w, h, 2, 3, -9.0, 9.0);

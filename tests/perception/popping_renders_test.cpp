@@ -28,8 +28,10 @@ class PoppingRenders : public gl::GlTest {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, kSizePx);
     frame.begin();
-    const Image normal = frame.get<frame::GBufferChannel>({frame::Channel::Normal}).texture().read();
-    const Image albedo = frame.get<frame::GBufferChannel>({frame::Channel::Albedo}).texture().read();
+    const Image normal =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture().read();
+    const Image albedo =
+        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Albedo}).texture().read();
     frame.end();
     const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4F, 0.8F, 0.5F));
     Image out(kSizePx.x, kSizePx.y, 4, 1.0F);
