@@ -267,9 +267,16 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   with({{"peak_model", "halving"}, {"compensate_gain", false}, {"divide_grey_gain", false}});
   with({{"collapse", "magnitude"}, {"minkowski_exponent", 4.0}});
   with({{"connectivity", "4"}, {"region_threshold_jnd", 0.7}, {"seed_rule", "none"}});
+  with({{"kernel_centre", 0.4}});
   with({{"gaussian_levels", int64_t{4}}, {"adaptation_level", int64_t{1}}});
   with(
       {{"csf_achromatic", "barten03"}, {"csf_red_green", "martin92_rg"}, {"csf_blue_yellow", "martin92_by"}});
+}
+
+TEST_F(PoppingGpu, StacksAreRefused) {
+  PoppingSettings settings;
+  settings.decomposition = Decomposition::Stack;
+  EXPECT_THROW(PoppingPredictorGpu(context(), {32, 32}, studyDisplay(), settings), Error);
 }
 
 TEST_F(PoppingGpu, EveryStageMatchesTheReference) {

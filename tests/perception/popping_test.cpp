@@ -195,6 +195,41 @@ TEST(Popping, GratingAtThresholdGivesOneJnd) {
   }
 }
 
+// The same without halving: bands at full size, whose peaks are those of the low-passes alone, 0.1405,
+// 0.06683 and 0.03303 cycles per pixel with gains 0.560, 0.510, 0.499 (section 7 of the specification).
+TEST(Popping, StackAgreesOnAGratingAtThreshold) {
+  const DisplayProfile display = lightlessBlack();
+  PoppingSettings settings = plainSettings();
+  settings.decomposition = Decomposition::Stack;
+  const PoppingModel model = poppingModel(512, 64, display, settings);
+  const double peaks[] = {0.5, 0.14050, 0.06683, 0.03303}, gains[] = {1.0, 0.55965, 0.50978, 0.49877};
+  for (const int level : {1, 2, 3}) {
+    const auto i = static_cast<size_t>(level);
+    EXPECT_NEAR(model.peakCpd[i] / model.pixelsPerDegree, peaks[i], 1e-3 * peaks[i]);
+    EXPECT_NEAR(model.gain[i], gains[i], 1e-4);
+    const double sensitivity = csfDaly98(model.peakCpd[i], 0.15, 1.14, 0.67, 1.7) * 200.0 / 245.436;
+    const PoppingInput in = linearPair(grating(512, 64, peaks[i], 1.0 / sensitivity, display.peakCdM2),
+                                       grating(512, 64, peaks[i], 0.0, display.peakCdM2));
+    PoppingOptions options;
+    const std::string stage = "difference_" + std::to_string(level);
+    options.stages = {stage};
+    const Image image = predictPopping(in, display, settings, options).stages.at(stage);
+    EXPECT_EQ(image.width, 512);
+    EXPECT_NEAR(amplitude(image, peaks[i]), 1.0, 0.01) << level;
+  }
+}
+
+// The pyramid approximates the stack: the same picture, within what halving costs.
+TEST(Popping, PyramidFollowsTheStack) {
+  const PoppingInput in = linearPair(sceneImage(128, 96, 0.4), sceneImage(128, 96, 0.44));
+  PoppingSettings settings;
+  const PoppingResult pyramid = predictPopping(in, studyDisplay(), settings);
+  settings.decomposition = Decomposition::Stack;
+  const PoppingResult stack = predictPopping(in, studyDisplay(), settings);
+  EXPECT_NEAR(pyramid.summary.meanJnd, stack.summary.meanJnd, 0.2 * stack.summary.meanJnd);
+  EXPECT_NEAR(pyramid.summary.largestRating, stack.summary.largestRating, 0.5);
+}
+
 // N5 of the specification: peaks that halve put level 1 at 10.3 cpd instead of 4.8, so the grating's response
 // is off by the ratio of the sensitivities there.
 TEST(Popping, HalvingPeaksMisjudgeAGrating) {
