@@ -2,8 +2,6 @@
 #include "analysis/chart.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +10,7 @@
 #include <filesystem>
 #include <map>
 
+#include "analysis/gnuplot.h"
 #include "analysis/text_output.h"
 #include "base/error.h"
 #include "base/text.h"
@@ -39,20 +38,11 @@ constexpr std::array<const char*, kMarkerShapes> kMarkerPaths = {
 size_t shapeOf(size_t series) { return (series + series / kMarkerShapes) % kMarkerShapes; }
 size_t colourOf(size_t series) { return series % kMarkerShapes; }
 
-// Inside single quotes gnuplot takes everything as it is but the quote itself.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "'";
-}
-
 std::string ticksScript(const char* axisName, const ChartAxis& axis) {
   std::string out;
   const auto add = [&](const std::string& label, double value, int level) {
-    out += fmt::format("{}{} {} {}", out.empty() ? "" : ", ", quoted(label), shortestNumber(value), level);
+    out += fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotQuoted(label), shortestNumber(value),
+                       level);
   };
   for (const auto& [label, value] : axis.ticks) add(label, value, 0);
   for (const double value : axis.minorTicks) add("", value, 1);
@@ -70,7 +60,7 @@ std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, s
                     chart.name +
                     ".pdf'\n"
                     "  set title " +
-                    quoted(chart.title) +
+                    gnuplotQuoted(chart.title) +
                     " noenhanced\n"
                     "} else {\n"
                     "  set terminal svg name '" +
@@ -83,8 +73,8 @@ std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, s
                     "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics "
                     "nomirror out\nset errorbars 0\n"
                     "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
-  out += "set xlabel " + quoted(chart.xTitle) + " noenhanced\nset ylabel " + quoted(chart.yTitle) +
-         " noenhanced\n";
+  out += "set xlabel " + gnuplotQuoted(chart.xTitle) + " noenhanced\nset ylabel " +
+         gnuplotQuoted(chart.yTitle) + " noenhanced\n";
   if (x.logarithmic) out += "set logscale x\n";
   if (y.logarithmic) out += "set logscale y\n";
   out += fmt::format("set xrange [{}:{}]\n", shortestNumber(x.low), shortestNumber(x.high));
@@ -131,33 +121,6 @@ std::string data(const Chart& chart, const ChartAxis& x, const ChartAxis& y, siz
     if (!any) out += "NaN NaN NaN NaN\n";
   }
   return out;
-}
-
-void runGnuplot(const std::string& folder, const std::string& file) {
-  std::array<int, 2> messages{};
-  if (pipe(messages.data()) != 0) throw Error("no pipe can be made", "gnuplot");
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(messages[1], 2);
-    dup2(messages[1], 1);
-    close(messages[0]);
-    close(messages[1]);
-    if (chdir(folder.c_str()) == 0) execlp("gnuplot", "gnuplot", file.c_str(), static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  close(messages[1]);
-  std::string text;
-  std::array<char, 1024> buffer{};
-  for (ssize_t n; (n = read(messages[0], buffer.data(), buffer.size())) > 0;)
-    text.append(buffer.data(), static_cast<size_t>(n));
-  close(messages[0]);
-  int status = -1;
-  if (child < 0 || waitpid(child, &status, 0) < 0) throw Error("gnuplot cannot be started");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw Error("gnuplot is not installed; it draws the charts", "",
-                "install the Debian package gnuplot-nox");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error("gnuplot failed: " + text.substr(0, 400), (fs::path(folder) / file).string());
 }
 
 void replaceAll(std::string& text, const std::string& from, const std::string& to) {

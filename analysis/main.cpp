@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/report.h"
+#include "analysis/switch_distances.h"
+#include "analysis/text_output.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -26,6 +29,24 @@ void print(const ReportResult& result, bool json) {
     std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     std::printf("%s\n", result.page.c_str());
+  }
+}
+
+using limen::analysis::SwitchOptions;
+using limen::analysis::SwitchReport;
+
+void runSwitchDistances(const SwitchOptions& options, bool json) {
+  const std::vector<SwitchReport> reports = limen::analysis::findSwitchDistances(options);
+  for (const SwitchReport& report : reports) {
+    if (!options.folder.empty()) {
+      std::filesystem::path folder = options.folder;
+      if (reports.size() > 1) folder /= limen::analysis::slug(report.title);
+      std::filesystem::create_directories(folder);
+      limen::analysis::writeFileBytes((folder / "switch_distances.json").string(), toJson(report) + "\n");
+      limen::analysis::writeFileBytes((folder / "switch_distances.csv").string(), toCsv(report));
+      limen::analysis::drawSwitchChart(report, folder.string());
+    }
+    std::printf("%s\n", (json ? toJson(report) : toText(report)).c_str());
   }
 }
 
@@ -49,6 +70,27 @@ int main(int argc, char** argv) {
   report->add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
   report->add_flag("--json", json, "print one JSON line for each page");
 
+  SwitchOptions switches;
+  CLI::App* distances = app.add_subcommand(
+      "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
+  distances->add_option("STORE", switches.storePath, "result store that limen-sweep wrote")->required();
+  distances->add_option("-p,--probability", switches.probability, "detection that is allowed")
+      ->capture_default_str();
+  distances->add_option("--confidence", switches.confidence, "of the interval over views")
+      ->capture_default_str();
+  distances->add_option("--experiment", switches.experiment, "title or hash of one experiment");
+  distances->add_option("--distance", switches.distance, "parameter that is the distance")
+      ->capture_default_str();
+  distances->add_option("--views", switches.views, "parameters that make views of the same switch")
+      ->delimiter(',')
+      ->capture_default_str();
+  distances->add_option("--measurement", switches.measurement, "what falls with distance")
+      ->capture_default_str();
+  distances->add_option("--seed", switches.seed, "of the bootstrap")->capture_default_str();
+  distances->add_option("-o,--output", switches.folder, "folder for JSON, CSV and chart");
+  distances->add_flag("--force", switches.force, "go on although runs are missing or failed");
+  distances->add_flag("--json", json, "print one JSON line for each experiment");
+
   // CLI11 would only say that a subcommand is missing.
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
@@ -64,7 +106,10 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? limen::kExitSuccess : limen::kExitBadInput;
   }
   try {
-    for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
+    if (distances->parsed())
+      runSwitchDistances(switches, json);
+    else
+      for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
   } catch (const limen::Error& error) {
     std::fprintf(stderr, "limen-analyse: %s\n", error.what());
     return limen::kExitBadInput;

@@ -45,20 +45,22 @@ Image readImage(const std::string& path) {
   return image;
 }
 
-void writeExr(const std::string& path, const Image& image) {
+void writeExr(const std::string& path, const Image& image, const std::string& description) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   // Else the library writes the time of day, and equal images would be different files.
   spec.attribute("DateTime", "");
+  if (!description.empty()) spec.attribute("ImageDescription", description);
   writeAtomically(path, spec, image.data);
 }
 
-void writePng(const std::string& path, const Image& image) {
+void writePng(const std::string& path, const Image& image, const std::string& description) {
   std::vector<uint8_t> bytes(image.data.size());
   std::transform(image.data.begin(), image.data.end(), bytes.begin(), [](float value) {
     return static_cast<uint8_t>(std::lround(255.0F * (value > 0.0F ? std::min(value, 1.0F) : 0.0F)));
   });
-  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  if (!description.empty()) spec.attribute("ImageDescription", description);
   writeAtomically(path, spec, bytes);
 }
 

@@ -25,9 +25,11 @@ struct Image {
 
 /// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error.
 Image readImage(const std::string& path);
-/// EXR, 32-bit float, lossless. Written to a temporary name and moved into place. Throws Error.
-void writeExr(const std::string& path, const Image& image);
-/// 8-bit PNG of values in [0, 1], taken as they are (no transfer curve); others are clamped. Throws Error.
-void writePng(const std::string& path, const Image& image);
+/// EXR, 32-bit float, lossless. Written to a temporary name and moved into place. `description` goes into the
+/// file, for those who find it without its context. Throws Error.
+void writeExr(const std::string& path, const Image& image, const std::string& description = {});
+/// 8-bit PNG of values in [0, 1], taken as they are (no transfer curve); others are clamped. Otherwise as
+/// writeExr().
+void writePng(const std::string& path, const Image& image, const std::string& description = {});
 
 }  // namespace limen

@@ -8,14 +8,13 @@ endif()
 set(text "// Written by the build.
 #pragma once
 
-namespace limen::experiments {
+namespace limen::generated {
 
 inline constexpr const char* kCommit = \"${commit}\";
 inline constexpr const char* kProjectVersion = \"${VERSION}\";
 inline constexpr const char* kBuildType = \"${BUILD_TYPE}\";
-inline constexpr const char* kYamlCppVersion = \"${YAML_CPP}\";
 
-}  // namespace limen::experiments
+}  // namespace limen::generated
 ")
 set(old "")
 if(EXISTS ${OUT})

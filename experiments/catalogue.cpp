@@ -47,6 +47,7 @@ std::string describeEntry(const NamedKind& kind, const std::string& name, const 
   if (!entry.unit.empty()) out += fmt::format("  unit: {}\n", entry.unit);
   if (entry.reference) out += "  a reference: made to be compared with\n";
   if (entry.onCpu) out += "  runs on the CPU\n";
+  if (!entry.counters.empty()) out += fmt::format("  counts: {}\n", join(entry.counters));
   if (entry.parameters.empty()) return out + "  no parameters\n";
   out += "  parameters:\n";
   for (const Parameter& parameter : entry.parameters) {
@@ -68,6 +69,7 @@ nlohmann::json entryAsJson(const NamedKind& kind, const std::string& name, const
     out["needs"] = entry.needs;
     out["reference"] = entry.reference;
     out["on_cpu"] = entry.onCpu;
+    out["counters"] = entry.counters;
   }
   if (!entry.unit.empty()) out["unit"] = entry.unit;
   return out;
@@ -83,6 +85,15 @@ Error unknownWord(const Catalogue& catalogue, const std::string& what) {
 }
 
 }  // namespace
+
+std::vector<std::string> counterNames(const Catalogue& catalogue,
+                                      const std::vector<std::string>& techniques) {
+  std::vector<std::string> out;
+  for (const std::string& technique : techniques)
+    for (const std::string& name : catalogue.techniques.at(technique).counters)
+      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+  return out;
+}
 
 std::vector<std::string> names(const CatalogueKind& kind) {
   std::vector<std::string> out;

@@ -21,6 +21,7 @@ struct CatalogueEntry {
   std::vector<std::string> needs;  ///< scene traits
   bool reference = false;          ///< made to be compared with
   bool onCpu = false;
+  std::vector<std::string> counters;  ///< names that its runs may have beside the common ones
 
   // Metrics only.
   std::string unit;
@@ -39,6 +40,8 @@ struct Catalogue {
 
 /// Names of one kind, sorted.
 std::vector<std::string> names(const CatalogueKind& kind);
+/// What the given techniques count, each name once.
+std::vector<std::string> counterNames(const Catalogue& catalogue, const std::vector<std::string>& techniques);
 
 /// The registries' contents.
 Catalogue catalogueFromRegistries();

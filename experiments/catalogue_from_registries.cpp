@@ -25,6 +25,7 @@ Catalogue catalogueFromRegistries() {
     entry.needs = info.needs;
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
+    entry.counters = info.counters;
   }
   for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
     CatalogueEntry& entry = out.metrics[name];

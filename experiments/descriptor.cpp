@@ -47,18 +47,6 @@ std::vector<std::string> parameterNames(const std::vector<Parameter>& parameters
   return out;
 }
 
-/// One letter too many, too few or wrong, or two neighbours swapped.
-bool isOneEditApart(const std::string& a, const std::string& b) {
-  if (a.size() > b.size()) return isOneEditApart(b, a);
-  const size_t start = static_cast<size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
-  const std::string restA = a.substr(start), restB = b.substr(start);
-  if (a.size() + 1 == b.size()) return restA == restB.substr(1);
-  if (a.size() != b.size() || restA.empty()) return false;
-  if (restA.substr(1) == restB.substr(1)) return true;
-  return restA.size() > 1 && restA[0] == restB[1] && restA[1] == restB[0] &&
-         restA.substr(2) == restB.substr(2);
-}
-
 class Reader {
  public:
   Reader(const std::string& path, const Catalogue& catalogue, const std::set<std::string>& features)
@@ -354,20 +342,17 @@ class Reader {
     groups.insert(groups.end(), {"technique", "scene", "image"});
     quantities.insert(quantities.end(), catalogue_.measurements.begin(), catalogue_.measurements.end());
     quantities.insert(quantities.end(), out_.metricNames.begin(), out_.metricNames.end());
+    std::vector<std::string> techniques;
+    for (const Entry& entry : out_.techniques) techniques.push_back(entry.name);
+    const std::vector<std::string> counters = counterNames(catalogue_, techniques);
+    quantities.insert(quantities.end(), counters.begin(), counters.end());
     for (const auto& [key, value] : node->members) {
       if (!out_.report.contains(key.text)) continue;
       const auto word = values_.text(value, key.text);
       if (!word) continue;
       const bool axis = key.text == "x" || key.text == "y";
       const std::vector<std::string>& known = axis ? quantities : groups;
-      // What a technique counts has a name that only its runs reveal, so any new name is taken as an axis
-      // unless it looks like a slip or is a metric that the descriptor leaves out.
-      const bool found = std::find(known.begin(), known.end(), *word) != known.end();
-      const bool slip = !axis || catalogue_.metrics.count(*word) ||
-                        std::any_of(known.begin(), known.end(),
-                                    [&](const std::string& name) { return isOneEditApart(*word, name); }) ||
-                        word->find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos;
-      if (!found && slip)
+      if (std::find(known.begin(), known.end(), *word) == known.end())
         problems_.add(value.mark, fmt::format("'{}' of the report is '{}'", key.text, *word),
                       suggest(*word, known));
       out_.report[key.text] = *word;

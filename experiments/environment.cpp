@@ -12,7 +12,7 @@
 #include <system_error>
 #include <thread>
 
-#include "experiments/build_facts.h"
+#include "base/build_facts.h"
 #include "experiments/store/store.h"
 
 namespace limen::experiments {
@@ -66,10 +66,6 @@ std::string quoteCommand(const std::vector<std::string>& words) {
   return out;
 }
 
-std::string versionText(const std::string& program) {
-  return fmt::format("{} {} (commit {})", program, kProjectVersion, kCommit);
-}
-
 nlohmann::json environmentFacts(const std::vector<std::string>& command, const std::string& root) {
   std::error_code code;
   const std::filesystem::path here = std::filesystem::current_path(code);
@@ -81,15 +77,15 @@ nlohmann::json environmentFacts(const std::vector<std::string>& command, const s
           {"os", lookUp("/etc/os-release", "PRETTY_NAME", '=')},
           {"kernel", kernel()},
           {"compiler", compiler()},
-          {"build_type", kBuildType},
+          {"build_type", buildType()},
           {"libraries",
-           {{"yaml-cpp", kYamlCppVersion},
+           {{"yaml-cpp", LIMEN_YAML_CPP_VERSION},
             {"sqlite", sqlite3_libversion()},
             {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
                                           NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
             {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
             {"cli11", CLI11_VERSION}}},
-          {"commit", kCommit},
+          {"commit", buildCommit()},
           {"command", quoteCommand(command)},
           {"working_directory", code || relative.empty() ? kUnknown : relative},
           {"time", store::utcNow()}};

@@ -13,9 +13,6 @@ namespace limen::experiments {
 /// An executor adds its GPU's facts.
 nlohmann::json environmentFacts(const std::vector<std::string>& command, const std::string& root);
 
-/// "limen-sweep 0.1.0 (commit ...)": what --version prints.
-std::string versionText(const std::string& program);
-
 /// Words as a shell would read them back.
 std::string quoteCommand(const std::vector<std::string>& words);
 

@@ -49,6 +49,8 @@ class Reader {
     for (const Entry& entry : descriptor.scenes) addOnce(scenes_, entry.name);
     quantities_ = descriptor.metricNames;
     quantities_.insert(quantities_.end(), catalogue.measurements.begin(), catalogue.measurements.end());
+    const std::vector<std::string> counters = counterNames(catalogue, techniques_);
+    quantities_.insert(quantities_.end(), counters.begin(), counters.end());
   }
 
   std::vector<ExpectationStatement> readAll(const YamlNode& node) {

@@ -4,9 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
+#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "experiments/environment.h"
 
 namespace limen::experiments {
 namespace {

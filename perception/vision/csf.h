@@ -68,6 +68,11 @@ using CsfRegistry = Registry<CsfInfo>;
 std::unique_ptr<Csf> makeCsf(const std::string& name, const std::string& where = {});
 /// Names for a choice parameter.
 std::vector<std::string> csfNames(Channel channel);
+/// Member of `point` by its name in CsfArgument; the name must be one of them.
+double argumentOf(const CsfPoint& point, const std::string& name);
+double& argumentOf(CsfPoint& point, const std::string& name);
+/// All names of arguments, in the order of CsfPoint's members.
+const std::vector<std::string>& csfArgumentNames();
 /// Names of the arguments of `info` whose value in `point` lies outside the valid range.
 std::vector<std::string> outsideValidRange(const CsfInfo& info, const CsfPoint& point);
 

@@ -60,8 +60,11 @@ void checkDisplay(const DisplayProfile& profile, const std::string& where);
 /// 60 Hz), "desktop_24" ... All with a source or a stated reason.
 std::vector<std::string> displayPresets();
 DisplayProfile displayPreset(const std::string& name);
+/// Why a preset is as it is; empty for an unknown name.
+std::string displayPresetReason(const std::string& name);
 /// A preset's name or the path of a profile (YAML). Throws Error: unknown name with the nearest known one,
-/// unreadable file, unknown key, bad value with line.
+/// unreadable file, unknown key, bad value with line. The keys stand at the top of display_profiles.cpp; a
+/// profile without a name takes the file's.
 DisplayProfile readDisplay(const std::string& nameOrFile);
 /// Text form that readDisplay() reads back to the same profile.
 std::string toYaml(const DisplayProfile& profile);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,25 @@ double tviWardSmoothed(double luminanceCdM2);
 double tviFromCsf(const Csf& csf, CsfPoint point);
 inline double cvi(double tviCdM2, double luminanceCdM2) { return tviCdM2 / luminanceCdM2; }
 
-/// Models by name: "ward", "ward_smoothed", "from_csf" (scaled to Ward at 100 cd/m2 or not).
+/// The same times what makes it meet Ward's at 100 cd/m2, as in figure 9.3 of the thesis.
+double tviFromCsfScaled(const Csf& csf, CsfPoint point);
+
+/// Models by name: "ward", "ward_smoothed", "from_csf", "from_csf_scaled" (to Ward at 100 cd/m2).
 std::vector<std::string> tviNames();
+/// Increment [cd/m2] of adaptation luminance [cd/m2] by the named model; those from a CSF read it and the
+/// other arguments of `point`, and the function holds on to `csf`. Throws Error naming the nearest known
+/// name.
+std::function<double(double)> makeTvi(const std::string& name, std::shared_ptr<const Csf> csf,
+                                      const CsfPoint& point, const std::string& where = {});
+
+/// Weights of threshold maps: how much less sensitive the eye is at this frequency than at its best, max csf
+/// / csf. At most 1e12. The original: Barten 1989 at 100 cd/m2 and 1 below 4 cpd, not to overrate dim places.
+/// Ramasubramanian et al. 1999; Schwarz 2009, section 9.3.
+double frequencyFactorOriginal(double frequencyCpd);
+/// The same of Barten 1989 at the actual luminance, without the rule for low frequencies. Schwarz 2009,
+/// section 9.4.
+double frequencyFactorActual(double frequencyCpd, double luminanceCdM2);
+/// Of any CSF.
+double frequencyFactor(const Csf& csf, const CsfPoint& point);
 
 }  // namespace limen::perception

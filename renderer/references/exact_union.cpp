@@ -216,7 +216,8 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .reference = true,
     .onCpu = true,
     .make = [](const ParameterValues& values) { return std::make_unique<ExactUnion>(values); },
-    .errorBound = nullptr}};
+    .errorBound = nullptr,
+    .counters = {"occluders_per_receiver"}}};
 
 }  // namespace
 }  // namespace limen::references

@@ -134,7 +134,8 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .reference = true,
     .onCpu = true,
     .make = [](const ParameterValues& values) { return std::make_unique<RayTracedLight>(values); },
-    .errorBound = halfWidth}};
+    .errorBound = halfWidth,
+    .counters = {"rays_per_receiver", "rays"}}};
 
 }  // namespace
 }  // namespace limen::references

@@ -158,7 +158,8 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .needs = {"area_light"},
     .reference = true,
     .make = [](const ParameterValues& values) { return std::make_unique<SampledLight>(values); },
-    .errorBound = edgeBound}};
+    .errorBound = edgeBound,
+    .counters = {"shadow_maps", "triangles_drawn", "maps_cutting_casters_share"}}};
 
 }  // namespace
 }  // namespace limen::references

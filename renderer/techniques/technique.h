@@ -18,7 +18,8 @@ namespace limen::techniques {
 enum class ProductKind {
   Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
                ///< receivers
-  Colour       ///< RGBA32F, linear radiance, alpha 1
+  Colour,      ///< RGBA32F, linear radiance, alpha 1
+  Threshold    ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
 };
 std::string toText(ProductKind kind);
 
@@ -67,6 +68,8 @@ struct TechniqueInfo {
   /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
   /// sampling error; null: exact.
   std::function<double(const ParameterValues&)> errorBound;
+  /// Names of all that count() may return: expectations and report axes may name them.
+  std::vector<std::string> counters = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
 

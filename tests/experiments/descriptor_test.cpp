@@ -49,9 +49,9 @@ TEST(Descriptor, NeedsNoReferenceForMetricsThatJudgeOneImage) {
 
 TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
   EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
-                  "report: {x: micro_occluders_per_px, y: samples_per_px}\n")
+                  "report: {x: fetches_per_px, y: gpu_ms}\n")
                 .report["x"],
-            "micro_occluders_per_px");
+            "fetches_per_px");
 }
 
 TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {

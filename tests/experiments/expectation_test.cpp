@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "experiments/plan.h"
 #include "tests/experiments/fake_bench.h"
 
@@ -52,6 +53,20 @@ TEST(Expectation, IsAboutTheSelectedRunsAlone) {
   EXPECT_FALSE(judged("{metric: rmse, of: soft/bitmask, below: 2}", value).held);
   EXPECT_TRUE(judged("{metric: rmse, where: {samples: 16}, below: 2}", value).held);
   EXPECT_FALSE(judged("{metric: rmse, where: {samples: 8, light_size: 0.5}, below: 2}", value).held);
+}
+
+TEST(Expectation, MayBeAboutWhatATechniqueCounts) {
+  const Catalogue catalogue = fakeCatalogue();
+  const Descriptor descriptor =
+      parseDescriptor(validDescriptor() + "expect: [{metric: fetches_per_px, of: soft/pcss, below: 9}]\n",
+                      "d.yaml", catalogue, {});
+  EXPECT_EQ(descriptor.expectations.at(0).metric, "fetches_per_px");
+  // What only a technique outside the descriptor counts is as unknown as any other name.
+  Catalogue other = catalogue;
+  other.techniques["soft/pcss"].counters.clear();
+  EXPECT_THROW(parseDescriptor(validDescriptor() + "expect: [{metric: fetches_per_px, below: 9}]\n", "d.yaml",
+                               other, {}),
+               Error);
 }
 
 TEST(Expectation, SaysWhichRunBrokeItAndHowMany) {

@@ -43,6 +43,7 @@ Catalogue fakeCatalogue() {
   out.techniques["soft/bitmask"].needs = {"rectangular_light"};
   out.techniques["soft/pcss"] = technique(1, "Filtered shadow map", "visibility",
                                           {realParameter("radius", 0.05, 0.0, 1.0, "m", "Search radius")});
+  out.techniques["soft/pcss"].counters = {"fetches_per_px"};
   out.techniques["soft/sampled"] = technique(
       1, "Sampled light", "visibility", {integerParameter("samples", 1024, 1, 1048576, "", "Light samples")});
   out.techniques["soft/sampled"].reference = true;

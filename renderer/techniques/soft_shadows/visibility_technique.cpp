@@ -42,6 +42,7 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
                     " pixels need more loop iterations than this software renderer grants",
                 {}, "set 'budget', lower 'resolution', or run on a GPU");
   const double processed = pixels[Processed], receivers = all - pixels[NotReceiver];
+  const auto share = [&](double part) { return all > 0.0 ? part / all : 0.0; };
   const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
   const double mean = perProcessed(occluders);
   const double variance = perProcessed(occludersSquared) - mean * mean;
@@ -50,11 +51,11 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
           {"micro_occluders_per_px", mean, "", true},
           {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
           {"level_mean", perProcessed(levels), "", false},
-          {"receivers_share", receivers / all, "", false},
-          {"lit_share", pixels[Lit] / all, "", false},
-          {"umbra_share", pixels[Umbra] / all, "", false},
-          {"processed_share", processed / all, "", false},
-          {"outside_map_share", pixels[Outside] / all, "", false}};
+          {"receivers_share", share(receivers), "", false},
+          {"lit_share", share(pixels[Lit]), "", false},
+          {"umbra_share", share(pixels[Umbra]), "", false},
+          {"processed_share", share(processed), "", false},
+          {"outside_map_share", share(pixels[Outside]), "", false}};
 }
 
 frame::Raster rasterOf(const std::string& name) {
@@ -123,6 +124,12 @@ void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, c
   if (counts) counts->bindImage(1, gl::Access::Write);
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+std::vector<std::string> VisibilityTechnique::counterNames() {
+  std::vector<std::string> out;
+  for (const Counter& counter : summarise({})) out.push_back(counter.name);
+  return out;
 }
 
 void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nullptr); }

@@ -21,6 +21,8 @@ class VisibilityTechnique : public Technique {
   /// Shares of lit, umbra, processed and outside pixels; micro-occluders and fetches per processed pixel.
   std::vector<Counter> count(frame::Frame& frame) override;
 
+  /// Names of what count() returns.
+  static std::vector<std::string> counterNames();
   /// Parameters that `values` must hold: resolution, bias, slope_bias, max_slope, raster.
   static std::vector<Parameter> commonParameters(double defaultSlopeBias);
 

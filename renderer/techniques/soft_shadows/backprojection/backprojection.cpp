@@ -25,7 +25,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Backprojection>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = VisibilityTechnique::counterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

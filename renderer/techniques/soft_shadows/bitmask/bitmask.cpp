@@ -39,7 +39,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Bitmask>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = VisibilityTechnique::counterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

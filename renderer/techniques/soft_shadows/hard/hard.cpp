@@ -27,7 +27,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<HardShadow>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = VisibilityTechnique::counterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

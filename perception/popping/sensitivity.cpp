@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/popping/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "perception/vision/adaptation.h"
+#include "perception/vision/csf_models.h"
+
+namespace limen::perception {
+namespace {
+
+constexpr double kLowLuminance = 1e-4, kHighLuminance = 1e4;
+constexpr double kLowVelocity = 1e-3, kHighVelocity = 1e3;
+constexpr double kTolerance = 1e-8;
+
+bool reads(const std::string& model, const std::string& argument) {
+  const std::vector<CsfArgument>& arguments = CsfRegistry::instance().get(model).arguments;
+  return std::any_of(arguments.begin(), arguments.end(),
+                     [&](const CsfArgument& one) { return one.name == argument; });
+}
+
+double finiteOrZero(double value) { return std::isfinite(value) && value > 0.0 ? value : 0.0; }
+
+}  // namespace
+
+FineTable::FineTable(std::function<double(double)> function, double low, double high, int cells)
+    : function_(std::move(function)),
+      lnLow_(std::log(low)),
+      perLn_(cells / (std::log(high) - std::log(low))),
+      cells_(cells),
+      direct_(static_cast<size_t>(cells), 0) {
+  const auto at = [&](double cell) { return function_(std::exp(lnLow_ + cell / perLn_)); };
+  for (int i = -1; i <= cells + 1; ++i) values_.push_back(at(i));
+  for (int cell = 0; cell < cells; ++cell)
+    for (const double t : {0.25, 0.5, 0.75}) {
+      const double exact = at(cell + t);
+      if (!(std::abs(interpolated(cell, t) - exact) <= kTolerance * exact)) direct_[cell] = 1;
+    }
+}
+
+double FineTable::interpolated(int cell, double t) const {
+  // Lagrange's polynomial through the four nodes at -1, 0, 1, 2.
+  const double* v = values_.data() + cell;
+  const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
+  return -t * b * c / 6.0 * v[0] + a * b * c / 2.0 * v[1] - a * t * c / 2.0 * v[2] + a * t * b / 6.0 * v[3];
+}
+
+double FineTable::operator()(double x) const {
+  if (!(x > 0.0)) return function_(x);
+  const double place = (std::log(x) - lnLow_) * perLn_;
+  if (!(place >= 0.0 && place < cells_)) return function_(x);
+  const int cell = static_cast<int>(place);
+  return direct_[static_cast<size_t>(cell)] ? function_(x) : interpolated(cell, place - cell);
+}
+
+CsfPoint viewingPoint(double areaDeg2, double widthDeg, const DisplayProfile& display) {
+  CsfPoint point;
+  point.areaDeg2 = areaDeg2;
+  point.widthDeg = widthDeg;
+  point.distanceM = display.distanceM;
+  return point;
+}
+
+std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoint& viewing) {
+  const auto scale = [&](const std::string& model, double luminance, double threshold) {
+    CsfPoint point = viewing;
+    point.velocityDegS = settings.calibrationVelocityDegS;
+    point.luminanceCdM2 = luminance;
+    const double peak = makeCsf(model, "popping")->peak(point).sensitivity;
+    if (!(peak > 0.0) || !std::isfinite(peak))
+      throw Error("sensitivity '" + model + "' has no peak at the calibration's velocity and luminance",
+                  "popping", "choose another calibration_velocity_deg_s or calibration luminance");
+    return 1.0 / (threshold * peak);
+  };
+  return {scale(settings.csfAchromatic, settings.calibrationLuminanceCdM2, settings.thresholdAchromatic),
+          scale(settings.csfRedGreen, settings.calibrationChromaticCdM2, settings.thresholdRedGreen),
+          scale(settings.csfBlueYellow, settings.calibrationChromaticCdM2, settings.thresholdBlueYellow)};
+}
+
+Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& display,
+                         const PoppingSettings& settings, bool tables)
+    : peakCpd_(model.peakCpd),
+      viewing_(viewingPoint(model.areaDeg2, model.widthDeg, display)),
+      chromaticReferenceCdM2_(settings.chromaticReferenceCdM2),
+      oneChromatic_(settings.csfRedGreen == settings.csfBlueYellow) {
+  if (tables) {
+    const double area = viewing_.areaDeg2, reference = chromaticReferenceCdM2_;
+    c0_ = FineTable([area](double l) { return daly98C0(l, area); }, kLowLuminance, kHighLuminance, 512);
+    c1_ = FineTable([area](double l) { return daly98C1(l, area); }, kLowLuminance, kHighLuminance, 512);
+    chromaticScale_ = FineTable([reference](double l) { return chromaticScale(l, reference); }, kLowLuminance,
+                                kHighLuminance, 1024);
+  }
+  channels_ = {makeChannel(settings.csfAchromatic, model.scaleA, tables),
+               makeChannel(settings.csfRedGreen, model.scaleRg, tables),
+               makeChannel(settings.csfBlueYellow, model.scaleBy, tables)};
+}
+
+Sensitivity::Channel Sensitivity::makeChannel(const std::string& name, double scale, bool tables) const {
+  Channel channel;
+  const CsfInfo& info = CsfRegistry::instance().get(name, "popping");
+  std::map<std::string, ParameterValue> given;
+  if (name == "kelly83") given["reference_luminance"] = chromaticReferenceCdM2_;
+  channel.csf = info.make(ParameterValues(info.parameters, given, "popping"));
+  channel.scale = scale;
+  if (!tables) return channel;
+  const bool velocity = reads(name, "velocity_deg_s"), luminance = reads(name, "luminance_cd_m2");
+  if (name == "daly98") {
+    channel.kind = Channel::Kind::Daly98;
+    return channel;
+  }
+  if (name == "kelly83")
+    channel.kind = Channel::Kind::Kelly83;
+  else if (velocity && luminance)
+    return channel;
+  else
+    channel.kind = velocity ? Channel::Kind::Velocity : Channel::Kind::Luminance;
+  for (const double cpd : peakCpd_) {
+    if (channel.kind == Channel::Kind::Kelly83) {
+      channel.byLevel.emplace_back([cpd](double v) { return csfKelly83(cpd, v); }, kLowVelocity,
+                                   kHighVelocity, 4096);
+      continue;
+    }
+    CsfPoint point = viewing_;
+    point.frequencyCpd = cpd;
+    const std::shared_ptr<const Csf> csf = channel.csf;
+    if (channel.kind == Channel::Kind::Velocity)
+      channel.byLevel.emplace_back(
+          [csf, point](double v) {
+            CsfPoint at = point;
+            at.velocityDegS = v;
+            return csf->sensitivity(at);
+          },
+          kLowVelocity, kHighVelocity, 4096);
+    else
+      channel.byLevel.emplace_back(
+          [csf, point](double l) {
+            CsfPoint at = point;
+            at.luminanceCdM2 = l;
+            return csf->sensitivity(at);
+          },
+          kLowLuminance, kHighLuminance, 2048);
+  }
+  return channel;
+}
+
+double Sensitivity::evaluate(const Channel& channel, int level, double velocityDegS,
+                             double luminanceCdM2) const {
+  const auto i = static_cast<size_t>(level);
+  switch (channel.kind) {
+    case Channel::Kind::Daly98: {
+      const double l = std::clamp(luminanceCdM2, kLowLuminance, kHighLuminance);
+      return csfDaly98(peakCpd_[i], velocityDegS, c0_(l), c1_(l));
+    }
+    case Channel::Kind::Kelly83:
+      return chromaticScale_(luminanceCdM2) * channel.byLevel[i](velocityDegS);
+    case Channel::Kind::Velocity:
+      return channel.byLevel[i](velocityDegS);
+    case Channel::Kind::Luminance:
+      return channel.byLevel[i](luminanceCdM2);
+    case Channel::Kind::Direct:
+      break;
+  }
+  CsfPoint point = viewing_;
+  point.frequencyCpd = peakCpd_[i];
+  point.velocityDegS = velocityDegS;
+  point.luminanceCdM2 = luminanceCdM2;
+  return channel.csf->sensitivity(point);
+}
+
+std::array<double, 3> Sensitivity::at(int level, double velocityDegS, double luminanceCdM2) const {
+  std::array<double, 3> out{};
+  for (size_t c = 0; c < 3; ++c)
+    out[c] = c == 2 && oneChromatic_
+                 ? out[1]
+                 : finiteOrZero(evaluate(channels_[c], level, velocityDegS, luminanceCdM2));
+  for (size_t c = 0; c < 3; ++c) out[c] *= channels_[c].scale;
+  return out;
+}
+
+}  // namespace limen::perception

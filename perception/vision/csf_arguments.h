@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "perception/vision/csf.h"
+
+/// What the files that register contrast sensitivities share.
+namespace limen::perception {
+
+inline CsfArgument frequencyArgument(double low, double high) { return {"frequency_cpd", "cpd", low, high}; }
+inline CsfArgument velocityArgument(double low, double high) {
+  return {"velocity_deg_s", "deg/s", low, high};
+}
+inline CsfArgument luminanceArgument(double low, double high) {
+  return {"luminance_cd_m2", "cd/m2", low, high};
+}
+inline CsfArgument areaArgument(double low, double high) { return {"area_deg2", "deg2", low, high}; }
+
+/// Declared by every model: the peak that studies report differs by far more than the models' shapes.
+inline Parameter gainParameter() {
+  return realParameter("gain", 1.0, 0.0, 1e6, "", "factor on the sensitivity");
+}
+
+/// A model that is one function of the point; times the parameter `gain`.
+class FunctionCsf : public Csf {
+ public:
+  FunctionCsf(double gain, std::function<double(const CsfPoint&)> function)
+      : gain_(gain), function_(std::move(function)) {}
+  double sensitivity(const CsfPoint& point) const override { return gain_ * function_(point); }
+
+ private:
+  double gain_;
+  std::function<double(const CsfPoint&)> function_;
+};
+
+inline std::unique_ptr<Csf> makeFunctionCsf(const ParameterValues& values,
+                                            std::function<double(const CsfPoint&)> function) {
+  return std::make_unique<FunctionCsf>(values.real("gain"), std::move(function));
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/vision/masking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limen::perception {
+namespace {
+
+// Below this contrast an elevation made from a transducer stays what it is there: that of Lubin, whose slope
+// is 0 at 0, would rise without bound.
+constexpr double kLeastContrast = 1e-6;
+
+// (1 + x^b)^(1/b) for x >= 0 where x^b may overflow.
+double softMaximum(double x, double b) {
+  return x > 1.0 ? x * std::pow(1.0 + std::pow(x, -b), 1.0 / b) : std::pow(1.0 + std::pow(x, b), 1.0 / b);
+}
+
+double withSign(double magnitude, double sign) { return std::copysign(magnitude, sign); }
+
+bool refused(double c) { return !std::isfinite(c); }
+
+}  // namespace
+
+double elevationDaly(double c, double k1, double k2, double b, double s) {
+  if (refused(c)) return 0.0;
+  // (k2 c)^s apart, for a product that overflows.
+  return softMaximum(k1 * std::pow(k2, s) * std::pow(std::abs(c), s), b);
+}
+
+double transducerDaly(double c, double k1, double k2, double b, double s) {
+  return refused(c) ? 0.0 : c / elevationDaly(c, k1, k2, b, s);
+}
+
+double transducerLubin(double c, double n, double w) {
+  if (refused(c) || c == 0.0) return 0.0;
+  const double x = std::abs(c);
+  return withSign(x > 1.0 ? 2.0 * std::pow(x, w) / (1.0 + std::pow(x, w - n))
+                          : 2.0 * std::pow(x, n) / (std::pow(x, n - w) + 1.0),
+                  c);
+}
+
+double selfMask(double c, double alpha) {
+  if (refused(c) || c == 0.0) return 0.0;
+  return withSign(std::pow(std::abs(c), alpha), c);
+}
+
+double pointwiseExtendedMask(double x, double neighbourMean, double alpha, double a) {
+  // An infinite neighbour masks all, and so does one that is no number: better unseen than spread.
+  if (refused(neighbourMean)) return 0.0;
+  return selfMask(x, alpha) / (1.0 + a * std::max(neighbourMean, 0.0));
+}
+
+double elevationSchwarz(double c) { return refused(c) ? 0.0 : softMaximum(std::pow(std::abs(c), 0.3), 10.0); }
+
+double transducerSchwarz(double c) { return refused(c) ? 0.0 : c / elevationSchwarz(c); }
+
+Masking makeMasking(const std::string& name, const std::string& where) {
+  const MaskingInfo& info = MaskingRegistry::instance().get(name, where);
+  return info.make(ParameterValues(info.parameters, {}));
+}
+
+namespace {
+
+const char* const kThesis = "Schwarz 2009, section 9.1.2";
+
+const Registered<MaskingInfo> kNone{
+    MaskingInfo{"none", "No masking: the response is the contrast.", "", {}, [](const ParameterValues&) {
+                  return Masking{[](double c) { return refused(c) ? 0.0 : 1.0; },
+                                 [](double c) { return refused(c) ? 0.0 : c; }};
+                }}};
+
+const Registered<MaskingInfo> kDaly{MaskingInfo{
+    "daly",
+    "Threshold elevation (1 + (k1 (k2 c)^s)^b)^(1/b); 1 at low contrast, c^s at high.",
+    "Daly 1993; Schwarz 2009, (9.7)",
+    {realParameter("k1", 0.0153, 1e-6, 1e3, "", "with k2, the contrast at which masking sets in", kThesis),
+     realParameter("k2", 392.498, 1e-6, 1e6, "", "with k1, the contrast at which masking sets in", kThesis),
+     realParameter("b", 4.0, 0.1, 100.0, "", "how sharply masking sets in", kThesis),
+     realParameter("s", 0.7, 0.0, 1.0, "", "slope of lg elevation over lg contrast; 0.65 to 1 in use",
+                   kThesis)},
+    [](const ParameterValues& values) {
+      const double k1 = values.real("k1"), k2 = values.real("k2"), b = values.real("b"), s = values.real("s");
+      return Masking{[=](double c) { return elevationDaly(c, k1, k2, b, s); },
+                     [=](double c) { return transducerDaly(c, k1, k2, b, s); }};
+    }}};
+
+const Registered<MaskingInfo> kLubin{MaskingInfo{
+    "lubin",
+    "Transducer 2 c^n / (c^(n-w) + 1): facilitates near threshold. The elevation c / transducer, which grows "
+    "without bound towards c = 0, is held below 1e-6.",
+    "Lubin 1995; Schwarz 2009, (9.8)",
+    {realParameter("n", 2.2, 1.0, 4.0, "", "exponent at low contrast; 2 to 2.5 published", kThesis),
+     realParameter("w", 0.2, 0.0, 0.99, "", "exponent at high contrast", kThesis)},
+    [](const ParameterValues& values) {
+      const double n = values.real("n"), w = values.real("w");
+      return Masking{[=](double c) {
+                       if (refused(c)) return 0.0;
+                       const double x = std::max(std::abs(c), kLeastContrast);
+                       return x / transducerLubin(x, n, w);
+                     },
+                     [=](double c) { return transducerLubin(c, n, w); }};
+    }}};
+
+const Registered<MaskingInfo> kSelf{MaskingInfo{
+    "self",
+    "Self-masking of JPEG 2000: sign(c) |c|^alpha. Its elevation |c|^(1 - alpha) is below 1 for c < 1.",
+    "Zeng, Daly and Lei 2002; Schwarz 2009, section 9.1.2",
+    {realParameter("alpha", 0.7, 0.05, 1.0, "", "exponent; 0.7 in the thesis, 0.3 elsewhere", kThesis)},
+    [](const ParameterValues& values) {
+      const double alpha = values.real("alpha");
+      return Masking{[=](double c) { return refused(c) ? 0.0 : std::pow(std::abs(c), 1.0 - alpha); },
+                     [=](double c) { return selfMask(c, alpha); }};
+    }}};
+
+const Registered<MaskingInfo> kSchwarz{
+    MaskingInfo{"schwarz",
+                "Transducer c / (1 + |c|^(s b))^(1/b): the identity at low contrast, |c|^(1 - s) at high.",
+                "Schwarz 2009, (9.9)",
+                {realParameter("b", 10.0, 0.1, 100.0, "", "how sharply masking sets in", kThesis),
+                 realParameter("s", 0.3, 0.0, 1.0, "", "slope of lg elevation over lg contrast", kThesis)},
+                [](const ParameterValues& values) {
+                  // (9.9) is (9.7) with k1 = k2 = 1.
+                  const double b = values.real("b"), s = values.real("s");
+                  return Masking{[=](double c) { return elevationDaly(c, 1.0, 1.0, b, s); },
+                                 [=](double c) { return transducerDaly(c, 1.0, 1.0, b, s); }};
+                }}};
+
+}  // namespace
+}  // namespace limen::perception
