@@ -14,6 +14,7 @@
 #include "perception/command/popping_report.h"
 #include "perception/metrics/error_map.h"
 #include "perception/popping/comparator.h"
+#include "perception/popping/overlay.h"
 
 namespace limen::perception {
 namespace {
@@ -141,6 +142,12 @@ void predict(const Call& call, const FrameSet& frame, const OutputFiles& outputs
     const std::string path = outputs.file(call.options.jnd, frame);
     writeExr(path, result.jnd, "popping, JND; " + call.statement);
     report.outputs.emplace_back("difference map, JND", path);
+  }
+  if (!call.options.overlay.empty()) {
+    const std::string path = outputs.file(call.options.overlay, frame);
+    writePng(path, poppingOverlay(displayPicture(input.actual), result.regions),
+             "popping regions, coloured by rating R; " + call.statement);
+    report.outputs.emplace_back("overlay", path);
   }
   if (!call.options.stages.empty())
     writeStages(result, outputs.folder(call.options.stages, frame), call.statement, report);

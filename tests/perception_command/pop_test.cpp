@@ -97,6 +97,28 @@ TEST_F(PopCli, RegionsAreThoseOfTheWrittenMaps) {
   EXPECT_NEAR(figure(found, "median_jnd"), values[values.size() / 2 - 1], 1e-5);
 }
 
+TEST_F(PopCli, OverlayColoursRegionsOnGrey) {
+  savePair("old.png", "new.png");
+  const nlohmann::json found = result({"pop", "old.png", "new.png", "--overlay", "over.png"});
+  const Image picture = readImageFile(path("over.png")).image;
+  ASSERT_EQ(picture.width, 96);
+  ASSERT_GE(picture.height, 80);
+  const auto spread = [&](int x, int y) {
+    const float r = picture.at(x, y, 0), g = picture.at(x, y, 1), b = picture.at(x, y, 2);
+    return std::max({r, g, b}) - std::min({r, g, b});
+  };
+  for (const nlohmann::json& region : found.at("regions_table")) {
+    double most = 0.0;
+    for (int y = 0; y < region.at("height_px").get<int>(); ++y)
+      for (int x = 0; x < region.at("width_px").get<int>(); ++x)
+        most = std::max(most,
+                        double{spread(region.at("x_px").get<int>() + x, region.at("y_px").get<int>() + y)});
+    EXPECT_GT(most, 0.1);
+  }
+  EXPECT_LT(spread(95, 0), 0.01);  // far from what pops
+  expectRefused({"pop", "old.png", "new.png", "--overlay", "new.png"}, {"never overwritten"});
+}
+
 TEST_F(PopCli, FormatsAndSwappingLeaveTheDifferenceAlone) {
   savePair("old.png", "new.png");
   for (const char* name : {"old", "new"})
