@@ -90,6 +90,27 @@ double throughputMs(const std::function<void()>& run) {
   return 1e-6 * static_cast<double>(elapsed) / kFrames;
 }
 
+/// Median times of the passes: levels, evaluate. Timestamps between passes cost a little themselves.
+std::pair<double, double> passTimes(ThresholdMapGpu& gpu, const gl::Texture& colour, bool software) {
+  gl::PassList passes;
+  const auto frame = [&] {
+    passes.beginFrame();
+    gpu.run(colour, &passes);
+    passes.endFrame();
+  };
+  const int frames = software ? kSoftwareFrames : kFrames;
+  frame();
+  passes.startRecording(software ? gl::Clock::Wall : gl::Clock::Gpu, frames);
+  for (int i = 0; i < frames; ++i) frame();
+  std::vector<double> levels, evaluate;
+  for (const gl::PassTime& time : passes.finishRecording()) {
+    if (time.pass == "threshold_map/levels") levels.push_back(1e-6 * static_cast<double>(time.nanoseconds));
+    if (time.pass == "threshold_map/evaluate")
+      evaluate.push_back(1e-6 * static_cast<double>(time.nanoseconds));
+  }
+  return {summarise(std::move(levels)).medianMs, summarise(std::move(evaluate)).medianMs};
+}
+
 /// Linear colour with shapes, texture and grain.
 Image testImage(glm::ivec2 size) {
   std::mt19937 random(7);
@@ -150,6 +171,7 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
         const auto run = [&] { gpu.run(colour); };
         const Times times = measure(run, software);
         const double back = software ? times.medianMs : throughputMs(run);
+        const auto [levelsMs, evaluateMs] = passTimes(gpu, colour, software);
         const double gbS = 1e-6 * static_cast<double>(gpu.bytesMoved(colour)) / times.medianMs;
         std::string error = "";
         if (checked) {
@@ -157,10 +179,11 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
               perception::luminancePlane(image, display), display.pixelsPerDegree(), settings);
           error = fmt::format("{:.3g}", largestError(gpu.map().read(), exact.thresholdCdM2));
         }
-        fmt::print("{},{},{},{},{},{:.5f},{:.5f},{:.5f},{:.5f},{},{:.2f},{:.1f},{:.1f},{:.3f},{}\n", size.x,
-                   size.y, nineFetch ? "nine_fetch" : "exact", stack ? "stack" : "pyramid", half ? 16 : 32,
-                   times.medianMs, times.leastMs, times.p95Ms, back, times.frames,
-                   1e-6 * static_cast<double>(gpu.bytesMoved(colour)), gbS, copy, gbS / copy, error);
+        fmt::print(
+            "{},{},{},{},{},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{:.2f},{:.1f},{:.1f},{:.3f},{}\n",
+            size.x, size.y, nineFetch ? "nine_fetch" : "exact", stack ? "stack" : "pyramid", half ? 16 : 32,
+            times.medianMs, times.leastMs, times.p95Ms, levelsMs, evaluateMs, back, times.frames,
+            1e-6 * static_cast<double>(gpu.bytesMoved(colour)), gbS, copy, gbS / copy, error);
         std::fflush(stdout);
       }
 }
@@ -180,8 +203,9 @@ int main(int argc, char** argv) {
                context->device().software ? " (wall time on a CPU)" : "", display.line());
     const double copy = copyGbS(*context);
     fmt::print(
-        "width_px,height_px,downsample,decomposition,precision_bits,median_ms,least_ms,p95_ms,back_to_back_"
-        "ms,"
+        "width_px,height_px,downsample,decomposition,precision_bits,median_ms,least_ms,p95_ms,levels_ms,"
+        "evaluate_ms,"
+        "back_to_back_ms,"
         "frames,moved_mb,moved_gb_s,copy_gb_s,share_of_copy,largest_relative_error\n");
     std::vector<glm::ivec2> sizes = {{512, 512}, {1024, 768}};
     if (!small)

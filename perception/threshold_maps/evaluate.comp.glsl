@@ -17,6 +17,7 @@ layout(binding = 1, rg32f) uniform writeonly image2D stages;
 // For each tile column, then each tile row: first sample and count at each level from 1.
 layout(std430, binding = 1) readonly buffer Patches { ivec2 patches[]; };
 uniform int tileColumns;
+uniform ivec2 upward[max(LEVELS - 1, 1)];  // first entries in Places of level i on level i + 1: columns, rows
 
 const ivec2 kTile = ivec2(64, 32);
 const int kRun = 8;  // pixels of an invocation, one below the other
@@ -34,8 +35,8 @@ shared float atEven[max(kPlanes - 1, 1) * kCoarserPlaneSize];  // at level 2, 4 
 // One behind the other; shared memory for all that there may be.
 const int kStart[8] = int[8](0, 612, 821, 898, 933, 953, 969, 985);
 shared float level[1001];
-shared int rowLeft[kPlanes * kTile.y];
-shared float rowRest[kPlanes * kTile.y];
+shared int rowLeft[kPlanes * kTile.y], columnLeft[kPlanes * kTile.x];
+shared float rowRest[kPlanes * kTile.y], columnRest[kPlanes * kTile.x];
 #endif
 
 ivec2 originOf(int i) {
@@ -117,17 +118,15 @@ void loadStack(int thread) {
   barrier();
   // From level i + 1 to level i; plane 0 is the coarsest level, the finer ones follow.
   for (int i = kPlanes - 1; i >= 1; --i) {
-    ivec2 origin = originOf(i), count = countOf(i), size = textureSize(gaussian, i - 1);
-    ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i);
+    ivec2 origin = originOf(i), count = countOf(i), size = textureSize(gaussian, i - 1), below = originOf(i + 1);
     int stride = kWidth[i - 1], belowStride = kWidth[i], planes = kPlanes - i;
     for (int p = thread; p < stride * count.y; p += 256) {
       ivec2 at = ivec2(p % stride, p / stride);
       if (at.x >= count.x) continue;
-      ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1), left;
-      vec2 t;
-      place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
-      place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
-      int from = (left.y - below.y) * belowStride + left.x - below.x;
+      ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1);
+      vec2 placeX = places[upward[i].x + sampleAt.x], placeY = places[upward[i].y + sampleAt.y];
+      vec2 t = vec2(placeX.y, placeY.y);
+      int from = (int(placeY.x) - below.y) * belowStride + int(placeX.x) - below.x;
       float own = stored(i, sampleAt), value = 0.0;
       for (int plane = 0; plane < planes; ++plane) {
         if (i % 2 == 1) {
@@ -168,12 +167,11 @@ void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
       float value = stored(i, sampleAt);
 #if LAPLACIAN
       if (i <= HALF_LEVELS) {
-        ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i), left;
-        vec2 t;
-        place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
-        place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
-        int q = kStart[i] + (left.y - below.y) * kWidth[i] + left.x - below.x;
-        value += between(level[q], level[q + 1], level[q + kWidth[i]], level[q + kWidth[i] + 1], t);
+        ivec2 below = originOf(i + 1);
+        vec2 placeX = places[upward[i].x + sampleAt.x], placeY = places[upward[i].y + sampleAt.y];
+        int q = kStart[i] + (int(placeY.x) - below.y) * kWidth[i] + int(placeX.x) - below.x;
+        value += between(level[q], level[q + 1], level[q + kWidth[i]], level[q + kWidth[i] + 1],
+                         vec2(placeX.y, placeY.y));
       }
 #endif
       level[kStart[i - 1] + p] = value;
@@ -185,6 +183,13 @@ void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
     place(y, textureSize(gaussian, plane).y, fullSize.y, left, t);
     rowLeft[i] = left - originOf(plane + 1).y;
     rowRest[i] = t;
+  }
+  for (int i = thread; i < kPlanes * kTile.x; i += 256) {
+    int plane = i / kTile.x, x = min(tile.x + i % kTile.x, fullSize.x - 1), left;
+    float t;
+    place(x, textureSize(gaussian, plane).x, fullSize.x, left, t);
+    columnLeft[i] = left - originOf(plane + 1).x;
+    columnRest[i] = t;
   }
   barrier();
 }
@@ -207,19 +212,17 @@ void main() {
 #if STACK
   loadStack(thread);
   if (x >= size.x) return;
-  ivec2 sampleSize = textureSize(gaussian, 0), origin = originOf(1);
-  int left, row = -1000;
-  float tx;
-  place(x, sampleSize.x, size.x, left, tx);
-  left -= origin.x;
+  ivec2 origin = originOf(1);
+  vec2 placeX = places[upward[0].x + x];
+  int left = int(placeX.x) - origin.x, row = -1000;
+  float tx = placeX.y;
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = ivec2(x, tile.y + firstRow + i);
     if (at.y >= size.y) return;
     float finestValue = decoded(texelFetch(finest, at, 0).r);
-    int top;
-    float ty;
-    place(at.y, sampleSize.y, size.y, top, ty);
-    top -= origin.y;
+    vec2 placeY = places[upward[0].y + at.y];
+    int top = int(placeY.x) - origin.y;
+    float ty = placeY.y;
     if (top != row) {
       bool moved = top == row + 1;
       row = top;
@@ -242,9 +245,9 @@ void main() {
   int column[kPlanes], row[kPlanes];
   float tx[kPlanes];
   for (int plane = 0; plane < kPlanes; ++plane) {
-    int left;
-    place(x, textureSize(gaussian, plane).x, size.x, left, tx[plane]);
-    column[plane] = kStart[plane] + left - originOf(plane + 1).x;
+    int entry = plane * kTile.x + thread % kTile.x;
+    tx[plane] = columnRest[entry];
+    column[plane] = kStart[plane] + columnLeft[entry];
     row[plane] = -1000;
   }
   for (int i = 0; i < kRun; ++i) {

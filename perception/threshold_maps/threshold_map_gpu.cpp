@@ -27,6 +27,10 @@ constexpr float kLargestHalfCdM2 = 6e4F;
 constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
 constexpr std::array<int, 8> kMostRows{18, 11, 7, 5, 4, 4, 4, 4};
 
+constexpr std::array<const char*, 9> kUpwardNames{"upward[0]", "upward[1]", "upward[2]",
+                                                  "upward[3]", "upward[4]", "upward[5]",
+                                                  "upward[6]", "upward[7]", "upward[8]"};
+
 /// The uniform block, std140.
 struct RunBlock {
   glm::vec4 kernel{0.0F}, light{0.0F}, rule{0.0F}, masking{0.0F};
@@ -126,10 +130,15 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
       assert(rows[i].y <= kMostRows[i % static_cast<size_t>(levels_ - 1)]);
     patches.insert(patches.end(), rows.begin(), rows.end());
     patches_.emplace(patches);
+    LevelPlaces places = levelPlaces(sizePx, levels_);
+    places_.emplace(places.places);
+    upward_ = std::move(places.upward);
+    downward_ = std::move(places.downward);
   }
   const RunBlock block = runBlock(settings, model, display);
   run_.emplace(int64_t{sizeof block}, &block);
   tables_.emplace(thresholdTables(model));
+  elevations_.emplace(elevationTable(model));
 
   const int maskingModel = maskingConstants(settings.masking).first;
   defines_ = {{"COLOUR", yes(colourInput)},
@@ -182,7 +191,11 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   run_->bindUniform(0);
   tables_->bindStorage(0);
-  if (patches_) patches_->bindStorage(1);
+  elevations_->bindStorage(3);
+  if (patches_) {
+    patches_->bindStorage(1);
+    places_->bindStorage(2);
+  }
   const auto timed = [&](const char* name, const auto& work) {
     if (!passes) return work();
     const gl::PassList::Scope scope = passes->open(name);
@@ -200,6 +213,11 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   input.bindTexture(0);
   finest_.bindImage(1, Access::Write);
   gaussian_->bindImage(0, Access::Write, 0);
+  const auto setPlaces = [&](const gl::Program& program, size_t level) {
+    program.set("upward", upward_[level]);
+    program.set("downward", downward_[level]);
+  };
+  setPlaces(*programs_->first, 0);
   programs_->first->dispatch(sizePx_, kTilePx);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glm::ivec2 size = halvedSize(sizePx_);
@@ -210,6 +228,7 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
     if (band) laplacian_->bindImage(1, Access::Write, level - 1);
     const gl::Program& program = band ? *programs_->nextWithBand : *programs_->next;
     program.set("sourceLevel", level - 1);
+    setPlaces(program, static_cast<size_t>(level));
     program.dispatch(size, kTilePx);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     size = halvedSize(size);
@@ -240,6 +259,8 @@ void ThresholdMapGpu::evaluate() {
   threshold_.bindImage(0, Access::Write);
   if (stages_) stages_->bindImage(1, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
+  for (size_t level = 0; level < upward_.size(); ++level)
+    programs_->evaluate->set(kUpwardNames.at(level), upward_[level]);
   programs_->evaluate->dispatch(sizePx_, kTilePx);
 }
 
@@ -253,10 +274,11 @@ std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
 }
 
 int64_t ThresholdMapGpu::bytesHeld() const {
-  int64_t bytes = threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes();
+  int64_t bytes =
+      threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes() + elevations_->bytes();
   for (const auto* texture : {&gaussian_, &laplacian_, &stages_})
     if (*texture) bytes += (*texture)->bytes();
-  return bytes + (patches_ ? patches_->bytes() : 0);
+  return bytes + (patches_ ? patches_->bytes() + places_->bytes() : 0);
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
