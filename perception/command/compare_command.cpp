@@ -101,9 +101,10 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   ReportHeader header;
   header.command = "compare";
   const std::string changed = changedSettings(selected.groups, values);
-  header.statement = limenVersion() + " image comparison (" + join(selected.names()) +
-                     (selected.jnd ? ": popping predictor of " + poppingModelText(popping) : "") +
-                     (changed.empty() ? "" : "; " + changed) + "), display " + display.line();
+  header.statement =
+      limenVersion() + " image comparison (" + join(selected.names()) +
+      (selected.jnd ? ": popping predictor of " + poppingModelText(popping) + ", nothing moving" : "") +
+      (changed.empty() ? "" : "; " + changed) + "), display " + display.line();
   header.words = words;
   header.display = display;
   header.settings = valuesAsJson(selected.groups, values);
@@ -129,8 +130,8 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
       PoppingResult result = predictPopping(pair, display, popping);
       append(report.figures, poppingFigures(result));
       report.text = regionTable(result);
-      report.extra = {{"regions_table", regionsAsJson(result)},
-                      {"jnd_model", poppingModelAsJson(result.model)}};
+      report.extra["regions"] = regionsAsJson(result);
+      report.extra["jnd_model"] = poppingModelAsJson(result.model);
       if (!options.mapFolder.empty()) maps.push_back({kJnd, std::move(result.jnd)});
     }
     for (const MetricMap& map : maps)
