@@ -126,8 +126,15 @@ TEST_P(Plausible, CameraSeesFrontFacesWithLightPenumbraAndShadow) {
   EXPECT_GE(mixed + dark, hits / 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Plausible, testing::ValuesIn(SceneRegistry::instance().names()),
-                         fixtures::nameOf);
+/// Scenes of levels of detail are about silhouettes before a background and rides, not about penumbrae.
+std::vector<std::string> scenesOfShadows() {
+  std::vector<std::string> names;
+  for (const std::string& name : SceneRegistry::instance().names())
+    if (name.rfind("lod/", 0) != 0) names.push_back(name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Plausible, testing::ValuesIn(scenesOfShadows()), fixtures::nameOf);
 
 TEST(ColumnsHall, WalkPassesThroughNoColumnAndStaysAboveTheFloor) {
   const Scene scene = build("columns_hall", {{"camera", std::string("walk")}});

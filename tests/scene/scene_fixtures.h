@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "base/error.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/shapes.h"
 
 namespace limen::scene::fixtures {
 
@@ -48,13 +50,30 @@ inline const std::string& smallMeshFile() {
   return file;
 }
 
+/// A sphere of 1152 triangles: something to take triangles from.
+inline const std::string& roundMeshFile() {
+  static const TemporaryFolder folder;
+  static const std::string file = [] {
+    const Mesh mesh = sphere(glm::dvec3(0.0), 1.0, 12);
+    std::string text;
+    for (const glm::dvec3& p : mesh.positions)
+      text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+    for (const glm::uvec3& t : mesh.triangles)
+      text += "f " + std::to_string(t.x + 1) + ' ' + std::to_string(t.y + 1) + ' ' + std::to_string(t.z + 1) +
+              '\n';
+    return folder.write("ball.obj", text);
+  }();
+  return file;
+}
+
 /// What the scene cannot do without.
 inline Given needed(const std::string& scene) {
+  if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 
 inline bool installed(const std::string& scene) {
-  return (scene != "bunny" && scene != "horse" && scene != "cat") ||
+  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object") ||
          std::filesystem::exists("/usr/share/glmark2/models");
 }
 
@@ -71,6 +90,10 @@ class EveryScene : public testing::TestWithParam<std::string> {
   }
 };
 
-inline std::string nameOf(const testing::TestParamInfo<std::string>& info) { return info.param; }
+inline std::string nameOf(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
 
 }  // namespace limen::scene::fixtures

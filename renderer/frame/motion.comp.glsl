@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Displacement of each pixel's surface point since the previous frame. See motion.h.
+#include "renderer/frame/scene_buffers.glsl"
+#include "renderer/frame/seen_point.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform usampler2D triangleIds;
+layout(binding = 0, rg32f) uniform writeonly image2D outDisplacement;
+layout(binding = 1, r32f) uniform writeonly image2D outPreviousDepth;
+
+uniform mat4 anchorToCamera;
+uniform mat4 nowToThen;  // camera space now to camera space then
+uniform vec2 rayScale, rayScaleThen;
+uniform ivec2 sizePx;
+
+const uint kNone = 0xffffffffu;
+// Smallest cosine to the previous view that still gives a position on the picture's plane.
+const float kBeside = 1e-4;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  const uint id = texelFetch(triangleIds, pixel, 0).x;
+  const vec3 ray = pixelRay(pixel, rayScale, sizePx);
+  float depth = 0.0, inverse = 0.0;
+  if (id != kNone) {
+    const uvec3 vertices = sceneTriangle(id);
+    depth = pointSeen((anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz,
+                      (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz,
+                      (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz, ray)
+                .depth;
+    // A point in the eye itself has no direction; it counts as very near.
+    inverse = min(1.0 / max(depth, 0.0), 1e30);
+  }
+  // The point over its depth, so that a point at infinity is no special case and a camera at rest gives
+  // exactly 0.
+  const vec3 then = mat3(nowToThen) * ray + nowToThen[3].xyz * inverse;
+  const vec2 half_ = 0.5 * vec2(sizePx);
+  const vec2 nowNdc = ray.xy / rayScale;
+  vec2 displacement;
+  float previousDepth;
+  const float reach = max(abs(then.x), max(abs(then.y), abs(then.z)));
+  if (then.z < -kBeside * reach) {
+    displacement = (nowNdc - then.xy / -then.z / rayScaleThen) * half_;
+    previousDepth = -then.z * depth;
+  } else {
+    const vec2 outwards = nowNdc * half_;
+    const float far = length(outwards);
+    displacement = 2.0 * length(half_) * (far > 0.0 ? outwards / far : vec2(1.0, 0.0));
+    previousDepth = -1.0;
+  }
+  imageStore(outDisplacement, pixel, vec4(displacement.x, -displacement.y, 0.0, 0.0));
+  imageStore(outPreviousDepth, pixel, vec4(previousDepth));
+}
