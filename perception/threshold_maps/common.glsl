@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the passes of a threshold map share: constants of a run, and where samples of one axis lie on another.
+layout(std140, binding = 0) uniform Run {
+  vec4 kernel;   // five taps: outer, inner, centre
+  vec4 light;    // black level, white less black, largest luminance [cd/m2], least denominator [cd/m2]
+  vec4 rule;     // blend to the next level for adaptation, flat epsilon, share of the TVI
+  vec4 masking;  // constants of the masking model
+  vec4 bands[7]; // frequency [cpd], 1 / gain, F where it is constant else 0, 1 where F is held to 1
+} run;
+
+// Luminance [cd/m2], finite. Comparisons are false for NaN.
+float finiteLuminance(float y) { return y > 0.0 ? min(y, run.light.z) : 0.0; }
+
+float luminanceOf(vec4 texel) {
+#if COLOUR
+  // Rows of the XYZ matrix of Rec. 709 primaries, so that white has luminance 1; relative light above 1e6 and
+  // below 0 is held there, as in DisplayProfile.
+  vec3 rgb = vec3(texel.r > 0.0 ? min(texel.r, 1e6) : 0.0, texel.g > 0.0 ? min(texel.g, 1e6) : 0.0,
+                  texel.b > 0.0 ? min(texel.b, 1e6) : 0.0);
+  float relative = dot(rgb, vec3(0.2126729 / 1.0000001, 0.7151522 / 1.0000001, 0.0721750 / 1.0000001));
+  return finiteLuminance(run.light.y * relative + run.light.x);
+#else
+  return finiteLuminance(texel.r);
+#endif
+}
+
+int borderIndex(int i, int size) {
+#if MIRROR
+  int period = 2 * size;
+  int folded = i - period * int(floor(float(i) / float(period)));
+  return folded < size ? folded : period - 1 - folded;
+#else
+  return clamp(i, 0, size - 1);
+#endif
+}
+
+// Sample `x` of an axis of `to` samples lies at left + t of the same axis with `from` samples: (x + 1/2) from /
+// to - 1/2, as a fraction, since floats lose its digits on large images.
+void place(int x, int from, int to, out int left, out float t) {
+  int n = (2 * x + 1) * from - to, d = 2 * to;
+  left = int(floor(float(n) / float(d)));
+  int rest = n - left * d;
+  if (rest < 0) {
+    --left;
+    rest += d;
+  } else if (rest >= d) {
+    ++left;
+    rest -= d;
+  }
+  t = float(rest) / float(d);
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Luminance of the input, for the thesis's own way down the pyramid and for images too small for one.
+#include "perception/threshold_maps/common.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(binding = 0) uniform sampler2D source;
+#if HALF
+layout(binding = 0, r16f) uniform writeonly image2D luminance;
+#else
+layout(binding = 0, r32f) uniform writeonly image2D luminance;
+#endif
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, imageSize(luminance)))) return;
+  imageStore(luminance, at, vec4(luminanceOf(texelFetch(source, at, 0))));
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/threshold_maps/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "perception/vision/tvi.h"
+
+namespace limen::perception {
+namespace {
+
+// Nodes of the peak sensitivity over lg luminance.
+constexpr double kLgLow = -4.0, kLgHigh = 6.0;
+constexpr int kNodesPerDecade = 100;
+constexpr int kNodes = static_cast<int>((kLgHigh - kLgLow) * kNodesPerDecade) + 1;
+// Fits end here, and so do the GPU's tables.
+constexpr double kLeastCdM2 = 1e-4, kLargestCdM2 = 1e6;
+constexpr double kLargestElevation = 1e12;  ///< as frequencyFactor() holds it
+
+using Settings = ThresholdMapSettings;
+
+double held(double luminanceCdM2) {
+  return luminanceCdM2 > 0.0 ? std::clamp(luminanceCdM2, kLeastCdM2, kLargestCdM2) : kLeastCdM2;
+}
+
+}  // namespace
+
+double levelWidthPx(const Settings& settings, int level) {
+  if (level == 0) return 1.0;
+  const Kernel kernel = settings.kernel();
+  const double powers = std::ldexp(1.0, 2 * level);
+  double variance = kernel.variancePx2() * (powers - 1.0) / 3.0;
+  switch (settings.decomposition) {
+    case Settings::Decomposition::TrueStack: {
+      const double sigma = stackSigmaPx(level, kernel, settings.stackSigmaPx);
+      variance = sigma * sigma;
+      break;
+    }
+    case Settings::Decomposition::Pyramid:
+      // A tent of half-width 2^level, less what sampling it on pixels leaves.
+      variance += powers / 6.0;
+      break;
+    case Settings::Decomposition::Stack:
+      // 1 3 3 1 of 8 (variance 3/4) at every step, or the kernel again.
+      variance += (settings.expand ? kernel.variancePx2() : 0.75) * (powers - 1.0) / 3.0;
+      break;
+  }
+  return std::sqrt(2.0 * std::numbers::pi * variance);
+}
+
+AdaptationBlend adaptationBlend(const Settings& settings, double pixelsPerDegree, int levels) {
+  const int last = levels - 1;
+  const auto nearest = [&](double level) {
+    return AdaptationBlend{static_cast<int>(std::clamp(level, 0.0, static_cast<double>(last))), 0.0};
+  };
+  const double lgPpd = std::log2(std::max(pixelsPerDegree, 1e-6));
+  switch (settings.adaptation) {
+    case Settings::Adaptation::NearestLevel:
+      return nearest(std::round(lgPpd));
+    case Settings::Adaptation::Level:
+      return nearest(settings.adaptationLevel);
+    case Settings::Adaptation::FractionalLevel: {
+      AdaptationBlend blend = nearest(std::floor(lgPpd));
+      if (lgPpd > 0.0 && blend.level < last) blend.next = lgPpd - std::floor(lgPpd);
+      return blend;
+    }
+    case Settings::Adaptation::OneDegree:
+      break;
+  }
+  AdaptationBlend blend;
+  while (blend.level < last && levelWidthPx(settings, blend.level + 1) <= pixelsPerDegree) ++blend.level;
+  if (blend.level == last) return blend;
+  // Slopes of step edges add: 1 / ppd = (1 - t) / narrow + t / wide.
+  const double narrow = 1.0 / levelWidthPx(settings, blend.level);
+  const double wide = 1.0 / levelWidthPx(settings, blend.level + 1);
+  blend.next = std::clamp((narrow - 1.0 / pixelsPerDegree) / (narrow - wide), 0.0, 1.0);
+  return blend;
+}
+
+ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree, int widthPx, int heightPx)
+    : settings_(settings),
+      pixelsPerDegree_(pixelsPerDegree),
+      levels_(std::min(settings.levels, mostLevels(widthPx, heightPx))),
+      csf_(makeCsf(settings.csf, "csf")),
+      masking_(makeMasking(settings.masking, "masking")) {
+  if (!(pixelsPerDegree > 0.0) || !std::isfinite(pixelsPerDegree))
+    throw Error("pixels per degree must be a positive number", "display");
+  point_.widthDeg = widthPx / pixelsPerDegree;
+  point_.areaDeg2 = point_.widthDeg * heightPx / pixelsPerDegree;
+  adaptation_ = adaptationBlend(settings, pixelsPerDegree, levels_);
+  const int bands = std::max(levels_ - 2, 0);
+  const PyramidSettings pyramid = settings.pyramid();
+  const bool stack = settings.decomposition == Settings::Decomposition::TrueStack;
+  peaks_ = stack && settings.peakModel != PeakModel::Halving
+               ? stackBandPeaks(pyramid.kernel, bands, settings.stackSigmaPx)
+               : bandPeaks(pyramid.kernel, pyramid.upsampler, settings.peakModel, bands);
+  if (!settings.gainCompensation)
+    for (BandPeak& peak : peaks_) peak.gain = 1.0;
+  const bool needsPeaks =
+      settings.frequencyRule == Settings::FrequencyRule::Actual || settings.tvi.rfind("from_csf", 0) == 0;
+  if (needsPeaks) {
+    lnPeaks_.resize(kNodes);
+    forRowBlocks(kNodes, 100000, [&](int first, int end) {
+      for (int i = first; i < end; ++i)
+        lnPeaks_[static_cast<size_t>(i)] = std::log(std::max(
+            csf_->peak(at(-1, std::pow(10.0, kLgLow + static_cast<double>(i) / kNodesPerDecade))).sensitivity,
+            1.0 / kLargestElevation));
+    });
+  }
+  for (int band = 0; band < bands; ++band)
+    originalF_.push_back(lowFrequencyOr(band, frequencyFactor(*csf_, at(band, settings.fLuminanceCdM2))));
+  if (settings.tvi.rfind("from_csf", 0) == 0) {
+    // makeTvi() searches the peak at every call.
+    const double scale = settings.tvi == "from_csf" ? 1.0 : tviWard(100.0) / (100.0 / peakSensitivity(100.0));
+    tvi_ = [this, scale](double l) { return scale * l / peakSensitivity(l); };
+  } else {
+    tvi_ = makeTvi(settings.tvi, csf_, point_, "tvi");
+  }
+}
+
+CsfPoint ThresholdModel::at(int band, double luminanceCdM2) const {
+  CsfPoint point = point_;
+  point.luminanceCdM2 = held(luminanceCdM2);
+  if (band >= 0) point.frequencyCpd = peaks_[static_cast<size_t>(band)].frequencyCpd(pixelsPerDegree_);
+  return point;
+}
+
+double ThresholdModel::peakSensitivity(double luminanceCdM2) const {
+  if (lnPeaks_.empty()) return 0.0;
+  const double lg = std::log10(held(luminanceCdM2));
+  const double position = (std::clamp(lg, kLgLow, kLgHigh) - kLgLow) * kNodesPerDecade;
+  const int i = std::min(static_cast<int>(position), kNodes - 2);
+  const double t = position - i;
+  const auto p = [&](int k) { return lnPeaks_[static_cast<size_t>(std::clamp(k, 0, kNodes - 1))]; };
+  // Through four nodes (Lagrange); at the ends the outer node repeats and the middle two still hold.
+  const double a = p(i - 1), b = p(i), c = p(i + 1), d = p(i + 2);
+  const double value = -t * (t - 1.0) * (t - 2.0) / 6.0 * a + (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * b -
+                       (t + 1.0) * t * (t - 2.0) / 2.0 * c + (t + 1.0) * t * (t - 1.0) / 6.0 * d;
+  return std::exp(value);
+}
+
+double ThresholdModel::tviCdM2(double luminanceCdM2) const { return tvi_(held(luminanceCdM2)); }
+
+double ThresholdModel::thresholdCdM2(double elevation, double luminanceCdM2) const {
+  return settings_.tviFactor * tviCdM2(luminanceCdM2) * elevation;
+}
+
+double ThresholdModel::sensitivity(int band, double luminanceCdM2) const {
+  return csf_->sensitivity(at(band, luminanceCdM2));
+}
+
+double ThresholdModel::lowFrequencyOr(int band, double elevation) const {
+  const bool one = settings_.fLow == Settings::LowFrequencies::One ||
+                   (settings_.fLow == Settings::LowFrequencies::ByRule &&
+                    settings_.frequencyRule == Settings::FrequencyRule::Original);
+  return one && at(band, 1.0).frequencyCpd < settings_.fLowCpd ? 1.0 : elevation;
+}
+
+double ThresholdModel::frequencyElevation(int band, double luminanceCdM2) const {
+  switch (settings_.frequencyRule) {
+    case Settings::FrequencyRule::None:
+      return 1.0;
+    case Settings::FrequencyRule::Original:
+      return originalF_[static_cast<size_t>(band)];
+    case Settings::FrequencyRule::Actual:
+      break;
+  }
+  const double peak = peakSensitivity(luminanceCdM2), here = sensitivity(band, luminanceCdM2);
+  return lowFrequencyOr(band,
+                        peak >= kLargestElevation * here ? kLargestElevation : std::max(peak / here, 1.0));
+}
+
+double ThresholdModel::elevation(const std::vector<double>& contrasts, double luminanceCdM2) const {
+  double weighted = 0.0, sum = 0.0;
+  for (size_t band = 0; band < contrasts.size(); ++band) {
+    const double c = contrasts[band] / peaks_[band].gain;
+    if (!(c > 0.0)) continue;
+    const int i = static_cast<int>(band);
+    weighted +=
+        c * frequencyElevation(i, luminanceCdM2) * maskingElevation(c * sensitivity(i, luminanceCdM2));
+    sum += c;
+  }
+  if (settings_.flatSmooth)
+    return std::max(1.0, (weighted + settings_.flatEpsilon) / (sum + settings_.flatEpsilon));
+  return sum > 0.0 ? weighted / sum : 1.0;
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/threshold_maps/threshold_map_gpu.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "perception/threshold_maps/model.h"
+#include "perception/threshold_maps/threshold_tables.h"
+
+namespace limen::perception {
+namespace {
+
+using gl::Access;
+using gl::Format;
+using Settings = ThresholdMapSettings;
+
+constexpr glm::ivec2 kTilePx{64, 32};
+constexpr float kLargestHalfCdM2 = 6e4F;
+// As the shader declares its shared memory.
+constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
+constexpr std::array<int, 8> kMostRows{18, 11, 7, 5, 4, 4, 4, 4};
+
+/// The uniform block, std140.
+struct RunBlock {
+  glm::vec4 kernel{0.0F}, light{0.0F}, rule{0.0F}, masking{0.0F};
+  std::array<glm::vec4, 7> bands{};
+};
+
+glm::ivec2 halvedSize(glm::ivec2 size) { return {halved(size.x), halved(size.y)}; }
+
+void refuse(bool wrong, const char* what, const char* where, const char* mend) {
+  if (wrong) throw Error(what, where, mend);
+}
+
+void checkSettings(const Settings& settings) {
+  refuse(settings.decomposition == Settings::Decomposition::TrueStack,
+         "a true stack is not computed on the GPU", "decomposition",
+         "use stack or pyramid, or the technique perception/threshold_map_reference");
+  refuse(settings.expand, "levels are brought up bilinearly on the GPU", "upsampler",
+         "use bilinear, or the technique perception/threshold_map_reference");
+  refuse(settings.direct && (settings.csf != "barten89" || settings.tvi != "ward"),
+         "only csf: barten89 and tvi: ward are computed directly", "lookup", "use lookup: tables");
+  refuse(settings.nineFetch && settings.border != Border::Clamp, "bilinear fetches know no mirrored border",
+         "border", "use border: clamp or downsample: exact");
+}
+
+/// Model number in the shader and its constants.
+std::pair<int, glm::vec4> maskingConstants(const std::string& name) {
+  const MaskingInfo& info = MaskingRegistry::instance().get(name, "masking");
+  const ParameterValues values(info.parameters, {});
+  if (name == "daly")
+    return {1,
+            {std::log2(values.real("k1")) + values.real("s") * std::log2(values.real("k2")), values.real("s"),
+             values.real("b"), 0.0}};
+  if (name == "schwarz") return {1, {0.0, values.real("s"), values.real("b"), 0.0}};
+  if (name == "lubin") return {2, {values.real("n"), values.real("w"), 0.0, 0.0}};
+  if (name == "self") return {3, {1.0 - values.real("alpha"), 0.0, 0.0, 0.0}};
+  refuse(name != "none", "this masking model has no form for the GPU", "masking", "use another one");
+  return {0, glm::vec4(0.0F)};
+}
+
+RunBlock runBlock(const Settings& settings, const ThresholdModel& model, const DisplayProfile& display) {
+  RunBlock block;
+  const Kernel kernel = settings.kernel();
+  block.kernel = {kernel.taps[0], kernel.taps[1], kernel.taps[2], 0.0};
+  const double largest =
+      settings.half ? std::min<double>(settings.largestCdM2, kLargestHalfCdM2) : settings.largestCdM2;
+  block.light = {display.blackLevelCdM2(), display.whiteLevelCdM2() - display.blackLevelCdM2(), largest,
+                 settings.contrastEpsilonCdM2};
+  block.rule = {model.adaptation().next, settings.flatEpsilon, settings.tviFactor, 0.0};
+  block.masking = maskingConstants(settings.masking).second;
+  for (int band = 0; band < model.bands(); ++band) {
+    const BandPeak& peak = model.peaks()[static_cast<size_t>(band)];
+    // F at two luminances tells whether it varies.
+    const double dim = model.frequencyElevation(band, 0.01), bright = model.frequencyElevation(band, 300.0);
+    block.bands[static_cast<size_t>(band)] = {peak.frequencyCpd(display.pixelsPerDegree()), 1.0 / peak.gain,
+                                              dim == bright ? dim : 0.0, 0.0};
+  }
+  return block;
+}
+
+const char* yes(bool value) { return value ? "1" : "0"; }
+
+}  // namespace
+
+struct ThresholdMapGpu::Programs {
+  const gl::Program* first = nullptr;  ///< level 0 to level 1, or luminance
+  const gl::Program* next = nullptr;   ///< one level to the next
+  const gl::Program* evaluate = nullptr;
+};
+
+ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
+                                 const Settings& settings, bool colourInput)
+    : context_(context),
+      sizePx_(sizePx),
+      settings_(settings),
+      colourInput_(colourInput),
+      levels_(std::min(settings.levels, mostLevels(sizePx.x, sizePx.y))),
+      threshold_(Format::R32F, sizePx),
+      finest_(settings.half ? Format::R16F : Format::R32F, sizePx, 1, 0,
+              settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest),
+      tiles_((sizePx + kTilePx - 1) / kTilePx),
+      programs_(std::make_unique<Programs>()) {
+  checkSettings(settings);
+  const ThresholdModel model(settings, display.pixelsPerDegree(), sizePx.x, sizePx.y);
+  assert(levels_ == model.levels());
+  const bool laplacian = settings.half && !settings.nineFetch;
+  if (levels_ > 1) {
+    const glm::ivec2 half = halvedSize(sizePx);
+    gaussian_.emplace(settings.half && settings.nineFetch ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
+                      settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest);
+    if (laplacian && levels_ > 2) laplacian_.emplace(Format::R16F, half, levels_ - 2);
+    std::vector<glm::ivec2> patches = tilePatches(sizePx.x, kTilePx.x, levels_);
+    const std::vector<glm::ivec2> rows = tilePatches(sizePx.y, kTilePx.y, levels_);
+    for (size_t i = 0; i < patches.size(); ++i)
+      assert(patches[i].y <= kMostColumns[i % static_cast<size_t>(levels_ - 1)]);
+    for (size_t i = 0; i < rows.size(); ++i)
+      assert(rows[i].y <= kMostRows[i % static_cast<size_t>(levels_ - 1)]);
+    patches.insert(patches.end(), rows.begin(), rows.end());
+    patches_.emplace(patches);
+  }
+  const RunBlock block = runBlock(settings, model, display);
+  run_.emplace(int64_t{sizeof block}, &block);
+  tables_.emplace(thresholdTables(model));
+
+  const int maskingModel = maskingConstants(settings.masking).first;
+  defines_ = {{"COLOUR", yes(colourInput)},
+              {"MIRROR", yes(settings.border == Border::Mirror)},
+              {"HALF", yes(settings.half)},
+              {"LEVELS", std::to_string(levels_)},
+              {"BANDS", std::to_string(model.bands())},
+              {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
+              {"LAPLACIAN", yes(laplacian)},
+              {"FINEST_LUMINANCE", yes(settings.nineFetch)},
+              {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
+              {"MASKING", std::to_string(maskingModel)},
+              {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
+              {"FLAT_SMOOTH", yes(settings.flatSmooth)},
+              {"DIRECT", yes(settings.direct)},
+              {"STAGES", "0"}};
+  const std::string folder = "perception/threshold_maps/";
+  gl::ProgramCache& programs = context.programs();
+  const auto make = [&](const std::string& file, std::vector<const char*> names, gl::ShaderDefines extra) {
+    for (const char* name : names) extra[name] = defines_.at(name);
+    return &programs.compute(folder + file, extra);
+  };
+  if (settings.nineFetch || levels_ == 1) {
+    programs_->first = make("luminance.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
+    if (levels_ > 1) programs_->next = make("nine_fetch.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
+  } else {
+    programs_->first = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
+                            {{"FROM_LEVEL", "0"}, {"BAND", settings.half ? "16" : "32"}});
+    if (levels_ > 2)
+      programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
+                             {{"FROM_LEVEL", "1"}, {"BAND", settings.half ? "16" : "0"}});
+  }
+  programs_->evaluate = &programs.compute(folder + "evaluate.comp.glsl", defines_);
+}
+
+ThresholdMapGpu::~ThresholdMapGpu() = default;
+
+void ThresholdMapGpu::keepStages() {
+  stages_.emplace(Format::RG32F, sizePx_);
+  defines_["STAGES"] = "1";
+  programs_->evaluate =
+      &context_.programs().compute("perception/threshold_maps/evaluate.comp.glsl", defines_);
+}
+
+const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* passes) {
+  assert(input.sizePx() == sizePx_ && (gl::channelCount(input.format()) == 4) == colourInput_);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  run_->bindUniform(0);
+  tables_->bindStorage(0);
+  if (patches_) patches_->bindStorage(1);
+  const auto timed = [&](const char* name, const auto& work) {
+    if (!passes) return work();
+    const gl::PassList::Scope scope = passes->open(name);
+    work();
+  };
+  timed("threshold_map/levels",
+        [&] { settings_.nineFetch || levels_ == 1 ? reduceNineFetch(input) : reduce(input); });
+  timed("threshold_map/evaluate", [&] { evaluate(); });
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_TEXTURE_UPDATE_BARRIER_BIT);
+  return threshold_;
+}
+
+void ThresholdMapGpu::reduce(const gl::Texture& input) {
+  input.bindTexture(0);
+  finest_.bindImage(1, Access::Write);
+  gaussian_->bindImage(0, Access::Write, 0);
+  programs_->first->dispatch(sizePx_, kTilePx);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glm::ivec2 size = halvedSize(sizePx_);
+  gaussian_->bindTexture(0);
+  for (int level = 1; level + 1 < levels_; ++level) {
+    gaussian_->bindImage(0, Access::Write, level);
+    if (laplacian_) laplacian_->bindImage(1, Access::Write, level - 1);
+    programs_->next->set("sourceLevel", level - 1);
+    programs_->next->dispatch(size, kTilePx);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    size = halvedSize(size);
+  }
+}
+
+void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
+  constexpr glm::ivec2 kGroup{16, 16};
+  input.bindTexture(0);
+  finest_.bindImage(0, Access::Write);
+  programs_->first->dispatch(sizePx_, kGroup);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glm::ivec2 size = sizePx_;
+  for (int level = 0; level + 1 < levels_; ++level) {
+    (level == 0 ? finest_ : *gaussian_).bindTexture(0);
+    gaussian_->bindImage(0, Access::Write, level);
+    size = halvedSize(size);
+    programs_->next->set("sourceLevel", std::max(level - 1, 0));
+    programs_->next->dispatch(size, kGroup);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+}
+
+void ThresholdMapGpu::evaluate() {
+  finest_.bindTexture(0);
+  if (gaussian_) gaussian_->bindTexture(1);
+  if (laplacian_) laplacian_->bindTexture(2);
+  threshold_.bindImage(0, Access::Write);
+  if (stages_) stages_->bindImage(1, Access::Write);
+  programs_->evaluate->set("tileColumns", tiles_.x);
+  programs_->evaluate->dispatch(sizePx_, kTilePx);
+}
+
+std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
+  std::map<std::string, const gl::Texture*> out;
+  out[settings_.nineFetch || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
+  if (gaussian_) out["gaussian"] = &*gaussian_;
+  if (laplacian_) out["laplacian"] = &*laplacian_;
+  if (stages_) out["stages"] = &*stages_;
+  return out;
+}
+
+int64_t ThresholdMapGpu::bytesHeld() const {
+  int64_t bytes = threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes();
+  for (const auto* texture : {&gaussian_, &laplacian_, &stages_})
+    if (*texture) bytes += (*texture)->bytes();
+  return bytes + (patches_ ? patches_->bytes() : 0);
+}
+
+int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
+  // The input and the map once; what lies between is written and read again; a level that the next one is
+  // made of is read twice.
+  int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
+  if (settings_.nineFetch) bytes += finest_.bytes();
+  if (gaussian_) bytes += (laplacian_ ? 2 : 3) * gaussian_->bytes();
+  if (laplacian_) bytes += 2 * laplacian_->bytes();
+  return bytes;
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/threshold_maps/threshold_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace limen::perception {
+namespace {
+
+constexpr double kLgLow = -4.0;
+constexpr int kCellsPerDecade = 250, kCells = 2500;
+
+/// floor((x + 1/2) from / to - 1/2), exactly.
+int placeOf(int x, int from, int to) {
+  const int64_t n = (2 * int64_t{x} + 1) * from - to, d = 2 * int64_t{to};
+  return static_cast<int>(n >= 0 ? n / d : -((-n + d - 1) / d));
+}
+
+}  // namespace
+
+std::vector<glm::vec4> thresholdTables(const ThresholdModel& model) {
+  const auto stride = static_cast<size_t>(model.bands()) + 1;
+  std::vector<glm::vec4> out(stride * kCells);
+  forRowBlocks(kCells, 20000, [&](int first, int end) {
+    for (int cell = first; cell < end; ++cell) {
+      // A hair inside the cell, on the right side of a step.
+      constexpr double kInside = 1e-9;
+      const double low = std::pow(10.0, kLgLow + static_cast<double>(cell) / kCellsPerDecade + kInside);
+      const double high = std::pow(10.0, kLgLow + static_cast<double>(cell + 1) / kCellsPerDecade - kInside);
+      glm::vec4* row = &out[stride * static_cast<size_t>(cell)];
+      row[0] = {model.tviCdM2(low), model.tviCdM2(high), model.peakSensitivity(low),
+                model.peakSensitivity(high)};
+      for (int band = 0; band < model.bands(); ++band)
+        row[1 + band] = {model.sensitivity(band, low), model.sensitivity(band, high),
+                         model.frequencyElevation(band, low), model.frequencyElevation(band, high)};
+    }
+  });
+  return out;
+}
+
+std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels) {
+  std::vector<glm::ivec2> out;
+  for (int start = 0; start < size; start += tilePx) {
+    int first = start, last = std::min(start + tilePx, size) - 1, fine = size;
+    for (int level = 1; level < levels; ++level) {
+      const int coarse = halved(fine);
+      const int left = placeOf(std::clamp(first, 0, fine - 1), coarse, fine);
+      last = placeOf(std::clamp(last, 0, fine - 1), coarse, fine) + 1;
+      first = left;
+      out.emplace_back(first, last - first + 1);
+      fine = coarse;
+    }
+  }
+  return out;
+}
+
+}  // namespace limen::perception

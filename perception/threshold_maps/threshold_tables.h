@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "perception/threshold_maps/model.h"
+
+namespace limen::perception {
+
+/// Tables of a model over lg luminance, from 1e-4 to 1e6 cd/m2 in cells of 1/250 decade, for linear
+/// interpolation inside each cell: a cell holds the values at both of its own ends, so that the steps of the
+/// TVI, whose knots lie on ends of cells, stay steps. A cell is 1 + bands vectors: (TVI, TVI, peak
+/// sensitivity, peak sensitivity), then for each band (csf, csf, F, F).
+std::vector<glm::vec4> thresholdTables(const ThresholdModel& model);
+
+/// Samples of levels 1 to levels - 1 of one axis of `size` pixels that tiles of `tilePx` pixels touch:
+/// (first, count) for each tile and level; samples beyond the ends stand for the end ones.
+std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels);
+
+}  // namespace limen::perception

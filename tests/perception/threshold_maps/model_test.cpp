@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/threshold_maps/model.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "perception/vision/csf_models.h"
+#include "perception/vision/tvi.h"
+#include "tests/perception/threshold_maps/patterns.h"
+
+namespace limen::perception {
+namespace {
+
+std::string text(const char* value) { return value; }
+
+TEST(ThresholdSettings, NameModelsThatExist) {
+  for (const Parameter& parameter : thresholdMapParameters()) {
+    if (parameter.name == "csf") {
+      for (const std::string& name : parameter.choices) EXPECT_NO_THROW(makeCsf(name)) << name;
+    }
+    if (parameter.name == "masking") {
+      for (const std::string& name : parameter.choices) EXPECT_NO_THROW(makeMasking(name)) << name;
+      EXPECT_EQ(parameter.choices.size(), MaskingRegistry::instance().names().size());
+    }
+  }
+}
+
+TEST(ThresholdSettings, DefaultsOfTheDeclarationsAreThoseOfTheStructure) {
+  const ThresholdMapSettings declared = settingsOf(), plain;
+  EXPECT_EQ(declared.levels, plain.levels);
+  EXPECT_EQ(declared.decomposition, plain.decomposition);
+  EXPECT_EQ(declared.adaptation, plain.adaptation);
+  EXPECT_EQ(declared.frequencyRule, plain.frequencyRule);
+  EXPECT_EQ(declared.peakModel, plain.peakModel);
+  EXPECT_EQ(declared.flatEpsilon, plain.flatEpsilon);
+  EXPECT_EQ(declared.largestCdM2, plain.largestCdM2);
+  EXPECT_EQ(declared.tviFactor, plain.tviFactor);
+  EXPECT_EQ(declared.half, plain.half);
+  EXPECT_THROW(settingsOf({{"downsample", text("nine_fetch")}, {"kernel", text("burt")}}), Error);
+}
+
+TEST(ThresholdModel, FrequencyElevationsAreThePublishedOnes) {
+  // F of Barten 1989 at given frequencies: ppd = frequency / 0.5 puts band 0, whose peak is Nyquist, there.
+  const auto f = [](double cpd, double luminance, const char* rule) {
+    const ThresholdModel model(settingsOf({{"f_rule", text(rule)}}), 2.0 * cpd, 64, 64);
+    return model.frequencyElevation(0, luminance);
+  };
+  EXPECT_NEAR(f(5, 100, "actual"), 1.1002899108504425, 1e-6);
+  EXPECT_NEAR(f(10, 35, "actual"), 2.3259610775083332, 1e-6);
+  EXPECT_NEAR(f(20, 1, "actual"), 54.361937397598020, 1e-5);
+  EXPECT_NEAR(f(20, 100, "original"), 6.7355658087932172, 1e-6);
+  EXPECT_NEAR(f(20, 1, "original"), 6.7355658087932172, 1e-6);
+  EXPECT_NEAR(f(0.6, 100, "actual"), 2.3478667671966528, 1e-6);
+  EXPECT_EQ(f(0.6, 100, "original"), 1.0);  // below 4 cpd
+  EXPECT_EQ(f(20, 100, "none"), 1.0);
+}
+
+TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
+  std::ifstream file(LIMEN_SOURCE_DIR "/../shared/techniques/perception_vectors.csv");
+  if (!file) GTEST_SKIP() << "no reference vectors beside the source tree";
+  int rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    const bool original = line.rfind("F_orig,", 0) == 0;
+    if (!original && line.rfind("F_actualL,", 0) != 0) continue;
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    const ThresholdModel model(settingsOf({{"f_rule", text(original ? "original" : "actual")}}),
+                               2.0 * std::stod(cells[1]), 64, 64);
+    const double expected = std::stod(cells[7]);
+    EXPECT_NEAR(model.frequencyElevation(0, original ? 7.0 : std::stod(cells[2])) / expected, 1.0, 1e-9)
+        << line;
+    ++rows;
+  }
+  EXPECT_GT(rows, 10);
+}
+
+TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
+  // Band 2 of the six-tap pyramid at 41.07 ppd peaks at 2.459 cpd.
+  const ThresholdModel one(settingsOf({{"f_low", text("one")}}), kStudyPpd, 256, 256);
+  const ThresholdModel computed(settingsOf({{"f_low", text("as_computed")}, {"f_rule", text("original")}}),
+                                kStudyPpd, 256, 256);
+  EXPECT_NEAR(one.peaks()[2].frequencyCpd(kStudyPpd), 2.459, 0.001);
+  EXPECT_EQ(one.frequencyElevation(2, 30.0), 1.0);
+  EXPECT_GT(one.frequencyElevation(1, 30.0), 1.0);
+  EXPECT_NEAR(computed.frequencyElevation(2, 1e-3),
+              525.2 / csfBarten89(computed.peaks()[2].frequencyCpd(kStudyPpd), 100.0), 1e-3);
+}
+
+TEST(ThresholdModel, PeakSensitivityIsThatOfTheSearch) {
+  const ThresholdModel model(settingsOf(), kStudyPpd, 64, 64);
+  const auto csf = makeCsf("barten89");
+  for (const double luminance : {0.00123, 0.0456, 0.789, 1.0, 7.7, 83.0, 250.0, 4321.0}) {
+    CsfPoint point;
+    point.luminanceCdM2 = luminance;
+    EXPECT_NEAR(model.peakSensitivity(luminance) / csf->peak(point).sensitivity, 1.0, 1e-8) << luminance;
+  }
+}
+
+TEST(ThresholdModel, AdaptationLevelsFollowTheViewingDistance) {
+  ThresholdMapSettings settings;
+  settings.adaptation = ThresholdMapSettings::Adaptation::NearestLevel;
+  EXPECT_EQ(adaptationBlend(settings, 41.07, 7).level, 5);  // lg2 41.07 = 5.36
+  EXPECT_EQ(adaptationBlend(settings, 46.0, 7).level, 6);   // 5.52
+  EXPECT_EQ(adaptationBlend(settings, 0.1, 7).level, 0);
+  EXPECT_EQ(adaptationBlend(settings, 4096.0, 7).level, 6);
+  EXPECT_EQ(adaptationBlend(settings, 41.07, 1).level, 0);
+  settings.adaptation = ThresholdMapSettings::Adaptation::FractionalLevel;
+  EXPECT_EQ(adaptationBlend(settings, 48.0, 7).level, 5);
+  EXPECT_NEAR(adaptationBlend(settings, 48.0, 7).next, std::log2(48.0) - 5.0, 1e-12);
+  EXPECT_EQ(adaptationBlend(settings, 0.5, 7).next, 0.0);
+  settings.adaptation = ThresholdMapSettings::Adaptation::Level;
+  settings.adaptationLevel = 3;
+  EXPECT_EQ(adaptationBlend(settings, 41.07, 7).level, 3);
+}
+
+TEST(ThresholdModel, UnknownModelsAndDisplaysAreRefused) {
+  ThresholdMapSettings settings;
+  settings.csf = "bartem89";
+  EXPECT_THROW(ThresholdModel(settings, 41.0, 64, 64), Error);
+  EXPECT_THROW(ThresholdModel(ThresholdMapSettings{}, 0.0, 64, 64), Error);
+}
+
+TEST(ThresholdModel, TviOfACsfIsTheVisionModels) {
+  for (const char* name : {"from_csf", "from_csf_scaled", "ward", "ward_smoothed"}) {
+    const ThresholdModel model(settingsOf({{"tvi", text(name)}}), kStudyPpd, 64, 64);
+    const auto tvi = makeTvi(name, makeCsf("barten89"), CsfPoint{});
+    for (const double luminance : {0.02, 0.9, 30.0, 100.0, 700.0})
+      EXPECT_NEAR(model.tviCdM2(luminance) / tvi(luminance), 1.0, 1e-8) << name << luminance;
+  }
+}
+
+}  // namespace
+}  // namespace limen::perception

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/threshold_maps/threshold_map_gpu.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "perception/threshold_maps/model.h"
+#include "perception/threshold_maps/reference.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/perception/threshold_maps/edge_support.h"
+#include "tests/perception/threshold_maps/patterns.h"
+
+namespace limen::perception {
+namespace {
+
+using Given = std::map<std::string, ParameterValue>;
+
+std::string text(const char* value) { return value; }
+
+class ThresholdMapGpuTest : public gl::GlTest {
+ protected:
+  static DisplayProfile display() { return displayPreset("schwarz_2009"); }
+
+  static Image gpuMap(const Plane& luminance, const ThresholdMapSettings& settings, Image* stages = nullptr) {
+    gl::Texture input(gl::Format::R32F, {luminance.width, luminance.height});
+    input.write(toImage(luminance));
+    ThresholdMapGpu gpu(context(), input.sizePx(), display(), settings, false);
+    if (stages) gpu.keepStages();
+    gpu.run(input);
+    if (stages) *stages = gpu.debugViews().at("stages")->read();
+    return gpu.map().read();
+  }
+
+  /// Largest relative error of a pixel's threshold against the double-precision map of the same settings.
+  static double largestError(const Plane& luminance, const ThresholdMapSettings& settings,
+                             const std::string& name) {
+    const Image map = gpuMap(luminance, settings);
+    const ThresholdMap exact = computeThresholdMap(luminance, display().pixelsPerDegree(), settings);
+    double largest = 0.0;
+    for (size_t i = 0; i < map.data.size(); ++i) {
+      EXPECT_TRUE(std::isfinite(map.data[i])) << name;
+      // On a step of the TVI rounding decides on which side a pixel lies.
+      const double lg = std::log10(std::max(exact.adaptationCdM2.data[i], 1e-9));
+      if (std::abs(lg + 1.44) < 2e-5 || std::abs(lg - 1.9) < 2e-5) continue;
+      largest = std::max(largest, std::abs(map.data[i] / exact.thresholdCdM2.data[i] - 1.0));
+    }
+    return largest;
+  }
+};
+
+TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
+  for (const auto& [name, image] : adversarialPatterns())
+    for (const char* decomposition : {"stack", "pyramid"})
+      for (const char* precision : {"32", "16"}) {
+        const ThresholdMapSettings settings =
+            settingsOf({{"decomposition", text(decomposition)}, {"precision", text(precision)}});
+        EXPECT_LT(largestError(image, settings, name), settings.half ? 0.02 : 0.005)
+            << name << ' ' << decomposition << ' ' << precision;
+      }
+}
+
+TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceForEverySetting) {
+  const std::vector<Given> variants = {
+      {{"levels", int64_t{3}}},
+      {{"levels", int64_t{4}}, {"decomposition", text("pyramid")}},
+      {{"levels", int64_t{8}}, {"border", text("mirror")}},
+      {{"kernel", text("burt")}, {"burt_a", 0.5}, {"peak_model", text("with_upsample")}},
+      {{"adaptation", text("nearest_level")}, {"f_rule", text("original")}},
+      {{"adaptation", text("fractional_level")}, {"f_rule", text("none")}, {"gain_compensation", true}},
+      {{"adaptation", text("level")}, {"adaptation_level", int64_t{0}}, {"f_low", text("one")}},
+      {{"masking", text("none")}, {"csf", text("barten03")}, {"tvi", text("from_csf")}},
+      {{"masking", text("lubin")}, {"tvi", text("ward_smoothed")}},
+      {{"masking", text("self")}},
+      {{"masking", text("schwarz")}, {"tvi_factor", 1.0}},
+      {{"lookup", text("direct")}},
+      {{"lookup", text("direct")}, {"f_rule", text("original")}, {"decomposition", text("pyramid")}},
+      {{"lookup", text("direct")}, {"f_low", text("one")}}};
+  const Plane image = picture(150, 101);
+  for (const Given& given : variants) {
+    std::string name;
+    for (const auto& [key, value] : given) name += key + " " + toText(value) + " ";
+    EXPECT_LT(largestError(image, settingsOf(given), name), 0.005) << name;
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, AFlatFieldHasItsExactThreshold) {
+  // Every size, every precision: 0.2 10^(2 - 1.255).
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), {64, 64}, {101, 67}, {1, 40}})
+    for (const char* precision : {"32", "16"}) {
+      const Image map = gpuMap(Plane(size.x, size.y, 100.0), settingsOf({{"precision", text(precision)}}));
+      for (const float value : map.data) ASSERT_NEAR(value, 1.111809, 2e-5);
+    }
+}
+
+TEST_F(ThresholdMapGpuTest, LevelsEqualTheDoublePyramid) {
+  for (const auto& [width, height] : {std::pair(128, 64), {101, 67}, {211, 90}}) {
+    const Plane image = noisePattern(width, height);
+    gl::Texture input(gl::Format::R32F, {width, height});
+    input.write(toImage(image));
+    const ThresholdMapSettings settings = settingsOf();
+    ThresholdMapGpu gpu(context(), {width, height}, display(), settings, false);
+    gpu.run(input);
+    const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
+    for (int level = 1; level < gpu.levels(); ++level) {
+      const Image read = gpu.debugViews().at("gaussian")->read(level - 1);
+      for (size_t i = 0; i < read.data.size(); ++i)
+        ASSERT_NEAR(read.data[i] / pyramid[static_cast<size_t>(level)].data[i], 1.0, 1e-6)
+            << width << ' ' << level;
+    }
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, NineFetchesEqualThirtySixTapsWhereSizesAreEven) {
+  const Plane image = noisePattern(128, 64);
+  gl::Texture input(gl::Format::R32F, {128, 64});
+  input.write(toImage(image));
+  ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
+  ThresholdMapGpu gpu(context(), {128, 64}, display(), settings, false);
+  gpu.run(input);
+  settings.nineFetch = false;
+  const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
+  for (int level = 1; level < 5; ++level) {
+    const Image read = gpu.debugViews().at("gaussian")->read(level - 1);
+    for (size_t i = 0; i < read.data.size(); ++i)
+      ASSERT_NEAR(read.data[i] / pyramid[static_cast<size_t>(level)].data[i], 1.0, 0.01) << level;
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, NineFetchesOfOddSizesAreTheReferencesNineFetches) {
+  // Weights of a bilinear fetch have 8 bits: contrasts of neighbouring levels move by some 1/256 of
+  // differences between texels, so a smooth image is compared.
+  const Plane image =
+      pattern(101, 67, [](int x, int y) { return 60.0 + 40.0 * std::sin(0.15 * x) * std::cos(0.11 * y); });
+  const ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
+  EXPECT_LT(largestError(image, settings, "nine fetches"), 0.02);
+}
+
+TEST_F(ThresholdMapGpuTest, ColourIsTurnedIntoTheDisplaysLuminance) {
+  Image colour(70, 40, 4);
+  for (size_t i = 0; i < colour.data.size(); ++i) colour.data[i] = static_cast<float>((i * 37 % 101) / 80.0);
+  colour.data[0] = std::nanf("");
+  colour.data[5] = -1.0F;
+  colour.data[10] = HUGE_VALF;
+  gl::Texture input(gl::Format::RGBA32F, {70, 40});
+  input.write(colour);
+  ThresholdMapGpu gpu(context(), {70, 40}, display(), settingsOf(), true);
+  const Image map = gpu.run(input).read();
+  const ThresholdMap exact =
+      computeThresholdMap(luminancePlane(colour, display()), display().pixelsPerDegree(), settingsOf());
+  for (size_t i = 0; i < map.data.size(); ++i)
+    EXPECT_NEAR(map.data[i] / exact.thresholdCdM2.data[i], 1.0, 0.005) << i;
+}
+
+TEST_F(ThresholdMapGpuTest, AdaptsToOneDegree) {
+  Image stages;
+  for (const char* decomposition : {"stack", "pyramid"}) {
+    const Plane edge = edgePattern(512, 64);
+    gpuMap(edge, settingsOf({{"decomposition", text(decomposition)}}), &stages);
+    Plane adaptation(512, 64);
+    for (size_t i = 0; i < adaptation.data.size(); ++i) adaptation.data[i] = stages.data[2 * i];
+    EXPECT_NEAR(edgeSupportPx(adaptation) / display().pixelsPerDegree(), 1.0, 0.2) << decomposition;
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, StagesAreThoseOfTheReference) {
+  const Plane image = picture(120, 90);
+  Image stages;
+  gpuMap(image, settingsOf(), &stages);
+  const ThresholdMap exact = computeThresholdMap(image, display().pixelsPerDegree(), settingsOf());
+  for (size_t i = 0; i < image.data.size(); ++i) {
+    EXPECT_NEAR(stages.data[2 * i] / exact.adaptationCdM2.data[i], 1.0, 1e-5);
+    EXPECT_NEAR(stages.data[2 * i + 1] / exact.elevation.data[i], 1.0, 0.005);
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, GivesTheSameBytesTwice) {
+  const Plane image = noisePattern(150, 90);
+  EXPECT_EQ(gpuMap(image, settingsOf()).data, gpuMap(image, settingsOf()).data);
+}
+
+TEST_F(ThresholdMapGpuTest, RefusesWhatOnlyTheReferenceKnows) {
+  const auto make = [&](const Given& given) {
+    ThresholdMapGpu(context(), {32, 32}, display(), settingsOf(given), false);
+  };
+  EXPECT_THROW(make({{"decomposition", text("true_stack")}}), Error);
+  EXPECT_THROW(make({{"upsampler", text("expand")}}), Error);
+  EXPECT_THROW(make({{"lookup", text("direct")}, {"csf", text("barten03")}}), Error);
+}
+
+}  // namespace
+}  // namespace limen::perception
