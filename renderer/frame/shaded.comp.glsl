@@ -19,7 +19,8 @@ uniform float bias, slopeBias, maxSlope;
 uniform mat4 anchorToCamera, cameraToAnchor;
 uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform ivec2 sizePx;
-uniform vec3 background, lightPosition;  // light's centre relative to the anchor
+uniform vec3 background;
+uniform vec3 lightPosition, eye;  // light's centre and the eye that sees highlights, relative to the anchor
 uniform float ambient, diffuse, specular, shininess;
 
 const uint kNone = 0xffffffffu;
@@ -83,7 +84,8 @@ void main() {
     const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
     const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
     const vec3 position = (cameraToAnchor * vec4(seen.position, 1.0)).xyz;
-    const vec3 view = normalize(mat3(cameraToAnchor) * -seen.position);
+    const vec3 towardsEye = eye - position;
+    const vec3 view = dot(towardsEye, towardsEye) > 0.0 ? normalize(towardsEye) : vec3(0.0, 1.0, 0.0);
     const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[id]];
     vec3 normal = mat3(cameraToAnchor) * seen.normal;
     // A triangle without area that a pixel sees all the same.

@@ -26,7 +26,7 @@ gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const Surfac
 std::string ShadedSetting::key() const {
   std::string out;
   for (const double value : {ambient, diffuse, specular, shininess, double(background.x),
-                             double(background.y), double(background.z), double(shadowResolution)})
+                             double(background.y), double(background.z), double(shadowResolution), eyeDtS})
     out += shortestNumber(value) + "/";
   for (const bool flag : {smoothNormals, pattern, shadow}) out += flag ? '1' : '0';
   return out;
@@ -87,6 +87,9 @@ void Shaded::make(Frame& frame) {
   program_.set("diffuse", static_cast<float>(setting_.diffuse));
   program_.set("specular", static_cast<float>(setting_.specular));
   program_.set("shininess", static_cast<float>(setting_.shininess));
+  const scene::Camera& seenBy =
+      setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
+  program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
   if (lit_)
     program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
   if (map) {

@@ -25,6 +25,7 @@ struct ShadedSetting {
   bool pattern = true;          ///< solid textures of the materials
   bool shadow = false;          ///< hard shadow by a map of frame.casters() from the light's centre
   int shadowResolution = 1024;  ///< texels a side, a power of two
+  double eyeDtS = 0.0;          ///< highlights as the camera saw them this long ago
   std::string key() const;
 
   /// Declared parameters that shadedSetting() reads: ambient, diffuse, specular, shininess, background,
