@@ -100,12 +100,19 @@ std::vector<std::string> remarksOn(const OIIO::ImageSpec& spec, bool integer) {
   return remarks;
 }
 
+/// Words of a library in one line.
+std::string oneLine(std::string words) {
+  while (!words.empty() && words.back() == '\n') words.pop_back();
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  return words;
+}
+
 /// The whole stored picture, all channels.
 Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path) {
   Image raw(spec.width, spec.height, spec.nchannels);
   bool whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data.data());
   // Some readers fill in what is missing and only leave a word.
-  const std::string words = in.geterror();
+  const std::string words = oneLine(in.geterror());
   whole = whole && words.empty();
   if (!whole)
     throw Error("cannot read image '" + path + "'" + (words.empty() ? "" : ": " + words), {},
@@ -129,7 +136,7 @@ ImageFile readImageFile(const std::string& path) {
   wish.attribute("oiio:UnassociatedAlpha", 1);
   const auto in = OIIO::ImageInput::open(path, &wish);
   if (!in)
-    throw Error("cannot read image '" + path + "': " + OIIO::geterror(), {},
+    throw Error("cannot read image '" + path + "': " + oneLine(OIIO::geterror()), {},
                 "use PNG, JPEG, TIFF, EXR or HDR");
   const OIIO::ImageSpec spec = in->spec();
   if (spec.deep || spec.depth > 1)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "perception/command/commands.h"
@@ -12,11 +13,11 @@
 int main(int argc, char** argv) {
   CLI::App app("Says what a viewer sees: vision models, threshold maps, popping, image differences.",
                "limen-perceive");
-  app.set_version_flag("--version", "limen-perceive " LIMEN_VERSION);
+  app.set_version_flag("--version", limen::versionText("limen-perceive"));
   app.require_subcommand(1);
   int exitCode = limen::kExitSuccess;
   limen::perception::addModelCommands(app, exitCode);
-  limen::perception::addImageCommands(app, exitCode);
+  limen::perception::addImageCommands(app, exitCode, {argv, argv + argc});
 
   // CLI11 would only say that a subcommand is missing.
   std::vector<std::string> commands;

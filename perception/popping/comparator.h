@@ -12,8 +12,8 @@ struct LargestColourDifference {
   int x = 0, y = 0;    ///< first pixel that has it
 };
 
-/// Colours are those of the light between the display's black and white level, clamped to [0, 1]; the black level
-/// itself, weights and displacement play no part. Throws Error as predictPopping().
+/// Colours are those of the light between the display's black and white level, clamped to [0, 1]; the black
+/// level itself, weights and displacement play no part. Throws Error as predictPopping().
 LargestColourDifference largestColourDifference(const PoppingInput& input, const DisplayProfile& display);
 
 }  // namespace limen::perception

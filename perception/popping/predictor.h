@@ -31,7 +31,8 @@ struct PoppingInput {
 
 /// What the model works with for one display and image size; part of every result, so that it can be printed.
 struct PoppingModel {
-  double pixelsPerDegree = 0.0, areaDeg2 = 0.0;
+  double pixelsPerDegree = 0.0;
+  double areaDeg2 = 0.0, widthDeg = 0.0;  ///< of the images on the display
   int gaussianLevels = 0, contrastLevels = 0, adaptationLevel = 0;
   std::vector<double> peakCpd, gain;                  ///< of each contrast level
   double scaleA = 1.0, scaleRg = 1.0, scaleBy = 1.0;  ///< on the sensitivities: calibration
@@ -73,8 +74,8 @@ struct PoppingOptions {
 /// Names of the stages of a model, in the order of computation: "lms_actual_0" ... (cone responses, alpha the
 /// speed in pixels per frame), "contrast_actual_0" ... (A, a, b), "luminance_actual_0" ... (adaptation,
 /// cd/m2), "velocity_actual_0" ... (retinal, deg/s), "response_actual_0" ... (JND, A, a, b), the same for
-/// "predicted", "difference_0" ... (A, a, b), "jnd" (before weighting), "signed_jnd", "weight",
-/// "weighted_jnd", "labels", "rating".
+/// "predicted", "difference_0" ... (A, a, b), "jnd" (before weighting), "signed_jnd" (weighted), "weight",
+/// "weighted_jnd", "seeds", "labels", "rating".
 std::vector<std::string> poppingStages(const PoppingModel& model);
 
 /// The model that predictPopping() uses. Throws Error as it does.

@@ -43,12 +43,14 @@ double poppingRating(double sigma, const PoppingSettings& settings) {
   return std::log(settings.ratingScale * sigma) / std::log(settings.ratingBase);
 }
 
-RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>& seeds, int width, int height,
-                      const PoppingSettings& settings) {
+RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>& seeds, int width,
+                      int height, const PoppingSettings& settings) {
   const size_t pixels = static_cast<size_t>(width) * height;
   assert(jnd.size() == pixels && (seeds.empty() || seeds.size() == pixels) && pixels < kOutside);
   const bool diagonal = settings.connectivity == 8;
-  const auto pixelAt = [&](int x, int y) { return static_cast<uint32_t>(static_cast<size_t>(y) * width + x); };
+  const auto pixelAt = [&](int x, int y) {
+    return static_cast<uint32_t>(static_cast<size_t>(y) * width + x);
+  };
 
   PixelSets sets(pixels);
   for (int y = 0; y < height; ++y)

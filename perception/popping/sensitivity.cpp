@@ -70,8 +70,8 @@ std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoin
     point.luminanceCdM2 = luminance;
     const double peak = makeCsf(model, "popping")->peak(point).sensitivity;
     if (!(peak > 0.0) || !std::isfinite(peak))
-      throw Error("sensitivity '" + model + "' has no peak at the calibration's velocity and luminance", "popping",
-                  "choose another calibration_velocity_deg_s or calibration luminance");
+      throw Error("sensitivity '" + model + "' has no peak at the calibration's velocity and luminance",
+                  "popping", "choose another calibration_velocity_deg_s or calibration luminance");
     return 1.0 / (threshold * peak);
   };
   return {scale(settings.csfAchromatic, settings.calibrationLuminanceCdM2, settings.thresholdAchromatic),
@@ -83,7 +83,8 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
                          const PoppingSettings& settings, bool tables)
     : peakCpd_(model.peakCpd),
       viewing_(viewingPoint(model.areaDeg2, model.widthDeg, display)),
-      chromaticReferenceCdM2_(settings.chromaticReferenceCdM2) {
+      chromaticReferenceCdM2_(settings.chromaticReferenceCdM2),
+      oneChromatic_(settings.csfRedGreen == settings.csfBlueYellow) {
   if (tables) {
     const double area = viewing_.areaDeg2, reference = chromaticReferenceCdM2_;
     c0_ = FineTable([area](double l) { return daly98C0(l, area); }, kLowLuminance, kHighLuminance, 512);
@@ -117,8 +118,8 @@ Sensitivity::Channel Sensitivity::makeChannel(const std::string& name, double sc
     channel.kind = velocity ? Channel::Kind::Velocity : Channel::Kind::Luminance;
   for (const double cpd : peakCpd_) {
     if (channel.kind == Channel::Kind::Kelly83) {
-      channel.byLevel.emplace_back([cpd](double v) { return csfKelly83(cpd, v); }, kLowVelocity, kHighVelocity,
-                                   4096);
+      channel.byLevel.emplace_back([cpd](double v) { return csfKelly83(cpd, v); }, kLowVelocity,
+                                   kHighVelocity, 4096);
       continue;
     }
     CsfPoint point = viewing_;
@@ -126,23 +127,26 @@ Sensitivity::Channel Sensitivity::makeChannel(const std::string& name, double sc
     const std::shared_ptr<const Csf> csf = channel.csf;
     if (channel.kind == Channel::Kind::Velocity)
       channel.byLevel.emplace_back(
-          [csf, point](double v) mutable {
-            point.velocityDegS = v;
-            return csf->sensitivity(point);
+          [csf, point](double v) {
+            CsfPoint at = point;
+            at.velocityDegS = v;
+            return csf->sensitivity(at);
           },
           kLowVelocity, kHighVelocity, 4096);
     else
       channel.byLevel.emplace_back(
-          [csf, point](double l) mutable {
-            point.luminanceCdM2 = l;
-            return csf->sensitivity(point);
+          [csf, point](double l) {
+            CsfPoint at = point;
+            at.luminanceCdM2 = l;
+            return csf->sensitivity(at);
           },
           kLowLuminance, kHighLuminance, 2048);
   }
   return channel;
 }
 
-double Sensitivity::evaluate(const Channel& channel, int level, double velocityDegS, double luminanceCdM2) const {
+double Sensitivity::evaluate(const Channel& channel, int level, double velocityDegS,
+                             double luminanceCdM2) const {
   const auto i = static_cast<size_t>(level);
   switch (channel.kind) {
     case Channel::Kind::Daly98: {
@@ -168,8 +172,10 @@ double Sensitivity::evaluate(const Channel& channel, int level, double velocityD
 std::array<double, 3> Sensitivity::at(int level, double velocityDegS, double luminanceCdM2) const {
   std::array<double, 3> out{};
   for (size_t c = 0; c < 3; ++c)
-    out[c] = channels_[c].scale * finiteOrZero(evaluate(channels_[c], level, velocityDegS, luminanceCdM2));
-  // Both chromatic channels usually share their model, scale apart; asking twice costs less than knowing.
+    out[c] = c == 2 && oneChromatic_
+                 ? out[1]
+                 : finiteOrZero(evaluate(channels_[c], level, velocityDegS, luminanceCdM2));
+  for (size_t c = 0; c < 3; ++c) out[c] *= channels_[c].scale;
   return out;
 }
 

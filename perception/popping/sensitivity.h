@@ -11,9 +11,9 @@
 
 namespace limen::perception {
 
-/// A positive function of one positive argument, tabulated over its logarithm and read by cubic interpolation.
-/// Cells in which that misses the function by more than 1e-8 of its value (checked at three places) and arguments
-/// outside the table are evaluated.
+/// A positive function of one positive argument, tabulated over its logarithm and read by cubic
+/// interpolation. Cells in which that misses the function by more than 1e-8 of its value (checked at three
+/// places) and arguments outside the table are evaluated.
 class FineTable {
  public:
   FineTable() = default;
@@ -45,7 +45,7 @@ class Sensitivity {
     std::shared_ptr<const Csf> csf;
     double scale = 1.0;
     enum class Kind { Direct, Daly98, Kelly83, Velocity, Luminance } kind = Kind::Direct;
-    std::vector<FineTable> byLevel;       // Kelly83, Velocity, Luminance
+    std::vector<FineTable> byLevel;  // Kelly83, Velocity, Luminance
   };
   Channel makeChannel(const std::string& name, double scale, bool tables) const;
   double evaluate(const Channel& channel, int level, double velocityDegS, double luminanceCdM2) const;
@@ -53,12 +53,13 @@ class Sensitivity {
   std::vector<double> peakCpd_;
   CsfPoint viewing_;
   double chromaticReferenceCdM2_;
+  bool oneChromatic_;  ///< channels a and b share their model
   FineTable c0_, c1_, chromaticScale_;
   std::array<Channel, 3> channels_;
 };
 
-/// Factors that bring the peaks of the settings' sensitivities to 1 / threshold: K_A, K_a, K_b. Throws Error on an
-/// unknown model or one whose peak is 0 there.
+/// Factors that bring the peaks of the settings' sensitivities to 1 / threshold: K_A, K_a, K_b. Throws Error
+/// on an unknown model or one whose peak is 0 there.
 std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoint& viewing);
 /// What a model reads of the viewer besides frequency, velocity and luminance.
 CsfPoint viewingPoint(double areaDeg2, double widthDeg, const DisplayProfile& display);

@@ -11,7 +11,7 @@ namespace limen::perception {
 namespace {
 
 const std::vector<std::string> kEyeMovements = {"literal", "floor", "monotone", "none"};
-const std::vector<std::string> kPeakModels = {"halving", "no_upsample", "with_upsample"};
+const std::vector<std::string> kUpsamplers = {"linear", "expand"};
 const std::vector<std::string> kAdaptations = {"local", "mean", "fixed"};
 const std::vector<std::string> kCollapses = {"signed", "magnitude"};
 const std::vector<std::string> kSeedRules = {"colour_differs", "none"};
@@ -72,7 +72,10 @@ std::vector<Parameter> declare() {
                        model),
       realParameter("least_peak_cpd", d.leastPeakCpd, 0.01, 30.0, "cpd",
                     "least peak frequency of the coarsest contrast level", model),
-      choiceParameter("peak_model", nameOf(d.peakModel, kPeakModels), kPeakModels,
+      choiceParameter("upsampler", d.upsampler == Upsampler::Expand ? "expand" : "linear", kUpsamplers,
+                      "how coarser levels reach the size of finer ones: the kernel transposed, or linearly",
+                      choice),
+      choiceParameter("peak_model", nameOf(d.peakModel, peakModelNames()), peakModelNames(),
                       "frequency that a level stands for", model),
       booleanParameter("compensate_gain", d.compensateGain, "divide a level's contrast by its filter's gain",
                        model),
@@ -93,8 +96,8 @@ std::vector<Parameter> declare() {
       booleanParameter("use_flicker", d.useFlicker, "heed the flicker weight", examples),
       realParameter("outside_visibility", d.outsideVisibility, 0.0, 1.0, "",
                     "visibility of what was outside the previous frame", choice),
-      integerParameter("pcf_radius_px", d.pcfRadiusPx, 0, 8, "px", "radius of the previous depth comparison",
-                       choice),
+      integerParameter("pcf_radius_px", d.pcfRadiusPx, 0, 8, "px",
+                       "radius of the previous depth comparison; 0: the four nearest texels", choice),
       realParameter("depth_tolerance", d.depthTolerance, 0.0, 1.0, "",
                     "relative difference of depth within one surface", choice),
       realParameter("flicker_kappa", d.flickerKappa, 0.0, 10.0, "",
@@ -143,7 +146,8 @@ PoppingSettings PoppingSettings::from(const ParameterValues& values) {
   s.leastVelocityDegS = values.real("least_velocity_deg_s");
   s.gaussianLevels = static_cast<int>(values.integer("gaussian_levels"));
   s.leastPeakCpd = values.real("least_peak_cpd");
-  s.peakModel = enumOf<PeakModel>(values, "peak_model", kPeakModels);
+  s.upsampler = values.text("upsampler") == "expand" ? Upsampler::Expand : Upsampler::Successive;
+  s.peakModel = peakModelFromName(values.text("peak_model"));
   s.compensateGain = values.boolean("compensate_gain");
   s.denominatorEpsilon = values.real("denominator_epsilon");
   s.adaptation = enumOf<AdaptationSource>(values, "adaptation", kAdaptations);

@@ -5,17 +5,12 @@
 #include <vector>
 
 #include "base/parameter.h"
+#include "perception/multiscale/band_peaks.h"
 #include "perception/popping/detection.h"
 #include "perception/vision/eye_movement.h"
 
 namespace limen::perception {
 
-/// Which frequency a level of the contrast pyramid stands for. Schwarz 2009, section 10.3.3.
-enum class PeakModel {
-  Halving,      ///< Nyquist, then halves: the "common assumption" that the thesis warns of
-  NoUpsample,   ///< peaks of the filters without what upsampling adds
-  WithUpsample  ///< peaks of the filters that are run
-};
 /// Luminance that the eye is adapted to.
 enum class AdaptationSource {
   Local,  ///< the pyramid level whose pixel is about one degree
@@ -49,8 +44,9 @@ struct PoppingSettings {
   EyeMovement eyeMovement = EyeMovement::Monotone;
   double leastVelocityDegS = kLeastRetinalVelocityDegS;
 
-  int gaussianLevels = 0;     ///< 0: all whose contrast level peaks at leastPeakCpd or above
-  double leastPeakCpd = 0.5;  ///< of the coarsest contrast level
+  int gaussianLevels = 0;                   ///< 0: all whose contrast level peaks at leastPeakCpd or above
+  double leastPeakCpd = 0.5;                ///< of the coarsest contrast level
+  Upsampler upsampler = Upsampler::Expand;  ///< of coarser levels: Expand or Successive (linear)
   PeakModel peakModel = PeakModel::WithUpsample;
   bool compensateGain = true;        ///< divide a level's contrast by its filter's gain
   double denominatorEpsilon = 1e-3;  ///< least cone response that a contrast is divided by [cd/m2]
@@ -63,7 +59,7 @@ struct PoppingSettings {
 
   bool useDisocclusion = true, useFlicker = true;  ///< heed these weight maps where they are given
   double outsideVisibility = 0.0;                  ///< of a pixel whose previous place lies outside the frame
-  int pcfRadiusPx = 1;                             ///< taps of the depth comparison: (2 r + 1)^2
+  int pcfRadiusPx = 0;           ///< taps of the depth comparison: (2 r + 1)^2 places, four texels each
   double depthTolerance = 0.01;  ///< relative difference of linear depth that is still the same surface
   double flickerKappa = 0.9;     ///< flicker: dE94 over time >= kappa * dE94 between the LODs ...
   double flickerMaxDisplacementPx = 8.0;  ///< ... unless the pixel moves by this much or more

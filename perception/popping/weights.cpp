@@ -76,17 +76,19 @@ bool flickers(const FlickerInput& input, int x, int y, const PoppingSettings& se
   // Bilinear over those texels that show the same surface.
   std::array<double, 3> colour{};
   double weights = 0.0;
-  forBilinear(place, input.previousFrame.width, input.previousFrame.height, [&](int px, int py, double weight) {
-    if (compareDepth) {
-      const double there = finite(input.previousDepth.at(px, py));
-      const bool background = !(depth > 0.0), backgroundThere = !(there > 0.0);
-      if (background != backgroundThere) return;
-      if (!background && std::abs(there - depth) > settings.depthTolerance * depth) return;
-    }
-    weights += weight;
-    for (int c = 0; c < 3; ++c)
-      colour[c] += weight * finite(input.previousFrame.at(px, py, input.previousFrame.channels < 3 ? 0 : c));
-  });
+  forBilinear(
+      place, input.previousFrame.width, input.previousFrame.height, [&](int px, int py, double weight) {
+        if (compareDepth) {
+          const double there = finite(input.previousDepth.at(px, py));
+          const bool background = !(depth > 0.0), backgroundThere = !(there > 0.0);
+          if (background != backgroundThere) return;
+          if (!background && std::abs(there - depth) > settings.depthTolerance * depth) return;
+        }
+        weights += weight;
+        for (int c = 0; c < 3; ++c)
+          colour[c] +=
+              weight * finite(input.previousFrame.at(px, py, input.previousFrame.channels < 3 ? 0 : c));
+      });
   if (!(weights > 0.0)) return false;
   for (double& value : colour) value = std::clamp(value / weights, 0.0, 1.0);
   const double overTime = differenceCie94(labFromLinearRgb(colour), labAt(input.previousShading, x, y));
@@ -103,7 +105,8 @@ Image disocclusionWeight(const std::vector<DisocclusionView>& views, const Poppi
   forEachRow(height, static_cast<size_t>(width), [&](int y) {
     for (int x = 0; x < width; ++x) {
       double largest = 0.0;
-      for (const DisocclusionView& view : views) largest = std::max(largest, visibility(view, x, y, settings));
+      for (const DisocclusionView& view : views)
+        largest = std::max(largest, visibility(view, x, y, settings));
       weight.at(x, y) = static_cast<float>(largest);
     }
   });

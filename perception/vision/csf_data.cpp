@@ -85,8 +85,9 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path) {
     CsfMeasurement one;
     one.line = number;
     one.dataset = row.has("dataset") ? row.text("dataset") : fs::path(path).stem().string();
-    one.point.frequencyCpd = row.positive("s_frequency");
-    one.point.velocityDegS = row.number("t_frequency", 0.0, 0.0) / one.point.frequencyCpd;
+    one.point.frequencyCpd = row.number("s_frequency", 0.0, 0.0);
+    const double hertz = row.number("t_frequency", 0.0, 0.0);
+    one.point.velocityDegS = one.point.frequencyCpd > 0.0 ? hertz / one.point.frequencyCpd : 0.0;
     one.point.luminanceCdM2 = row.positive("luminance");
     if (row.has("area")) {
       one.point.areaDeg2 = row.positive("area");
@@ -111,7 +112,7 @@ CsfError csfError(const CsfInfo& info, const Csf& csf, const std::vector<CsfMeas
   for (const CsfMeasurement& one : data) {
     CsfPoint point = one.point;
     point.velocityDegS = std::max(point.velocityDegS, leastVelocityDegS);
-    const double predicted = csf.sensitivity(point);
+    const double predicted = point.frequencyCpd > 0.0 ? csf.sensitivity(point) : 0.0;
     if (!outsideValidRange(info, point).empty()) ++out.outside;
     if (predicted > 0.0)
       differences.push_back(20.0 * std::log10(one.sensitivity / predicted));

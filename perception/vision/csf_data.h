@@ -28,7 +28,7 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path);
 /// How far a model is from measurements, in dB = 20 lg of sensitivity, after one gain for all of them.
 struct CsfError {
   size_t count = 0;
-  size_t unpredicted = 0;  ///< where the model says 0; left out
+  size_t unpredicted = 0;  ///< where the model says 0 and at 0 cpd; left out
   size_t outside = 0;      ///< outside the model's valid range, least velocity applied; counted in
   double gainDb = 0.0;     ///< mean of measured less predicted
   double rmsDb = 0.0;      ///< of what remains; 0 for fewer than two

@@ -116,7 +116,8 @@ double csfKelly79(double rho, double v, const Kelly79Constants& constants) {
   if (root == 0.0) return 0.0;
   const double alpha = 2.0 * kPi * rho * root;
   const double height = constants.k1 + constants.k2 * cube(std::abs(std::log10(v / 3.0)));
-  return height * v * alpha * alpha;
+  // v alpha is bounded where the exponential is not 0, v alone is not.
+  return height * (v * alpha) * alpha;
 }
 
 double csfDaly98(double rho, double v, double c0, double c1, double c2) {

@@ -19,8 +19,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -183,9 +183,9 @@ std::string readWhole(const std::string& path) {
     throw Error("is no readable file", path, "give a display profile (YAML) or a preset");
   if (bytes > kMaxBytes) throw Error("is too large for a display profile", path);
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw Error("cannot be read", path);
-  return text.str();
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) throw Error("cannot be read", path);
+  return text;
 }
 
 /// Reads the members of one map, each with its line in errors.

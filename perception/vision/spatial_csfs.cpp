@@ -63,7 +63,7 @@ class Barten03 : public Csf {
  public:
   explicit Barten03(const ParameterValues& values)
       : gain_(values.real("gain")), constants_{values.real("height"),       values.real("optics"),
-                                               values.real("area_limit"),         values.real("cycles"),
+                                               values.real("area_limit"),   values.real("cycles"),
                                                values.real("photon_noise"), values.real("photon_exponent"),
                                                values.real("lateral")} {}
   double sensitivity(const CsfPoint& p) const override {

@@ -96,10 +96,14 @@ std::string numbered(const std::string& name, size_t i) { return name + std::to_
 template <class Visit>
 void visitConstants(StelaConstants& k, Visit&& visit) {
   const auto channelConstants = [&](const std::string& prefix, StelaChannel& c) {
+    // The transient mechanism has a power law instead of hyperbolas, and one peak frequency at all
+    // luminances.
     for (size_t i = 0; i < c.gain.size(); ++i)
-      visit(numbered(prefix + "gain", i), c.gain[i], 1e12, "", "gain over luminance");
+      if (c.gain[1] > 0.0 || i == 0 || i == 2)
+        visit(numbered(prefix + "gain", i), c.gain[i], 1e12, "", "gain over luminance");
     for (size_t i = 0; i < c.frequency.size(); ++i)
-      visit(numbered(prefix + "frequency", i), c.frequency[i], 1e6, "", "peak frequency over luminance");
+      if (c.frequency[1] > 0.0 || i == 0)
+        visit(numbered(prefix + "frequency", i), c.frequency[i], 1e6, "", "peak frequency over luminance");
     visit(prefix + "bandwidth", c.bandwidth, 20.0, "", "lg 2 of the log-parabola's width");
     visit(prefix + "truncation", c.truncation, 1.0, "", "largest fall below the peak frequency");
     visit(prefix + "area_limit", c.area, 1e6, "deg2", "largest area that is integrated over");
@@ -131,8 +135,8 @@ CsfInfo info(const char* name, const StelaConstants& constants, const char* summ
                                const char* description) {
     out.parameters.push_back(realParameter(constant, value, 0.0, high, unit, description, source));
   });
-  out.make = [](const ParameterValues& values) {
-    StelaConstants k{};
+  out.make = [constants](const ParameterValues& values) {
+    StelaConstants k = constants;
     visitConstants(k, [&](const std::string& constant, double& value, double, const char*, const char*) {
       value = values.real(constant);
     });

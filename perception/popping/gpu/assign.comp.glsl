@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers the seeded roots in the order of their pixels and makes their records.
-#version 450 core
 #include "perception/popping/gpu/region_table.glsl"
 
 layout(local_size_x = 256) in;
@@ -33,7 +32,7 @@ void main() {
     uint rank = before + uint(bitCount(bits[i / 32u] & ((1u << (i % 32u)) - 1u)));
     for (uint word = 0u; word < i / 32u; ++word) rank += uint(bitCount(bits[word]));
     uint pixel = chunk * kChunk + i;
-    regions[rank] = Region(pixel, 0u, 0u, 0u, 0u, 0u, kNone, kNone, 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+    regions[rank] = Region(0u, uint[4](0u, 0u, 0u, 0u), 0u, kNone, kNone, 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
     roots[pixel] = rank + 1u;
   }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Seeded roots of each chunk of 4096 pixels.
-#version 450 core
 #include "perception/popping/gpu/region_table.glsl"
 
 layout(local_size_x = 256) in;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hangs every pixel right below its root and tells the root of the seeds of its tiles.
-#version 450 core
 #include "perception/popping/gpu/region_table.glsl"
 
 layout(local_size_x = 256) in;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Unites the parts of a region that lie in tiles side by side. One invocation for each pixel below a tile's upper
 // edge, then one for each right of a tile's left edge.
-#version 450 core
 #include "perception/popping/gpu/region_table.glsl"
 
 layout(local_size_x = 256) in;

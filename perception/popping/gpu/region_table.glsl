@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the region kernels share: buffers, a region's record, sums that do not depend on the order of additions.
 const uint kNone = 0xffffffffu;  // parent of a pixel below the threshold
 
@@ -7,11 +8,11 @@ layout(binding = 0, std430) coherent buffer Parents { uint parents[]; };
 layout(binding = 1, std430) coherent buffer Roots { uint roots[]; };
 // [0]: regions. Then by label - 1.
 struct Region {
-  uint root, sizePx;
-  uint sum0, sum1, sum2;  // of jnd^p, fixed point: units of 2^-20, 2^12, 2^44
-  uint largestBits;       // of the jnd, as floatBitsToUint
+  uint sizePx;
+  uint sum[4];       // of (jnd / threshold)^p, fixed point: least word first, units of 2^-16
+  uint largestBits;  // of the jnd, as floatBitsToUint
   uint leastX, leastY, mostX, mostY;
-  uint x0, x1, y0, y1;  // sums of pixel coordinates, 64 bits
+  uint x0, x1, y0, y1;  // sums of pixel coordinates, 64 bits each
   float sigma, rating;
 };
 layout(binding = 2, std430) buffer Table {

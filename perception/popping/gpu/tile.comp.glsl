@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Connected components of jnd >= threshold within tiles of 32 x 32 pixels. Rows are runs of bits; a run is
 // united with those that it touches above.
-#version 450 core
 #include "perception/popping/gpu/region_table.glsl"
 
 layout(local_size_x = 32, local_size_y = 8) in;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/command/frame_report.h"
+
+#include <cstdio>
+
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/text.h"
+
+namespace limen::perception {
+namespace {
+
+void printLine(const nlohmann::json& object) {
+  // File names need not be UTF-8.
+  std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  std::fflush(stdout);  // a reader follows frame by frame
+}
+
+nlohmann::json displayJson(const DisplayProfile& display) {
+  return {{"name", display.name},
+          {"line", display.line()},
+          {"hash", display.hash()},
+          {"pixels_per_degree", display.pixelsPerDegree()},
+          {"profile", toYaml(display)}};
+}
+
+nlohmann::json frameJson(const FrameReport& report, const std::vector<std::string>& warnings) {
+  nlohmann::json out = {{"frame", report.frame.label()}, {"figures", figuresAsJson(report.figures)}};
+  if (report.frame.number) out["number"] = *report.frame.number;
+  nlohmann::json units = nlohmann::json::object(), unavailable = nlohmann::json::object();
+  for (const Figure& figure : report.figures) {
+    units[figure.name] = figure.unit;
+    if (!figure.value && !figure.reason.empty()) unavailable[figure.name] = figure.reason;
+  }
+  out["units"] = units;
+  if (!unavailable.empty()) out["unavailable"] = unavailable;
+  for (const auto& [role, input] : report.inputs) out["inputs"][role] = input->toJson();
+  for (const auto& [what, path] : report.outputs) out["outputs"][what] = path;
+  out["warnings"] = warnings;
+  if (report.extra.is_object()) out.update(report.extra);
+  return out;
+}
+
+std::vector<std::string> allWarnings(const FrameReport& report) {
+  std::vector<std::string> out;
+  for (const auto& [role, input] : report.inputs)
+    for (const std::string& warning : input->warnings) out.push_back(input->path + ": " + warning);
+  out.insert(out.end(), report.warnings.begin(), report.warnings.end());
+  return out;
+}
+
+}  // namespace
+
+std::string limenVersion() {
+  std::string commit = buildCommit();
+  const bool dirty = commit.find("-dirty") != std::string::npos;
+  return "Limen " + projectVersion() + " (commit " + commit.substr(0, 10) + (dirty ? "-dirty)" : ")");
+}
+
+ReportPrinter::ReportPrinter(ReportHeader header, size_t frames, std::vector<Limit> limits)
+    : header_(std::move(header)), frames_(frames), limits_(std::move(limits)) {
+  if (!header_.json) std::printf("%s\n", header_.statement.c_str());
+}
+
+nlohmann::json ReportPrinter::headerJson() const {
+  nlohmann::json limits = nlohmann::json::array();
+  for (const Limit& limit : limits_)
+    limits.push_back({{"figure", limit.figure}, {limit.below ? "fail_below" : "fail_above", limit.value}});
+  nlohmann::json out = {{"command", header_.command},   {"statement", header_.statement},
+                        {"version", projectVersion()},  {"commit", buildCommit()},
+                        {"call", header_.words},        {"display", displayJson(header_.display)},
+                        {"settings", header_.settings}, {"limits", limits},
+                        {"exceeded", exceeded_}};
+  if (header_.extra.is_object()) out.update(header_.extra);
+  return out;
+}
+
+void ReportPrinter::printText(const FrameReport& report) const {
+  if (frames_ == 1) {
+    size_t width = 0;
+    for (const auto& [role, input] : report.inputs) width = std::max(width, role.size());
+    for (const auto& [role, input] : report.inputs)
+      std::printf("%-*s  %s\n", static_cast<int>(width), role.c_str(), input->line().c_str());
+    std::printf("\n%s", figureTable(report.figures).c_str());
+    if (!report.text.empty()) std::printf("\n%s", report.text.c_str());
+    if (!report.outputs.empty()) std::printf("\n");
+    for (const auto& [what, path] : report.outputs) std::printf("%s: %s\n", what.c_str(), path.c_str());
+  } else {
+    std::string line;
+    for (const std::string& name : header_.primaryFigures)
+      for (const Figure& figure : report.figures)
+        if (figure.name == name)
+          line +=
+              (line.empty() ? "" : ", ") + name + " " + (figure.value ? numberText(*figure.value) : "none");
+    std::printf("%s: %s\n", report.frame.label().c_str(), line.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void ReportPrinter::add(const FrameReport& report) {
+  const std::vector<std::string> warnings = allWarnings(report);
+  warnings_ += warnings.size();
+  const std::string prefix = frames_ > 1 ? report.frame.label() + ": " : "";
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "limen-perceive: %swarning: %s\n", prefix.c_str(), warning.c_str());
+  for (const std::string& words : exceeded(report.figures, limits_)) exceeded_.push_back(prefix + words);
+  summary_.add(report.figures, report.frame.label());
+
+  if (!header_.json) {
+    printText(report);
+    return;
+  }
+  nlohmann::json line = frameJson(report, warnings);
+  line["event"] = frames_ == 1 ? "result" : "frame";
+  if (frames_ == 1) line.update(headerJson());
+  printLine(line);
+}
+
+int ReportPrinter::finish() {
+  const std::string worst =
+      header_.primaryFigures.empty() ? "" : summary_.worstFrame(header_.primaryFigures.front());
+  if (frames_ > 1 && header_.json) {
+    nlohmann::json line = headerJson();
+    line["event"] = "summary";
+    line["frames"] = frames_;
+    line["figures"] = summary_.toJson();
+    line["worst_frame"] = worst.empty() ? nlohmann::json() : nlohmann::json(worst);
+    line["worst_by"] = header_.primaryFigures.empty() ? "" : header_.primaryFigures.front();
+    line["warning_count"] = warnings_;
+    printLine(line);
+  } else if (frames_ > 1) {
+    std::printf("\n%zu frames\n%s", frames_, summary_.table().c_str());
+    if (!worst.empty())
+      std::printf("worst frame by %s: %s\n", header_.primaryFigures.front().c_str(), worst.c_str());
+  }
+  for (const std::string& words : exceeded_) std::fprintf(stderr, "limen-perceive: %s\n", words.c_str());
+  return exceeded_.empty() ? kExitSuccess : kExitFailedRuns;
+}
+
+}  // namespace limen::perception

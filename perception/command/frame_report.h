@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "perception/command/figures.h"
+#include "perception/command/image_input.h"
+#include "perception/command/image_sequence.h"
+#include "perception/vision/display.h"
+
+namespace limen::perception {
+
+/// What holds for a whole call. With it and the files a call can be repeated.
+struct ReportHeader {
+  std::string command;             ///< "compare"
+  std::string statement;           ///< one line fit for a paper
+  std::vector<std::string> words;  ///< the call as it was typed
+  DisplayProfile display;
+  nlohmann::json settings;                  ///< every parameter with its value
+  nlohmann::json extra;                     ///< further members of the JSON result; an object or null
+  std::vector<std::string> primaryFigures;  ///< shown for each frame of a sequence; the first tells the worst
+  bool json = false;
+};
+
+/// What was found for one frame.
+struct FrameReport {
+  FrameSet frame;
+  std::vector<std::pair<std::string, const InputImage*>> inputs;  ///< with their roles
+  Figures figures;
+  std::string text;      ///< further lines, shown for single images
+  nlohmann::json extra;  ///< further members of the frame's JSON object; an object or null
+  std::vector<std::pair<std::string, std::string>> outputs;  ///< what, path
+  std::vector<std::string> warnings;                         ///< beyond those of the inputs
+};
+
+/// "Limen 0.1.0 (commit 0123456789)": who says so.
+std::string limenVersion();
+
+/// Prints what a command finds: text, or with --json one JSON object for a single image; for a sequence a
+/// line for each frame and a last line that sums up. Warnings go to stderr as well.
+class ReportPrinter {
+ public:
+  ReportPrinter(ReportHeader header, size_t frames, std::vector<Limit> limits);
+
+  /// Throws Error if a limit is about a figure that cannot be told.
+  void add(const FrameReport& report);
+  /// Sums up. Returns the exit code: kExitFailedRuns if a limit was exceeded (said on stderr), else success.
+  int finish();
+
+ private:
+  nlohmann::json headerJson() const;
+  void printText(const FrameReport& report) const;
+
+  ReportHeader header_;
+  size_t frames_;
+  std::vector<Limit> limits_;
+  FigureSummary summary_;
+  std::vector<std::string> exceeded_;
+  size_t warnings_ = 0;
+};
+
+}  // namespace limen::perception

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace limen::perception {
+
+/// Each adds one subcommand; `words` is the call as it was typed, which results state.
+void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
+void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
+void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
+
+}  // namespace limen::perception

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/command/image_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace limen::perception {
+namespace {
+
+const char* curveName(const DisplayProfile& display) {
+  switch (display.transfer) {
+    case TransferCurve::Srgb:
+      return "sRGB";
+    case TransferCurve::Gamma:
+      return "gamma";
+    case TransferCurve::Linear:
+      return "linear";
+  }
+  return "";
+}
+
+std::string describeAssumption(const std::string& values, const DisplayProfile& display) {
+  if (values == "linear") return "linear light, 1 is the display's white";
+  if (values == "luminance") return "absolute light in cd/m2, clipped to what the display shows";
+  std::string curve = curveName(display);
+  if (display.transfer == TransferCurve::Gamma) curve += fmt::format(" {:g}", display.gamma);
+  return "display-coded, " + curve + " curve";
+}
+
+void toColour(Image& image) {
+  if (image.data.empty() || image.channels != 1) return;
+  Image colour(image.width, image.height, 3);
+  for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    std::fill_n(colour.data.begin() + static_cast<std::ptrdiff_t>(3 * pixel), 3, image.data[pixel]);
+  image = std::move(colour);
+}
+
+/// Multiplies the image by alpha where it is not multiplied yet.
+void overBlack(Image& image, const Image& alpha) {
+  for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    for (int c = 0; c < image.channels; ++c)
+      image.data[pixel * static_cast<size_t>(image.channels) + static_cast<size_t>(c)] *= alpha.data[pixel];
+}
+
+std::string countText(int64_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// Counts what the display cannot show, into warnings too.
+void judgeRange(InputImage& input) {
+  const auto channels = static_cast<size_t>(input.linear.channels);
+  int64_t above = 0, below = 0;
+  for (size_t pixel = 0; pixel < input.linear.pixels(); ++pixel) {
+    bool over = false, under = false;
+    for (size_t c = 0; c < channels; ++c) {
+      const float value = input.linear.data[pixel * channels + c];
+      if (!std::isfinite(value)) ++input.nonFinite;
+      over = over || value > 1.0F;
+      under = under || value < 0.0F;
+    }
+    above += over;
+    below += under;
+    input.clippedPx += over || under;
+  }
+  if (input.nonFinite > 0)
+    input.warnings.push_back(countText(input.nonFinite, "value is", "values are") +
+                             " infinite or not a number; shown as white where plus infinite, else as black");
+  const auto share = [&](int64_t count) {
+    return fmt::format("{} ({:.3g} %)", countText(count, "pixel", "pixels"),
+                       100.0 * static_cast<double>(count) / static_cast<double>(input.linear.pixels()));
+  };
+  if (above > 0)
+    input.warnings.push_back(share(above) + " brighter than the display's white, shown clipped to it");
+  if (below > 0)
+    input.warnings.push_back(share(below) + " darker than the display's black, shown clipped to it");
+}
+
+}  // namespace
+
+const std::vector<Parameter>& inputParameters() {
+  static const std::vector<Parameter> kParameters = {
+      choiceParameter(
+          "values", "auto", {"auto", "coded", "linear", "luminance"},
+          "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is "
+          "the display's white; luminance: light in cd/m2; auto: integers are coded, "
+          "floating-point numbers linear"),
+      choiceParameter("alpha", "over_black", {"over_black", "ignore"},
+                      "over_black: in front of black, in light; ignore: colours as the file has them")};
+  return kParameters;
+}
+
+Image InputImage::shown() const {
+  Image image(linear.width, linear.height, 3);
+  const auto channels = static_cast<size_t>(linear.channels);
+  for (size_t pixel = 0; pixel < linear.pixels(); ++pixel)
+    for (size_t c = 0; c < 3; ++c) {
+      const float value = linear.data[pixel * channels + (channels == 1 ? 0 : c)];
+      image.data[3 * pixel + c] = value > 0.0F ? std::min(value, 1.0F) : 0.0F;  // NaN fails the comparison
+    }
+  return image;
+}
+
+nlohmann::json InputImage::toJson() const {
+  nlohmann::json out = {{"path", path},
+                        {"sha256", sha256},
+                        {"width_px", width()},
+                        {"height_px", height()},
+                        {"channels", linear.channels},
+                        {"kind", kind},
+                        {"assumed", assumed},
+                        {"non_finite", nonFinite},
+                        {"clipped_px", clippedPx}};
+  if (!alpha.empty()) out["alpha"] = alpha;
+  return out;
+}
+
+std::string InputImage::line() const {
+  return fmt::format("{}: {}, {} x {} {}, {}{}", path, kind, width(), height(),
+                     linear.channels == 1 ? "grey" : "RGB", assumed, alpha.empty() ? "" : "; " + alpha);
+}
+
+InputImage readInput(const std::string& path, const DisplayProfile& display, const ParameterValues& input) {
+  ImageFile file = readImageFile(path);
+  InputImage out;
+  out.path = path;
+  out.kind = file.kind();
+  out.sha256 = sha256File(path);
+  out.warnings = file.remarks;
+  const std::string& asked = input.text("values");
+  const std::string values = asked != "auto" ? asked : file.integer ? "coded" : "linear";
+  out.assumed = describeAssumption(values, display);
+  out.coded = values == "coded";
+
+  Image& light = out.linear = std::move(file.image);
+  if (out.coded) {
+    out.values = light;
+    for (float& value : light.data)
+      value =
+          std::isfinite(value) ? static_cast<float>(display.decode(std::clamp(value, 0.0F, 1.0F))) : value;
+  } else if (values == "luminance") {
+    // The screen adds its black to all that it shows.
+    const double black = display.blackLevelCdM2(), span = display.whiteLevelCdM2() - black;
+    for (float& value : light.data) value = static_cast<float>((double{value} - black) / span);
+  }
+  if (!file.alpha.data.empty()) {
+    const bool opaque =
+        std::all_of(file.alpha.data.begin(), file.alpha.data.end(), [](float a) { return a == 1.0F; });
+    if (opaque) {
+      out.alpha = "alpha is 1 everywhere";
+    } else if (input.text("alpha") == "ignore") {
+      out.alpha =
+          file.premultiplied ? "alpha ignored, colours are multiplied by it in the file" : "alpha ignored";
+    } else {
+      out.alpha = "in front of black";
+      if (!file.premultiplied) {
+        overBlack(light, file.alpha);
+        out.values = {};  // what a display is sent for half-covered pixels is not in the file
+      }
+    }
+  }
+  judgeRange(out);
+  if (out.width() > display.resolutionPx.x || out.height() > display.resolutionPx.y)
+    out.warnings.push_back(
+        fmt::format("{} x {} pixels do not fit the display's {} x {}; judged at its pixel pitch", out.width(),
+                    out.height(), display.resolutionPx.x, display.resolutionPx.y));
+  if (values == "luminance")
+    for (float& value : light.data)
+      if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
+  return out;
+}
+
+void matchInputs(InputImage& first, InputImage& second) {
+  if (first.width() != second.width() || first.height() != second.height())
+    throw Error(fmt::format("'{}' is {} x {}, '{}' is {} x {}", first.path, first.width(), first.height(),
+                            second.path, second.width(), second.height()),
+                {}, "give images of the same size");
+  if (first.linear.channels == second.linear.channels) return;
+  for (InputImage* input : {&first, &second}) {
+    toColour(input->linear);
+    toColour(input->values);
+  }
+}
+
+Image readMap(const std::string& path, const std::string& option, int channels, const InputImage& like) {
+  Image map;
+  try {
+    map = readImage(path);
+  } catch (const Error& error) {
+    throw Error(error.message(), option, error.mend());
+  }
+  if (map.width != like.width() || map.height != like.height())
+    throw Error(fmt::format("'{}' is {} x {}, the images are {} x {}", path, map.width, map.height,
+                            like.width(), like.height()),
+                option, "give a map of the images' size");
+  if (map.channels < channels)
+    throw Error(fmt::format("'{}' has {} channel{}", path, map.channels, map.channels == 1 ? "" : "s"),
+                option, fmt::format("it takes {}", channels));
+  return map;
+}
+
+}  // namespace limen::perception

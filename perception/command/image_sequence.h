@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limen::perception {
+
+/// One image of a call, or of each frame of it.
+struct SequenceFrame {
+  std::string path;
+  std::optional<int64_t> number;  ///< as the name has it; none for single files and globs
+};
+
+/// What one command-line argument stands for. In frames' order: by number for numbered patterns, else by name
+/// with digits read as numbers (frame_2 before frame_10).
+struct ImageSequence {
+  std::string argument;
+  bool single = true;  ///< the name of one file, not a pattern
+  std::vector<SequenceFrame> frames;
+  std::vector<int64_t> missing;  ///< numbers between the first and the last that have no file
+};
+
+/// `argument` is the name of a file, or a pattern whose file name has one number: "%04d" or "####" (digits
+/// padded with zeros to that width), "%d" (not padded), or a glob with *, ? or [...]. A file that is really
+/// called like that comes first. Throws Error: nothing fits, two numbers, a folder.
+ImageSequence expandImages(const std::string& argument);
+
+/// Images that belong together: one of each argument.
+struct FrameSet {
+  size_t index = 0;                ///< from 0
+  std::optional<int64_t> number;   ///< common to all
+  std::vector<std::string> paths;  ///< in the order of the sequences; "" for an argument that was not given
+  /// "frame 12" or, without a number, the file name of the first.
+  std::string label() const;
+};
+
+/// Frames of sequences side by side: by number where all have numbers, else in order. A single file goes with
+/// every frame; an empty argument (frames empty) with none. Throws Error where counts or numbers differ.
+std::vector<FrameSet> alignSequences(const std::vector<ImageSequence>& sequences);
+
+/// True where a name holds a place for a frame's number.
+bool hasNumberPlace(const std::string& path);
+/// `pattern` with the frame's number (without one its position from 1) in its place.
+std::string fillNumber(const std::string& pattern, const FrameSet& frame);
+
+}  // namespace limen::perception

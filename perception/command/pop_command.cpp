@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen-perceive pop: where a change from one frame to another is seen to pop, and how strongly.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "perception/command/frame_report.h"
+#include "perception/command/image_commands.h"
+#include "perception/command/image_options.h"
+#include "perception/command/output_files.h"
+#include "perception/command/popping_report.h"
+#include "perception/metrics/error_map.h"
+#include "perception/popping/comparator.h"
+
+namespace limen::perception {
+namespace {
+
+struct PopOptions : ImageOptions {
+  std::string before, after, motion, oldMotion, overlay, jnd, stages;
+  std::vector<std::string> weights;
+};
+
+std::vector<SettingsGroup> groups() { return {{"", poppingParameters()}}; }
+
+Figures allFigures() {
+  Figures figures = declaredPoppingFigures();
+  figures.push_back({"max_de94", "dE94", "comparator: largest CIE94 difference of a pixel", false, {}, {}});
+  return figures;
+}
+
+/// Sequences of the call, in the order of FrameSet::paths.
+enum Role : size_t { kOld, kNew, kMotion, kOldMotion, kFirstWeight };
+
+/// Leaves out maps of frames that are not judged, such as the first one of all.
+void keepNumbersOf(const ImageSequence& frames, ImageSequence& maps) {
+  if (frames.single || maps.single || maps.frames.empty() || !frames.frames.front().number ||
+      !maps.frames.front().number)
+    return;
+  std::set<int64_t> wanted;
+  for (const SequenceFrame& frame : frames.frames) wanted.insert(*frame.number);
+  std::erase_if(maps.frames, [&](const SequenceFrame& map) { return wanted.count(*map.number) == 0; });
+  if (maps.frames.empty())
+    throw Error("'" + maps.argument + "' has none of the frames of '" + frames.argument + "'", "pop",
+                "give maps with the frames' numbers");
+}
+
+/// OLD and NEW side by side, or each frame of one sequence with the next.
+std::vector<FrameSet> alignFrames(const PopOptions& options) {
+  const auto optional = [](const std::string& argument) {
+    return argument.empty() ? ImageSequence{} : expandImages(argument);
+  };
+  ImageSequence before = expandImages(options.before), after = optional(options.after);
+  if (after.frames.empty()) {
+    if (before.single || before.frames.size() < 2)
+      throw Error(
+          "'" + options.before + "' is one image", "pop",
+          "name two: limen-perceive pop OLD NEW; or a sequence, whose frames are compared with the next");
+    if (!before.missing.empty())
+      throw Error("'" + options.before + "' lacks frame " + std::to_string(before.missing.front()), "pop",
+                  "frames that are compared with the next must follow one another");
+    after = before;
+    after.frames.erase(after.frames.begin());
+    before.frames.pop_back();
+    // A pair bears the number of its new frame.
+    for (size_t i = 0; i < before.frames.size(); ++i) before.frames[i].number = after.frames[i].number;
+  }
+  std::vector<ImageSequence> sequences = {before, after, optional(options.motion),
+                                          optional(options.oldMotion)};
+  for (const std::string& weight : options.weights) sequences.push_back(expandImages(weight));
+  for (size_t i = kMotion; i < sequences.size(); ++i) keepNumbersOf(after, sequences[i]);
+  return alignSequences(sequences);
+}
+
+/// Product of all weight maps.
+Image readWeights(const FrameSet& frame, const InputImage& like) {
+  Image product;
+  for (size_t i = kFirstWeight; i < frame.paths.size(); ++i) {
+    const Image map = readMap(frame.paths[i], "--weight", 1, like);
+    if (product.data.empty()) product = Image(map.width, map.height, 1, 1.0F);
+    for (size_t pixel = 0; pixel < product.pixels(); ++pixel)
+      product.data[pixel] *= map.data[pixel * static_cast<size_t>(map.channels)];
+  }
+  return product;
+}
+
+void writeStages(const PoppingResult& result, const std::string& folder, const std::string& statement,
+                 FrameReport& report) {
+  for (const auto& [name, stage] : result.stages)
+    writeExr((std::filesystem::path(folder) / (name + ".exr")).string(), stage, name + "; " + statement);
+  report.outputs.emplace_back("stages (" + std::to_string(result.stages.size()) + " EXR files)", folder);
+}
+
+struct Call {
+  const PopOptions& options;
+  DisplayProfile display;
+  ParameterValues input;
+  PoppingSettings settings;
+  std::string statement;
+};
+
+void predict(const Call& call, const FrameSet& frame, const OutputFiles& outputs, ReportPrinter& printer) {
+  InputImage before = readInput(frame.paths[kOld], call.display, call.input);
+  InputImage after = readInput(frame.paths[kNew], call.display, call.input);
+  matchInputs(before, after);
+  PoppingInput input;
+  input.actual = after.shown();
+  input.predicted = before.shown();
+  input.linear = true;
+  if (!frame.paths[kMotion].empty())
+    input.actualDisplacement = readMap(frame.paths[kMotion], "--motion", 2, after);
+  if (!frame.paths[kOldMotion].empty())
+    input.predictedDisplacement = readMap(frame.paths[kOldMotion], "--old-motion", 2, after);
+  input.disocclusion = readWeights(frame, after);
+  PoppingOptions wish;
+  if (!call.options.stages.empty()) wish.stages = {"all"};
+  const PoppingResult result = predictPopping(input, call.display, call.settings, wish);
+  const LargestColourDifference difference = largestColourDifference(input, call.display);
+
+  FrameReport report;
+  report.frame = frame;
+  report.inputs = {{"old", &before}, {"new", &after}};
+  report.figures = poppingFigures(result);
+  report.figures.push_back(allFigures().back());
+  report.figures.back().value = difference.value;
+  report.text = regionTable(result);
+  report.warnings = poppingWarnings(result);
+  report.extra = {{"regions_table", regionsAsJson(result)},
+                  {"model", poppingModelAsJson(result.model)},
+                  {"max_de94_at_px", {difference.x, difference.y}},
+                  {"guarded_contrasts", result.guardedContrasts}};
+  const char* const names[] = {"motion", "old_motion"};
+  for (size_t role = kMotion; role < kFirstWeight; ++role)
+    if (!frame.paths[role].empty()) report.extra["maps"][names[role - kMotion]] = frame.paths[role];
+  for (size_t i = kFirstWeight; i < frame.paths.size(); ++i)
+    report.extra["maps"]["weights"].push_back(frame.paths[i]);
+
+  if (!call.options.jnd.empty()) {
+    const std::string path = outputs.file(call.options.jnd, frame);
+    writeExr(path, result.jnd, "popping, JND; " + call.statement);
+    report.outputs.emplace_back("difference map, JND", path);
+  }
+  if (!call.options.stages.empty())
+    writeStages(result, outputs.folder(call.options.stages, frame), call.statement, report);
+  printer.add(report);
+}
+
+int pop(const PopOptions& options, const std::vector<std::string>& words) {
+  if (options.list) {
+    printSettings(options, groups());
+    return kExitSuccess;
+  }
+  if (options.before.empty())
+    throw Error("images are missing", "pop", "name two: limen-perceive pop OLD NEW");
+  const std::vector<ParameterValues> values = parseSettings(options.set, groups(), "--set");
+  Call call{
+      options, readDisplay(options.displayName), options.input(), PoppingSettings::from(values.front()), {}};
+  const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, allFigures(), "rating");
+  const std::vector<FrameSet> frames = alignFrames(options);
+  std::vector<std::string> files;
+  for (const FrameSet& frame : frames) files.insert(files.end(), frame.paths.begin(), frame.paths.end());
+  OutputFiles outputs(frames, files);
+  outputs.addFile("--overlay", options.overlay, {".png"});
+  outputs.addFile("--jnd", options.jnd, {".exr"});
+  outputs.addFolder("--stages", options.stages);
+
+  const std::string changed = changedSettings(groups(), values);
+  call.statement = limenVersion() + " popping predictor (" + poppingModelText(call.settings) +
+                   (changed.empty() ? "" : "; " + changed) + "), display " + call.display.line();
+  ReportHeader header;
+  header.command = "pop";
+  header.statement = call.statement;
+  header.words = words;
+  header.display = call.display;
+  header.settings = valuesAsJson(groups(), values);
+  header.settings["input"] = call.input.toJson();
+  header.extra = {{"frames_are", options.after.empty() ? "each compared with the one before" : "pairs"}};
+  header.primaryFigures = {"rating", "regions", "largest_jnd", "max_de94"};
+  header.json = options.json;
+  ReportPrinter printer(header, frames.size(), limits);
+  for (const FrameSet& frame : frames) predict(call, frame, outputs, printer);
+  return printer.finish();
+}
+
+}  // namespace
+
+void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
+  const auto options = std::make_shared<PopOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "pop", "Popping: regions in which the change from an old to a new level of detail is seen");
+  command
+      ->add_option(
+          "OLD", options->before,
+          "The frame as the old level of detail shows it, or a sequence: frame_%04d.png, frame_####.png, "
+          "'frames/*.png'; alone: each frame against the next, for a camera and scene that hold still")
+      ->type_name("");
+  command->add_option("NEW", options->after, "The same frame as the new level of detail shows it")
+      ->type_name("");
+  const auto file = [&](const char* name, std::string& target, const char* text) {
+    command->add_option(name, target, text)->type_name("FILE");
+  };
+  file("--motion", options->motion,
+       "EXR: displacement of each pixel against the previous frame (x, y; pixels). Without: nothing moves");
+  file("--old-motion", options->oldMotion, "The same for the old level of detail; without: that of --motion");
+  command
+      ->add_option("--weight", options->weights,
+                   "Map of factors 0..1 on the difference (disocclusion, flicker); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  file("--overlay", options->overlay, "PNG: regions coloured by rating on the new frame");
+  file("--jnd", options->jnd, "EXR of the difference map in JND");
+  command->add_option("--stages", options->stages, "Folder for an EXR of every stage of the model")
+      ->type_name("DIR");
+  command
+      ->add_option("--fail-above", options->failAbove,
+                   "Exit with 1 if the rating (or FIGURE=VALUE: another figure) is above; may be repeated")
+      ->type_name("RATING")
+      ->allow_extra_args(false);
+  addImageOptions(*command, *options);
+  addSettingsHelp(*command, groups);
+  command->callback([options, &exitCode, words] { exitCode = pop(*options, words); });
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen-perceive threshold: what luminance differences stay invisible in an image.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "perception/command/frame_report.h"
+#include "perception/command/image_commands.h"
+#include "perception/command/image_options.h"
+#include "perception/command/output_files.h"
+#include "perception/metrics/error_map.h"
+#include "perception/metrics/quantile.h"
+#include "perception/metrics/row_sums.h"
+#include "perception/threshold_maps/reference.h"
+#include "perception/threshold_maps/settings.h"
+
+namespace limen::perception {
+namespace {
+
+struct ThresholdOptions : ImageOptions {
+  std::string image;
+  std::vector<std::string> outputs;
+  double scaleCdM2 = 0.0;
+};
+
+std::vector<SettingsGroup> groups() { return {{"", thresholdMapParameters()}}; }
+
+Figures thresholdFigures(const ThresholdMap& map) {
+  std::vector<double> values = map.thresholdCdM2.data;
+  CompensatedSum sum, luminance;
+  for (const double value : values) sum.add(value);
+  for (const double value : map.adaptationCdM2.data) luminance.add(value);
+  const auto pixels = static_cast<double>(values.size());
+  const auto rank = [&](double share) { return nearestRank(values, share); };
+  const auto [least, most] =
+      std::minmax_element(map.thresholdCdM2.data.begin(), map.thresholdCdM2.data.end());
+  const std::string unit = "cd/m2";
+  return {{"min", unit, "", false, *least, {}},
+          {"p1", unit, "", false, rank(0.01), {}},
+          {"p5", unit, "", false, rank(0.05), {}},
+          {"p25", unit, "", false, rank(0.25), {}},
+          {"median", unit, "", false, rank(0.5), {}},
+          {"p75", unit, "", false, rank(0.75), {}},
+          {"p95", unit, "", false, rank(0.95), {}},
+          {"p99", unit, "", false, rank(0.99), {}},
+          {"max", unit, "", false, *most, {}},
+          {"mean", unit, "", false, sum.value() / pixels, {}},
+          {"mean_adaptation",
+           unit,
+           "luminance that the eye is adapted to",
+           false,
+           luminance.value() / pixels,
+           {}}};
+}
+
+/// Round scale that one pixel in a hundred exceeds at most: single pixels would darken all others.
+double pictureScale(const ThresholdMap& map) {
+  std::vector<double> values = map.thresholdCdM2.data;
+  return errorScale(Image(1, 1, 1, static_cast<float>(nearestRank(values, 0.99))));
+}
+
+bool isPicture(const std::string& path) {
+  const std::string end = std::filesystem::path(path).extension().string();
+  return end == ".png" || end == ".PNG";
+}
+
+int threshold(const ThresholdOptions& options, const std::vector<std::string>& words) {
+  if (options.list) {
+    printSettings(options, groups());
+    return kExitSuccess;
+  }
+  if (options.image.empty())
+    throw Error("an image is missing", "threshold", "name one: limen-perceive threshold IMAGE");
+  const DisplayProfile display = readDisplay(options.displayName);
+  const std::vector<ParameterValues> values = parseSettings(options.set, groups(), "--set");
+  const ThresholdMapSettings settings = thresholdMapSettings(values.front());
+  const ParameterValues input = options.input();
+  const std::vector<FrameSet> frames = alignSequences({expandImages(options.image)});
+  std::vector<std::string> files;
+  for (const FrameSet& frame : frames) files.push_back(frame.paths.front());
+  OutputFiles outputs(frames, files);
+  for (const std::string& output : options.outputs) outputs.addFile("--output", output, {".exr", ".png"});
+
+  ReportHeader header;
+  header.command = "threshold";
+  const std::string changed = changedSettings(groups(), values);
+  header.statement =
+      fmt::format("{} threshold map (Schwarz 2009, section 9.4; csf {}, masking {}, tvi {}{}), display {}",
+                  limenVersion(), settings.csf, settings.masking, settings.tvi,
+                  changed.empty() ? "" : "; " + changed, display.line());
+  header.words = words;
+  header.display = display;
+  header.settings = valuesAsJson(groups(), values);
+  header.settings["input"] = input.toJson();
+  header.json = options.json;
+  header.primaryFigures = {"median", "min", "max"};
+  ReportPrinter printer(header, frames.size(), {});
+  // Pictures of a sequence share one scale, that of the first frame.
+  double scale = options.scaleCdM2;
+  for (const FrameSet& frame : frames) {
+    const InputImage image = readInput(frame.paths.front(), display, input);
+    const ThresholdMap map =
+        computeThresholdMap(luminancePlane(image.shown(), display), display.pixelsPerDegree(), settings);
+    FrameReport report;
+    report.frame = frame;
+    report.inputs = {{"image", &image}};
+    report.figures = thresholdFigures(map);
+    report.extra = {{"guarded_contrasts", map.guarded}};
+    for (const std::string& output : options.outputs) {
+      const std::string path = outputs.file(output, frame);
+      const Image picture = toImage(map.thresholdCdM2);
+      if (!isPicture(path)) {
+        writeExr(path, picture, "threshold map, cd/m2; " + header.statement);
+        report.outputs.emplace_back("threshold map, cd/m2", path);
+        continue;
+      }
+      if (scale <= 0.0) scale = pictureScale(map);
+      const std::string text = "black 0, pale yellow " + shortestNumber(scale) + " cd/m2 and above";
+      writePng(path, errorPicture(picture, scale), "threshold map, " + text + "; " + header.statement);
+      report.extra["picture_scale_cd_m2"] = scale;
+      report.outputs.emplace_back("picture, " + text, path);
+    }
+    printer.add(report);
+  }
+  return printer.finish();
+}
+
+}  // namespace
+
+void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
+  const auto options = std::make_shared<ThresholdOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "threshold", "Threshold map: the luminance differences that stay invisible in an image");
+  command
+      ->add_option("IMAGE", options->image,
+                   "Image, or sequence: frame_%04d.png, frame_####.png, 'frames/*.png'")
+      ->type_name("");
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "EXR of the thresholds in cd/m2, or PNG to look at; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--scale", options->scaleCdM2,
+          "Threshold in cd/m2 that a PNG shows as its brightest colour (default: from the first map)")
+      ->type_name("CD_M2")
+      ->check(CLI::PositiveNumber);
+  addImageOptions(*command, *options);
+  addSettingsHelp(*command, groups);
+  command->callback([options, &exitCode, words] { exitCode = threshold(*options, words); });
+}
+
+}  // namespace limen::perception

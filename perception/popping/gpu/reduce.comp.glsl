@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The next level of both frames' Gaussian pyramids: binomial 1 4 6 4 1 along rows, then columns; pixel x of the
+// coarser level lies on pixel 2x of the finer.
+
+layout(local_size_x = 32, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2DArray cones;  // layer: frame
+layout(binding = 0, rgba32f) uniform writeonly image2DArray coarser;
+
+uniform int level;
+
+const int kRows = 2 * 8 + 3;
+shared vec4 rows[kRows * 32];
+
+void main() {
+  int frame = int(gl_WorkGroupID.z);
+  ivec2 fineSize = textureSize(cones, level).xy, size = imageSize(coarser).xy;
+  ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = ivec2(gl_GlobalInvocationID.xy);
+  int top = 2 * int(gl_WorkGroupID.y) * 8 - 2, centre = 2 * pixel.x;
+  for (int row = local.y; row < kRows; row += 8) {
+    int y = clamp(top + row, 0, fineSize.y - 1);
+    vec4 tap[5];
+    for (int i = 0; i < 5; ++i)
+      tap[i] = texelFetch(cones, ivec3(clamp(centre + i - 2, 0, fineSize.x - 1), y, frame), level);
+    rows[row * 32 + local.x] = (tap[0] + tap[4] + 4.0 * (tap[1] + tap[3]) + 6.0 * tap[2]) * (1.0 / 16.0);
+  }
+  barrier();
+  if (any(greaterThanEqual(pixel, size))) return;
+  int at = 2 * local.y * 32 + local.x;
+  vec4 sum = (rows[at] + rows[at + 128] + 4.0 * (rows[at + 32] + rows[at + 96]) + 6.0 * rows[at + 64]) *
+             (1.0 / 16.0);
+  imageStore(coarser, ivec3(pixel, frame), sum);
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Response of the vision model at a level of the contrast pyramid, for groups of 32 x 8 pixels. Call prepare() from
+// all of them, then responseDifference().
+#include "perception/popping/gpu/masking.glsl"
+
+layout(local_size_x = 32, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
+layout(binding = 2) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
+layout(binding = 0, std430) buffer Counters { uint flushed, guarded; };
+layout(binding = 1, std430) readonly buffer Mean { float meanLuminance[2]; };
+
+uniform int frameCount;  // 2; a uniform, so that both frames go through the same code, not through copies of it
+uniform int level, adaptationLevel, adaptationSource, eyeMovement;
+uniform vec2 evenTaps;  // of the upsampler: outer and centre weight at even pixels; odd ones have 1/2, 1/2
+uniform vec3 luminanceOfCones;
+uniform float epsilon, gain, greyGain, fixedLuminance, leastVelocity, degSPerPx;
+uniform ivec2 tableSize;          // nodes of velocity and luminance
+uniform vec2 tableLow, tablePer;  // log2 of the first node; nodes per octave
+
+const ivec2 kNeighbours = ivec2(18, 6);  // pixels of the next level around a group
+const int kNeighbourCount = kNeighbours.x * kNeighbours.y;
+shared vec4 next[2 * kNeighbourCount];   // the next level
+shared vec4 after[2 * kNeighbourCount];  // the one after it, at the next one's size
+shared uint groupGuarded;
+
+// Weights of pixels m - 1, m, m + 1 of the coarser level for a pixel at 2 m or 2 m + 1.
+vec3 taps(int position) { return (position & 1) == 0 ? evenTaps.xyx : vec3(0.0, 0.5, 0.5); }
+
+// Fills the shared levels. A neighbour beyond the edge is the one at the edge.
+void prepare() {
+  int index = int(gl_LocalInvocationIndex);
+  if (index == 0) groupGuarded = 0u;
+  ivec2 origin = ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1;
+  ivec2 nextSize = textureSize(cones, level + 1).xy, afterSize = textureSize(cones, level + 2).xy;
+  for (int frame = 0; frame < frameCount; ++frame) {
+    for (int i = index; i < kNeighbourCount; i += 256) {
+      ivec2 place = clamp(origin + ivec2(i % kNeighbours.x, i / kNeighbours.x), ivec2(0), nextSize - 1);
+      next[frame * kNeighbourCount + i] = texelFetch(cones, ivec3(place, frame), level + 1);
+      vec3 across = taps(place.x), down = taps(place.y);
+      ivec2 centre = place / 2;
+      vec4 sum = vec4(0.0);
+      for (int dy = -1; dy <= 1; ++dy) {
+        vec4 row = vec4(0.0);
+        for (int dx = -1; dx <= 1; ++dx)
+          row += across[dx + 1] * texelFetch(cones, ivec3(clamp(centre + ivec2(dx, dy), ivec2(0), afterSize - 1), frame),
+                                             level + 2);
+        sum += down[dy + 1] * row;
+      }
+      after[frame * kNeighbourCount + i] = sum;
+    }
+  }
+  barrier();
+}
+
+float retinalVelocity(float screenDegS) {
+  float eye = min(0.82 * screenDegS + 0.15, 80.0);
+  if (eyeMovement == 0) return abs(screenDegS - eye);
+  if (eyeMovement == 1) return max(abs(screenDegS - eye), leastVelocity);
+  if (eyeMovement == 2) return max(screenDegS - eye, leastVelocity);
+  return screenDegS;
+}
+
+float luminanceOf(ivec3 texel, int from) { return dot(luminanceOfCones, texelFetch(cones, texel, from).xyz); }
+
+float luminanceAt(int frame, ivec2 pixel) {
+  if (adaptationSource == 2) return fixedLuminance;
+  if (adaptationSource == 1) return meanLuminance[frame];
+  int from = max(adaptationLevel, level), shift = from - level;
+  ivec2 size = textureSize(cones, from).xy, first = pixel >> shift;
+  vec2 weight = vec2(pixel - (first << shift)) / float(1 << shift);
+  ivec2 second = min(first + 1, size - 1);
+  first = min(first, size - 1);
+  precise float above = mix(luminanceOf(ivec3(first, frame), from),
+                            luminanceOf(ivec3(second.x, first.y, frame), from), weight.x);
+  precise float below = mix(luminanceOf(ivec3(first.x, second.y, frame), from),
+                            luminanceOf(ivec3(second, frame), from), weight.x);
+  return mix(above, below, weight.y);
+}
+
+vec3 sensitivityAt(float velocity, float luminance) {
+  vec2 place = clamp((log2(vec2(velocity, luminance)) - tableLow) * tablePer, vec2(0.0), vec2(tableSize - 1));
+  ivec2 node = min(ivec2(place), tableSize - 2);
+  vec2 t = place - vec2(node);
+  node.y += level * tableSize.y;
+  vec3 above = mix(texelFetch(sensitivities, node, 0).xyz, texelFetch(sensitivities, node + ivec2(1, 0), 0).xyz, t.x);
+  vec3 below = mix(texelFetch(sensitivities, node + ivec2(0, 1), 0).xyz,
+                   texelFetch(sensitivities, node + ivec2(1, 1), 0).xyz, t.x);
+  return mix(above, below, t.y);
+}
+
+// What a debug image may show of a frame.
+struct Stages {
+  vec3 contrast, response;
+  float luminance, velocity;
+};
+
+// Response of the actual frame minus that of the predicted one, channels A, a, b.
+vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
+  ivec2 m = pixel / 2 - (ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1);
+  vec3 across = taps(pixel.x), down = taps(pixel.y);
+  precise vec3 difference = vec3(0.0);
+  uint guardedHere = 0u;
+  for (int frame = 0; frame < frameCount; ++frame) {
+    vec4 own = texelFetch(cones, ivec3(pixel, frame), level);
+    precise vec3 finer = vec3(0.0);
+    precise vec3 coarser = vec3(0.0);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        float weight = across[dx + 1] * down[dy + 1];
+        int at = frame * kNeighbourCount + (m.y + dy) * kNeighbours.x + m.x + dx;
+        finer = fma(vec3(weight), next[at].xyz, finer);
+        coarser = fma(vec3(weight), after[at].xyz, coarser);
+      }
+    for (int c = 0; c < 3; ++c)
+      if (!(coarser[c] >= epsilon)) ++guardedHere;
+    precise vec3 cone = (own.xyz - finer) / max(coarser, vec3(epsilon));
+    precise vec3 contrast =
+        vec3(2.0 * cone.x + cone.y + cone.z / 20.0, cone.x - 12.0 / 11.0 * cone.y + cone.z / 11.0,
+             (cone.x + cone.y - 2.0 * cone.z) / 9.0) *
+        vec3(1.0 / (gain * greyGain), 1.0 / gain, 1.0 / gain);
+    float luminance = luminanceAt(frame, pixel), velocity = retinalVelocity(own.w * degSPerPx);
+    precise vec3 normalised = contrast * sensitivityAt(velocity, luminance);
+    precise vec3 response =
+        vec3(transducer(normalised.x), transducer(normalised.y), transducer(normalised.z));
+    difference = frame == 0 ? response : difference - response;
+#ifdef SHOW_STAGES
+    if (frame == shownFrame) shown = Stages(contrast, response, luminance, velocity);
+#endif
+  }
+  if (guardedHere != 0u) atomicAdd(groupGuarded, guardedHere);
+  return difference;
+}
+
+// Call from all of the group after responseDifference().
+void countGuarded() {
+  barrier();
+  if (gl_LocalInvocationIndex == 0u && groupGuarded != 0u) atomicAdd(guarded, groupGuarded);
+}

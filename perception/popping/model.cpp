@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "perception/multiscale/pyramid.h"
+#include "perception/popping/predictor.h"
+#include "perception/popping/sensitivity.h"
+
+namespace limen::perception {
+namespace {
+
+constexpr int kMostLevels = 12;
+
+}  // namespace
+
+PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& display,
+                          const PoppingSettings& settings) {
+  if (widthPx < 1 || heightPx < 1)
+    throw Error("an image has no pixels", "popping", "give images of 1 x 1 or more");
+  checkDisplay(display, "popping");
+  PoppingModel model;
+  model.pixelsPerDegree = display.pixelsPerDegree();
+  const double shownArea = display.areaDeg2({widthPx, heightPx});
+  model.areaDeg2 = settings.stimulusAreaDeg2 > 0.0 ? settings.stimulusAreaDeg2 : shownArea;
+  model.widthDeg = 2.0 * std::atan(0.5 * widthPx * display.pitchM() / display.distanceM) * 180.0 / M_PI;
+
+  const std::vector<BandPeak> peaks =
+      bandPeaks(Kernel::binomial5(), settings.upsampler, settings.peakModel, kMostLevels - 2);
+  int levels = settings.gaussianLevels;
+  if (levels == 0) {
+    int bands = 1;
+    while (bands < kMostLevels - 2 &&
+           peaks[static_cast<size_t>(bands)].frequencyCpd(model.pixelsPerDegree) >= settings.leastPeakCpd)
+      ++bands;
+    levels = bands + 2;
+  }
+  model.gaussianLevels = std::min({levels, kMostLevels, mostLevels(widthPx, heightPx)});
+  model.contrastLevels = std::max(0, model.gaussianLevels - 2);
+  for (int i = 0; i < model.contrastLevels; ++i) {
+    const BandPeak& peak = peaks[static_cast<size_t>(i)];
+    model.peakCpd.push_back(peak.frequencyCpd(model.pixelsPerDegree));
+    model.gain.push_back(settings.compensateGain ? peak.gain : 1.0);
+  }
+  const int degree = settings.adaptationLevel >= 0
+                         ? settings.adaptationLevel
+                         : static_cast<int>(std::lround(std::log2(model.pixelsPerDegree)));
+  model.adaptationLevel = std::clamp(degree, 0, model.gaussianLevels - 1);
+
+  const std::array<double, 3> scale =
+      calibration(settings, viewingPoint(model.areaDeg2, model.widthDeg, display));
+  model.scaleA = scale[0], model.scaleRg = scale[1], model.scaleBy = scale[2];
+  return model;
+}
+
+std::vector<std::string> poppingStages(const PoppingModel& model) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name, int level) {
+    names.push_back(name + "_" + std::to_string(level));
+  };
+  for (const std::string frame : {"actual", "predicted"})
+    for (int i = 0; i < model.gaussianLevels; ++i) add("lms_" + frame, i);
+  for (int i = 0; i < model.contrastLevels; ++i) {
+    for (const std::string frame : {"actual", "predicted"})
+      for (const std::string stage : {"contrast_", "luminance_", "velocity_", "response_"})
+        add(stage + frame, i);
+    add("difference", i);
+  }
+  for (const char* name : {"jnd", "signed_jnd", "weight", "weighted_jnd", "seeds", "labels", "rating"})
+    names.push_back(name);
+  return names;
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/popping/popping_gpu.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "perception/popping/gpu/open_pass.h"
+#include "perception/popping/sensitivity.h"
+#include "perception/vision/colour.h"
+#include "perception/vision/masking.h"
+
+namespace limen::perception {
+namespace {
+
+using gl::Access;
+using gl::Format;
+
+constexpr glm::ivec2 kGroup{32, 8};
+const std::string kFolder = "perception/popping/gpu/";
+
+// Nodes of the sensitivity table over lg velocity and lg luminance. Some 65 a decade: sensitivities are
+// straight enough between them for an error below 1e-3 of their value.
+constexpr glm::ivec2 kTableSize{256, 256};
+constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
+constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
+
+gl::ShaderDefines maskingDefines(const std::string& name) {
+  const MaskingInfo& info = MaskingRegistry::instance().get(name, "popping");
+  const ParameterValues values(info.parameters, {});
+  const auto number = [](double value) {
+    const std::string text = shortestNumber(value);
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+  };
+  if (name == "none") return {{"MASKING_NONE", "1"}};
+  if (name == "schwarz" && values.real("b") == 10.0 && values.real("s") == 0.3)
+    return {{"MASKING_CUBIC", "1"}};
+  if (name == "schwarz" || name == "daly") {
+    // (9.9) is (9.7) with k1 = k2 = 1.
+    const double s = values.real("s");
+    const double k = name == "daly" ? values.real("k1") * std::pow(values.real("k2"), s) : 1.0;
+    return {{"MASKING_ELEVATION", "1"},
+            {"MASKING_K", number(k)},
+            {"MASKING_S", number(s)},
+            {"MASKING_B", number(values.real("b"))}};
+  }
+  if (name == "lubin")
+    return {{"MASKING_LUBIN", "1"},
+            {"MASKING_N", number(values.real("n"))},
+            {"MASKING_W", number(values.real("w"))}};
+  if (name == "self") return {{"MASKING_ALPHA", number(values.real("alpha"))}};
+  throw Error("masking model '" + name + "' does not run on the GPU", "popping",
+              "take none, daly, lubin, schwarz or self");
+}
+
+/// Velocity of the table's first node: the least that the eye model leaves on the retina.
+double slowest(const PoppingSettings& settings) {
+  const bool hasFloor =
+      settings.eyeMovement == EyeMovement::Floor || settings.eyeMovement == EyeMovement::Monotone;
+  return hasFloor ? std::clamp(settings.leastVelocityDegS, kSlowest, 0.5 * kFastest) : kSlowest;
+}
+
+/// Luminance of the first: no mean of pixels is darker than the display's black.
+double darkest(const PoppingSettings& settings, const DisplayProfile& display) {
+  const double least =
+      settings.adaptation == AdaptationSource::Fixed ? settings.fixedLuminanceCdM2 : display.blackLevelCdM2();
+  return std::clamp(0.99 * least, kDarkest, 0.5 * kBrightest);
+}
+
+Image sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
+                       const PoppingSettings& settings, glm::dvec2 low, glm::dvec2 per) {
+  const int levels = std::max(1, model.contrastLevels);
+  Image table(kTableSize.x, kTableSize.y * levels, 4);
+  if (model.contrastLevels == 0) return table;
+  const Sensitivity sensitivity(model, display, settings, true);
+  forRowBlocks(table.height, static_cast<size_t>(table.width) * 1000, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < table.width; ++x) {
+        const std::array<double, 3> at = sensitivity.at(y / kTableSize.y, std::exp2(low.x + x / per.x),
+                                                        std::exp2(low.y + y % kTableSize.y / per.y));
+        for (int c = 0; c < 3; ++c) table.at(x, y, c) = static_cast<float>(at[static_cast<size_t>(c)]);
+      }
+  });
+  return table;
+}
+
+glm::dvec3 luminanceRow() {
+  const glm::dmat3 lmsOfXyz(lmsFromXyz({1, 0, 0}), lmsFromXyz({0, 1, 0}), lmsFromXyz({0, 0, 1}));
+  const glm::dmat3 inverse = glm::inverse(lmsOfXyz);
+  return {inverse[0].y, inverse[1].y, inverse[2].y};
+}
+
+}  // namespace
+
+PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx,
+                                         const DisplayProfile& display, const PoppingSettings& settings)
+    : context_(context),
+      sizePx_(sizePx),
+      display_(display),
+      settings_(settings),
+      model_(poppingModel(sizePx.x, sizePx.y, display, settings)),
+      defines_(maskingDefines(settings.masking)),
+      luminanceOfCones_(luminanceRow()),
+      cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
+      differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
+      sensitivities_(Format::RGBA32F, {kTableSize.x, kTableSize.y * std::max(1, model_.contrastLevels)}),
+      jnd_(Format::R32F, sizePx),
+      seeds_(Format::R8UI, sizePx),
+      counters_(8, nullptr),
+      mean_(8, nullptr),
+      regions_(context, sizePx, settings) {
+  stageDefines_ = defines_;
+  stageDefines_["SHOW_STAGES"] = "1";
+  if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
+  const glm::dvec3 black = lmsFromXyz(display.xyz({0, 0, 0}));
+  conesOfBlack_ = black;
+  conesOfLight_ =
+      glm::dmat3(lmsFromXyz(display.xyz({1, 0, 0})) - black, lmsFromXyz(display.xyz({0, 1, 0})) - black,
+                 lmsFromXyz(display.xyz({0, 0, 1})) - black);
+  const glm::dvec2 low(std::log2(slowest(settings)), std::log2(darkest(settings, display)));
+  const glm::dvec2 per = glm::dvec2(kTableSize - 1) / (glm::log2(glm::dvec2(kFastest, kBrightest)) - low);
+  tableLow_ = low, tablePer_ = per;
+  sensitivities_.write(sensitivityTable(model_, display, settings, low, per));
+  for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
+}
+
+const gl::Program& PoppingPredictorGpu::program(const char* name, bool showStages) {
+  return context_.programs().compute(kFolder + name + ".comp.glsl", showStages ? stageDefines_ : defines_);
+}
+
+void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes) {
+  {
+    const auto pass = openPass(passes, "popping/light");
+    counters_.clearUint(0);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    const gl::Program& light = program("light");
+    const bool grey = gl::channelCount(input.actual->format()) < 3;
+    assert(input.actual->sizePx() == sizePx_ && input.predicted->sizePx() == sizePx_ &&
+           grey == (gl::channelCount(input.predicted->format()) < 3));
+    const gl::Texture* actualMove =
+        input.actualDisplacement ? input.actualDisplacement : input.predictedDisplacement;
+    const gl::Texture* predictedMove =
+        input.predictedDisplacement ? input.predictedDisplacement : input.actualDisplacement;
+    input.actual->bindTexture(0);
+    input.predicted->bindTexture(1);
+    (actualMove ? actualMove : input.actual)->bindTexture(2);
+    (predictedMove ? predictedMove : input.predicted)->bindTexture(3);
+    cones_.bindImage(0, Access::Write);
+    seeds_.bindImage(1, Access::Write);
+    counters_.bindStorage(0);
+    light.set("frameCount", 2);
+    light.set("grey", grey ? 1 : 0);
+    light.set("transfer", input.linear ? 2 : static_cast<int>(display_.transfer));
+    light.set("displayGamma", static_cast<float>(display_.gamma));
+    light.set("hasDisplacement", actualMove ? 1 : 0);
+    light.set("everySeed", settings_.seedRule == SeedRule::None ? 1 : 0);
+    light.set("conesOfLight", conesOfLight_);
+    light.set("conesOfBlack", conesOfBlack_);
+    light.dispatch(sizePx_, kGroup);
+  }
+  {
+    const auto pass = openPass(passes, "popping/pyramid");
+    decompose(input);
+  }
+  {
+    const auto pass = openPass(passes, "popping/difference");
+    for (int level = 1; level < model_.contrastLevels; ++level) {
+      const gl::Program& difference = program("difference");
+      bindResponse(difference, level);
+      differences_.bindImage(0, Access::Write, level - 1);
+      difference.set("exponent", static_cast<float>(settings_.minkowskiExponent));
+      difference.dispatch(levelSize(level), kGroup);
+    }
+  }
+  {
+    const auto pass = openPass(passes, "popping/collapse");
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    collapse(input, jnd_, 0);
+  }
+  regions_.run(jnd_, seeds_, passes);
+}
+
+void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
+  const gl::Program& reduce = program("reduce");
+  cones_.bindTexture(0);
+  for (int level = 0; level + 1 < model_.gaussianLevels; ++level) {
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    cones_.bindImage(0, Access::Write, level + 1);
+    reduce.set("level", level);
+    reduce.use();
+    const glm::ivec2 groups = (levelSize(level + 1) + kGroup - 1) / kGroup;
+    glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 2);
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  if (settings_.adaptation != AdaptationSource::Mean) return;
+  const gl::Program& mean = program("mean");
+  mean_.bindStorage(1);
+  mean.set("level", model_.gaussianLevels - 1);
+  mean.set("luminanceOfCones", luminanceOfCones_);
+  mean.dispatch({2, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
+  cones_.bindTexture(0);
+  sensitivities_.bindTexture(2);
+  counters_.bindStorage(0);
+  mean_.bindStorage(1);
+  const bool expand = settings_.upsampler == Upsampler::Expand;
+  program.set("frameCount", 2);
+  program.set("level", level);
+  program.set("adaptationLevel", model_.adaptationLevel);
+  program.set("adaptationSource", static_cast<int>(settings_.adaptation));
+  program.set("eyeMovement", static_cast<int>(settings_.eyeMovement));
+  program.set("evenTaps", expand ? glm::vec2(0.125F, 0.75F) : glm::vec2(0.0F, 1.0F));
+  program.set("luminanceOfCones", luminanceOfCones_);
+  program.set("epsilon", static_cast<float>(settings_.denominatorEpsilon));
+  program.set("gain", static_cast<float>(
+                          level < model_.contrastLevels ? model_.gain[static_cast<size_t>(level)] : 1));
+  program.set("greyGain", static_cast<float>(settings_.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0));
+  program.set("fixedLuminance", static_cast<float>(settings_.fixedLuminanceCdM2));
+  program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS));
+  program.set("degSPerPx",
+              static_cast<float>(screenVelocityDegS(1.0, display_.refreshHz, model_.pixelsPerDegree)));
+  program.set("tableSize", kTableSize);
+  program.set("tableLow", tableLow_);
+  program.set("tablePer", tablePer_);
+}
+
+void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown) {
+  const gl::Program& collapse = program("collapse");
+  bindResponse(collapse, 0);
+  differences_.bindTexture(3);
+  const bool disocclusion = input.disocclusion && settings_.useDisocclusion;
+  const bool flicker = input.flicker && settings_.useFlicker;
+  (disocclusion ? input.disocclusion : input.actual)->bindTexture(4);
+  (flicker ? input.flicker : input.actual)->bindTexture(5);
+  target.bindImage(0, Access::Write);
+  collapse.set("contrastLevels", model_.contrastLevels);
+  collapse.set("exponent", static_cast<float>(settings_.minkowskiExponent));
+  collapse.set("hasWeight", glm::ivec2(disocclusion, flicker));
+  collapse.set("shown", shown);
+  collapse.dispatch(sizePx_, kGroup);
+}
+
+PoppingPredictorGpu::Counts PoppingPredictorGpu::readCounts() const {
+  const std::vector<uint32_t> counts = counters_.read<uint32_t>();
+  return {counts[0], counts[1]};
+}
+
+Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuInput& input) {
+  const std::vector<std::string> known = poppingStages(model_);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw Error("no stage '" + name + "'", "popping", suggest(name, known));
+  if (name == "weighted_jnd") return jnd_.read();
+  const auto wholeNumbers = [&](const gl::Texture& texture) {
+    const std::vector<uint32_t> values = texture.readUint();
+    Image image(sizePx_.x, sizePx_.y, 1);
+    std::transform(values.begin(), values.end(), image.data.begin(),
+                   [](uint32_t value) { return static_cast<float>(value); });
+    return image;
+  };
+  if (name == "seeds") return wholeNumbers(seeds_);
+  if (name == "labels") return wholeNumbers(regions_.labels());
+  if (name == "rating") {
+    const RegionMap map = regions_.read();
+    Image image(sizePx_.x, sizePx_.y, 1);
+    for (size_t p = 0; p < image.data.size(); ++p)
+      if (map.labels[p]) image.data[p] = static_cast<float>(map.regions[map.labels[p] - 1].rating);
+    return image;
+  }
+  const uint32_t counts[2] = {readCounts().flushedInputs, readCounts().guardedContrasts};
+  const auto restoreCounts = [&] {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    counters_.write(0, 8, counts);
+  };
+  if (name == "jnd" || name == "weight" || name == "signed_jnd") {
+    if (name == "signed_jnd" && settings_.collapse == Collapse::Magnitude)
+      throw Error("no stage 'signed_jnd' on the GPU with collapse: magnitude", "popping",
+                  "take collapse: signed");
+    const gl::Texture target(Format::R32F, sizePx_);
+    collapse(input, target, name == "jnd" ? 1 : name == "weight" ? 2 : 3);
+    restoreCounts();
+    return target.read();
+  }
+  const size_t underscore = name.rfind('_');
+  const int level = std::stoi(name.substr(underscore + 1));
+  const std::string stage = name.substr(0, underscore);
+  const bool isPredicted = stage.ends_with("_predicted");
+  if (stage.starts_with("lms_")) {
+    const glm::ivec2 size = levelSize(level);
+    Image image(size.x, size.y, 4);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureSubImage(cones_.id(), level, 0, 0, isPredicted ? 1 : 0, size.x, size.y, 1, GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(image.data.size() * sizeof(float)), image.data.data());
+    return image;
+  }
+  static const std::vector<std::string> kStages = {"contrast", "luminance", "velocity", "response",
+                                                   "difference"};
+  const auto index =
+      std::find(kStages.begin(), kStages.end(), stage.substr(0, stage.find('_'))) - kStages.begin();
+  const gl::Texture target(Format::RGBA32F, levelSize(level));
+  const gl::Program& difference = program("difference", true);
+  bindResponse(difference, level);
+  target.bindImage(0, Access::Write);
+  difference.set("shownFrame", isPredicted ? 1 : 0);
+  difference.set("shownStage", static_cast<int>(index));
+  difference.dispatch(levelSize(level), kGroup);
+  const Image all = target.read();
+  Image image(all.width, all.height, index == 1 || index == 2 ? 1 : 3);
+  for (size_t p = 0; p < image.pixels(); ++p)
+    for (int c = 0; c < image.channels; ++c)
+      image.data[p * static_cast<size_t>(image.channels) + static_cast<size_t>(c)] =
+          all.data[4 * p + static_cast<size_t>(c)];
+  return image;
+}
+
+int64_t PoppingPredictorGpu::bytesHeld() const {
+  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() +
+         seeds_.bytes() + counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
+}
+
+}  // namespace limen::perception

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Schwarz 2009, section 10.3, step by step as the headings below. Where the thesis leaves a choice:
+//  - displacements enter as speed, which is filtered and halved like the colours, so that each level has the
+//    velocity of what its pixels show;
+//  - adaptation luminance is interpolated linearly from the level of about a degree; levels coarser than that
+//    use their own;
+//  - differences of coarse levels are interpolated linearly, sign and all, before they are raised
+//    (Collapse::Signed).
+#include "perception/popping/predictor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "perception/metrics/row_sums.h"
+#include "perception/multiscale/pyramid.h"
+#include "perception/popping/input.h"
+#include "perception/popping/sensitivity.h"
+#include "perception/vision/colour.h"
+#include "perception/vision/masking.h"
+
+namespace limen::perception {
+namespace {
+
+using Planes = std::array<Plane, 3>;
+
+/// Gaussian pyramids of a frame.
+struct FrameLevels {
+  std::array<std::vector<Plane>, 3> lms;
+  std::vector<Plane> speedPx;  ///< pixels per frame; empty: at rest
+};
+
+/// Y of cone responses: the inverse of lmsFromXyz()'s matrix, second row.
+glm::dvec3 luminanceRow() {
+  const glm::dmat3 lmsOfXyz(lmsFromXyz({1, 0, 0}), lmsFromXyz({0, 1, 0}), lmsFromXyz({0, 0, 1}));
+  const glm::dmat3 inverse = glm::inverse(lmsOfXyz);
+  return {inverse[0].y, inverse[1].y, inverse[2].y};
+}
+
+class Predictor {
+ public:
+  Predictor(const PoppingInput& input, const DisplayProfile& display, const PoppingSettings& settings,
+            const PoppingOptions& options)
+      : input_(input),
+        display_(display),
+        settings_(settings),
+        width_(input.actual.width),
+        height_(input.actual.height),
+        luminanceRow_(luminanceRow()),
+        greyGain_(settings.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
+    result_.model = poppingModel(width_, height_, display, settings);
+    pyramid_.levels = result_.model.gaussianLevels;
+    pyramid_.upsampler = settings.upsampler;
+    sensitivity_.emplace(result_.model, display, settings, options.tables);
+    const Masking masking = makeMasking(settings.masking, "popping");
+    transducer_ = masking.transducer;
+    closedForm_ = options.tables && settings.masking == "schwarz";
+    const std::vector<std::string> known = poppingStages(result_.model);
+    for (const std::string& name : options.stages) {
+      if (name == "all")
+        wanted_.insert(known.begin(), known.end());
+      else if (std::find(known.begin(), known.end(), name) == known.end())
+        throw Error("no stage '" + name + "'", "popping", suggest(name, known));
+      else
+        wanted_.insert(name);
+    }
+  }
+
+  PoppingResult run() {
+    const bool still = input_.actualDisplacement.data.empty() && input_.predictedDisplacement.data.empty();
+    const Image& actualMove =
+        input_.actualDisplacement.data.empty() ? input_.predictedDisplacement : input_.actualDisplacement;
+    const Image& predictedMove =
+        input_.predictedDisplacement.data.empty() ? input_.actualDisplacement : input_.predictedDisplacement;
+    const FrameLevels actual = decompose(input_.actual, still ? nullptr : &actualMove, "actual");
+    const FrameLevels predicted = decompose(input_.predicted, still ? nullptr : &predictedMove, "predicted");
+    result_.flushedInputs = flushed_;
+
+    std::vector<Planes> differences;
+    for (int level = 0; level < result_.model.contrastLevels; ++level) {
+      Planes response = respond(actual, level, "actual");
+      const Planes other = respond(predicted, level, "predicted");
+      for (size_t c = 0; c < 3; ++c)
+        for (size_t p = 0; p < response[c].data.size(); ++p) response[c].data[p] -= other[c].data[p];
+      keep("difference_" + std::to_string(level), response);
+      differences.push_back(std::move(response));
+    }
+    result_.guardedContrasts = guarded_;
+    collapse(differences);
+    findRegionsAndSum();
+    return std::move(result_);
+  }
+
+ private:
+  void keep(const std::string& name, const std::vector<const Plane*>& channels) {
+    if (wanted_.count(name) == 0) return;
+    Image image(channels[0]->width, channels[0]->height, static_cast<int>(channels.size()));
+    for (size_t p = 0; p < image.pixels(); ++p)
+      for (size_t c = 0; c < channels.size(); ++c)
+        image.data[p * channels.size() + c] = static_cast<float>(channels[c]->data[p]);
+    result_.stages[name] = std::move(image);
+  }
+  void keep(const std::string& name, const Planes& planes) {
+    keep(name, {&planes[0], &planes[1], &planes[2]});
+  }
+
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * width_ + x; }
+
+  // Light, cone responses, Gaussian pyramid.
+  FrameLevels decompose(const Image& image, const Image* displacement, const std::string& frame) {
+    Planes lms{Plane(width_, height_), Plane(width_, height_), Plane(width_, height_)};
+    Plane speed;
+    if (displacement) speed = Plane(width_, height_);
+    forRowBlocks(height_, static_cast<size_t>(width_) * 64, [&](int first, int end) {
+      int64_t flushed = 0;
+      for (int y = first; y < end; ++y)
+        for (int x = 0; x < width_; ++x) {
+          for (int c = 0; c < std::min(image.channels, 3); ++c)
+            if (!std::isfinite(image.at(x, y, c))) ++flushed;
+          const glm::dvec3 cones = lmsFromXyz(display_.xyz(pixelLight(input_, image, display_, x, y)));
+          for (int c = 0; c < 3; ++c) lms[static_cast<size_t>(c)].at(x, y) = cones[c];
+          if (!displacement) continue;
+          std::array<double, 2> move{};
+          for (int c = 0; c < 2; ++c) {
+            const double value = displacement->at(x, y, c);
+            if (std::isfinite(value))
+              move[static_cast<size_t>(c)] = value;
+            else
+              ++flushed;
+          }
+          speed.at(x, y) = std::hypot(move[0], move[1]);
+        }
+      flushed_ += flushed;
+    });
+    FrameLevels levels;
+    for (size_t c = 0; c < 3; ++c) levels.lms[c] = gaussianPyramid(lms[c], pyramid_);
+    if (displacement) levels.speedPx = gaussianPyramid(speed, pyramid_);
+    for (int i = 0; i < result_.model.gaussianLevels; ++i) {
+      const auto at = static_cast<size_t>(i);
+      std::vector<const Plane*> channels = {&levels.lms[0][at], &levels.lms[1][at], &levels.lms[2][at]};
+      Plane rest;
+      if (!displacement) rest = Plane(channels[0]->width, channels[0]->height);
+      channels.push_back(displacement ? &levels.speedPx[at] : &rest);
+      keep("lms_" + frame + "_" + std::to_string(i), channels);
+    }
+    return levels;
+  }
+
+  // Luminance that the eye is adapted to, at the size of a level.
+  Plane adaptation(const FrameLevels& frame, int level) const {
+    const Plane& own = frame.lms[0][static_cast<size_t>(level)];
+    if (settings_.adaptation == AdaptationSource::Fixed)
+      return Plane(own.width, own.height, settings_.fixedLuminanceCdM2);
+    const bool mean = settings_.adaptation == AdaptationSource::Mean;
+    const int from = mean ? result_.model.gaussianLevels - 1 : std::max(result_.model.adaptationLevel, level);
+    const auto at = static_cast<size_t>(from);
+    Plane luminance(frame.lms[0][at].width, frame.lms[0][at].height);
+    for (size_t p = 0; p < luminance.data.size(); ++p)
+      for (int c = 0; c < 3; ++c)
+        luminance.data[p] += luminanceRow_[c] * frame.lms[static_cast<size_t>(c)][at].data[p];
+    if (mean) {
+      double sum = 0.0;
+      for (const double value : luminance.data) sum += value;
+      return Plane(own.width, own.height, sum / static_cast<double>(luminance.data.size()));
+    }
+    if (from == level) return luminance;
+    return resample(luminance, bilinearTaps(luminance.width, own.width, true, from - level, pyramid_.border),
+                    bilinearTaps(luminance.height, own.height, true, from - level, pyramid_.border));
+  }
+
+  double transducer(double c) const {
+    if (!closedForm_) return transducer_(c);
+    // (9.9) with one power instead of three; for |c| > 1 in the form that does not overflow.
+    const double x = std::abs(c);
+    if (x <= 1.0) return c * std::pow(1.0 + x * x * x, -0.1);
+    return std::copysign(std::pow(x, 0.7) * std::pow(1.0 + 1.0 / (x * x * x), -0.1), c);
+  }
+
+  // Contrast, opponent colours, normalisation by sensitivity, masking.
+  Planes respond(const FrameLevels& frame, int level, const std::string& name) {
+    const std::string suffix = name + "_" + std::to_string(level);
+    const auto i = static_cast<size_t>(level);
+    Planes contrast;
+    for (size_t c = 0; c < 3; ++c) {
+      contrast[c] = upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
+      const Plane coarser = upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      const Plane& own = frame.lms[c][i];
+      for (size_t p = 0; p < own.data.size(); ++p) {
+        if (!(coarser.data[p] >= settings_.denominatorEpsilon)) ++guarded_;
+        contrast[c].data[p] =
+            (own.data[p] - contrast[c].data[p]) / std::max(coarser.data[p], settings_.denominatorEpsilon);
+      }
+    }
+    const Plane luminance = adaptation(frame, level);
+    keep("luminance_" + suffix, {&luminance});
+    const int width = contrast[0].width, height = contrast[0].height;
+    Plane velocity(width, height);
+    Planes response{Plane(width, height), Plane(width, height), Plane(width, height)};
+    const double gain = result_.model.gain[i];
+    forRowBlocks(height, static_cast<size_t>(width) * 400, [&](int first, int end) {
+      for (int y = first; y < end; ++y)
+        for (int x = 0; x < width; ++x) {
+          const double speedPx = frame.speedPx.empty() ? 0.0 : frame.speedPx[i].at(x, y);
+          const double v = retinalVelocityDegS(
+              screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree),
+              settings_.eyeMovement, settings_.leastVelocityDegS);
+          velocity.at(x, y) = v;
+          glm::dvec3 opponent =
+              opponentFromLms({contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y)}) / gain;
+          opponent.x /= greyGain_;
+          const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
+          for (int c = 0; c < 3; ++c) {
+            const auto at = static_cast<size_t>(c);
+            contrast[at].at(x, y) = opponent[c];
+            response[at].at(x, y) = transducer(opponent[c] * s[at]);
+          }
+        }
+    });
+    keep("contrast_" + suffix, contrast);
+    keep("velocity_" + suffix, {&velocity});
+    keep("response_" + suffix, response);
+    return response;
+  }
+
+  /// Two neighbours of a row or column of level 0 in a coarser level, and the second's weight.
+  struct Place {
+    int first, second;
+    double weight;
+  };
+  static Place placeOf(int position, int level, int size) {
+    const int block = 1 << level, first = position / block;
+    return {std::min(first, size - 1), std::min(first + 1, size - 1),
+            static_cast<double>(position % block) / block};
+  }
+
+  // Minkowski sum over levels and channels; weights.
+  void collapse(const std::vector<Planes>& differences) {
+    const double exponent = settings_.minkowskiExponent;
+    const bool isSigned = settings_.collapse == Collapse::Signed;
+    std::vector<Planes> raised;
+    if (!isSigned)
+      for (const Planes& level : differences) {
+        raised.push_back(level);
+        for (Plane& plane : raised.back())
+          for (double& value : plane.data) value = std::pow(std::abs(value), exponent);
+      }
+    Plane jnd(width_, height_), signedJnd(width_, height_), weight(width_, height_, 1.0);
+    result_.jnd = Image(width_, height_, 1);
+    result_.jndExact.assign(static_cast<size_t>(width_) * height_, 0.0);
+    forRowBlocks(height_, static_cast<size_t>(width_) * 400, [&](int first, int end) {
+      for (int y = first; y < end; ++y)
+        for (int x = 0; x < width_; ++x) {
+          double sum = 0.0, signedSum = 0.0;
+          for (size_t i = 0; i < differences.size(); ++i) {
+            const int level = static_cast<int>(i);
+            const Planes& own = differences[i];
+            const Place column = placeOf(x, level, own[0].width), row = placeOf(y, level, own[0].height);
+            const auto interpolate = [&](const Plane& plane) {
+              if (level == 0) return plane.at(x, y);
+              const double above = (1.0 - column.weight) * plane.at(column.first, row.first) +
+                                   column.weight * plane.at(column.second, row.first);
+              const double below = (1.0 - column.weight) * plane.at(column.first, row.second) +
+                                   column.weight * plane.at(column.second, row.second);
+              return (1.0 - row.weight) * above + row.weight * below;
+            };
+            for (size_t c = 0; c < 3; ++c) {
+              const double value = interpolate(own[c]);
+              if (value == 0.0 && isSigned) continue;
+              const double power = isSigned ? std::pow(std::abs(value), exponent) : interpolate(raised[i][c]);
+              sum += power;
+              signedSum += std::copysign(power, value);
+            }
+          }
+          const double difference = sum > 0.0 ? std::pow(sum, 1.0 / exponent) : 0.0;
+          const double w = weightAt(x, y);
+          jnd.at(x, y) = difference;
+          signedJnd.at(x, y) =
+              signedSum == 0.0 ? 0.0
+                               : std::copysign(std::pow(std::abs(signedSum), 1.0 / exponent), signedSum) * w;
+          weight.at(x, y) = w;
+          result_.jndExact[index(x, y)] = difference * w;
+          result_.jnd.at(x, y) = static_cast<float>(difference * w);
+        }
+    });
+    keep("jnd", {&jnd});
+    keep("signed_jnd", {&signedJnd});
+    keep("weight", {&weight});
+    if (wanted_.count("weighted_jnd")) result_.stages["weighted_jnd"] = result_.jnd;
+    const double pixels = static_cast<double>(jnd.data.size());
+    const auto mean = [&](const double* values) {
+      return sumRows(height_, static_cast<size_t>(width_),
+                     [&](int y) {
+                       CompensatedSum row;
+                       for (int x = 0; x < width_; ++x) row.add(values[index(x, y)]);
+                       return row.value();
+                     }) /
+             pixels;
+    };
+    result_.summary.meanJnd = mean(result_.jndExact.data());
+    result_.summary.signedMeanJnd = mean(signedJnd.data.data());
+  }
+
+  double weightAt(int x, int y) const {
+    double weight = 1.0;
+    const auto apply = [&](const Image& map) {
+      if (map.data.empty()) return;
+      const double value = map.at(x, y);
+      if (std::isfinite(value)) weight *= std::clamp(value, 0.0, 1.0);
+    };
+    if (settings_.useDisocclusion) apply(input_.disocclusion);
+    if (settings_.useFlicker) apply(input_.flicker);
+    return weight;
+  }
+
+  void findRegionsAndSum() {
+    std::vector<uint8_t> seeds(result_.jndExact.size(), 1);
+    if (settings_.seedRule == SeedRule::ColourDiffers)
+      for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+          seeds[index(x, y)] =
+              pixelValues(input_.actual, x, y) != pixelValues(input_.predicted, x, y) ? 1 : 0;
+    result_.regions = findRegions(result_.jndExact, seeds, width_, height_, settings_);
+
+    PoppingSummary& summary = result_.summary;
+    for (size_t p = 0; p < seeds.size(); ++p) {
+      summary.largestJnd = std::max(summary.largestJnd, result_.jndExact[p]);
+      if (!(result_.jndExact[p] >= settings_.regionThresholdJnd)) continue;
+      ++summary.aboveThresholdPx;
+      if (seeds[p]) ++summary.seedPx;
+    }
+    summary.largestRating = -std::numeric_limits<double>::infinity();
+    for (const PoppingRegion& region : result_.regions.regions) {
+      summary.regionPx += region.sizePx;
+      summary.largestRating = std::max(summary.largestRating, region.rating);
+    }
+    summary.coverage = static_cast<double>(summary.regionPx) / static_cast<double>(seeds.size());
+    summary.detectionProbability = settings_.detection.probability(summary.largestRating);
+
+    const auto keepByPixel = [&](const std::string& name, const auto& value) {
+      if (wanted_.count(name) == 0) return;
+      Image image(width_, height_, 1);
+      for (size_t p = 0; p < seeds.size(); ++p) image.data[p] = static_cast<float>(value(p));
+      result_.stages[name] = std::move(image);
+    };
+    keepByPixel("seeds", [&](size_t p) { return seeds[p]; });
+    keepByPixel("labels", [&](size_t p) { return result_.regions.labels[p]; });
+    keepByPixel("rating", [&](size_t p) {
+      const uint32_t label = result_.regions.labels[p];
+      return label == 0 ? 0.0 : result_.regions.regions[label - 1].rating;
+    });
+  }
+
+  const PoppingInput& input_;
+  const DisplayProfile& display_;
+  const PoppingSettings& settings_;
+  const int width_, height_;
+  const glm::dvec3 luminanceRow_;
+  const double greyGain_;
+  PyramidSettings pyramid_;
+  std::optional<Sensitivity> sensitivity_;
+  std::function<double(double)> transducer_;
+  bool closedForm_ = false;
+  std::set<std::string> wanted_;
+  std::atomic<int64_t> flushed_{0};
+  int64_t guarded_ = 0;
+  PoppingResult result_;
+};
+
+}  // namespace
+
+PoppingResult predictPopping(const PoppingInput& input, const DisplayProfile& display,
+                             const PoppingSettings& settings, const PoppingOptions& options) {
+  checkPoppingInput(input);
+  return Predictor(input, display, settings, options).run();
+}
+
+}  // namespace limen::perception
