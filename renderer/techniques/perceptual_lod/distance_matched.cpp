@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levels by distance alone at the cost of lod/perceptual (SP-38): the scene's switch distances are multiplied
 // by one factor, the smallest with which at least as many triangles are drawn as lod/perceptual draws in its
-// first frame with the same parameters. So whatever lod/perceptual does better, it does with no more triangles
-// in the picture; what its tests cost on top is in its own counters and times. Source: Schwarz 2009, Fig. 9.8,
-// which compares at "roughly the same frame rate".
+// first frame with the same parameters. So whatever lod/perceptual does better, it does with no more
+// triangles in the picture; what its tests cost on top is in its own counters and times. Source: Schwarz
+// 2009, Fig. 9.8, which compares at "roughly the same frame rate".
 #include "renderer/techniques/perceptual_lod/distance_matched.h"
 
 #include <algorithm>
@@ -26,8 +26,8 @@ double factorForTriangles(const scene::Scene& scene, const scene::LodView& view,
   const auto enough = [&](double factor) {
     return scene::triangleCount(scene, scene::levelsByDistance(scene, view, factor)) >= triangles;
   };
-  const auto found = std::partition_point(factors.begin(), factors.end(),
-                                          [&](double factor) { return !enough(factor); });
+  const auto found =
+      std::partition_point(factors.begin(), factors.end(), [&](double factor) { return !enough(factor); });
   return found == factors.end() ? factors.back() : *found;
 }
 
@@ -84,9 +84,9 @@ class DistanceMatched : public Technique {
 };
 
 std::vector<Parameter> parameters() {
-  std::vector<Parameter> out = {integerParameter(
-      "triangle_budget", 0, 0, 4'000'000'000, "triangles",
-      "Triangles to draw at least, background included; 0: as many as lod/perceptual draws with the same parameters")};
+  std::vector<Parameter> out = {integerParameter("triangle_budget", 0, 0, 4'000'000'000, "triangles",
+                                                 "Triangles to draw at least, background included; 0: as "
+                                                 "many as lod/perceptual draws with the same parameters")};
   appendTo(out, PerceptualLodSettings::parameters());
   return out;
 }

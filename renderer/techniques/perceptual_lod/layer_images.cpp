@@ -37,8 +37,7 @@ LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& sett
   const bool shadows = shading_.shadow && !parent.scene().lights.empty();
   if (shadows) casters_ = std::make_unique<LevelView>(parent, "casters");
   for (int i = 0; i <= settings.layers.count; ++i) {
-    layers_.push_back(
-        std::make_unique<Layer>(parent, i == 0 ? "background" : "layer_" + std::to_string(i)));
+    layers_.push_back(std::make_unique<Layer>(parent, i == 0 ? "background" : "layer_" + std::to_string(i)));
     Layer& layer = *layers_.back();
     layer.view.frame().setCasters(casters());
     if (i == 0) continue;
@@ -96,8 +95,8 @@ void LayerImages::compositeLayers(const std::vector<int>& drawn) {
   frontKey_.bindImage(1, gl::Access::ReadWrite);
   secondColour_.bindImage(2, gl::Access::ReadWrite);
   secondKey_.bindImage(3, gl::Access::ReadWrite);
-  constexpr std::array<const char*, kBatch> kNumbers = {"layerNumbers[0]", "layerNumbers[1]", "layerNumbers[2]",
-                                                        "layerNumbers[3]", "layerNumbers[4]"};
+  constexpr std::array<const char*, kBatch> kNumbers = {
+      "layerNumbers[0]", "layerNumbers[1]", "layerNumbers[2]", "layerNumbers[3]", "layerNumbers[4]"};
   for (size_t done = 0; done < drawn.size(); done += kBatch) {
     const size_t count = std::min<size_t>(kBatch, drawn.size() - done);
     for (size_t k = 0; k < kBatch; ++k) {
@@ -126,8 +125,9 @@ void LayerImages::makeContext(int number) {
     scene::LodSelection others = shown_;
     for (size_t i = 0; i < layerOf_.size(); ++i)
       if (layerOf_[i] == number) others.levels[i] = scene::LodSelection::kOmitted;
-    map = &layer.others->show(timeS_, others)
-               .get<frame::ShadowMap>(frame::ShadowMapSettings{shading_.shadowResolution, frame::Raster::Auto});
+    map =
+        &layer.others->show(timeS_, others)
+             .get<frame::ShadowMap>(frame::ShadowMapSettings{shading_.shadowResolution, frame::Raster::Auto});
     receivers = &layer.view.frame().get<frame::Receivers>();
   }
   const auto scope = parent_.passes().open(contextPass(number));
@@ -175,6 +175,8 @@ const gl::Texture* LayerImages::mask(int layer) const {
   const auto& mask = layers_.at(static_cast<size_t>(layer))->mask;
   return mask ? &*mask : nullptr;
 }
-const gl::Texture& LayerImages::context(int layer) const { return *layers_.at(static_cast<size_t>(layer))->context; }
+const gl::Texture& LayerImages::context(int layer) const {
+  return *layers_.at(static_cast<size_t>(layer))->context;
+}
 
 }  // namespace limen::techniques

@@ -15,8 +15,8 @@ namespace limen::techniques {
 /// distance. All colours are linear RGBA32F as frame::Shaded has them.
 ///
 /// Each layer is lit with the shadows of everything. The composite keeps, for each pixel, the nearest surface
-/// and the nearest one of another layer, which is all that every C_i needs. Depths are the raster's own, so the
-/// composite equals the ordinary picture bit for bit.
+/// and the nearest one of another layer, which is all that every C_i needs. Depths are the raster's own, so
+/// the composite equals the ordinary picture bit for bit.
 class LayerImages {
  public:
   LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings);
@@ -33,9 +33,9 @@ class LayerImages {
   const gl::Texture& frontKey() const { return frontKey_; }  ///< RGBA32UI: depth's bits, triangle, layer
   const gl::Texture& secondColour() const { return secondColour_; }
   const gl::Texture& secondKey() const { return secondKey_; }
-  const gl::Texture& image(int layer);                        ///< O_i
-  const gl::Texture* mask(int layer) const;                   ///< M_i: R32F, 0 or 1; null without shadow masks
-  const gl::Texture& context(int layer) const;                ///< C_i of a layer of objects
+  const gl::Texture& image(int layer);          ///< O_i
+  const gl::Texture* mask(int layer) const;     ///< M_i: R32F, 0 or 1; null without shadow masks
+  const gl::Texture& context(int layer) const;  ///< C_i of a layer of objects
   /// Casters of the frame, to be shadowed by; null without shadows.
   frame::Frame* casters() { return casters_ ? &casters_->frame() : nullptr; }
   /// The camera of the last render().

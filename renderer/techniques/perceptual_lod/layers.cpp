@@ -40,7 +40,10 @@ std::vector<double> readBorders(const std::string& text) {
 }  // namespace
 
 std::vector<Parameter> LayerSettings::parameters() {
-  Parameter borders{.name = "borders", .type = ParameterType::Text, .defaultValue = std::string("5, 10")};
+  Parameter borders;
+  borders.name = "borders";
+  borders.type = ParameterType::Text;
+  borders.defaultValue = std::string("5, 10");
   borders.unit = "world units";
   borders.description = "partition explicit: distances at which the next layer begins, ascending";
   return {integerParameter("layers", 4, 1, kMostLayers, "",
@@ -98,7 +101,8 @@ std::vector<int> assignLayers(const LayerSettings& settings, const std::vector<d
   const std::vector<double> borders = layerBorders(settings, distances);
   std::vector<int> out;
   for (const double distance : distances)
-    out.push_back(static_cast<int>(std::upper_bound(borders.begin(), borders.end(), distance) - borders.begin()));
+    out.push_back(
+        static_cast<int>(std::upper_bound(borders.begin(), borders.end(), distance) - borders.begin()));
   return out;
 }
 

@@ -12,14 +12,16 @@ PixelRect pixelsOf(const scene::Bounds& bounds, const frame::Frame& frame) {
   glm::dvec2 low(1e300), high(-1e300);
   int behind = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 world(corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
+    const glm::dvec3 world(corner & 1 ? bounds.high.x : bounds.low.x,
+                           corner & 2 ? bounds.high.y : bounds.low.y,
                            corner & 4 ? bounds.high.z : bounds.low.z);
     const glm::dvec3 p(frame.anchorToCamera() * glm::dvec4(world - frame.gpuScene().anchor(), 1.0));
     if (p.z > -1e-9 * (1.0 + std::abs(p.x) + std::abs(p.y))) {
       ++behind;
       continue;
     }
-    const glm::dvec2 ndc(p.x / (-p.z * frame.tanHalfFov() * frame.aspect()), p.y / (-p.z * frame.tanHalfFov()));
+    const glm::dvec2 ndc(p.x / (-p.z * frame.tanHalfFov() * frame.aspect()),
+                         p.y / (-p.z * frame.tanHalfFov()));
     const glm::dvec2 at = (glm::dvec2(ndc.x, -ndc.y) * 0.5 + 0.5) * glm::dvec2(size);
     low = glm::min(low, at);
     high = glm::max(high, at);

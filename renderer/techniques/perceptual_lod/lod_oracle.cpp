@@ -44,7 +44,8 @@ class LodOracle : public Technique {
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> out = {
-      realParameter("limit", 16.0, 0.0, 1e8, "limit_unit", "Most visible pixels of a level that counts as invisible",
+      realParameter("limit", 16.0, 0.0, 1e8, "limit_unit",
+                    "Most visible pixels of a level that counts as invisible",
                     "Schwarz 2009, section 9.5 (not given there)"),
       choiceParameter("limit_unit", "px", {"px", "share"},
                       "Of limit: pixels, or share (0..1) of the pixels that the object covers")};

@@ -16,8 +16,8 @@ struct Picture {
   std::vector<uint32_t> ids;
 };
 
-Picture pictureOf(frame::Frame& frame, const scene::LodSelection& selection, const frame::ShadedSetting& shading,
-                  const perception::DisplayProfile& display) {
+Picture pictureOf(frame::Frame& frame, const scene::LodSelection& selection,
+                  const frame::ShadedSetting& shading, const perception::DisplayProfile& display) {
   frame.setLevels(selection);
   frame.begin();
   Picture out{perception::luminancePlane(frame.get<frame::Shaded>(shading).texture().read(), display),
@@ -106,8 +106,8 @@ std::vector<Counter> countLevels(frame::Frame& frame, double timeS, const Percep
       {"triangles_drawn", static_cast<double>(scene::triangleCount(scene, {levels, true})), "triangles"},
       {"mean_level", levels.empty() ? 0.0 : sum / static_cast<double>(levels.size()), "levels", false}};
   if (!settings.oracle) return out;
-  const OracleComparison compared = compareWithOracle(
-      searchLevels(frame, timeS, settings.shading, settings.seenOn), settings.rule, levels);
+  const OracleComparison compared =
+      compareWithOracle(searchLevels(frame, timeS, settings.shading, settings.seenOn), settings.rule, levels);
   out.push_back({"wrong_invisible_share", compared.wrongInvisibleShare, "", false});
   out.push_back({"levels_above_oracle", compared.levelsAbove, "levels", false});
   out.push_back({"levels_below_oracle", compared.levelsBelow, "levels", false});

@@ -21,9 +21,9 @@ struct OracleVerdict {
   bool seen() const;
 };
 
-/// Brute force, one picture for every level of every object, all others being at their finest: thresholds come
-/// from the double-precision map of the whole finest picture, the object included, and every pixel of the
-/// object is compared in double precision. Allocates and waits for the GPU.
+/// Brute force, one picture for every level of every object, all others being at their finest: thresholds
+/// come from the double-precision map of the whole finest picture, the object included, and every pixel of
+/// the object is compared in double precision. Allocates and waits for the GPU.
 std::vector<OracleVerdict> searchLevels(frame::Frame& like, double timeS, const frame::ShadedSetting& shading,
                                         const SeenOn& seenOn);
 

@@ -49,7 +49,7 @@ class PerceptualLod : public Technique {
 
   std::vector<Counter> count(frame::Frame& frame) override {
     std::vector<Counter> out = countLevels(frame, timeS_, settings_, pipeline_->shown().levels);
-    const LevelControl& control = pipeline_->control();
+    const TestedLevels& control = pipeline_->control();
     out.push_back({"triangles_tested", static_cast<double>(pipeline_->trianglesTested()), "triangles"});
     out.push_back({"objects_tested", static_cast<double>(control.tested()), "tests"});
     out.push_back({"tests_dropped", static_cast<double>(control.dropped()), "tests"});
@@ -80,7 +80,8 @@ std::vector<std::string> counterNames() {
 const Registered<TechniqueInfo> kRegistered{
     {.name = "lod/perceptual",
      .version = 1,
-     .summary = "Levels by visible difference: layers, a threshold map of each one's surroundings, tests in turn",
+     .summary =
+         "Levels by visible difference: layers, a threshold map of each one's surroundings, tests in turn",
      .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",
      .product = ProductKind::Colour,
      .parameters = PerceptualLodSettings::parameters(),

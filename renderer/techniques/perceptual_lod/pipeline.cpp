@@ -17,7 +17,8 @@ std::string layerPrefix(int layer) { return "layer_" + std::to_string(layer) + "
 
 std::vector<int> levelCounts(const scene::Scene& scene) {
   std::vector<int> out;
-  for (const scene::LodObject& object : scene.lodObjects) out.push_back(static_cast<int>(object.levels.size()));
+  for (const scene::LodObject& object : scene.lodObjects)
+    out.push_back(static_cast<int>(object.levels.size()));
   return out;
 }
 
@@ -152,7 +153,8 @@ void PerceptualPipeline::render(double timeS, bool wait) {
   for (int& layer : layerOf_) ++layer;
   images_.render(timeS, {control_.levels(), true}, layerOf_);
   pixels_.clear();
-  for (const scene::LodObject& object : scene.lodObjects) pixels_.push_back(pixelsOf(object.bounds, images_.view()));
+  for (const scene::LodObject& object : scene.lodObjects)
+    pixels_.push_back(pixelsOf(object.bounds, images_.view()));
 
   std::vector<int> objects;
   // With all batches under way the GPU is far behind: this frame tests nothing rather than wait.
@@ -177,8 +179,11 @@ void PerceptualPipeline::render(double timeS, bool wait) {
 }
 
 std::map<std::string, const gl::Texture*> PerceptualPipeline::debugViews() {
-  std::map<std::string, const gl::Texture*> out = {{"background", &images_.image(0)}, {"visible_pixels", &visible_}};
+  std::map<std::string, const gl::Texture*> out = {{"background", &images_.image(0)},
+                                                   {"visible_pixels", &visible_}};
   for (int layer = 1; layer < images_.layers(); ++layer) {
+    // A layer without objects is not drawn.
+    if (std::find(layerOf_.begin(), layerOf_.end(), layer) == layerOf_.end()) continue;
     const std::string number = std::to_string(layer);
     out["layer_" + number] = &images_.image(layer);
     out["context_" + number] = &images_.context(layer);

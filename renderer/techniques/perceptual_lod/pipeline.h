@@ -8,8 +8,8 @@
 
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "renderer/techniques/perceptual_lod/layer_images.h"
-#include "renderer/techniques/perceptual_lod/level_control.h"
 #include "renderer/techniques/perceptual_lod/test_counts.h"
+#include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 
@@ -26,14 +26,14 @@ class PerceptualPipeline {
   void render(double timeS, bool wait);
 
   const gl::Texture& picture() const { return images_.composite(); }
-  const LevelControl& control() const { return control_; }
+  const TestedLevels& control() const { return control_; }
   /// Levels of the last frame's picture.
   const scene::LodSelection& shown() const { return images_.shown(); }
   const std::vector<int>& layerOf() const { return layerOf_; }  ///< 1.., of the last frame
   LayerImages& images() { return images_; }
   /// All tests whose results the last frame took.
   const std::vector<LevelTest>& taken() const { return taken_; }
-  int mapsMade() const { return mapsMade_; }              ///< in the last frame
+  int mapsMade() const { return mapsMade_; }                    ///< in the last frame
   int64_t trianglesTested() const { return trianglesTested_; }  ///< drawn for tests in the last frame
   /// "layer_i", "shadow_mask_i", "context_i", "threshold_map_i" (cd/m2), layers counted from 1; "background",
   /// "visible_pixels".
@@ -55,7 +55,7 @@ class PerceptualPipeline {
   frame::Frame& parent_;
   const PerceptualLodSettings settings_;
   LayerImages images_;
-  LevelControl control_;
+  TestedLevels control_;
   perception::ThresholdMapGpu thresholdMap_;
   std::vector<gl::Texture> maps_;  ///< TM_i, of layers of objects
   gl::Texture visible_;

@@ -8,7 +8,7 @@
 #include "perception/vision/display.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/perceptual_lod/layers.h"
-#include "renderer/techniques/perceptual_lod/level_control.h"
+#include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 

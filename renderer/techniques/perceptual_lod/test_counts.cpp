@@ -14,8 +14,10 @@ constexpr int64_t kWordsPerTest = 4;
 const gl::Program& programOf(gl::Context& context, Count method, bool withNext) {
   const std::string folder = "renderer/techniques/perceptual_lod/";
   const gl::ShaderDefines defines = withNext ? gl::ShaderDefines{{"NEXT", "1"}} : gl::ShaderDefines{};
-  if (method == Count::Compute) return context.programs().compute(folder + "count_visible.comp.glsl", defines);
-  return context.programs().get({folder + "full_screen.vert.glsl", folder + "count_visible.frag.glsl"}, defines);
+  if (method == Count::Compute)
+    return context.programs().compute(folder + "count_visible.comp.glsl", defines);
+  return context.programs().get({folder + "full_screen.vert.glsl", folder + "count_visible.frag.glsl"},
+                                defines);
 }
 
 }  // namespace
@@ -113,7 +115,8 @@ bool TestCounts::arrived(const Batch& batch, bool wait) const {
     constexpr GLuint64 kSecond = 1'000'000'000;
     GLenum result = GL_TIMEOUT_EXPIRED;
     do {
-      result = glClientWaitSync(static_cast<GLsync>(batch.fence), GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kSecond : 0);
+      result =
+          glClientWaitSync(static_cast<GLsync>(batch.fence), GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kSecond : 0);
     } while (wait && result == GL_TIMEOUT_EXPIRED);
     return result == GL_ALREADY_SIGNALED || result == GL_CONDITION_SATISFIED;
   }

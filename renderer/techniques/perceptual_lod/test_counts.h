@@ -8,9 +8,9 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
-#include "renderer/techniques/perceptual_lod/level_control.h"
 #include "renderer/techniques/perceptual_lod/level_view.h"
 #include "renderer/techniques/perceptual_lod/settings.h"
+#include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 

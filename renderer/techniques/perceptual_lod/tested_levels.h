@@ -10,10 +10,10 @@ namespace limen::techniques {
 
 /// What a test of an object at one level found.
 struct LevelTest {
-  int object = 0, level = 0;  ///< as they were when the test was drawn
-  uint32_t coveredPx = 0;     ///< pixels where the object is seen at this level or at the finest
-  uint32_t visiblePx = 0;     ///< of these, how many differ from the finest level by more than the threshold
-  uint32_t nextVisiblePx = 0; ///< the same for the next coarser level, where that was looked at
+  int object = 0, level = 0;   ///< as they were when the test was drawn
+  uint32_t coveredPx = 0;      ///< pixels where the object is seen at this level or at the finest
+  uint32_t visiblePx = 0;      ///< of these, how many differ from the finest level by more than the threshold
+  uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, where that was looked at
 };
 
 /// When a test changes a level. Source: Schwarz 2009, section 9.5, which gives no figures.
@@ -42,10 +42,10 @@ struct LevelRule {
 };
 
 /// Levels of all objects, and whose turn it is to be tested.
-class LevelControl {
+class TestedLevels {
  public:
   /// `levelCounts`: levels of each object, at least one.
-  LevelControl(LevelRule rule, std::vector<int> levelCounts, int startLevel);
+  TestedLevels(LevelRule rule, std::vector<int> levelCounts, int startLevel);
 
   const std::vector<int>& levels() const { return levels_; }
   const LevelRule& rule() const { return rule_; }
@@ -55,7 +55,7 @@ class LevelControl {
   /// Applies a test; one of a level that the object has left since is dropped.
   void apply(const LevelTest& test);
 
-  int64_t tested() const { return tested_; }      ///< tests applied or dropped
+  int64_t tested() const { return tested_; }  ///< tests applied or dropped
   int64_t dropped() const { return dropped_; }
   int64_t switches() const { return switches_; }
   /// Switches that took the object back to where it came from with its last: oscillation.

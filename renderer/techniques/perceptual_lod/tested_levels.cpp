@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/perceptual_lod/level_control.h"
+#include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,17 +14,19 @@ constexpr const char* kSource = "Schwarz 2009, section 9.5 (values not given the
 }  // namespace
 
 std::vector<Parameter> LevelRule::parameters() {
-  return {realParameter("delta_l", 4.0, 0.0, 1e8, "delta_unit", "Fewer visible pixels: to the next coarser level",
-                        kSource),
-          realParameter("delta_u", 16.0, 0.0, 1e8, "delta_unit", "More visible pixels: to the next finer level",
-                        kSource),
-          choiceParameter("delta_unit", "px", {"px", "share"},
-                          "Of delta_l and delta_u: pixels, or shares (0..1) of the pixels that the object covers",
-                          "Schwarz 2009, section 9.5 (px)"),
-          choiceParameter("coarsen", "at_once", {"at_once", "if_invisible"},
-                          "Below delta_l go coarser at once, or only if the next coarser level has at most delta_u "
-                          "visible pixels (a second rendering for each test)",
-                          "Schwarz 2009, section 9.5 (at_once)")};
+  return {
+      realParameter("delta_l", 4.0, 0.0, 1e8, "delta_unit", "Fewer visible pixels: to the next coarser level",
+                    kSource),
+      realParameter("delta_u", 16.0, 0.0, 1e8, "delta_unit", "More visible pixels: to the next finer level",
+                    kSource),
+      choiceParameter("delta_unit", "px", {"px", "share"},
+                      "Of delta_l and delta_u: pixels, or shares (0..1) of the pixels that the object covers",
+                      "Schwarz 2009, section 9.5 (px)"),
+      choiceParameter(
+          "coarsen", "at_once", {"at_once", "if_invisible"},
+          "Below delta_l go coarser at once, or only if the next coarser level has at most delta_u "
+          "visible pixels (a second rendering for each test)",
+          "Schwarz 2009, section 9.5 (at_once)")};
 }
 
 LevelRule LevelRule::from(const ParameterValues& values) {
@@ -34,8 +36,8 @@ LevelRule LevelRule::from(const ParameterValues& values) {
   out.unit = values.text("delta_unit") == "share" ? Unit::Share : Unit::Px;
   out.lookAhead = values.text("coarsen") == "if_invisible";
   if (out.lower > out.upper)
-    throw Error("delta_l is above delta_u: every object between them would change its level for ever", "delta_l",
-                "give delta_l <= delta_u");
+    throw Error("delta_l is above delta_u: every object between them would change its level for ever",
+                "delta_l", "give delta_l <= delta_u");
   return out;
 }
 
@@ -47,7 +49,7 @@ int LevelRule::step(const LevelTest& test) const {
   return lookAhead && measure(test.nextVisiblePx, test.coveredPx) > upper ? 0 : 1;
 }
 
-LevelControl::LevelControl(LevelRule rule, std::vector<int> levelCounts, int startLevel)
+TestedLevels::TestedLevels(LevelRule rule, std::vector<int> levelCounts, int startLevel)
     : rule_(rule), levelCounts_(std::move(levelCounts)), lastSteps_(levelCounts_.size(), 0) {
   for (const int count : levelCounts_) {
     assert(count >= 1);
@@ -55,7 +57,7 @@ LevelControl::LevelControl(LevelRule rule, std::vector<int> levelCounts, int sta
   }
 }
 
-std::vector<int> LevelControl::nextTests(int count, const std::vector<char>& testable) {
+std::vector<int> TestedLevels::nextTests(int count, const std::vector<char>& testable) {
   assert(testable.size() == levels_.size());
   std::vector<int> out;
   for (size_t looked = 0; looked < levels_.size() && static_cast<int>(out.size()) < count; ++looked) {
@@ -66,7 +68,7 @@ std::vector<int> LevelControl::nextTests(int count, const std::vector<char>& tes
   return out;
 }
 
-void LevelControl::apply(const LevelTest& test) {
+void TestedLevels::apply(const LevelTest& test) {
   ++tested_;
   const auto object = static_cast<size_t>(test.object);
   if (levels_[object] != test.level) {
