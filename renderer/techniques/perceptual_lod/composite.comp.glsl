@@ -22,9 +22,7 @@ struct Surface {
   Key key;
 };
 
-Surface front, second;
-
-void add(Surface candidate) {
+void add(Surface candidate, inout Surface front, inout Surface second) {
   if (candidate.key.depth == 0.0) return;
   if (isNearer(candidate.key, front.key)) {
     second = front;
@@ -37,17 +35,17 @@ void add(Surface candidate) {
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
-  if (first != 0) {
-    front = Surface(background, Key(0.0, kNoTriangle, kBackgroundLayer));
-    second = front;
-  } else {
+  Surface front = Surface(background, Key(0.0, kNoTriangle, kBackgroundLayer)), second = front;
+  if (first == 0) {
     front = Surface(imageLoad(frontColour, pixel).rgb, unpackKey(imageLoad(frontKey, pixel)));
     second = Surface(imageLoad(secondColour, pixel).rgb, unpackKey(imageLoad(secondKey, pixel)));
   }
-#define ADD(i)                                                                                               \
-  if (i < layerCount)                                                                                        \
-    add(Surface(texelFetch(colours[i], pixel, 0).rgb,                                                        \
-                Key(texelFetch(depths[i], pixel, 0).x, texelFetch(triangleIds[i], pixel, 0).x, uint(layerNumbers[i]))));
+#define ADD(i)                                                                                              \
+  if (i < layerCount)                                                                                       \
+    add(Surface(texelFetch(colours[i], pixel, 0).rgb,                                                       \
+                Key(texelFetch(depths[i], pixel, 0).x, texelFetch(triangleIds[i], pixel, 0).x,              \
+                    uint(layerNumbers[i]))),                                                                \
+        front, second);
   ADD(0) ADD(1) ADD(2) ADD(3) ADD(4)
   imageStore(frontColour, pixel, vec4(front.colour, 1.0));
   imageStore(frontKey, pixel, packKey(front.key));
