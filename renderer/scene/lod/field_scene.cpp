@@ -44,7 +44,9 @@ LodSet bumpySpheres(const ParameterValues& values) {
   LodSet set{"bumpy_sphere", {}};
   const int64_t levels = values.integer("levels");
   for (int64_t i = 0; i < levels; ++i) {
-    const auto cells = static_cast<int>(std::max<int64_t>(values.integer("tessellation") >> i, 1));
+    const double finest = static_cast<double>(values.integer("tessellation"));
+    const double ratio = std::pow(values.real("level_ratio"), static_cast<double>(i));
+    const int cells = std::max(static_cast<int>(std::lround(finest * ratio)), 1);
     LodMesh level{sphere(glm::dvec3(0.0), 1.0, cells)};
     for (glm::dvec3& position : level.mesh.positions) position *= bumps.radius(glm::normalize(position));
     level.mesh.normals = vertexNormals(level.mesh);
@@ -104,7 +106,7 @@ Scene buildField(const ParameterValues& values) {
   scene.lights = {lightTowards({-12.0, 22.0, 25.0}, {0.0, 0.0, -0.4 * depth}, glm::dvec2(1.0))};
   Ride ride = rideOf(values);
   ride.target = middle;
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, 0.0, 14.0).eye;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, 0.0, 17.0).eye;
   ride.nearest = 1.5;
   ride.verticalFovDeg = 40.0;
   setRide(scene, ride);
@@ -115,13 +117,13 @@ std::vector<Parameter> parameters() {
   std::vector<Parameter> out = {
       integerParameter("rows", 5, 0, 32, "", "Rows of objects, one behind another"),
       integerParameter("columns", 4, 0, 32, "", "Objects in a row"),
-      realParameter("spacing", 1.6, 0.5, 20.0, "world units", "Between objects, whose radius is about 0.45"),
-      integerParameter("levels", 5, 1, 8, "",
+      realParameter("spacing", 1.8, 0.5, 20.0, "world units", "Between objects, whose radius is about 0.45"),
+      integerParameter("levels", 6, 1, 8, "",
                        "Levels of detail; fewer where the coarsest would have no triangles"),
-      integerParameter(
-          "tessellation", 24, 1, 96, "segments",
-          "Segments in a quarter circle of the finest level, halved from level to level; 8 times "
-          "its square triangles"),
+      integerParameter("tessellation", 32, 1, 96, "segments",
+                       "Segments in a quarter circle of the finest level; 8 times its square triangles"),
+      realParameter("level_ratio", 0.7, 0.3, 0.9, "",
+                    "Segments of each level over those of the one before; its square is that of triangles"),
       realParameter("bumps", 0.25, 0.0, 0.8, "", "Height of the objects' bumps over their radius"),
       realParameter("object_contrast", 0.0, 0.0, 1.0, "", "Contrast of the objects' solid texture"),
       realParameter("masker_contrast", 0.6, 0.0, 1.0, "", "Contrast of the pattern on ground and wall"),

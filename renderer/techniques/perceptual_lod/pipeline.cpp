@@ -82,10 +82,9 @@ std::vector<char> PerceptualPipeline::testable() const {
 
 void PerceptualPipeline::makeMap(int layer) {
   images_.makeContext(layer);
-  // Names of one map's passes for each layer.
-  parent_.passes().setPrefix(layerPrefix(layer));
-  const gl::Texture& map = thresholdMap_.run(images_.context(layer), &parent_.passes());
-  parent_.passes().setPrefix(layerPrefix(layer));
+  gl::PassList& passes = parent_.passes();
+  passes.setPrefix(layerPrefix(layer));
+  const gl::Texture& map = thresholdMap_.run(images_.context(layer), &passes);
   const gl::Texture& to = maps_[static_cast<size_t>(layer - 1)];
   glCopyImageSubData(map.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.sizePx().x,
                      to.sizePx().y, 1);
