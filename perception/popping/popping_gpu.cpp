@@ -25,7 +25,7 @@ const std::string kFolder = "perception/popping/gpu/";
 
 // Nodes of the sensitivity table over lg velocity and lg luminance. Some 65 a decade: sensitivities are
 // straight enough between them for an error below 1e-3 of their value.
-constexpr glm::ivec2 kTableSize{256, 256};
+constexpr glm::ivec2 kTableSize{384, 256};
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
 constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/popping/weights_gpu.h"
+
+#include <epoxy/gl.h>
+
+#include <cassert>
+
+namespace limen::perception {
+namespace {
+
+constexpr glm::ivec2 kGroup{32, 8};
+const char* const kDisocclusion = "perception/popping/gpu/disocclusion.comp.glsl";
+const char* const kFlicker = "perception/popping/gpu/flicker.comp.glsl";
+
+}  // namespace
+
+PoppingWeightsGpu::PoppingWeightsGpu(gl::Context& context, const PoppingSettings& settings)
+    : context_(context), settings_(settings) {
+  context.programs().compute(kDisocclusion);
+  context.programs().compute(kFlicker);
+}
+
+void PoppingWeightsGpu::disocclusion(const std::vector<DisocclusionTextures>& views,
+                                     const gl::Texture& weight) {
+  assert(views.size() == 1 || views.size() == 2);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  const gl::Program& program = context_.programs().compute(kDisocclusion);
+  for (uint32_t i = 0; i < 2; ++i) {
+    const DisocclusionTextures& view = views[i < views.size() ? i : 0];
+    view.previousDepthOfPixel->bindTexture(3 * i);
+    view.displacement->bindTexture(3 * i + 1);
+    view.previousDepth->bindTexture(3 * i + 2);
+  }
+  weight.bindImage(0, gl::Access::Write);
+  program.set("viewCount", static_cast<int>(views.size()));
+  program.set("pcfRadius", settings_.pcfRadiusPx);
+  program.set("depthTolerance", static_cast<float>(settings_.depthTolerance));
+  program.set("outsideVisibility", static_cast<float>(settings_.outsideVisibility));
+  program.dispatch(weight.sizePx(), kGroup);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void PoppingWeightsGpu::flicker(const FlickerTextures& input, const gl::Texture& weight) {
+  const bool compareDepth = input.previousDepthOfPixel && input.previousDepth;
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  const gl::Program& program = context_.programs().compute(kFlicker);
+  input.actual->bindTexture(0);
+  input.predicted->bindTexture(1);
+  input.previousShading->bindTexture(2);
+  input.previousFrame->bindTexture(3);
+  input.displacement->bindTexture(4);
+  (compareDepth ? input.previousDepthOfPixel : input.displacement)->bindTexture(5);
+  (compareDepth ? input.previousDepth : input.displacement)->bindTexture(6);
+  weight.bindImage(0, gl::Access::Write);
+  program.set("compareDepth", compareDepth ? 1 : 0);
+  program.set("kappa", static_cast<float>(settings_.flickerKappa));
+  program.set("largestDisplacement", static_cast<float>(settings_.flickerMaxDisplacementPx));
+  program.set("flickerWeight", static_cast<float>(settings_.flickerWeight));
+  program.set("depthTolerance", static_cast<float>(settings_.depthTolerance));
+  program.dispatch(weight.sizePx(), kGroup);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+}  // namespace limen::perception
