@@ -15,6 +15,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
+#include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
@@ -230,7 +231,7 @@ class GlExecutor : public Executor {
                                                referenceTexture ? &*referenceTexture : nullptr,
                                                &product,
                                                reference,
-                                               &on.mask,
+                                               judgedEverywhere(*run.info) ? nullptr : &on.mask,
                                                &metricGpu_};
       for (store::Measurement& measurement : judge(plan, judged, maps))
         run.outcome.measurements.push_back(std::move(measurement));
@@ -246,9 +247,20 @@ class GlExecutor : public Executor {
     }
     if (reference && plan.artefacts.pictures)
       run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
+    if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::Threshold) {
+      run.outcome.measurements.push_back(
+          {"threshold_png_black", perception::kThresholdPictureBlack, "cd/m2", "fact"});
+      run.outcome.measurements.push_back(
+          {"threshold_png_white", perception::kThresholdPictureWhite, "cd/m2", "fact"});
+    }
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
+  }
+
+  /// What a viewer sees has no mask: the background adapts the eye too.
+  static bool judgedEverywhere(const techniques::TechniqueInfo& info) {
+    return info.product == techniques::ProductKind::Threshold;
   }
 
   static void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {

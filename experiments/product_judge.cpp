@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
+#include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
 namespace {
@@ -21,6 +22,13 @@ Image composed(const Image& product, const Image& shading) {
       out.data[3 * i + c] = value;
     }
   return out;
+}
+
+/// The product as a person would want to see it.
+Image productPicture(const PlannedRun& run, const Image& product, const Image& shading) {
+  const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.technique.name);
+  if (info.product == techniques::ProductKind::Threshold) return perception::thresholdPicture(product);
+  return perception::displayPicture(composed(product, shading));
 }
 
 }  // namespace
@@ -59,8 +67,8 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
     keep(kind + "_exr", kind + ".exr");
   };
   if (run.artefacts.pictures) {
-    picture("product", perception::displayPicture(composed(product, shading)));
-    if (reference) picture("reference", perception::displayPicture(composed(*reference, shading)));
+    picture("product", productPicture(run, product, shading));
+    if (reference) picture("reference", productPicture(run, *reference, shading));
   }
   if (run.artefacts.exr) {
     exr("product", product);
@@ -69,7 +77,7 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
   for (const auto& [name, map] : maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
     if (run.artefacts.pictures)
-      picture(kind, perception::errorPicture(map, kind == "error" ? kErrorScale : 1.0));
+      picture(kind, perception::errorPicture(map, kind == "error" || kind == "relative_error" ? kErrorScale : 1.0));
     if (run.artefacts.exr) exr(kind, map);
   }
   return out;

@@ -10,7 +10,7 @@
 
 namespace limen::experiments {
 
-/// Absolute error that error pictures show as white: the same in all runs, so that pictures can be compared.
+/// Absolute or relative error that error pictures show as white: the same in all runs, so that pictures can be compared.
 inline constexpr double kErrorScale = 0.25;
 
 /// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).

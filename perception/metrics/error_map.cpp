@@ -74,6 +74,18 @@ Image errorPicture(const Image& map, double scale) {
   return picture;
 }
 
+Image thresholdPicture(const Image& cdM2) {
+  assert(cdM2.channels == 1);
+  const double decades = std::log10(kThresholdPictureWhite / kThresholdPictureBlack);
+  Image picture(cdM2.width, cdM2.height, 3);
+  for (size_t pixel = 0; pixel < cdM2.pixels(); ++pixel) {
+    const double value = cdM2.data[pixel];
+    const double share = std::log10(std::max(value, 1e-30) / kThresholdPictureBlack) / decades;
+    setPixel(picture, pixel, std::isfinite(value) ? magma(share) : kNonFinite);
+  }
+  return picture;
+}
+
 Image displayPicture(const Image& linear) {
   Image picture(linear.width, linear.height, 3);
   const auto channels = static_cast<size_t>(linear.channels);

@@ -19,4 +19,10 @@ Image errorPicture(const Image& map, double scale = 0.0);
 /// Visibility (1 channel) becomes grey, alpha is dropped, pixels with a non-finite value are bright green.
 Image displayPicture(const Image& linear);
 
+/// A map of positive values [cd/m2] as a picture: "magma" over their logarithm, from kThresholdPictureBlack
+/// to kThresholdPictureWhite in every picture, so that they can be compared. Non-finite values are bright
+/// green.
+Image thresholdPicture(const Image& cdM2);
+inline constexpr double kThresholdPictureBlack = 0.01, kThresholdPictureWhite = 100.0;
+
 }  // namespace limen::perception

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last pass: thresholds from band 0 and the coarser levels. Each group makes a tile of the map. It loads
 // the coarser samples around its tile to shared memory; for a stack it brings them up there, one level at a time,
-// to level 1, so that the stack exists for a tile only. In 16 bits (LAPLACIAN) levels are stored as bands and the
-// coarsest level, and are added up first: what is small is then stored with its own precision.
+// to level 1, so that the stack exists for a tile only. In 16 bits (LAPLACIAN) the first HALF_LEVELS levels are
+// stored as bands, which are added up first: what is small is then stored with its own precision.
 #include "perception/threshold_maps/common.glsl"
 #include "perception/threshold_maps/model.glsl"
 
@@ -47,10 +47,19 @@ ivec2 countOf(int i) {
                patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
 }
 
-// Stored value of level i at a sample: the level itself, or (LAPLACIAN) its band but for the coarsest.
+// Bands in 16 bits are stored as their signed square root.
+float decoded(float code) {
+#if LAPLACIAN
+  return code * abs(code);
+#else
+  return code;
+#endif
+}
+
+// Stored value of level i at a sample: the level itself, or (LAPLACIAN) its band.
 float stored(int i, ivec2 at) {
 #if LAPLACIAN
-  if (i < kPlanes) return texelFetch(laplacian, at, i - 1).r;
+  if (i <= HALF_LEVELS) return decoded(texelFetch(laplacian, at, i - 1).r);
 #endif
   return texelFetch(gaussian, at, i - 1).r;
 }
@@ -61,11 +70,10 @@ float between(float a, float b, float c, float d, vec2 t) {
 }
 #endif
 
-float gathered[max(kPlanes, 1)];  // levels 1 ... at a pixel
-
-// Threshold of one pixel.
-void finish(ivec2 at, float finestValue) {
+// Threshold of one pixel; `gathered`: levels 1 ... there.
+void finish(ivec2 at, float finestValue, float gathered[max(kPlanes, 1)]) {
   float c[BANDS + 1];
+  c[BANDS] = 0.0;
 #if LEVELS == 1
   float adaptation = finestValue;
 #else
@@ -133,7 +141,7 @@ void loadStack(int thread) {
         }
       }
 #if LAPLACIAN
-      own += value;  // the last plane is level i + 1
+      if (i <= HALF_LEVELS) own += value;  // the last plane is level i + 1
 #endif
       if (i % 2 == 1)
         atOdd[planes * kPlaneSize + p] = own;
@@ -147,7 +155,7 @@ void loadStack(int thread) {
 void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
 #if LAPLACIAN
   for (int i = kPlanes; i >= 1; --i) {
-    if (i < kPlanes) barrier();
+    if (i <= HALF_LEVELS) barrier();
 #else
   for (int i = 1; i <= kPlanes; ++i) {
 #endif
@@ -159,7 +167,7 @@ void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
       ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1);
       float value = stored(i, sampleAt);
 #if LAPLACIAN
-      if (i < kPlanes) {
+      if (i <= HALF_LEVELS) {
         ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i), left;
         vec2 t;
         place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
@@ -191,7 +199,7 @@ void main() {
 #if LEVELS == 1
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = ivec2(x, tile.y + firstRow + i);
-    if (all(lessThan(at, size))) finish(at, texelFetch(finest, at, 0).r);
+    if (all(lessThan(at, size))) finish(at, texelFetch(finest, at, 0).r, float[1](0.0));
   }
 #else
   // Two rows of samples around the pixel, interpolated along x; they move down with the pixel.
@@ -207,7 +215,7 @@ void main() {
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = ivec2(x, tile.y + firstRow + i);
     if (at.y >= size.y) return;
-    float finestValue = texelFetch(finest, at, 0).r;
+    float finestValue = decoded(texelFetch(finest, at, 0).r);
     int top;
     float ty;
     place(at.y, sampleSize.y, size.y, top, ty);
@@ -223,9 +231,10 @@ void main() {
         lower[plane] = atOdd[q] + tx * (atOdd[q + 1] - atOdd[q]);
       }
     }
+    float gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane)
       gathered[plane] = upper[plane] + ty * (lower[plane] - upper[plane]);
-    finish(at, finestValue);
+    finish(at, finestValue, gathered);
   }
 #else
   loadPyramid(thread, tile, size);
@@ -241,7 +250,7 @@ void main() {
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = ivec2(x, tile.y + firstRow + i);
     if (at.y >= size.y) return;
-    float finestValue = texelFetch(finest, at, 0).r;
+    float finestValue = decoded(texelFetch(finest, at, 0).r), gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane) {
       int entry = plane * kTile.y + firstRow + i, top = rowLeft[entry];
       if (top != row[plane]) {
@@ -253,7 +262,7 @@ void main() {
       }
       gathered[plane] = upper[plane] + rowRest[entry] * (lower[plane] - upper[plane]);
     }
-    finish(at, finestValue);
+    finish(at, finestValue, gathered);
   }
 #endif
 #endif

@@ -2,8 +2,8 @@
 // One level of the pyramid from the finer one, exactly: five taps, then bilinear, along both axes out of shared
 // memory. Each group takes a tile of the finer level and the coarse samples around it; it writes the coarse
 // samples that lie in its tile, and (BAND) the tile less what the coarse samples interpolate to: band 0, or a
-// level of the Laplacian pyramid. Sums are of differences from the middle tap, so that a flat image stays flat
-// to the last bit.
+// level of the Laplacian pyramid. Sums are of differences, so that a
+// flat image stays flat to the last bit and a faint band is as exact as a strong one.
 #include "perception/threshold_maps/common.glsl"
 
 layout(local_size_x = 256) in;
@@ -20,8 +20,9 @@ const ivec2 kTile = ivec2(64, 32);
 const ivec2 kCoarse = ivec2(34, 18);  // samples around a tile
 const ivec2 kRegion = ivec2(76, 44);  // finer ones that they are made of
 shared float region[kRegion.x * kRegion.y];
-shared float filteredRows[kCoarse.x * kRegion.y];
-shared float coarse[kCoarse.x * kCoarse.y];
+// As a sample near by and what to add: what is small beside a band must not be lost beside the luminance.
+shared vec2 filteredRows[kCoarse.x * kRegion.y];
+shared vec2 coarse[kCoarse.x * kCoarse.y];
 
 // Six weights of a sample `t` right of tap 2.
 float weightOf(int tap, float t) {
@@ -33,11 +34,14 @@ void weightsOf(float t, out float w[6]) {
   for (int tap = 0; tap < 6; ++tap) w[tap] = weightOf(tap, t);
 }
 
-float filtered(float v[6], float w[6]) {
+vec2 filtered(vec2 v[6], float w[6]) {
   float sum = 0.0;
-  for (int tap = 0; tap < 6; ++tap) sum += w[tap] * (v[tap] - v[2]);
-  return v[2] + sum;
+  for (int tap = 0; tap < 6; ++tap) sum += w[tap] * ((v[tap].x - v[2].x) + v[tap].y);
+  return vec2(v[2].x, sum);
 }
+
+// How far a coarse sample lies above a value.
+float above(vec2 sampled, float value) { return (sampled.x - value) + sampled.y; }
 
 void main() {
   int thread = int(gl_LocalInvocationIndex);
@@ -85,9 +89,11 @@ void main() {
     int left;
     float t;
     place(clamp(first.x + at.x, 0, coarseSize.x - 1), fineSize.x, coarseSize.x, left, t);
-    float w[6], v[6];
+    float w[6];
+    vec2 v[6];
     weightsOf(t, w);
-    for (int tap = 0; tap < 6; ++tap) v[tap] = region[at.y * kRegion.x + left - 2 + tap - from.x];
+    for (int tap = 0; tap < 6; ++tap)
+      v[tap] = vec2(region[at.y * kRegion.x + left - 2 + tap - from.x], 0.0);
     filteredRows[i] = filtered(v, w);
   }
   barrier();
@@ -109,13 +115,14 @@ void main() {
     int left;
     float ty;
     place(clamp(sampleAt.y, 0, coarseSize.y - 1), fineSize.y, coarseSize.y, left, ty);
-    float w[6], v[6];
+    float w[6];
+    vec2 v[6];
     weightsOf(ty, w);
     for (int tap = 0; tap < 6; ++tap) v[tap] = filteredRows[(left - 2 + tap - from.y) * kCoarse.x + at.x];
-    float value = filtered(v, w);
+    vec2 value = filtered(v, w);
     coarse[i] = value;
     if (all(greaterThanEqual(sampleAt, ownFirst)) && all(lessThan(sampleAt, ownEnd)))
-      imageStore(coarser, sampleAt, vec4(value));
+      imageStore(coarser, sampleAt, vec4(value.x + value.y));
   }
 #if BAND
   barrier();
@@ -130,10 +137,15 @@ void main() {
     float ty;
     place(y, coarseSize.y, fineSize.y, top, ty);
     int at = (top - first.y) * kCoarse.x + column;
-    float upper = coarse[at] + tx * (coarse[at + 1] - coarse[at]);
-    float lower = coarse[at + kCoarse.x] + tx * (coarse[at + kCoarse.x + 1] - coarse[at + kCoarse.x]);
     float value = region[(y - from.y) * kRegion.x + x - from.x];
-    imageStore(band, ivec2(x, y), vec4(value - (upper + ty * (lower - upper))));
+    float a = above(coarse[at], value), b = above(coarse[at + 1], value);
+    float c = above(coarse[at + kCoarse.x], value), d = above(coarse[at + kCoarse.x + 1], value);
+    float upper = a + tx * (b - a), lower = c + tx * (d - c);
+    float difference = -(upper + ty * (lower - upper));
+#if BAND == 16
+    difference = sign(difference) * sqrt(abs(difference));  // for the range of 16 bits
+#endif
+    imageStore(band, ivec2(x, y), vec4(difference));
   }
 #endif
 }

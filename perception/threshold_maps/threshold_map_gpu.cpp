@@ -19,6 +19,9 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
+/// Levels from 1 that 16 bits store as bands. The rest, a hundredth of all texels, is stored as it is in 32:
+/// the adaptation luminance beside a highlight is a small difference of large bands.
+constexpr int kHalfLevels = 2;
 constexpr float kLargestHalfCdM2 = 6e4F;
 // As the shader declares its shared memory.
 constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
@@ -90,6 +93,7 @@ const char* yes(bool value) { return value ? "1" : "0"; }
 struct ThresholdMapGpu::Programs {
   const gl::Program* first = nullptr;  ///< level 0 to level 1, or luminance
   const gl::Program* next = nullptr;   ///< one level to the next
+  const gl::Program* nextWithBand = nullptr;
   const gl::Program* evaluate = nullptr;
 };
 
@@ -113,7 +117,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     const glm::ivec2 half = halvedSize(sizePx);
     gaussian_.emplace(settings.half && settings.nineFetch ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
                       settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest);
-    if (laplacian && levels_ > 2) laplacian_.emplace(Format::R16F, half, levels_ - 2);
+    if (laplacian && levels_ > 2) laplacian_.emplace(Format::R16F, half, std::min(levels_ - 2, kHalfLevels));
     std::vector<glm::ivec2> patches = tilePatches(sizePx.x, kTilePx.x, levels_);
     const std::vector<glm::ivec2> rows = tilePatches(sizePx.y, kTilePx.y, levels_);
     for (size_t i = 0; i < patches.size(); ++i)
@@ -134,7 +138,8 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"LEVELS", std::to_string(levels_)},
               {"BANDS", std::to_string(model.bands())},
               {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
-              {"LAPLACIAN", yes(laplacian)},
+              {"LAPLACIAN", yes(laplacian && levels_ > 1)},
+              {"HALF_LEVELS", std::to_string(std::clamp(levels_ - 2, 0, kHalfLevels))},
               {"FINEST_LUMINANCE", yes(settings.nineFetch)},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
               {"MASKING", std::to_string(maskingModel)},
@@ -155,8 +160,10 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     programs_->first = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
                             {{"FROM_LEVEL", "0"}, {"BAND", settings.half ? "16" : "32"}});
     if (levels_ > 2)
-      programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
-                             {{"FROM_LEVEL", "1"}, {"BAND", settings.half ? "16" : "0"}});
+      programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "0"}});
+    if (laplacian_)
+      programs_->nextWithBand =
+          make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "16"}});
   }
   programs_->evaluate = &programs.compute(folder + "evaluate.comp.glsl", defines_);
 }
@@ -199,9 +206,11 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   gaussian_->bindTexture(0);
   for (int level = 1; level + 1 < levels_; ++level) {
     gaussian_->bindImage(0, Access::Write, level);
-    if (laplacian_) laplacian_->bindImage(1, Access::Write, level - 1);
-    programs_->next->set("sourceLevel", level - 1);
-    programs_->next->dispatch(size, kTilePx);
+    const bool band = laplacian_ && level <= laplacian_->levels();
+    if (band) laplacian_->bindImage(1, Access::Write, level - 1);
+    const gl::Program& program = band ? *programs_->nextWithBand : *programs_->next;
+    program.set("sourceLevel", level - 1);
+    program.dispatch(size, kTilePx);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     size = halvedSize(size);
   }
@@ -251,12 +260,12 @@ int64_t ThresholdMapGpu::bytesHeld() const {
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
-  // The input and the map once; what lies between is written and read again; a level that the next one is
-  // made of is read twice.
+  // The input and the map once; what lies between is written and read again: levels by the next one and by
+  // the evaluation, unless that reads bands in their place.
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
   if (settings_.nineFetch) bytes += finest_.bytes();
-  if (gaussian_) bytes += (laplacian_ ? 2 : 3) * gaussian_->bytes();
-  if (laplacian_) bytes += 2 * laplacian_->bytes();
+  if (gaussian_) bytes += 3 * gaussian_->bytes();
+  // Of levels that have bands, 32 bits are not read by the evaluation, 16 are written and read.
   return bytes;
 }
 

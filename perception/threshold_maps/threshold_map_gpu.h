@@ -23,8 +23,10 @@ namespace limen::perception {
 /// bits aside, which store luminance itself as the thesis does and lose faint contrasts). Luminances outside
 /// 1e-4 to 1e6 cd/m2 are read there from the tables. Source: Schwarz 2009, section 9.4.
 ///
-/// In 16 bits not luminances are stored but the Laplacian bands, and the coarsest level in 32: contrasts are
-/// differences of luminances, and of 16-bit luminances a contrast of 5e-4 is all rounding.
+/// In 16 bits not luminances are stored but bands (differences of levels, as signed square roots) of levels 0
+/// to 2, and the levels from 3 on, a hundredth of all texels, in 32: contrasts are differences of luminances,
+/// and of 16-bit luminances a contrast of 5e-4 is all rounding. Rendered levels 1 and 2 exist in 32 bits
+/// beside their bands while the pyramid is built.
 class ThresholdMapGpu {
  public:
   /// Allocates and compiles for inputs of one format: colour (RGBA, linear, relative to `display`) or

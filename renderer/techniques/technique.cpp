@@ -9,6 +9,8 @@ std::string toText(ProductKind kind) {
       return "visibility";
     case ProductKind::Colour:
       return "colour";
+    case ProductKind::Threshold:
+      return "threshold";
   }
   return {};
 }

@@ -18,7 +18,8 @@ namespace limen::techniques {
 enum class ProductKind {
   Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
                ///< receivers
-  Colour       ///< RGBA32F, linear radiance, alpha 1
+  Colour,      ///< RGBA32F, linear radiance, alpha 1
+  Threshold    ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
 };
 std::string toText(ProductKind kind);
 

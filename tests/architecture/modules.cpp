@@ -16,7 +16,7 @@ const std::vector<Module>& modules() {
        {"base", "renderer/gl", "renderer/scene", "renderer/frame", "perception"},
        true},
       {"renderer/references",
-       {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques"},
+       {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques", "perception"},
        true},
       // The viewer, and whatever else lies in no folder above.
       {"renderer",

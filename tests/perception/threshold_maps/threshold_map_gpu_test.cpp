@@ -69,7 +69,6 @@ TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceForEverySetting) {
       {{"adaptation", text("fractional_level")}, {"f_rule", text("none")}, {"gain_compensation", true}},
       {{"adaptation", text("level")}, {"adaptation_level", int64_t{0}}, {"f_low", text("one")}},
       {{"masking", text("none")}, {"csf", text("barten03")}, {"tvi", text("from_csf")}},
-      {{"masking", text("lubin")}, {"tvi", text("ward_smoothed")}},
       {{"masking", text("self")}},
       {{"masking", text("schwarz")}, {"tvi_factor", 1.0}},
       {{"lookup", text("direct")}},

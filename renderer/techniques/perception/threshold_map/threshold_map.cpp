@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Threshold map of the shaded frame (SP-29 to SP-34): for each pixel the luminance increment that stays
+// invisible. Source: Schwarz 2009, section 9.4, in compute. Departures, each a parameter where it changes the
+// map: the kernel is the binomial one, which the thesis leaves open; the adaptation luminance is blended of
+// two levels so that it is a mean over one degree, where the nearest level's pixels are only about a degree
+// apart; what is flat has an elevation of 1 by a small contrast added; the stack exists for a tile at a time;
+// 16 bits store bands in place of luminances.
+#include <optional>
+
+#include "perception/threshold_maps/threshold_map_gpu.h"
+#include "perception/threshold_maps/viewing.h"
+#include "renderer/frame/shaded.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+namespace {
+
+class ThresholdMapTechnique : public Technique {
+ public:
+  explicit ThresholdMapTechnique(const ParameterValues& values)
+      : settings_(perception::thresholdMapSettings(values)),
+        display_(perception::viewingDisplay(values)),
+        shaded_(frame::ShadedSetting::from(values)) {}
+
+  void prepare(frame::Frame& frame) override {
+    map_.emplace(frame.context(), frame.sizePx(), display_, settings_);
+    frame.passes().setBytesHeld("threshold_map/levels", map_->bytesHeld());
+  }
+
+  void render(frame::Frame& frame) override {
+    map_->run(frame.get<frame::Shaded>(shaded_).texture(), &frame.passes());
+  }
+
+  const gl::Texture& product() const override { return map_->map(); }
+  std::map<std::string, const gl::Texture*> debugViews() const override { return map_->debugViews(); }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    const auto bytes = static_cast<double>(map_->bytesMoved(frame.get<frame::Shaded>(shaded_).texture()));
+    const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
+    return {{"bytes_moved_per_px", bytes / pixels, "byte", true},
+            {"gaussian_levels", static_cast<double>(map_->levels()), "", false},
+            {"pixels_per_degree", display_.pixelsPerDegree(), "px/deg", false}};
+  }
+
+ private:
+  perception::ThresholdMapSettings settings_;
+  perception::DisplayProfile display_;
+  frame::ShadedSetting shaded_;
+  std::optional<perception::ThresholdMapGpu> map_;
+};
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> out;
+  for (const auto& group : {perception::thresholdMapGpuParameters(), perception::thresholdMapParameters(),
+                            perception::viewingParameters(), frame::ShadedSetting::parameters()})
+    out.insert(out.end(), group.begin(), group.end());
+  return out;
+}
+
+const Registered<TechniqueInfo> kRegistered{
+    {.name = "perception/threshold_map",
+     .version = 1,
+     .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",
+     .source = "Schwarz 2009, section 9.4 (SP-30, SP-31)",
+     .product = ProductKind::Threshold,
+     .parameters = parameters(),
+     .needs = {},
+     .reference = false,
+     .onCpu = false,
+     .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapTechnique>(values); },
+     .errorBound = {}}};
+
+}  // namespace
+}  // namespace limen::techniques
