@@ -3,6 +3,9 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
@@ -93,8 +96,14 @@ void Shaded::make(Frame& frame) {
   const scene::Camera& seenBy =
       setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
   program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
-  if (lit_)
+  if (lit_) {
+    // Seen from the scene's middle: apertures belong to a light that is far away.
+    const scene::AreaLight& light = frame.scene().lights[0];
+    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
+    program_.set("sunRadius",
+                 static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
     program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
+  }
   if (map) {
     const LightFrustum& frustum = map->frustum();
     program_.set("tangentLow", glm::vec2(frustum.low));

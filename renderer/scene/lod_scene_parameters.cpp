@@ -17,7 +17,7 @@ void setRide(Scene& scene, const Ride& ride) {
     setStillCamera(scene, from);
     return;
   }
-  glm::dvec3 velocity = -ride.speed * ride.back;
+  glm::dvec3 velocity = ride.speed * (ride.forward == glm::dvec3(0.0) ? -ride.back : ride.forward);
   double duration = ride.durationS;
   if (ride.motion == "horizontal")
     velocity = ride.speed * glm::normalize(glm::cross(from.up, ride.back));

@@ -85,7 +85,7 @@ Scene stage(const LodSet& set, const ParameterValues& values) {
                  switchDistances(values, set.levels.size()));
   }
   const glm::dvec3 middle = scene.lodObjects[0].bounds.centre();
-  scene.lights = {lightTowards(middle + glm::dvec3(-40.0, 80.0, 60.0), middle, glm::dvec2(4.0))};
+  scene.lights = {lightTowards(middle + glm::dvec3(-60.0, 70.0, 35.0), middle, glm::dvec2(4.0))};
   Ride ride = rideOf(values);
   ride.target = middle;
   ride.back = orbitCamera(glm::dvec3(0.0), 1.0, 0.0, 8.0).eye;
