@@ -81,19 +81,21 @@ class LodSwitch : public Technique {
   std::optional<gl::Texture> disocclusion_, flicker_;
 };
 
-const Registered<TechniqueInfo> kRegistered{
-    {.name = "popping/lod_switch",
-     .version = 1,
-     .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
-     .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
-     .product = ProductKind::JndMap,
-     .parameters = SwitchSetting::parameters(),
-     .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<LodSwitch>(values); },
-     .errorBound = {},
-     .counters = switchFigureNames()}};
+const RegisteredLater<TechniqueInfo> kRegistered{[] {
+  return TechniqueInfo{
+      .name = "popping/lod_switch",
+      .version = 1,
+      .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
+      .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
+      .product = ProductKind::JndMap,
+      .parameters = SwitchSetting::parameters(),
+      .needs = {"lod_sets"},
+      .reference = false,
+      .onCpu = false,
+      .make = [](const ParameterValues& values) { return std::make_unique<LodSwitch>(values); },
+      .errorBound = {},
+      .counters = switchFigureNames()};
+}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -50,19 +50,21 @@ class LodSwitchReference : public Technique {
   perception::PoppingResult result_;
 };
 
-const Registered<TechniqueInfo> kRegistered{
-    {.name = "popping/lod_switch_reference",
-     .version = 1,
-     .summary = "Popping predictor in double precision on the frames of one object's change of level",
-     .source = "Schwarz 2009, chapter 10 (SP-51)",
-     .product = ProductKind::JndMap,
-     .parameters = SwitchSetting::parameters(),
-     .needs = {"lod_sets"},
-     .reference = true,
-     .onCpu = true,
-     .make = [](const ParameterValues& values) { return std::make_unique<LodSwitchReference>(values); },
-     .errorBound = {},
-     .counters = switchFigureNames()}};
+const RegisteredLater<TechniqueInfo> kRegistered{[] {
+  return TechniqueInfo{
+      .name = "popping/lod_switch_reference",
+      .version = 1,
+      .summary = "Popping predictor in double precision on the frames of one object's change of level",
+      .source = "Schwarz 2009, chapter 10 (SP-51)",
+      .product = ProductKind::JndMap,
+      .parameters = SwitchSetting::parameters(),
+      .needs = {"lod_sets"},
+      .reference = true,
+      .onCpu = true,
+      .make = [](const ParameterValues& values) { return std::make_unique<LodSwitchReference>(values); },
+      .errorBound = {},
+      .counters = switchFigureNames()};
+}};
 
 }  // namespace
 }  // namespace limen::techniques
