@@ -142,7 +142,7 @@ constexpr Preset kPresets[] = {
      TransferCurve::Srgb,
      2.2,
      60.0,
-     "OLED phone of 460 pixels an inch held at 30 cm indoors"},
+     "OLED phone of 457 pixels an inch held at 30 cm indoors"},
     {"projector",
      {1920, 1080},
      100.0,

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vision_vectors.h"
 
+#include <numbers>
+
+#include "perception/multiscale/band_peaks.h"
+#include "perception/popping/regions.h"
 #include "perception/vision/adaptation.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/csf.h"
@@ -109,6 +113,12 @@ const std::map<std::string, VectorFunction>& vectorFunctions() {
       {"hunt_b",
        [](const Arguments& x) {
          return opponentFromLms({x[0], x[1], x[2]}).z;
+       }},
+      {"rating_R", [](const Arguments& x) { return poppingRating(x[0], PoppingSettings()); }},
+      {"band_gain",
+       [](const Arguments& x) {
+         return bandTransfer(x[0] == 4.0 ? Kernel::binomial5() : Kernel::fused6(), Upsampler::Successive,
+                             PeakModel::NoUpsample, static_cast<int>(x[1]), 2.0 * std::numbers::pi * x[2]);
        }},
       {"dE94",
        [](const Arguments& x) {
