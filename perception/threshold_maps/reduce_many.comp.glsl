@@ -4,7 +4,7 @@
 // its tile it makes too, so that groups need not wait for one another. Numbers are those of reduce.comp.glsl.
 #include "perception/threshold_maps/common.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = THREADS) in;
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 0, r32f) uniform writeonly image2D coarser1;
 #if STEPS > 1
@@ -14,8 +14,9 @@ layout(binding = 1, r32f) uniform writeonly image2D coarser2;
 layout(binding = 2, r32f) uniform writeonly image2D coarser3;
 #endif
 uniform int sourceLevel;
+uniform ivec2 downward[STEPS];  // first entries in Places: coarser samples on the finer level, by step
 
-const ivec2 kTile = ivec2(64, 32);
+const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 // Most samples of the next levels that a tile needs: 2 n + 5 of each finer one.
 const ivec2 kMost1 = ivec2(51, 35), kMost2 = ivec2(23, 15);
 shared float filteredRows[kMost1.x * (2 * kMost1.y + 5)];
@@ -104,10 +105,11 @@ void main() {
     Range rows = neededFor(coarse, coarseSize, fineSize);
     ivec2 count = coarse.end - coarse.first;
     int rowCount = rows.end.y - rows.first.y;
-    for (int i = thread; i < count.x * rowCount; i += 256) {
-      int x = i % count.x, y = rows.first.y + i / count.x, left;
-      float t;
-      place(coarse.first.x + x, fineSize.x, coarseSize.x, left, t);
+    for (int i = thread; i < count.x * rowCount; i += THREADS) {
+      int x = i % count.x, y = rows.first.y + i / count.x;
+      vec2 at = places[downward[step - 1].x + coarse.first.x + x];
+      int left = int(at.x);
+      float t = at.y;
       float middle = fineValue(step, ivec2(borderIndex(left, fineSize.x), y), fine), sum = 0.0;
       for (int tap = 0; tap < 6; ++tap)
         sum += weightOf(tap, t) *
@@ -115,11 +117,11 @@ void main() {
       filteredRows[(y - rows.first.y) * kMost1.x + x] = middle + sum;
     }
     barrier();
-    for (int i = thread; i < count.x * count.y; i += 256) {
+    for (int i = thread; i < count.x * count.y; i += THREADS) {
       ivec2 at = ivec2(i % count.x, i / count.x), sampleAt = coarse.first + at;
-      int left;
-      float t;
-      place(sampleAt.y, fineSize.y, coarseSize.y, left, t);
+      vec2 placed = places[downward[step - 1].y + sampleAt.y];
+      int left = int(placed.x);
+      float t = placed.y;
       float middle = filteredRows[(borderIndex(left, fineSize.y) - rows.first.y) * kMost1.x + at.x], sum = 0.0;
       for (int tap = 0; tap < 6; ++tap) {
         int row = borderIndex(left - 2 + tap, fineSize.y) - rows.first.y;

@@ -19,6 +19,8 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
+/// Invocations of a group that makes a tile; on an H200 faster than smaller groups, whose tiles overlap more.
+constexpr int kInvocations = 512;
 /// Levels up to this size are made several at a time: a pass costs some 2 us to start, and making twice the
 /// samples that are needed costs less.
 constexpr int64_t kSmallLevelPx = 600'000;
@@ -27,6 +29,12 @@ constexpr float kLargestHalfCdM2 = 6e4F;
 // As the shader declares its shared memory.
 constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
 constexpr std::array<int, 8> kMostRows{18, 11, 7, 5, 4, 4, 4, 4};
+
+constexpr std::array<const char*, 9> kUpwardNames{"upward[0]", "upward[1]", "upward[2]",
+                                                  "upward[3]", "upward[4]", "upward[5]",
+                                                  "upward[6]", "upward[7]", "upward[8]"};
+
+constexpr std::array<const char*, kMostSteps> kDownwardNames{"downward[0]", "downward[1]", "downward[2]"};
 
 /// The uniform block, std140.
 struct RunBlock {
@@ -131,10 +139,15 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
       assert(rows[i].y <= kMostRows[i % static_cast<size_t>(levels_ - 1)]);
     patches.insert(patches.end(), rows.begin(), rows.end());
     patches_.emplace(patches);
+    LevelPlaces places = levelPlaces(sizePx, levels_);
+    places_.emplace(places.places);
+    upward_ = std::move(places.upward);
+    downward_ = std::move(places.downward);
   }
   const RunBlock block = runBlock(settings, model, display);
   run_.emplace(int64_t{sizeof block}, &block);
   tables_.emplace(thresholdTables(model));
+  elevations_.emplace(elevationTable(model));
 
   const int maskingModel = maskingConstants(settings.masking).first;
   defines_ = {{"COLOUR", yes(colourInput)},
@@ -149,10 +162,16 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(settings.flatSmooth)},
               {"DIRECT", yes(settings.direct)},
+              {"TILE_X", std::to_string(kTilePx.x)},
+              {"TILE_Y", std::to_string(kTilePx.y)},
+              {"THREADS", std::to_string(kInvocations)},
               {"STAGES", "0"}};
   const std::string folder = "perception/threshold_maps/";
   gl::ProgramCache& programs = context.programs();
   const auto make = [&](const std::string& file, std::vector<const char*> names, gl::ShaderDefines extra) {
+    extra["TILE_X"] = std::to_string(kTilePx.x);
+    extra["TILE_Y"] = std::to_string(kTilePx.y);
+    extra["THREADS"] = std::to_string(kInvocations);
     for (const char* name : names) extra[name] = defines_.at(name);
     return &programs.compute(folder + file, extra);
   };
@@ -184,7 +203,11 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   run_->bindUniform(0);
   tables_->bindStorage(0);
-  if (patches_) patches_->bindStorage(1);
+  elevations_->bindStorage(3);
+  if (patches_) {
+    patches_->bindStorage(1);
+    places_->bindStorage(2);
+  }
   const auto timed = [&](const char* name, const auto& work) {
     if (!passes) return work();
     const gl::PassList::Scope scope = passes->open(name);
@@ -202,6 +225,13 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   input.bindTexture(0);
   finest_.bindImage(1, Access::Write);
   gaussian_->bindImage(0, Access::Write, 0);
+  // Programs of one step take one pair of levels, those of several steps what is downward of each.
+  const auto setPlaces = [&](const gl::Program& program, size_t level, int steps) {
+    program.set("upward[0]", upward_[level]);
+    for (size_t step = 0; step < static_cast<size_t>(steps); ++step)
+      program.set(kDownwardNames.at(step), downward_[level + step]);
+  };
+  setPlaces(*programs_->first, 0, 1);
   programs_->first->dispatch(sizePx_, kTilePx);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   gaussian_->bindTexture(0);
@@ -215,6 +245,7 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
     const gl::Program& program =
         wanted > 1 ? *programs_->many[static_cast<size_t>(steps - 1)] : *programs_->next;
     program.set("sourceLevel", level - 1);
+    setPlaces(program, static_cast<size_t>(level), steps);
     program.dispatch(size, kTilePx);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     for (int step = 0; step < steps; ++step) size = halvedSize(size);
@@ -245,6 +276,8 @@ void ThresholdMapGpu::evaluate() {
   threshold_.bindImage(0, Access::Write);
   if (stages_) stages_->bindImage(1, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
+  for (size_t level = 0; level < upward_.size(); ++level)
+    programs_->evaluate->set(kUpwardNames.at(level), upward_[level]);
   programs_->evaluate->dispatch(sizePx_, kTilePx);
 }
 
@@ -257,10 +290,11 @@ std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
 }
 
 int64_t ThresholdMapGpu::bytesHeld() const {
-  int64_t bytes = threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes();
+  int64_t bytes =
+      threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes() + elevations_->bytes();
   for (const auto* texture : {&gaussian_, &stages_})
     if (*texture) bytes += (*texture)->bytes();
-  return bytes + (patches_ ? patches_->bytes() : 0);
+  return bytes + (patches_ ? patches_->bytes() + places_->bytes() : 0);
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
