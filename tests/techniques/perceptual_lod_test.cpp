@@ -206,6 +206,22 @@ TEST_F(PerceptualLodTest, WithoutWaitingResultsAreUsedOnceTheyAreThere) {
   }
 }
 
+TEST_F(PerceptualLodTest, FramesInFlightKeepTheirOwnObjects) {
+  // All objects stay finest (nothing is below delta_l = 0), so no test may find a difference, although
+  // several frames with other objects under test are under way at a time.
+  const scene::Scene scene = makeScene("lod/field", {{"rows", int64_t{4}}, {"columns", int64_t{3}}});
+  Bench bench(scene, settings({{"delta_l", 0.0}, {"latency_frames", int64_t{6}}}), {320, 240});
+  int tests = 0;
+  for (int i = 0; i < 16; ++i) {
+    bench.run(1);
+    for (const LevelTest& test : bench.pipeline.taken()) {
+      EXPECT_EQ(test.visiblePx, 0U) << "object " << test.object;
+      ++tests;
+    }
+  }
+  EXPECT_GT(tests, 10);
+}
+
 TEST_F(PerceptualLodTest, UnseenObjectsKeepTheirLevel) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, growingSquares(), {0.0, 0.0, -3.0}, 0.8F);  // behind the wall
