@@ -57,7 +57,7 @@ std::vector<Parameter> parameters() {
       integerParameter("factor_fine", 9, 1, 64, "", "Tessellation factor of the finest level", kSource),
       integerParameter("factor_middle", 3, 1, 64, "", "Tessellation factor of the second level", kSource),
       integerParameter("factor_coarse", 2, 1, 64, "", "Tessellation factor of the coarsest level", kSource),
-      realParameter("tip_height", 1.6, 0.1, 4.0, "world units", "Height of the middle control points",
+      realParameter("tip_height", 2.2, 0.1, 4.0, "world units", "Height of the middle control points",
                     "reconstructed; the patch is 1 wide"),
       realParameter("pinch", 0.35, 0.05, 1.0, "",
                     "Middle control points' distance from the middle, as a share of an even net's",
