@@ -13,15 +13,17 @@ namespace limen::perception {
 
 struct ThresholdMapSettings {
   enum class Decomposition {
-    Stack,     ///< pyramid whose levels are brought up one level at a time (section 9.4)
-    Pyramid,   ///< pyramid sampled directly: faster, blocky
-    TrueStack  ///< Gaussians of doubling sigma at full resolution: what both stand for (CPU only)
+    Stack,      ///< pyramid whose levels are brought up one level at a time (section 9.4)
+    Pyramid,    ///< pyramid sampled directly: faster, blocky
+    TrueStack,  ///< Gaussians of doubling sigma at full resolution: what both stand for (CPU only)
+    Repeated    ///< a published mistake (section 9.6): one small kernel applied again and again (CPU only)
   };
   enum class Adaptation {
     OneDegree,        ///< mean over one degree: the two levels that enclose it, blended
     NearestLevel,     ///< level round(lg2 ppd), whose pixels are about a degree apart
     FractionalLevel,  ///< levels around lg2 ppd, blended
-    Level             ///< level `adaptationLevel`; 0: each pixel adapts to itself
+    Level,            ///< level `adaptationLevel`; 0: each pixel adapts to itself
+    MistakenDegree    ///< a published mistake (section 9.6): a count of degrees taken for pixels (CPU only)
   };
   enum class FrequencyRule {
     Original,  ///< at `fLuminanceCdM2`
@@ -53,8 +55,9 @@ struct ThresholdMapSettings {
   double contrastEpsilonCdM2 = 1e-4;
   double largestCdM2 = 6e4;
   // GPU only:
-  bool half = false;    ///< intermediate results in 16 bits in place of 32
-  bool direct = false;  ///< CSF computed per pixel in place of read from tables
+  bool half = false;      ///< intermediate results in 16 bits in place of 32
+  int levelsPerPass = 0;  ///< of the pyramid, from level 1; 0: one for large levels, three for small ones
+  bool direct = false;    ///< CSF computed per pixel in place of read from tables
 
   /// Five taps and how they are applied.
   Kernel kernel() const;
@@ -63,7 +66,7 @@ struct ThresholdMapSettings {
 
 /// Declarations of the above, those of the GPU aside.
 std::vector<Parameter> thresholdMapParameters();
-/// `precision` (16 or 32 bits) and `lookup` (tables or direct).
+/// `precision` (16 or 32 bits), `lookup` (tables or direct) and `levels_per_pass`.
 std::vector<Parameter> thresholdMapGpuParameters();
 /// Values of thresholdMapParameters(), and of thresholdMapGpuParameters() where given.
 ThresholdMapSettings thresholdMapSettings(const ParameterValues& values);
