@@ -96,7 +96,7 @@ MetricResult measureBlocks(const ComparisonInput& input, const ParameterValues& 
     plane.data[i] = std::isfinite(value) ? value : 0.0;
   }
   MetricResult result;
-  result.value = blockMetric(plane, static_cast<int>(values.integer("level"))).ratio();
+  result.value = blockMetric(plane, static_cast<int>(values.integer("level"))).medianRatio();
   result.judgedPixels = static_cast<int64_t>(test.pixels());
   return result;
 }
@@ -117,8 +117,8 @@ MetricInfo blocksMetric() {
   MetricInfo info;
   info.name = "block_artifacts";
   info.summary =
-      "second differences on the grid of a pyramid level over those beside it (RMS, first channel); 1: no "
-      "grid. Exact where the size is a multiple of 2^level";
+      "median second difference on the grid of a pyramid level over that beside it (first channel); 1: no "
+      "grid. For sizes that are multiples of 2^level";
   info.source = "Schwarz 2009, section 9.4, figure 9.6";
   info.needsReference = false;
   info.parameters = {integerParameter("level", 3, 1, 8, "", "pyramid level; its texels span 2^level pixels")};

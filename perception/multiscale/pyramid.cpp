@@ -37,6 +37,19 @@ int64_t divide(const Plane& minuend, const Plane& subtrahend, const Plane& denom
   return guarded;
 }
 
+double rootMeanSquare(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 int mostLevels(int width, int height) {
@@ -180,12 +193,9 @@ BlockMetric blockMetric(const Plane& image, int level, bool cosited) {
     const int phase = x % period;
     return cosited ? phase == 0 : phase == period / 2 || phase == (period / 2 + period - 1) % period;
   };
-  double on = 0.0, off = 0.0;
-  int64_t countOn = 0, countOff = 0;
+  std::vector<double> on, off;
   const auto add = [&](bool grid, double a, double b, double c) {
-    const double second = a - 2.0 * b + c;
-    (grid ? on : off) += second * second;
-    ++(grid ? countOn : countOff);
+    (grid ? on : off).push_back(std::abs(a - 2.0 * b + c));
   };
   for (int y = 0; y < image.height; ++y)
     for (int x = 1; x + 1 < image.width; ++x)
@@ -194,8 +204,10 @@ BlockMetric blockMetric(const Plane& image, int level, bool cosited) {
     for (int x = 0; x < image.width; ++x)
       add(onGrid(y), image.at(x, y - 1), image.at(x, y), image.at(x, y + 1));
   BlockMetric out;
-  if (countOn > 0) out.onGrid = std::sqrt(on / static_cast<double>(countOn));
-  if (countOff > 0) out.offGrid = std::sqrt(off / static_cast<double>(countOff));
+  out.onGrid = rootMeanSquare(on);
+  out.offGrid = rootMeanSquare(off);
+  out.onGridMedian = median(on);
+  out.offGridMedian = median(off);
   return out;
 }
 

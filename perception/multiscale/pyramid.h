@@ -64,8 +64,14 @@ Plane finiteNonNegative(const Plane& image, double largest);
 /// pixels beside the grid's lines, and of the others. Bilinear upsampling by 2^level kinks on the centres of
 /// coarse pixels (or, cosited, on multiples of 2^level).
 struct BlockMetric {
-  double onGrid = 0.0, offGrid = 0.0;
-  double ratio() const { return offGrid > 0.0 ? onGrid / offGrid : onGrid > 0.0 ? 1e9 : 1.0; }
+  double onGrid = 0.0, offGrid = 0.0;  ///< RMS
+  double onGridMedian = 0.0,
+         offGridMedian = 0.0;  ///< of magnitudes: edges of the image do not drown the grid
+  double ratio() const { return over(onGrid, offGrid); }
+  double medianRatio() const { return over(onGridMedian, offGridMedian); }
+
+ private:
+  static double over(double on, double off) { return off > 0.0 ? on / off : on > 0.0 ? 1e9 : 1.0; }
 };
 BlockMetric blockMetric(const Plane& image, int level, bool cosited = false);
 

@@ -8,6 +8,10 @@ layout(std140, binding = 0) uniform Run {
   vec4 bands[7]; // frequency [cpd], 1 / gain, F where it is constant else 0, 1 where F is held to 1
 } run;
 
+// Where samples lie on another level, as (left, t): at left + t of its axis. For each pair of neighbouring levels
+// the finer one's columns and rows on the coarser one, then the coarser one's on the finer one.
+layout(std430, binding = 2) readonly buffer Places { vec2 places[]; };
+
 // Luminance [cd/m2], finite. Comparisons are false for NaN.
 float finiteLuminance(float y) { return y > 0.0 ? min(y, run.light.z) : 0.0; }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last pass: thresholds from band 0 and the coarser levels. Each group makes a tile of the map. It loads
 // the coarser samples around its tile to shared memory; for a stack it brings them up there, one level at a time,
-// to level 1, so that the stack exists for a tile only. In 16 bits (LAPLACIAN) the first HALF_LEVELS levels are
-// stored as bands, which are added up first: what is small is then stored with its own precision.
+// to level 1, so that the stack exists for a tile only. Band 0 is all that a pixel is
+// read for; in 16 bits (HALF) it is stored as a signed square root.
 #include "perception/threshold_maps/common.glsl"
 #include "perception/threshold_maps/model.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = THREADS) in;
 layout(binding = 0) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
 layout(binding = 1) uniform sampler2D gaussian;   // levels from 1
-layout(binding = 2) uniform sampler2D laplacian;  // bands from 1
 layout(binding = 0, r32f) uniform writeonly image2D threshold;
 #if STAGES
 layout(binding = 1, rg32f) uniform writeonly image2D stages;
@@ -17,9 +16,10 @@ layout(binding = 1, rg32f) uniform writeonly image2D stages;
 // For each tile column, then each tile row: first sample and count at each level from 1.
 layout(std430, binding = 1) readonly buffer Patches { ivec2 patches[]; };
 uniform int tileColumns;
+uniform ivec2 upward[max(LEVELS - 1, 1)];  // first entries in Places of level i on level i + 1: columns, rows
 
-const ivec2 kTile = ivec2(64, 32);
-const int kRun = 8;  // pixels of an invocation, one below the other
+const ivec2 kTile = ivec2(TILE_X, TILE_Y);
+const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
 const int kPlanes = LEVELS - 1;
 
 #if LEVELS > 1
@@ -34,8 +34,8 @@ shared float atEven[max(kPlanes - 1, 1) * kCoarserPlaneSize];  // at level 2, 4 
 // One behind the other; shared memory for all that there may be.
 const int kStart[8] = int[8](0, 612, 821, 898, 933, 953, 969, 985);
 shared float level[1001];
-shared int rowLeft[kPlanes * kTile.y];
-shared float rowRest[kPlanes * kTile.y];
+shared int rowLeft[kPlanes * kTile.y], columnLeft[kPlanes * kTile.x];
+shared float rowRest[kPlanes * kTile.y], columnRest[kPlanes * kTile.x];
 #endif
 
 ivec2 originOf(int i) {
@@ -47,21 +47,12 @@ ivec2 countOf(int i) {
                patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
 }
 
-// Bands in 16 bits are stored as their signed square root.
 float decoded(float code) {
-#if LAPLACIAN
+#if HALF && !FINEST_LUMINANCE
   return code * abs(code);
 #else
   return code;
 #endif
-}
-
-// Stored value of level i at a sample: the level itself, or (LAPLACIAN) its band.
-float stored(int i, ivec2 at) {
-#if LAPLACIAN
-  if (i <= HALF_LEVELS) return decoded(texelFetch(laplacian, at, i - 1).r);
-#endif
-  return texelFetch(gaussian, at, i - 1).r;
 }
 
 float between(float a, float b, float c, float d, vec2 t) {
@@ -70,121 +61,105 @@ float between(float a, float b, float c, float d, vec2 t) {
 }
 #endif
 
-// Threshold of one pixel; `gathered`: levels 1 ... there.
-void finish(ivec2 at, float finestValue, float gathered[max(kPlanes, 1)]) {
-  float c[BANDS + 1];
+// Contrasts of one pixel, and (return) its adaptation luminance; `gathered`: levels 1 ... there.
+float contrastsOf(float finestValue, float gathered[max(kPlanes, 1)], out float c[BANDS + 1]) {
   c[BANDS] = 0.0;
 #if LEVELS == 1
-  float adaptation = finestValue;
+  return finestValue;
 #else
 #if FINEST_LUMINANCE
   float band0 = finestValue - gathered[0], luminance = finestValue;
 #else
   float band0 = finestValue, luminance = finestValue + gathered[0];
 #endif
-  float near = ADAPTATION_LEVEL == 0 ? luminance : gathered[max(ADAPTATION_LEVEL - 1, 0)];
-  float far = gathered[min(ADAPTATION_LEVEL, kPlanes - 1)];
-  float adaptation = max(near + run.rule.x * (far - near), 0.0);
   for (int i = 0; i < BANDS; ++i) {
     float difference = i == 0 ? band0 : gathered[max(i - 1, 0)] - gathered[i];
     c[i] = abs(difference) / max(gathered[i + 1], run.light.w) * run.bands[i].y;
   }
-#endif
-  vec2 judged = judge(c, adaptation);
-  imageStore(threshold, at, vec4(run.rule.z * judged.y * judged.x));
-#if STAGES
-  imageStore(stages, at, vec4(adaptation, judged.x, 0.0, 0.0));
+  float near = ADAPTATION_LEVEL == 0 ? luminance : gathered[max(ADAPTATION_LEVEL - 1, 0)];
+  float far = gathered[min(ADAPTATION_LEVEL, kPlanes - 1)];
+  return max(near + run.rule.x * (far - near), 0.0);
 #endif
 }
 
 #if LEVELS > 1
 #if STACK
+// Slot 0 and on of an invocation's samples: level 1 has more of them than there are invocations.
+const int kFirstSlots = (34 * 18 + THREADS - 1) / THREADS;
+const int kSlots = kFirstSlots + kPlanes - 1;
+int levelOf(int slot) { return max(slot - kFirstSlots + 2, 1); }
+
 void loadStack(int thread) {
-  // Coarsest level.
-  {
-    ivec2 origin = originOf(kPlanes), count = countOf(kPlanes), size = textureSize(gaussian, kPlanes - 1);
-    const int stride = kWidth[kPlanes - 1];
-    for (int i = thread; i < stride * count.y; i += 256) {
-      ivec2 at = ivec2(i % stride, i / stride);
-      if (at.x >= count.x) continue;
-      float value = stored(kPlanes, clamp(origin + at, ivec2(0), size - 1));
-      if (kPlanes % 2 == 1)
-        atOdd[i] = value;
-      else
-        atEven[i] = value;
+  // All samples and where they lie on the coarser level are under way before the first is used.
+  float own[kSlots];
+  vec2 t[kSlots];
+  int from[kSlots], to[kSlots];  // -1: no sample
+  for (int slot = 0; slot < kSlots; ++slot) {
+    int i = levelOf(slot), p = thread + (slot < kFirstSlots ? slot * THREADS : 0), stride = kWidth[i - 1];
+    ivec2 at = ivec2(p % stride, p / stride), origin = originOf(i);
+    to[slot] = all(lessThan(at, countOf(i))) ? p : -1;
+    ivec2 sampleAt = clamp(origin + at, ivec2(0), textureSize(gaussian, i - 1) - 1);
+    own[slot] = texelFetch(gaussian, sampleAt, i - 1).r;
+    t[slot] = vec2(0.0);
+    from[slot] = 0;
+    if (i < kPlanes) {
+      vec2 placeX = places[upward[i].x + sampleAt.x], placeY = places[upward[i].y + sampleAt.y];
+      ivec2 below = originOf(i + 1);
+      t[slot] = vec2(placeX.y, placeY.y);
+      from[slot] = (int(placeY.x) - below.y) * kWidth[i] + int(placeX.x) - below.x;
     }
   }
-  barrier();
   // From level i + 1 to level i; plane 0 is the coarsest level, the finer ones follow.
-  for (int i = kPlanes - 1; i >= 1; --i) {
-    ivec2 origin = originOf(i), count = countOf(i), size = textureSize(gaussian, i - 1);
-    ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i);
-    int stride = kWidth[i - 1], belowStride = kWidth[i], planes = kPlanes - i;
-    for (int p = thread; p < stride * count.y; p += 256) {
-      ivec2 at = ivec2(p % stride, p / stride);
-      if (at.x >= count.x) continue;
-      ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1), left;
-      vec2 t;
-      place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
-      place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
-      int from = (left.y - below.y) * belowStride + left.x - below.x;
-      float own = stored(i, sampleAt), value = 0.0;
+  for (int i = kPlanes; i >= 1; --i) {
+    const int stride = kWidth[min(i, 7)];
+    int planes = kPlanes - i;
+    for (int slot = (i == 1 ? 0 : kFirstSlots + i - 2); slot <= kFirstSlots + i - 2; ++slot) {
+      int p = to[slot], q = from[slot];
+      if (p < 0) continue;
       for (int plane = 0; plane < planes; ++plane) {
         if (i % 2 == 1) {
-          int q = plane * kCoarserPlaneSize + from;
-          value = between(atEven[q], atEven[q + 1], atEven[q + belowStride], atEven[q + belowStride + 1], t);
-          atOdd[plane * kPlaneSize + p] = value;
+          atOdd[plane * kPlaneSize + p] =
+              between(atEven[q], atEven[q + 1], atEven[q + stride], atEven[q + stride + 1], t[slot]);
+          q += kCoarserPlaneSize;
         } else {
-          int q = plane * kPlaneSize + from;
-          value = between(atOdd[q], atOdd[q + 1], atOdd[q + belowStride], atOdd[q + belowStride + 1], t);
-          atEven[plane * kCoarserPlaneSize + p] = value;
+          atEven[plane * kCoarserPlaneSize + p] =
+              between(atOdd[q], atOdd[q + 1], atOdd[q + stride], atOdd[q + stride + 1], t[slot]);
+          q += kPlaneSize;
         }
       }
-#if LAPLACIAN
-      if (i <= HALF_LEVELS) own += value;  // the last plane is level i + 1
-#endif
       if (i % 2 == 1)
-        atOdd[planes * kPlaneSize + p] = own;
+        atOdd[planes * kPlaneSize + p] = own[slot];
       else
-        atEven[planes * kCoarserPlaneSize + p] = own;
+        atEven[planes * kCoarserPlaneSize + p] = own[slot];
     }
     barrier();
   }
 }
 #else
 void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
-#if LAPLACIAN
-  for (int i = kPlanes; i >= 1; --i) {
-    if (i <= HALF_LEVELS) barrier();
-#else
   for (int i = 1; i <= kPlanes; ++i) {
-#endif
     ivec2 origin = originOf(i), count = countOf(i), size = textureSize(gaussian, i - 1);
     int stride = kWidth[i - 1];
-    for (int p = thread; p < stride * count.y; p += 256) {
+    for (int p = thread; p < stride * count.y; p += THREADS) {
       ivec2 at = ivec2(p % stride, p / stride);
       if (at.x >= count.x) continue;
       ivec2 sampleAt = clamp(origin + at, ivec2(0), size - 1);
-      float value = stored(i, sampleAt);
-#if LAPLACIAN
-      if (i <= HALF_LEVELS) {
-        ivec2 below = originOf(i + 1), belowSize = textureSize(gaussian, i), left;
-        vec2 t;
-        place(sampleAt.x, belowSize.x, size.x, left.x, t.x);
-        place(sampleAt.y, belowSize.y, size.y, left.y, t.y);
-        int q = kStart[i] + (left.y - below.y) * kWidth[i] + left.x - below.x;
-        value += between(level[q], level[q + 1], level[q + kWidth[i]], level[q + kWidth[i] + 1], t);
-      }
-#endif
-      level[kStart[i - 1] + p] = value;
+      level[kStart[i - 1] + p] = texelFetch(gaussian, sampleAt, i - 1).r;
     }
   }
-  for (int i = thread; i < kPlanes * kTile.y; i += 256) {
+  for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
     int plane = i / kTile.y, y = min(tile.y + i % kTile.y, fullSize.y - 1), left;
     float t;
     place(y, textureSize(gaussian, plane).y, fullSize.y, left, t);
     rowLeft[i] = left - originOf(plane + 1).y;
     rowRest[i] = t;
+  }
+  for (int i = thread; i < kPlanes * kTile.x; i += THREADS) {
+    int plane = i / kTile.x, x = min(tile.x + i % kTile.x, fullSize.x - 1), left;
+    float t;
+    place(x, textureSize(gaussian, plane).x, fullSize.x, left, t);
+    columnLeft[i] = left - originOf(plane + 1).x;
+    columnRest[i] = t;
   }
   barrier();
 }
@@ -193,66 +168,55 @@ void loadPyramid(int thread, ivec2 tile, ivec2 fullSize) {
 
 void main() {
   int thread = int(gl_LocalInvocationIndex);
-  ivec2 size = imageSize(threshold);
-  ivec2 tile = ivec2(gl_WorkGroupID.xy) * kTile;
-  int x = tile.x + thread % kTile.x, firstRow = thread / kTile.x * kRun;
+  ivec2 size = imageSize(threshold), tile = ivec2(gl_WorkGroupID.xy) * kTile;
+  ivec2 first = tile + ivec2(thread % kTile.x, thread / kTile.x * kRun);
+  int x = min(first.x, size.x - 1);
+  float finestValues[kRun];
+  for (int i = 0; i < kRun; ++i)
+    finestValues[i] = decoded(texelFetch(finest, ivec2(x, min(first.y + i, size.y - 1)), 0).r);
+  float contrasts[kRun][BANDS + 1], adaptation[kRun];
 #if LEVELS == 1
-  for (int i = 0; i < kRun; ++i) {
-    ivec2 at = ivec2(x, tile.y + firstRow + i);
-    if (all(lessThan(at, size))) finish(at, texelFetch(finest, at, 0).r, float[1](0.0));
-  }
+  for (int i = 0; i < kRun; ++i)
+    adaptation[i] = contrastsOf(finestValues[i], float[1](0.0), contrasts[i]);
 #else
   // Two rows of samples around the pixel, interpolated along x; they move down with the pixel.
-  float upper[kPlanes], lower[kPlanes];
+  float upper[kPlanes], lower[kPlanes], gathered[kPlanes];
 #if STACK
+  vec2 placeX = places[upward[0].x + x], placeY[kRun];
+  for (int i = 0; i < kRun; ++i) placeY[i] = places[upward[0].y + min(first.y + i, size.y - 1)];
   loadStack(thread);
-  if (x >= size.x) return;
-  ivec2 sampleSize = textureSize(gaussian, 0), origin = originOf(1);
-  int left, row = -1000;
-  float tx;
-  place(x, sampleSize.x, size.x, left, tx);
-  left -= origin.x;
+  ivec2 origin = originOf(1);
+  int left = int(placeX.x) - origin.x, row = -1000;
   for (int i = 0; i < kRun; ++i) {
-    ivec2 at = ivec2(x, tile.y + firstRow + i);
-    if (at.y >= size.y) return;
-    float finestValue = decoded(texelFetch(finest, at, 0).r);
-    int top;
-    float ty;
-    place(at.y, sampleSize.y, size.y, top, ty);
-    top -= origin.y;
+    int top = int(placeY[i].x) - origin.y;
     if (top != row) {
       bool moved = top == row + 1;
       row = top;
       for (int plane = 0; plane < kPlanes; ++plane) {
         // Planes lie coarsest first.
         int q = (kPlanes - 1 - plane) * kPlaneSize + top * kWidth[0] + left;
-        upper[plane] = moved ? lower[plane] : atOdd[q] + tx * (atOdd[q + 1] - atOdd[q]);
+        upper[plane] = moved ? lower[plane] : atOdd[q] + placeX.y * (atOdd[q + 1] - atOdd[q]);
         q += kWidth[0];
-        lower[plane] = atOdd[q] + tx * (atOdd[q + 1] - atOdd[q]);
+        lower[plane] = atOdd[q] + placeX.y * (atOdd[q + 1] - atOdd[q]);
       }
     }
-    float gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane)
-      gathered[plane] = upper[plane] + ty * (lower[plane] - upper[plane]);
-    finish(at, finestValue, gathered);
+      gathered[plane] = upper[plane] + placeY[i].y * (lower[plane] - upper[plane]);
+    adaptation[i] = contrastsOf(finestValues[i], gathered, contrasts[i]);
   }
 #else
   loadPyramid(thread, tile, size);
-  if (x >= size.x) return;
   int column[kPlanes], row[kPlanes];
   float tx[kPlanes];
   for (int plane = 0; plane < kPlanes; ++plane) {
-    int left;
-    place(x, textureSize(gaussian, plane).x, size.x, left, tx[plane]);
-    column[plane] = kStart[plane] + left - originOf(plane + 1).x;
+    int entry = plane * kTile.x + thread % kTile.x;
+    tx[plane] = columnRest[entry];
+    column[plane] = kStart[plane] + columnLeft[entry];
     row[plane] = -1000;
   }
   for (int i = 0; i < kRun; ++i) {
-    ivec2 at = ivec2(x, tile.y + firstRow + i);
-    if (at.y >= size.y) return;
-    float finestValue = decoded(texelFetch(finest, at, 0).r), gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane) {
-      int entry = plane * kTile.y + firstRow + i, top = rowLeft[entry];
+      int entry = plane * kTile.y + first.y - tile.y + i, top = rowLeft[entry];
       if (top != row[plane]) {
         int q = column[plane] + top * kWidth[plane];
         upper[plane] = top == row[plane] + 1 ? lower[plane] : level[q] + tx[plane] * (level[q + 1] - level[q]);
@@ -262,8 +226,17 @@ void main() {
       }
       gathered[plane] = upper[plane] + rowRest[entry] * (lower[plane] - upper[plane]);
     }
-    finish(at, finestValue, gathered);
+    adaptation[i] = contrastsOf(finestValues[i], gathered, contrasts[i]);
   }
 #endif
 #endif
+  for (int i = 0; i < kRun; ++i) {
+    ivec2 at = first + ivec2(0, i);
+    vec2 judged = judge(contrasts[i], adaptation[i]);
+    if (any(greaterThanEqual(at, size))) continue;
+    imageStore(threshold, at, vec4(run.rule.z * judged.y * judged.x));
+#if STAGES
+    imageStore(stages, at, vec4(adaptation[i], judged.x, 0.0, 0.0));
+#endif
+  }
 }

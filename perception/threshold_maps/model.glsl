@@ -4,11 +4,22 @@ struct Cell {  // of tables over lg luminance: values at its two ends
   vec2 tvi, peak;
 };
 layout(std430, binding = 0) readonly buffer Tables { vec4 tables[]; };
+// Elevation over contrast in CSF-normalised units: kSegments an octave from 2^-20, each (value at its start,
+// rise over it).
+layout(std430, binding = 3) readonly buffer Elevations { vec2 elevations[]; };
 
 const float kLgLow = -4.0, kCellsPerDecade = 250.0;
 const int kCells = 2500;
 
-#if MASKING == 1  // (1 + x^b)^(1/b), x = factor c^s: masking holds lg2 of factor, s, b
+#if !DIRECT
+// Octave and place in it are the number's own bits.
+float elevationOf(float c) {
+  const uint kFirst = (127u - 20u) << 5, kLast = (64u << 5) - 1u;
+  uint bits = floatBitsToUint(max(c, 9.5367431640625e-7));
+  vec2 segment = elevations[min((bits >> 18) - kFirst, kLast)];
+  return segment.x + segment.y * (float(bits & 0x3ffffu) * (1.0 / 262144.0));
+}
+#elif MASKING == 1  // (1 + x^b)^(1/b), x = factor c^s: masking holds lg2 of factor, s, b
 float elevationOf(float c) {
   if (c < 1e-6) return 1.0;
   float lgX = run.masking.x + run.masking.y * log2(c);

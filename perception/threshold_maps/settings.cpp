@@ -121,7 +121,11 @@ std::vector<Parameter> thresholdMapGpuParameters() {
           choiceParameter("lookup", "tables", {"tables", "direct"},
                           "CSF and TVI from tables over luminance, or computed for every pixel (barten89 and "
                           "ward only)",
-                          kMap)};
+                          kMap),
+          integerParameter(
+              "levels_per_pass", 0, 0, 3, "",
+              "pyramid levels that a pass makes from level 1 on; 0: one of large levels, three of small "
+              "ones; a matter of speed alone")};
 }
 
 ThresholdMapSettings thresholdMapSettings(const ParameterValues& values) {
@@ -152,6 +156,7 @@ ThresholdMapSettings thresholdMapSettings(const ParameterValues& values) {
   out.contrastEpsilonCdM2 = values.real("contrast_epsilon_cd_m2");
   out.largestCdM2 = values.real("largest_cd_m2");
   if (values.has("precision")) out.half = values.text("precision") == "16";
+  if (values.has("levels_per_pass")) out.levelsPerPass = static_cast<int>(values.integer("levels_per_pass"));
   if (values.has("lookup")) out.direct = values.text("lookup") == "direct";
   if (out.nineFetch && out.burt)
     throw Error("nine fetches stand for the binomial kernel, not for 'burt'", "kernel",

@@ -53,8 +53,9 @@ struct ThresholdMapSettings {
   double contrastEpsilonCdM2 = 1e-4;
   double largestCdM2 = 6e4;
   // GPU only:
-  bool half = false;    ///< intermediate results in 16 bits in place of 32
-  bool direct = false;  ///< CSF computed per pixel in place of read from tables
+  bool half = false;      ///< intermediate results in 16 bits in place of 32
+  int levelsPerPass = 0;  ///< of the pyramid, from level 1; 0: one for large levels, three for small ones
+  bool direct = false;    ///< CSF computed per pixel in place of read from tables
 
   /// Five taps and how they are applied.
   Kernel kernel() const;
@@ -63,7 +64,7 @@ struct ThresholdMapSettings {
 
 /// Declarations of the above, those of the GPU aside.
 std::vector<Parameter> thresholdMapParameters();
-/// `precision` (16 or 32 bits) and `lookup` (tables or direct).
+/// `precision` (16 or 32 bits), `lookup` (tables or direct) and `levels_per_pass`.
 std::vector<Parameter> thresholdMapGpuParameters();
 /// Values of thresholdMapParameters(), and of thresholdMapGpuParameters() where given.
 ThresholdMapSettings thresholdMapSettings(const ParameterValues& values);

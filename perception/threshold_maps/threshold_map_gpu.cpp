@@ -19,13 +19,22 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
-/// Levels from 1 that 16 bits store as bands. The rest, a hundredth of all texels, is stored as it is in 32:
-/// the adaptation luminance beside a highlight is a small difference of large bands.
-constexpr int kHalfLevels = 2;
+/// Invocations of a group that makes a tile; on an H200 faster than smaller groups, whose tiles overlap more.
+constexpr int kInvocations = 512;
+/// Levels up to this size are made several at a time: a pass costs some 2 us to start, and making twice the
+/// samples that are needed costs less.
+constexpr int64_t kSmallLevelPx = 600'000;
+constexpr int kMostSteps = 3;
 constexpr float kLargestHalfCdM2 = 6e4F;
 // As the shader declares its shared memory.
 constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
 constexpr std::array<int, 8> kMostRows{18, 11, 7, 5, 4, 4, 4, 4};
+
+constexpr std::array<const char*, 9> kUpwardNames{"upward[0]", "upward[1]", "upward[2]",
+                                                  "upward[3]", "upward[4]", "upward[5]",
+                                                  "upward[6]", "upward[7]", "upward[8]"};
+
+constexpr std::array<const char*, kMostSteps> kDownwardNames{"downward[0]", "downward[1]", "downward[2]"};
 
 /// The uniform block, std140.
 struct RunBlock {
@@ -91,9 +100,9 @@ const char* yes(bool value) { return value ? "1" : "0"; }
 }  // namespace
 
 struct ThresholdMapGpu::Programs {
-  const gl::Program* first = nullptr;  ///< level 0 to level 1, or luminance
-  const gl::Program* next = nullptr;   ///< one level to the next
-  const gl::Program* nextWithBand = nullptr;
+  const gl::Program* first = nullptr;                 ///< level 0 to level 1, or luminance
+  const gl::Program* next = nullptr;                  ///< one level to the next
+  std::array<const gl::Program*, kMostSteps> many{};  ///< 1, 2, 3 levels at once
   const gl::Program* evaluate = nullptr;
 };
 
@@ -112,12 +121,10 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
   checkSettings(settings);
   const ThresholdModel model(settings, display.pixelsPerDegree(), sizePx.x, sizePx.y);
   assert(levels_ == model.levels());
-  const bool laplacian = settings.half && !settings.nineFetch;
   if (levels_ > 1) {
     const glm::ivec2 half = halvedSize(sizePx);
     gaussian_.emplace(settings.half && settings.nineFetch ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
                       settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest);
-    if (laplacian && levels_ > 2) laplacian_.emplace(Format::R16F, half, std::min(levels_ - 2, kHalfLevels));
     std::vector<glm::ivec2> patches = tilePatches(sizePx.x, kTilePx.x, levels_);
     const std::vector<glm::ivec2> rows = tilePatches(sizePx.y, kTilePx.y, levels_);
     for (size_t i = 0; i < patches.size(); ++i)
@@ -126,10 +133,15 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
       assert(rows[i].y <= kMostRows[i % static_cast<size_t>(levels_ - 1)]);
     patches.insert(patches.end(), rows.begin(), rows.end());
     patches_.emplace(patches);
+    LevelPlaces places = levelPlaces(sizePx, levels_);
+    places_.emplace(places.places);
+    upward_ = std::move(places.upward);
+    downward_ = std::move(places.downward);
   }
   const RunBlock block = runBlock(settings, model, display);
   run_.emplace(int64_t{sizeof block}, &block);
   tables_.emplace(thresholdTables(model));
+  elevations_.emplace(elevationTable(model));
 
   const int maskingModel = maskingConstants(settings.masking).first;
   defines_ = {{"COLOUR", yes(colourInput)},
@@ -138,18 +150,22 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"LEVELS", std::to_string(levels_)},
               {"BANDS", std::to_string(model.bands())},
               {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
-              {"LAPLACIAN", yes(laplacian && levels_ > 1)},
-              {"HALF_LEVELS", std::to_string(std::clamp(levels_ - 2, 0, kHalfLevels))},
               {"FINEST_LUMINANCE", yes(settings.nineFetch)},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
               {"MASKING", std::to_string(maskingModel)},
               {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(settings.flatSmooth)},
               {"DIRECT", yes(settings.direct)},
+              {"TILE_X", std::to_string(kTilePx.x)},
+              {"TILE_Y", std::to_string(kTilePx.y)},
+              {"THREADS", std::to_string(kInvocations)},
               {"STAGES", "0"}};
   const std::string folder = "perception/threshold_maps/";
   gl::ProgramCache& programs = context.programs();
   const auto make = [&](const std::string& file, std::vector<const char*> names, gl::ShaderDefines extra) {
+    extra["TILE_X"] = std::to_string(kTilePx.x);
+    extra["TILE_Y"] = std::to_string(kTilePx.y);
+    extra["THREADS"] = std::to_string(kInvocations);
     for (const char* name : names) extra[name] = defines_.at(name);
     return &programs.compute(folder + file, extra);
   };
@@ -159,11 +175,10 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
   } else {
     programs_->first = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
                             {{"FROM_LEVEL", "0"}, {"BAND", settings.half ? "16" : "32"}});
-    if (levels_ > 2)
-      programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "0"}});
-    if (laplacian_)
-      programs_->nextWithBand =
-          make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "16"}});
+    programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "0"}});
+    for (int steps = 1; steps <= kMostSteps; ++steps)
+      programs_->many[static_cast<size_t>(steps - 1)] =
+          make("reduce_many.comp.glsl", {"COLOUR", "MIRROR"}, {{"STEPS", std::to_string(steps)}});
   }
   programs_->evaluate = &programs.compute(folder + "evaluate.comp.glsl", defines_);
 }
@@ -182,7 +197,11 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   run_->bindUniform(0);
   tables_->bindStorage(0);
-  if (patches_) patches_->bindStorage(1);
+  elevations_->bindStorage(3);
+  if (patches_) {
+    patches_->bindStorage(1);
+    places_->bindStorage(2);
+  }
   const auto timed = [&](const char* name, const auto& work) {
     if (!passes) return work();
     const gl::PassList::Scope scope = passes->open(name);
@@ -200,19 +219,31 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   input.bindTexture(0);
   finest_.bindImage(1, Access::Write);
   gaussian_->bindImage(0, Access::Write, 0);
+  // Programs of one step take one pair of levels, those of several steps what is downward of each.
+  const auto setPlaces = [&](const gl::Program& program, size_t level, int steps) {
+    program.set("upward[0]", upward_[level]);
+    for (size_t step = 0; step < static_cast<size_t>(steps); ++step)
+      program.set(kDownwardNames.at(step), downward_[level + step]);
+  };
+  setPlaces(*programs_->first, 0, 1);
   programs_->first->dispatch(sizePx_, kTilePx);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  glm::ivec2 size = halvedSize(sizePx_);
   gaussian_->bindTexture(0);
-  for (int level = 1; level + 1 < levels_; ++level) {
-    gaussian_->bindImage(0, Access::Write, level);
-    const bool band = laplacian_ && level <= laplacian_->levels();
-    if (band) laplacian_->bindImage(1, Access::Write, level - 1);
-    const gl::Program& program = band ? *programs_->nextWithBand : *programs_->next;
+  glm::ivec2 size = halvedSize(sizePx_);
+  for (int level = 1; level + 1 < levels_;) {
+    const bool small = int64_t{size.x} * size.y <= kSmallLevelPx;
+    const int wanted = settings_.levelsPerPass > 0 ? settings_.levelsPerPass : small ? kMostSteps : 1;
+    const int steps = std::min(levels_ - 1 - level, wanted);
+    for (int step = 0; step < steps; ++step)
+      gaussian_->bindImage(static_cast<uint32_t>(step), Access::Write, level + step);
+    const gl::Program& program =
+        wanted > 1 ? *programs_->many[static_cast<size_t>(steps - 1)] : *programs_->next;
     program.set("sourceLevel", level - 1);
+    setPlaces(program, static_cast<size_t>(level), steps);
     program.dispatch(size, kTilePx);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    size = halvedSize(size);
+    for (int step = 0; step < steps; ++step) size = halvedSize(size);
+    level += steps;
   }
 }
 
@@ -236,10 +267,11 @@ void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
 void ThresholdMapGpu::evaluate() {
   finest_.bindTexture(0);
   if (gaussian_) gaussian_->bindTexture(1);
-  if (laplacian_) laplacian_->bindTexture(2);
   threshold_.bindImage(0, Access::Write);
   if (stages_) stages_->bindImage(1, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
+  for (size_t level = 0; level < upward_.size(); ++level)
+    programs_->evaluate->set(kUpwardNames.at(level), upward_[level]);
   programs_->evaluate->dispatch(sizePx_, kTilePx);
 }
 
@@ -247,25 +279,24 @@ std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
   std::map<std::string, const gl::Texture*> out;
   out[settings_.nineFetch || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
   if (gaussian_) out["gaussian"] = &*gaussian_;
-  if (laplacian_) out["laplacian"] = &*laplacian_;
   if (stages_) out["stages"] = &*stages_;
   return out;
 }
 
 int64_t ThresholdMapGpu::bytesHeld() const {
-  int64_t bytes = threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes();
-  for (const auto* texture : {&gaussian_, &laplacian_, &stages_})
+  int64_t bytes =
+      threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes() + elevations_->bytes();
+  for (const auto* texture : {&gaussian_, &stages_})
     if (*texture) bytes += (*texture)->bytes();
-  return bytes + (patches_ ? patches_->bytes() : 0);
+  return bytes + (patches_ ? patches_->bytes() + places_->bytes() : 0);
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
   // The input and the map once; what lies between is written and read again: levels by the next one and by
-  // the evaluation, unless that reads bands in their place.
+  // the evaluation.
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
   if (settings_.nineFetch) bytes += finest_.bytes();
   if (gaussian_) bytes += 3 * gaussian_->bytes();
-  // Of levels that have bands, 32 bits are not read by the evaluation, 16 are written and read.
   return bytes;
 }
 

@@ -23,10 +23,10 @@ namespace limen::perception {
 /// bits aside, which store luminance itself as the thesis does and lose faint contrasts). Luminances outside
 /// 1e-4 to 1e6 cd/m2 are read there from the tables. Source: Schwarz 2009, section 9.4.
 ///
-/// In 16 bits not luminances are stored but bands (differences of levels, as signed square roots) of levels 0
-/// to 2, and the levels from 3 on, a hundredth of all texels, in 32: contrasts are differences of luminances,
-/// and of 16-bit luminances a contrast of 5e-4 is all rounding. Rendered levels 1 and 2 exist in 32 bits
-/// beside their bands while the pyramid is built.
+/// In 16 bits not luminances are stored but band 0, the one intermediate result of full size, as signed
+/// square roots; the levels from 1 on, a third of the texels, stay in 32. Contrasts are differences of
+/// luminances: of 16-bit luminances a contrast of 5e-4 is all rounding, of a 16-bit band it keeps three
+/// digits.
 class ThresholdMapGpu {
  public:
   /// Allocates and compiles for inputs of one format: colour (RGBA, linear, relative to `display`) or
@@ -45,7 +45,7 @@ class ThresholdMapGpu {
 
   /// From now on run() also writes RG32F: adaptation luminance [cd/m2] and elevation S. Allocates.
   void keepStages();
-  /// "stages" (if kept), "band_0" or "luminance", "gaussian" (levels from 1, as mipmaps), "laplacian".
+  /// "stages" (if kept), "band_0" or "luminance", "gaussian" (levels from 1, as mipmaps).
   std::map<std::string, const gl::Texture*> debugViews() const;
 
   int levels() const { return levels_; }
@@ -66,8 +66,9 @@ class ThresholdMapGpu {
   int levels_;
   gl::ShaderDefines defines_;
   gl::Texture threshold_, finest_;
-  std::optional<gl::Texture> gaussian_, laplacian_, stages_;
-  std::optional<gl::Buffer> run_, tables_, patches_;
+  std::optional<gl::Texture> gaussian_, stages_;
+  std::optional<gl::Buffer> run_, tables_, elevations_, places_, patches_;
+  std::vector<glm::ivec2> upward_, downward_;  // first entries in places_, by level
   glm::ivec2 tiles_;
   std::unique_ptr<Programs> programs_;
 };

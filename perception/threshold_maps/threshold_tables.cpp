@@ -39,6 +39,42 @@ std::vector<glm::vec4> thresholdTables(const ThresholdModel& model) {
   return out;
 }
 
+std::vector<glm::vec2> elevationTable(const ThresholdModel& model) {
+  constexpr int kSegments = 32, kLowOctave = -20, kOctaves = 64;
+  std::vector<glm::vec2> out(static_cast<size_t>(kSegments) * kOctaves);
+  for (int i = 0; i < kSegments * kOctaves; ++i) {
+    const auto value = [&](int place) {
+      const double c = std::ldexp(1.0 + static_cast<double>(place) / kSegments, kLowOctave + i / kSegments);
+      return model.maskingElevation(c);
+    };
+    const double start = value(i % kSegments), end = value(i % kSegments + 1);
+    out[static_cast<size_t>(i)] = {start, end - start};
+  }
+  return out;
+}
+
+LevelPlaces levelPlaces(glm::ivec2 sizePx, int levels) {
+  LevelPlaces out;
+  const auto append = [&](int from, int to) {
+    const int start = static_cast<int>(out.places.size());
+    for (int x = 0; x < to; ++x) {
+      const int left = placeOf(x, from, to);
+      const int64_t rest = (2 * int64_t{x} + 1) * from - to - int64_t{left} * 2 * to;
+      out.places.emplace_back(left, static_cast<double>(rest) / (2.0 * to));
+    }
+    return start;
+  };
+  for (int level = 0; level + 1 < levels; ++level) {
+    const glm::ivec2 coarser(halved(sizePx.x), halved(sizePx.y));
+    const int columns = append(coarser.x, sizePx.x), rows = append(coarser.y, sizePx.y);
+    out.upward.emplace_back(columns, rows);
+    const int coarserColumns = append(sizePx.x, coarser.x), coarserRows = append(sizePx.y, coarser.y);
+    out.downward.emplace_back(coarserColumns, coarserRows);
+    sizePx = coarser;
+  }
+  return out;
+}
+
 std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels) {
   std::vector<glm::ivec2> out;
   for (int start = 0; start < size; start += tilePx) {

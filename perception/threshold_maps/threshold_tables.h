@@ -14,6 +14,19 @@ namespace limen::perception {
 /// sensitivity, peak sensitivity), then for each band (csf, csf, F, F).
 std::vector<glm::vec4> thresholdTables(const ThresholdModel& model);
 
+/// Elevation of masking over CSF-normalised contrast, for linear interpolation: 32 segments an octave of
+/// equal width from 2^-20 to 2^44, each (value at its start, rise over it). Of a function as steep as c^p the
+/// interpolation is off by |p (p - 1)| / 8192 at most.
+std::vector<glm::vec2> elevationTable(const ThresholdModel& model);
+
+/// Where samples lie on a neighbouring level, as (left, t): for each level i from 0 to levels - 2 its columns
+/// and rows on level i + 1 (`upward`: first entries), then those of level i + 1 on level i (`downward`).
+struct LevelPlaces {
+  std::vector<glm::vec2> places;
+  std::vector<glm::ivec2> upward, downward;
+};
+LevelPlaces levelPlaces(glm::ivec2 sizePx, int levels);
+
 /// Samples of levels 1 to levels - 1 of one axis of `size` pixels that tiles of `tilePx` pixels touch:
 /// (first, count) for each tile and level; samples beyond the ends stand for the end ones.
 std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels);

@@ -69,7 +69,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = true,
      .onCpu = true,
      .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapReference>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"guarded_contrasts", "pixels_per_degree"}}};
 
 }  // namespace
 }  // namespace limen::references

@@ -26,7 +26,12 @@ const std::vector<Module>& modules() {
       // The half of perception that runs anywhere.
       {"perception/vision", {"base"}, false},
       {"perception/multiscale", {"base", "perception/vision"}, false},
-      {"perception", {"base", "renderer/gl", "perception/vision", "perception/multiscale"}, true},
+      {"perception/threshold_maps",
+       {"base", "renderer/gl", "perception/vision", "perception/multiscale"},
+       true},
+      {"perception",
+       {"base", "renderer/gl", "perception/vision", "perception/multiscale", "perception/threshold_maps"},
+       true},
       {"experiments/store", {"base"}, false},
       {"experiments",
        {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",

@@ -92,21 +92,25 @@ TEST_F(ThresholdMapGpuTest, AFlatFieldHasItsExactThreshold) {
 }
 
 TEST_F(ThresholdMapGpuTest, LevelsEqualTheDoublePyramid) {
-  for (const auto& [width, height] : {std::pair(128, 64), {101, 67}, {211, 90}}) {
-    const Plane image = noisePattern(width, height);
-    gl::Texture input(gl::Format::R32F, {width, height});
-    input.write(toImage(image));
-    const ThresholdMapSettings settings = settingsOf();
-    ThresholdMapGpu gpu(context(), {width, height}, display(), settings, false);
-    gpu.run(input);
-    const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
-    for (int level = 1; level < gpu.levels(); ++level) {
-      const Image read = gpu.debugViews().at("gaussian")->read(level - 1);
-      for (size_t i = 0; i < read.data.size(); ++i)
-        ASSERT_NEAR(read.data[i] / pyramid[static_cast<size_t>(level)].data[i], 1.0, 1e-6)
-            << width << ' ' << level;
-    }
-  }
+  // However many levels a pass makes; sizes that halve evenly, and sizes that do not.
+  for (const int64_t perPass : {1, 2, 3})
+    for (const char* border : {"clamp", "mirror"})
+      for (const auto& [width, height] : {std::pair(256, 128), {263, 67}, {211, 90}, {16, 9}}) {
+        const Plane image = noisePattern(width, height);
+        gl::Texture input(gl::Format::R32F, {width, height});
+        input.write(toImage(image));
+        const ThresholdMapSettings settings =
+            settingsOf({{"levels_per_pass", perPass}, {"border", text(border)}});
+        ThresholdMapGpu gpu(context(), {width, height}, display(), settings, false);
+        gpu.run(input);
+        const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
+        for (int level = 1; level < gpu.levels(); ++level) {
+          const Image read = gpu.debugViews().at("gaussian")->read(level - 1);
+          for (size_t i = 0; i < read.data.size(); ++i)
+            ASSERT_NEAR(read.data[i] / pyramid[static_cast<size_t>(level)].data[i], 1.0, 1e-6)
+                << width << ' ' << level << ' ' << perPass;
+        }
+      }
 }
 
 TEST_F(ThresholdMapGpuTest, NineFetchesEqualThirtySixTapsWhereSizesAreEven) {

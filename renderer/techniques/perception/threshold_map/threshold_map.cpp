@@ -68,7 +68,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapTechnique>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"bytes_moved_per_px", "gaussian_levels", "pixels_per_degree"}}};
 
 }  // namespace
 }  // namespace limen::techniques
