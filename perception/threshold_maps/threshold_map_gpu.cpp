@@ -52,6 +52,12 @@ void checkSettings(const Settings& settings) {
   refuse(settings.decomposition == Settings::Decomposition::TrueStack,
          "a true stack is not computed on the GPU", "decomposition",
          "use stack or pyramid, or the technique perception/threshold_map_reference");
+  refuse(settings.decomposition == Settings::Decomposition::Repeated,
+         "the mistaken stack is not computed on the GPU", "decomposition",
+         "use stack or pyramid, or the technique perception/threshold_map_reference");
+  refuse(settings.adaptation == Settings::Adaptation::MistakenDegree,
+         "the mistaken mean is not computed on the GPU", "adaptation",
+         "use one_degree, or the technique perception/threshold_map_reference");
   refuse(settings.expand, "levels are brought up bilinearly on the GPU", "upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
   refuse(settings.direct && (settings.csf != "barten89" || settings.tvi != "ward"),

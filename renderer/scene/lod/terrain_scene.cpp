@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 
+#include "base/error.h"
 #include "renderer/scene/lod/terrain_tiles.h"
 #include "renderer/scene/lod_scene_parameters.h"
 #include "renderer/scene/shapes.h"
@@ -77,11 +78,21 @@ Scene build(const ParameterValues& values) {
   scene.lights = {sun};
 
   Ride ride = rideOf(values);
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("heading_deg"), values.real("pitch_deg")).eye;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("azimuth_deg"), values.real("pitch_deg")).eye;
   ride.forward = -glm::normalize(glm::dvec3(ride.back.x, 0.0, ride.back.z));
   // The eye starts at the given altitude above the highest point the terrain may have; the target follows.
   const double height = setting.relief + values.real("altitude");
   ride.target = glm::dvec3(0.0, height - ride.distance * ride.back.y, 0.0);
+  if (const int64_t tile = values.integer("tile"); tile >= 0) {
+    if (tile >= static_cast<int64_t>(scene.lodObjects.size()))
+      throw Error("the terrain has no tile " + std::to_string(tile), "scene 'lod/terrain'",
+                  "choose 0 to " + std::to_string(scene.lodObjects.size() - 1));
+    ride.target = scene.lodObjects[static_cast<size_t>(tile)].bounds.centre();
+    const glm::dvec3 eye = ride.target + ride.distance * ride.back;
+    if (!(eye.y > ground->field.height(eye.x, eye.z)))
+      throw Error("the eye lies within the mountains", "scene 'lod/terrain'",
+                  "raise 'pitch_deg' or choose another distance, azimuth or tile");
+  }
   ride.nearest = 0.1;
   ride.verticalFovDeg = 45.0;
   setRide(scene, ride);
@@ -110,7 +121,11 @@ std::vector<Parameter> parameters() {
       realParameter("sun_radius_deg", 1.5, 0.01, 20.0, "deg",
                     "Angular radius of the sun, 0.27 in nature; larger ones make softer shadows"),
       realParameter("altitude", 0.6, 0.01, 20.0, "world units", "Of the eye above the terrain's relief"),
-      realParameter("heading_deg", 0.0, -180.0, 180.0, "deg", "Side of the terrain that the eye comes from"),
+      realParameter("azimuth_deg", 0.0, -180.0, 180.0, "deg", "Side of the terrain that the eye comes from"),
+      integerParameter(
+          "tile", -1, -1, 255, "",
+          "Tile that `distance` leads to, in the order of objects; `altitude` plays no part then. "
+          "-1: none"),
       realParameter("pitch_deg", 14.0, 0.0, 80.0, "deg", "Of the view below the horizontal"),
       integerParameter("seed", 1, 0, 1000000, "", "Of the mountains")};
   for (const std::vector<Parameter>& more :

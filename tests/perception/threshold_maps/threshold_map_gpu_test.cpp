@@ -186,6 +186,8 @@ TEST_F(ThresholdMapGpuTest, RefusesWhatOnlyTheReferenceKnows) {
     ThresholdMapGpu(context(), {32, 32}, display(), settingsOf(given), false);
   };
   EXPECT_THROW(make({{"decomposition", text("true_stack")}}), Error);
+  EXPECT_THROW(make({{"decomposition", text("repeated")}}), Error);
+  EXPECT_THROW(make({{"adaptation", text("mistaken_degree")}}), Error);
   EXPECT_THROW(make({{"upsampler", text("expand")}}), Error);
   EXPECT_THROW(make({{"lookup", text("direct")}, {"csf", text("barten03")}}), Error);
 }
