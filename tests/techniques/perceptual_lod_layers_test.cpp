@@ -187,7 +187,7 @@ TEST_F(PerceptualLodPicture, ShadowMaskMarksShadowsOfOtherLayersOnly) {
     int darkened = 0;
     for (size_t i = 0; i < mask.pixels(); ++i) {
       const bool pattern = mask.data[i] == 1.0F && key[4 * i + 2] == 2U;
-      EXPECT_EQ(context.data[4 * i], without.data[4 * i] * (pattern ? 0.2F : 1.0F));
+      EXPECT_FLOAT_EQ(context.data[4 * i], without.data[4 * i] * (pattern ? 0.2F : 1.0F));
       darkened += pattern;
     }
     EXPECT_GT(darkened, 50);
@@ -198,6 +198,36 @@ TEST_F(PerceptualLodPicture, ShadowMaskMarksShadowsOfOtherLayersOnly) {
     bench.run(1);
     const Image mask = bench.pipeline.debugViews().at("shadow_mask_1")->read();
     EXPECT_EQ(std::count(mask.data.begin(), mask.data.end(), 0.0F), static_cast<long>(mask.pixels()));
+  }
+}
+
+TEST_F(PerceptualLodPicture, RectanglesHoldAllPixelsOfTheirObjects) {
+  const scene::Scene scene = field();
+  const frame::GpuScene gpuScene(scene);
+  // Far off, near by, and from among the objects.
+  scene::Scene among = scene;
+  among.camera.keys = {{0.0, {{0.3, 0.6, -1.0}, {0.0, 0.4, -4.0}}}};
+  for (const scene::Scene* each : std::vector<const scene::Scene*>{&scene, &among}) {
+    frame::Frame frame(context(), *each, gpuScene, {83, 57}, each->camera.durationS());
+    int covered = 0, rectangles = 0;
+    for (size_t i = 0; i < each->lodObjects.size(); ++i) {
+      frame.setLevels(onlyObject(*each, static_cast<int>(i), 0));
+      frame.begin();
+      const std::vector<uint32_t> ids = frame.get<frame::TriangleIds>().texture().readUint();
+      const PixelRect rect = pixelsOf(each->lodObjects[i].bounds, frame);
+      for (int y = 0; y < 57; ++y)
+        for (int x = 0; x < 83; ++x) {
+          if (ids[static_cast<size_t>(83 * y + x)] == frame::TriangleIds::kNone) continue;
+          ++covered;
+          EXPECT_TRUE(x >= rect.low.x && y >= rect.low.y && x < rect.high.x && y < rect.high.y);
+        }
+      rectangles += rect.empty() ? 0 : (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y);
+      frame.end();
+    }
+    EXPECT_GT(covered, 300);
+    if (each == &scene) {
+      EXPECT_LT(rectangles, 3 * covered);  // and not much more
+    }
   }
 }
 

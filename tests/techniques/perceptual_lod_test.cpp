@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The interactive perceptual pipeline on scenes whose counts can be worked out by hand.
+#include <epoxy/gl.h>
+
 #include "tests/techniques/perceptual_lod_fixture.h"
 
 namespace limen::techniques {
@@ -146,10 +148,10 @@ TEST_F(PerceptualLodTest, OneThresholdOscillatesAndABandDoesNot) {
 
 TEST_F(PerceptualLodTest, AMaskingPatternRaisesTheLevelThatIsTolerated) {
   // On a flat field of 100 cd/m2 the threshold is 0.2 tvi(100) = 1.11181 (elevation 1): a step of 1.0 passes,
-  // one of 1.25 does not. Bars before the object, 2 of 8 pixels and 5 cpd on this display, mask more. They are
-  // 5.3 cd/m2 brighter: a contrast of at most 0.053, 28 times what is just visible where vision is best (peak
-  // sensitivity 525), raises thresholds by at most 28^0.7 = 10 there, and by less than 20 at any frequency
-  // (F = 6.7 at 20 cpd, where the contrast is 4 times just visible). So a step of 30 stays visible.
+  // one of 1.25 does not. Bars before the object, 2 of 8 pixels and 5 cpd on this display, mask more. They
+  // are 5.3 cd/m2 brighter: a contrast of at most 0.053, 28 times what is just visible where vision is best
+  // (peak sensitivity 525), raises thresholds by at most 28^0.7 = 10 there, and by less than 20 at any
+  // frequency (F = 6.7 at 20 cpd, where the contrast is 4 times just visible). So a step of 30 stays visible.
   const auto tolerated = [&](bool bars) {
     scene::Scene scene = wall(static_cast<float>(kAlbedo100));
     light(scene);
@@ -185,6 +187,23 @@ TEST_F(PerceptualLodTest, ResultsComeAsLateAsToldAndThoseOfALeftLevelAreDropped)
   EXPECT_EQ(bench.pipeline.control().dropped(), 2);
   bench.run(1);
   EXPECT_EQ(bench.pipeline.shown().levels, Levels{2});
+}
+
+TEST_F(PerceptualLodTest, WithoutWaitingResultsAreUsedOnceTheyAreThere) {
+  for (const char* form : {"compute", "query"}) {
+    scene::Scene scene = wall(0.2F);
+    addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.2F);
+    Bench bench(scene, settings(unlit({{"count", std::string(form)}})));
+    // However late the results are: no frame tests more than the batches under way allow, none is lost.
+    for (int i = 0; i < 40; ++i) bench.pipeline.render(0.0, false);
+    glFinish();
+    for (int i = 0; i < 3; ++i) {
+      bench.pipeline.render(0.0, false);
+      glFinish();
+    }
+    EXPECT_EQ(bench.pipeline.shown().levels, Levels{2});
+    EXPECT_EQ(bench.pipeline.control().switches(), 2);
+  }
 }
 
 TEST_F(PerceptualLodTest, UnseenObjectsKeepTheirLevel) {

@@ -20,7 +20,7 @@ void main() {
   vec3 colour = texelFetch(frontColour, pixel, 0).rgb;
   if (unpackKey(texelFetch(frontKey, pixel, 0)).layer == uint(layer)) {
     colour = texelFetch(secondColour, pixel, 0).rgb;
-    if (attenuation < 1.0) colour *= mix(1.0, attenuation, texelFetch(mask, pixel, 0).x);
+    if (attenuation < 1.0 && texelFetch(mask, pixel, 0).x > 0.5) colour *= attenuation;
   }
   imageStore(context, pixel, vec4(colour, 1.0));
 }
