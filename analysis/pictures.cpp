@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 constexpr int kWindowWidthPx = 192, kWindowHeightPx = 144;
 constexpr int kStepPx = 16;       // the window is sought on this grid
 constexpr size_t kMostRows = 72;  // about 10 MB of page
+/// Artefacts in which a technique explains its product: "view_regions_png".
+const std::string kViewPrefix = "view_";
 
 struct Window {
   int x = 0, y = 0, width = 0, height = 0, fullWidth = 0, fullHeight = 0;
@@ -37,7 +39,8 @@ const store::Artefact* findErrorMap(const store::Run& run, const std::string& me
   for (const std::string& kind : {metric + "_png", std::string("error_png")})
     if (const store::Artefact* map = find(run, kind)) return map;
   for (const store::Artefact& artefact : run.artefacts)
-    if (artefact.kind.ends_with("_png") && artefact.kind != "product_png" && artefact.kind != "reference_png")
+    if (artefact.kind.ends_with("_png") && artefact.kind != "product_png" &&
+        artefact.kind != "reference_png" && !artefact.kind.starts_with(kViewPrefix))
       return &artefact;
   return nullptr;
 }
@@ -154,11 +157,17 @@ class Cutter {
   std::map<std::string, Blocks> blocks_;
 };
 
-std::string scaleNote(const store::Run& run, const store::Artefact& map) {
+/// "" if the store names no scale.
+std::string whiteNote(const store::Run& run, const std::string& kind, const std::string& caption) {
   for (const store::Measurement& measurement : run.measurements)
-    if (measurement.name == map.kind + "_white" && measurement.value)
-      return fmt::format("White in the error map stands for {}{}{}.", formatNumber(*measurement.value),
+    if (measurement.name == kind + "_white" && measurement.value)
+      return fmt::format("White in the {} stands for {}{}{}.", caption, formatNumber(*measurement.value),
                          measurement.unit.empty() ? "" : " ", measurement.unit);
+  return {};
+}
+
+std::string scaleNote(const store::Run& run, const store::Artefact& map) {
+  if (std::string note = whiteNote(run, map.kind, "error map"); !note.empty()) return note;
   return "The error map (" + map.kind + ") is shown as the sweep wrote it; the store names no scale for it.";
 }
 
@@ -178,6 +187,12 @@ PictureRow makeRow(const Sweep& sweep, const Chosen& chosen, const Cutter& cutte
                      : fmt::format("{}×{} pixels from ({}, {}) of {}×{}", window.width, window.height,
                                    window.x, window.y, window.fullWidth, window.fullHeight);
     row.pictures.push_back(cutter.cut(product, window, "product"));
+    if (const std::string note = whiteNote(cell.run, "product_png", "product"); !note.empty()) addNote(note);
+    for (const store::Artefact& artefact : cell.run.artefacts)
+      if (artefact.kind.starts_with(kViewPrefix) && artefact.kind.ends_with("_png"))
+        row.pictures.push_back(cutter.cut(
+            cutter.load(artefact), window,
+            artefact.kind.substr(kViewPrefix.size(), artefact.kind.size() - kViewPrefix.size() - 4)));
     if (const store::Artefact* reference = find(cell.run, "reference_png"))
       row.pictures.push_back(cutter.cut(cutter.load(*reference), window, "reference"));
     if (const store::Artefact* map = findErrorMap(cell.run, sweep.y.name)) {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cassert>
+#include <functional>
 #include <map>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -27,7 +30,12 @@ class Registry {
     assert(fresh && "a name is registered twice");
   }
 
+  /// For a declaration that is made from other registries' entries: `make` is called when this registry is
+  /// first asked, which must not be before main().
+  void addLater(std::function<Info()> make) { later_.push_back(std::move(make)); }
+
   const Info* find(const std::string& name) const {
+    addAwaited();
     const auto entry = entries_.find(name);
     return entry == entries_.end() ? nullptr : &entry->second;
   }
@@ -39,15 +47,32 @@ class Registry {
   }
 
   std::vector<std::string> names() const {
+    addAwaited();
     std::vector<std::string> out;
     for (const auto& [name, info] : entries_) out.push_back(name);
     return out;
   }
 
-  const std::map<std::string, Info>& all() const { return entries_; }
+  const std::map<std::string, Info>& all() const {
+    addAwaited();
+    return entries_;
+  }
 
  private:
-  std::map<std::string, Info> entries_;
+  void addAwaited() const {
+    const std::scoped_lock lock(guard_);
+    if (later_.empty()) return;
+    for (const std::function<Info()>& make : std::exchange(later_, {})) {
+      Info info = make();
+      const std::string name = info.name;
+      [[maybe_unused]] const bool fresh = entries_.emplace(name, std::move(info)).second;
+      assert(fresh && "a name is registered twice");
+    }
+  }
+
+  mutable std::map<std::string, Info> entries_;
+  mutable std::vector<std::function<Info()>> later_;
+  mutable std::mutex guard_;
 };
 
 /// Registers at program start: `const Registered<SceneInfo> kRegistered{SceneInfo{...}};` at the end of a
@@ -55,6 +80,15 @@ class Registry {
 template <class Info>
 struct Registered {
   explicit Registered(Info info) { Registry<Info>::instance().add(std::move(info)); }
+};
+
+/// The same where the declaration is made from other registries, whose entries may not be there yet while the
+/// program starts: `const RegisteredLater<TechniqueInfo> kRegistered{[] { return TechniqueInfo{...}; }};`
+template <class Info>
+struct RegisteredLater {
+  explicit RegisteredLater(std::function<Info()> make) {
+    Registry<Info>::instance().addLater(std::move(make));
+  }
 };
 
 }  // namespace limen

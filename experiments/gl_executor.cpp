@@ -253,6 +253,8 @@ class GlExecutor : public Executor {
       run.outcome.measurements.push_back(
           {"threshold_png_white", perception::kThresholdPictureWhite, "cd/m2", "fact"});
     }
+    if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::JndMap)
+      run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
@@ -260,7 +262,8 @@ class GlExecutor : public Executor {
 
   /// What a viewer sees has no mask: the background adapts the eye too.
   static bool judgedEverywhere(const techniques::TechniqueInfo& info) {
-    return info.product == techniques::ProductKind::Threshold;
+    return info.product == techniques::ProductKind::Threshold ||
+           info.product == techniques::ProductKind::JndMap;
   }
 
   static void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {
@@ -323,9 +326,15 @@ class GlExecutor : public Executor {
   void startArtefacts(LiveRun& run, const Stage& on, Image product, const Image* reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     if (!run.plan->artefacts.pictures && !run.plan->artefacts.exr) return;
+    std::map<std::string, Image> views;
+    if (run.plan->artefacts.pictures) {
+      const Stopwatch watch(seconds_["artefacts"]);
+      views = run.technique->pictures();
+    }
     auto write = [plan = run.plan, folder = folder_, shading = on.shading, product = std::move(product),
-                  reference = reference ? std::optional(*reference) : std::nullopt, maps = std::move(maps)] {
-      return writeArtefacts(*plan, folder, product, reference ? &*reference : nullptr, shading, maps);
+                  reference = reference ? std::optional(*reference) : std::nullopt, maps = std::move(maps),
+                  views = std::move(views)] {
+      return writeArtefacts(*plan, folder, product, reference ? &*reference : nullptr, shading, maps, views);
     };
     // Beside the GPU's work; but where a CPU plays GPU, files must not be compressed while frames are timed.
     run.artefacts = std::async(std::launch::async, std::move(write));

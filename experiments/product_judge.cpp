@@ -28,6 +28,8 @@ Image composed(const Image& product, const Image& shading) {
 Image productPicture(const PlannedRun& run, const Image& product, const Image& shading) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.technique.name);
   if (info.product == techniques::ProductKind::Threshold) return perception::thresholdPicture(product);
+  if (info.product == techniques::ProductKind::JndMap)
+    return perception::errorPicture(product, kJndPictureWhite);
   return perception::displayPicture(composed(product, shading));
 }
 
@@ -52,7 +54,8 @@ std::vector<store::Measurement> judge(const PlannedRun& run, const perception::C
 std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::string& folder,
                                             const Image& product, const Image* reference,
                                             const Image& shading,
-                                            const std::vector<std::pair<std::string, Image>>& maps) {
+                                            const std::vector<std::pair<std::string, Image>>& maps,
+                                            const std::map<std::string, Image>& views) {
   std::vector<store::Artefact> out;
   const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
   const auto keep = [&](const std::string& kind, const std::string& file) {
@@ -70,6 +73,8 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
     picture("product", productPicture(run, product, shading));
     if (reference) picture("reference", productPicture(run, *reference, shading));
   }
+  if (run.artefacts.pictures)
+    for (const auto& [name, view] : views) picture("view_" + name, view);
   if (run.artefacts.exr) {
     exr("product", product);
     if (reference) exr("reference", *reference);
@@ -77,7 +82,8 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
   for (const auto& [name, map] : maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
     if (run.artefacts.pictures)
-      picture(kind, perception::errorPicture(map, kind == "error" || kind == "relative_error" ? kErrorScale : 1.0));
+      picture(kind,
+              perception::errorPicture(map, kind == "error" || kind == "relative_error" ? kErrorScale : 1.0));
     if (run.artefacts.exr) exr(kind, map);
   }
   return out;

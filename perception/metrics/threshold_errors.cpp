@@ -13,12 +13,12 @@
 namespace limen::perception {
 namespace {
 
-/// |test - reference| / |reference| of each judged pixel, worst channel; non-finite test values count as 1.
-/// Where the reference is 0 the error itself counts.
-double relativeError(const Comparison& pair, int x, int y) {
+/// |test - reference| / max(|reference|, least) of each judged pixel, worst channel; non-finite test values
+/// count as 1. Where that divisor is 0 the error itself counts.
+double relativeError(const Comparison& pair, int x, int y, double least) {
   double largest = 0.0;
   for (int c = 0; c < pair.channels(); ++c) {
-    const double reference = std::abs(double{pair.reference().at(x, y, c)});
+    const double reference = std::max(std::abs(double{pair.reference().at(x, y, c)}), least);
     const bool finite = std::isfinite(pair.test().at(x, y, c));
     const double error = std::abs(pair.error(x, y, c));
     largest = std::max(largest, finite && reference > 0.0 ? error / reference : error);
@@ -26,12 +26,12 @@ double relativeError(const Comparison& pair, int x, int y) {
   return largest;
 }
 
-std::vector<double> relativeErrors(const Comparison& pair) {
+std::vector<double> relativeErrors(const Comparison& pair, double least) {
   std::vector<double> out;
   out.reserve(static_cast<size_t>(pair.judgedPixels()));
   for (int y = 0; y < pair.height(); ++y)
     for (int x = 0; x < pair.width(); ++x)
-      if (pair.judges(x, y)) out.push_back(relativeError(pair, x, y));
+      if (pair.judges(x, y)) out.push_back(relativeError(pair, x, y, least));
   return out;
 }
 
@@ -50,17 +50,20 @@ MetricInfo relativeMetric(const std::string& name, const std::string& summary,
   MetricInfo info;
   info.name = name;
   info.summary = summary;
-  info.parameters = {regionParameter()};
+  info.parameters = {regionParameter(),
+                     realParameter("least_reference", 0.0, 0.0, 1e6, "product's unit",
+                                   "a smaller reference counts as this: below, the error is in its shares")};
   info.compare = [name, pool](const ComparisonInput& input, const ParameterValues& values) {
     const Comparison pair(input, name, regionOf(values));
-    std::vector<double> errors = relativeErrors(pair);
+    const double least = values.real("least_reference");
+    std::vector<double> errors = relativeErrors(pair, least);
     MetricResult result;
     result.value = pool(errors);
     result.judgedPixels = pair.judgedPixels();
     Image map(pair.width(), pair.height(), 1);
     for (int y = 0; y < pair.height(); ++y)
       for (int x = 0; x < pair.width(); ++x)
-        if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y));
+        if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y, least));
     result.map = std::move(map);
     result.mapName = "relative_error";
     return result;

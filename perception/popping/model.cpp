@@ -25,8 +25,12 @@ PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& displ
   model.areaDeg2 = settings.stimulusAreaDeg2 > 0.0 ? settings.stimulusAreaDeg2 : shownArea;
   model.widthDeg = 2.0 * std::atan(0.5 * widthPx * display.pitchM() / display.distanceM) * 180.0 / M_PI;
 
+  // Nothing is upsampled in a stack.
+  const bool isStack = settings.decomposition == Decomposition::Stack;
+  const PeakModel peakModel =
+      isStack && settings.peakModel == PeakModel::WithUpsample ? PeakModel::NoUpsample : settings.peakModel;
   const std::vector<BandPeak> peaks =
-      bandPeaks(Kernel::binomial5(), settings.upsampler, settings.peakModel, kMostLevels - 2);
+      bandPeaks(settings.kernel(), settings.upsampler, peakModel, kMostLevels - 2);
   int levels = settings.gaussianLevels;
   if (levels == 0) {
     int bands = 1;

@@ -29,6 +29,12 @@ constexpr glm::ivec2 kTableSize{384, 256};
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
 constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
 
+PoppingModel modelOf(glm::ivec2 sizePx, const DisplayProfile& display, const PoppingSettings& settings) {
+  if (settings.decomposition != Decomposition::Pyramid)
+    throw Error("decomposition 'stack' does not run on the GPU", "popping", "take pyramid, or the CPU");
+  return poppingModel(sizePx.x, sizePx.y, display, settings);
+}
+
 gl::ShaderDefines maskingDefines(const std::string& name) {
   const MaskingInfo& info = MaskingRegistry::instance().get(name, "popping");
   const ParameterValues values(info.parameters, {});
@@ -102,7 +108,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       sizePx_(sizePx),
       display_(display),
       settings_(settings),
-      model_(poppingModel(sizePx.x, sizePx.y, display, settings)),
+      model_(modelOf(sizePx, display, settings)),
       defines_(maskingDefines(settings.masking)),
       luminanceOfCones_(luminanceRow()),
       cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
@@ -186,7 +192,9 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
 }
 
 void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
+  const std::array<double, 5> taps = settings_.kernel().taps;
   const gl::Program& reduce = program("reduce");
+  reduce.set("taps", glm::vec3(taps[0], taps[1], taps[2]));
   cones_.bindTexture(0);
   for (int level = 0; level + 1 < model_.gaussianLevels; ++level) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -211,13 +219,14 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   sensitivities_.bindTexture(2);
   counters_.bindStorage(0);
   mean_.bindStorage(1);
+  const std::array<double, 5> taps = settings_.kernel().taps;
   const bool expand = settings_.upsampler == Upsampler::Expand;
   program.set("frameCount", 2);
   program.set("level", level);
   program.set("adaptationLevel", model_.adaptationLevel);
   program.set("adaptationSource", static_cast<int>(settings_.adaptation));
   program.set("eyeMovement", static_cast<int>(settings_.eyeMovement));
-  program.set("evenTaps", expand ? glm::vec2(0.125F, 0.75F) : glm::vec2(0.0F, 1.0F));
+  program.set("evenTaps", expand ? glm::vec2(2.0 * taps[0], 2.0 * taps[2]) : glm::vec2(0.0F, 1.0F));
   program.set("luminanceOfCones", luminanceOfCones_);
   program.set("epsilon", static_cast<float>(settings_.denominatorEpsilon));
   program.set("gain", static_cast<float>(
@@ -321,8 +330,8 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() +
-         seeds_.bytes() + counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
+  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() + seeds_.bytes() +
+         counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
 }
 
 }  // namespace limen::perception

@@ -30,7 +30,8 @@ struct PoppingGpuInput {
 /// difference of exactly 0, and the same input the same bytes. Source: Schwarz 2009, section 10.3.
 class PoppingPredictorGpu {
  public:
-  /// Throws Error as poppingModel(), and on a masking model that has no form for the GPU.
+  /// Throws Error as poppingModel(), and on a masking model or decomposition that has no form for the
+  /// GPU.
   PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
                       const PoppingSettings& settings = {});
 

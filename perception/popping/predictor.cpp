@@ -51,10 +51,12 @@ class Predictor {
         settings_(settings),
         width_(input.actual.width),
         height_(input.actual.height),
+        isStack_(settings.decomposition == Decomposition::Stack),
         luminanceRow_(luminanceRow()),
         greyGain_(settings.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
+    pyramid_.kernel = settings.kernel();
     pyramid_.upsampler = settings.upsampler;
     sensitivity_.emplace(result_.model, display, settings, options.tables);
     const Masking masking = makeMasking(settings.masking, "popping");
@@ -138,8 +140,11 @@ class Predictor {
       flushed_ += flushed;
     });
     FrameLevels levels;
-    for (size_t c = 0; c < 3; ++c) levels.lms[c] = gaussianPyramid(lms[c], pyramid_);
-    if (displacement) levels.speedPx = gaussianPyramid(speed, pyramid_);
+    const auto levelsOf = [&](const Plane& plane) {
+      return isStack_ ? dilatedStack(plane, pyramid_) : gaussianPyramid(plane, pyramid_);
+    };
+    for (size_t c = 0; c < 3; ++c) levels.lms[c] = levelsOf(lms[c]);
+    if (displacement) levels.speedPx = levelsOf(speed);
     for (int i = 0; i < result_.model.gaussianLevels; ++i) {
       const auto at = static_cast<size_t>(i);
       std::vector<const Plane*> channels = {&levels.lms[0][at], &levels.lms[1][at], &levels.lms[2][at]};
@@ -168,7 +173,7 @@ class Predictor {
       for (const double value : luminance.data) sum += value;
       return Plane(own.width, own.height, sum / static_cast<double>(luminance.data.size()));
     }
-    if (from == level) return luminance;
+    if (from == level || isStack_) return luminance;
     return resample(luminance, bilinearTaps(luminance.width, own.width, true, from - level, pyramid_.border),
                     bilinearTaps(luminance.height, own.height, true, from - level, pyramid_.border));
   }
@@ -187,8 +192,9 @@ class Predictor {
     const auto i = static_cast<size_t>(level);
     Planes contrast;
     for (size_t c = 0; c < 3; ++c) {
-      contrast[c] = upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
-      const Plane coarser = upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      contrast[c] = isStack_ ? frame.lms[c][i + 1] : upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
+      const Plane coarser =
+          isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
       for (size_t p = 0; p < own.data.size(); ++p) {
         if (!(coarser.data[p] >= settings_.denominatorEpsilon)) ++guarded_;
@@ -257,11 +263,11 @@ class Predictor {
         for (int x = 0; x < width_; ++x) {
           double sum = 0.0, signedSum = 0.0;
           for (size_t i = 0; i < differences.size(); ++i) {
-            const int level = static_cast<int>(i);
+            const int level = isStack_ ? 0 : static_cast<int>(i);
             const Planes& own = differences[i];
             const Place column = placeOf(x, level, own[0].width), row = placeOf(y, level, own[0].height);
             const auto interpolate = [&](const Plane& plane) {
-              if (level == 0) return plane.at(x, y);
+              if (level == 0 || isStack_) return plane.at(x, y);
               const double above = (1.0 - column.weight) * plane.at(column.first, row.first) +
                                    column.weight * plane.at(column.second, row.first);
               const double below = (1.0 - column.weight) * plane.at(column.first, row.second) +
@@ -359,6 +365,7 @@ class Predictor {
   const DisplayProfile& display_;
   const PoppingSettings& settings_;
   const int width_, height_;
+  const bool isStack_;
   const glm::dvec3 luminanceRow_;
   const double greyGain_;
   PyramidSettings pyramid_;

@@ -87,8 +87,15 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
       oneChromatic_(settings.csfRedGreen == settings.csfBlueYellow) {
   if (tables) {
     const double area = viewing_.areaDeg2, reference = chromaticReferenceCdM2_;
-    c0_ = FineTable([area](double l) { return daly98C0(l, area); }, kLowLuminance, kHighLuminance, 512);
-    c1_ = FineTable([area](double l) { return daly98C1(l, area); }, kLowLuminance, kHighLuminance, 512);
+    // daly98C0() and daly98C1() with the peak at the reference luminance found once.
+    constexpr double kReferenceCdM2 = 100.0;
+    const Csf::Peak peak = barten03Peak(kReferenceCdM2, area);
+    const double c0 = daly98C0(kReferenceCdM2, area) / peak.sensitivity;
+    const double c1 = daly98C1(kReferenceCdM2, area) * peak.frequencyCpd;
+    c0_ = FineTable([=](double l) { return c0 * barten03Peak(l, area).sensitivity; }, kLowLuminance,
+                    kHighLuminance, 256);
+    c1_ = FineTable([=](double l) { return c1 / barten03Peak(l, area).frequencyCpd; }, kLowLuminance,
+                    kHighLuminance, 256);
     chromaticScale_ = FineTable([reference](double l) { return chromaticScale(l, reference); }, kLowLuminance,
                                 kHighLuminance, 1024);
   }

@@ -11,6 +11,7 @@ namespace limen::perception {
 namespace {
 
 const std::vector<std::string> kEyeMovements = {"literal", "floor", "monotone", "none"};
+const std::vector<std::string> kDecompositions = {"pyramid", "stack"};
 const std::vector<std::string> kUpsamplers = {"linear", "expand"};
 const std::vector<std::string> kAdaptations = {"local", "mean", "fixed"};
 const std::vector<std::string> kCollapses = {"signed", "magnitude"};
@@ -72,6 +73,10 @@ std::vector<Parameter> declare() {
                        model),
       realParameter("least_peak_cpd", d.leastPeakCpd, 0.01, 30.0, "cpd",
                     "least peak frequency of the coarsest contrast level", model),
+      choiceParameter("decomposition", nameOf(d.decomposition, kDecompositions), kDecompositions,
+                      "bands from a halving pyramid, or all at full size (slow, CPU only)", model),
+      realParameter("kernel_centre", d.kernelCentre, 0.3, 0.5, "",
+                    "centre of the five-tap low-pass of Burt and Adelson; 0.375: binomial", model),
       choiceParameter("upsampler", d.upsampler == Upsampler::Expand ? "expand" : "linear", kUpsamplers,
                       "how coarser levels reach the size of finer ones: the kernel transposed, or linearly",
                       choice),
@@ -146,6 +151,8 @@ PoppingSettings PoppingSettings::from(const ParameterValues& values) {
   s.leastVelocityDegS = values.real("least_velocity_deg_s");
   s.gaussianLevels = static_cast<int>(values.integer("gaussian_levels"));
   s.leastPeakCpd = values.real("least_peak_cpd");
+  s.decomposition = enumOf<Decomposition>(values, "decomposition", kDecompositions);
+  s.kernelCentre = values.real("kernel_centre");
   s.upsampler = values.text("upsampler") == "expand" ? Upsampler::Expand : Upsampler::Successive;
   s.peakModel = peakModelFromName(values.text("peak_model"));
   s.compensateGain = values.boolean("compensate_gain");

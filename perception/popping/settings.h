@@ -11,6 +11,11 @@
 
 namespace limen::perception {
 
+/// Where bands come from.
+enum class Decomposition {
+  Pyramid,  ///< halved level by level, as the thesis does
+  Stack     ///< every level at full size: what the pyramid approximates; on the CPU only
+};
 /// Luminance that the eye is adapted to.
 enum class AdaptationSource {
   Local,  ///< the pyramid level whose pixel is about one degree
@@ -44,8 +49,10 @@ struct PoppingSettings {
   EyeMovement eyeMovement = EyeMovement::Monotone;
   double leastVelocityDegS = kLeastRetinalVelocityDegS;
 
-  int gaussianLevels = 0;                   ///< 0: all whose contrast level peaks at leastPeakCpd or above
-  double leastPeakCpd = 0.5;                ///< of the coarsest contrast level
+  int gaussianLevels = 0;     ///< 0: all whose contrast level peaks at leastPeakCpd or above
+  double leastPeakCpd = 0.5;  ///< of the coarsest contrast level
+  Decomposition decomposition = Decomposition::Pyramid;
+  double kernelCentre = 0.375;  ///< a of the low-pass 1/4 - a/2, 1/4, a, 1/4, 1/4 - a/2; 0.375: binomial
   Upsampler upsampler = Upsampler::Expand;  ///< of coarser levels: Expand or Successive (linear)
   PeakModel peakModel = PeakModel::WithUpsample;
   bool compensateGain = true;        ///< divide a level's contrast by its filter's gain
@@ -70,6 +77,8 @@ struct PoppingSettings {
   SeedRule seedRule = SeedRule::ColourDiffers;
   double ratingScale = 0.375, ratingBase = 2.25;  ///< R = ln(scale * Sigma) / ln(base)
   DetectionModel detection;
+
+  Kernel kernel() const { return Kernel::burt5(kernelCentre); }
 
   /// Throws Error on an unknown name of a CSF or masking model, or a value out of its range.
   static PoppingSettings from(const ParameterValues& values);

@@ -24,7 +24,7 @@ const int kPlanes = LEVELS - 1;
 
 // Band 0 of 16 bits is its signed square root; luminance, which is what there is without levels, is stored plainly.
 float decoded(float code) {
-#if HALF && !FINEST_LUMINANCE && LEVELS > 1
+#if LEVELS > 1 && HALF && !FINEST_LUMINANCE
   return code * abs(code);
 #else
   return code;

@@ -12,17 +12,20 @@ constexpr const char* kNames[4] = {"actual", "predicted", "actual_before", "pred
 }  // namespace
 
 LodPair::LodPair(Frame& parent, LodPairSetting setting) : setting_(std::move(setting)), parent_(parent) {
-  for (size_t i = 0; i < 4; ++i) frames_[i] = std::make_unique<Frame>(parent, kNames[i], parent.sizePx());
+  for (size_t i = 0; i < (setting_.moving ? 4 : 2); ++i)
+    frames_[i] = std::make_unique<Frame>(parent, kNames[i], parent.sizePx());
 }
 
 LodPair::~LodPair() = default;
 
 void LodPair::setLevels(const scene::LodSelection& actual, const scene::LodSelection& predicted) {
-  for (size_t i = 0; i < 4; ++i) frames_[i]->setLevels(i % 2 == 0 ? actual : predicted);
+  for (size_t i = 0; i < 4; ++i)
+    if (frames_[i]) frames_[i]->setLevels(i % 2 == 0 ? actual : predicted);
 }
 
 void LodPair::render() {
   for (size_t i = 0; i < 4; ++i) {
+    if (!frames_[i]) continue;
     frames_[i]->setTime(parent_.timeS() - (i < 2 ? 0.0 : setting_.dtS));
     frames_[i]->begin();
   }
@@ -31,8 +34,9 @@ void LodPair::render() {
   };
   for (size_t i = 0; i < 2; ++i) {
     View& view = i == 0 ? actual_ : predicted_;
-    const Motion& motion = frames_[i]->get<Motion>(MotionSetting{setting_.dtS});
     view.colour = &frames_[i]->get<Shaded>(setting_.shaded).texture();
+    if (!setting_.moving) continue;
+    const Motion& motion = frames_[i]->get<Motion>(MotionSetting{setting_.dtS});
     view.shadedBefore = view.colour;
     if (setting_.shaded.specular > 0.0) {
       ShadedSetting before = setting_.shaded;
@@ -44,8 +48,10 @@ void LodPair::render() {
     view.depth = depth(*frames_[i]);
     view.depthBefore = depth(*frames_[i + 2]);
   }
-  if (setting_.previousColour) previousColour_ = &frames_[3]->get<Shaded>(setting_.shaded).texture();
-  for (size_t i = 0; i < 4; ++i) frames_[i]->end();
+  if (setting_.moving && setting_.previousColour)
+    previousColour_ = &frames_[3]->get<Shaded>(setting_.shaded).texture();
+  for (const std::unique_ptr<Frame>& frame : frames_)
+    if (frame) frame->end();
 }
 
 std::pair<scene::LodSelection, scene::LodSelection> objectChange(const scene::LodSelection& others,

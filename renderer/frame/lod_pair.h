@@ -14,6 +14,9 @@ struct LodPairSetting {
   ShadedSetting shaded{};
   /// Also renders what flicker detection needs: the previous frame's picture.
   bool previousColour = true;
+  /// False: a change shown at rest, which has no previous frame; of the views only `colour` is made, all else
+  /// is null.
+  bool moving = true;
 };
 
 /// What a popping predictor needs of a change of levels (SP-39; Schwarz 2009, sections 10.3.1 and 10.3.5):

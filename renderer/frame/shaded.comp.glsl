@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colour of each pixel from the triangle that it sees. See shaded.h.
+#include "renderer/frame/aperture.glsl"
 #include "renderer/frame/pattern.glsl"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
@@ -22,6 +23,7 @@ uniform ivec2 sizePx;
 uniform vec3 background;
 uniform vec3 lightPosition, eye;  // light's centre and the eye that sees highlights, relative to the anchor
 uniform float ambient, diffuse, specular, shininess;
+uniform float sunRadius;  // angular radius of the light seen from the scene, rad
 
 const uint kNone = 0xffffffffu;
 
@@ -90,23 +92,41 @@ void main() {
     vec3 normal = mat3(cameraToAnchor) * seen.normal;
     // A triangle without area that a pixel sees all the same.
     if (!(dot(normal, normal) > 0.5)) normal = view;
+    vec3 weights = vec3(0.0);
+#if defined(SMOOTH) || defined(ATTRIBUTES)
+    weights = barycentrics(a, b, c, seen.position);
+#endif
 #ifdef SMOOTH
-    const vec3 weights = barycentrics(a, b, c, seen.position);
     normal = shadingNormal(material, vertices, weights, normal);
-    // Front and back are the triangle's matter; a shading normal bent past the silhouette keeps its side.
-    const vec3 outward = cross(b - a, c - a);
-    if (dot(outward, seen.normal) < 0.0) normal = -normal;
+    // Front and back are the triangle's matter; a shading normal bent past the silhouette keeps its side. Terrain
+    // has but one side: its skirts are lit as the border that they hang from, whichever way they are seen.
+    if (material.surface != kSurfaceAperture && dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
 #endif
     const vec3 albedo = patterned(material, position);
-    colour = ambient * albedo;
+    float sky = 1.0, sun = 1.0;
 #ifdef LIT
     const vec3 away = lightPosition - position;
     const vec3 toLight = dot(away, away) > 0.0 ? normalize(away) : normal;
-    const float shadow = shadowOf(pixel), cosine = dot(normal, toLight);
+    sun = material.surface == kSurfaceAperture ? 1.0 : shadowOf(pixel);
+#else
+    const vec3 toLight = normal;
+#endif
+#ifdef ATTRIBUTES
+    if (material.surface == kSurfaceAperture) {
+      const vec4 aperture = weights.x * surfaceAttributes[vertices.x] + weights.y * surfaceAttributes[vertices.y] +
+                            weights.z * surfaceAttributes[vertices.z];
+      const vec2 light = apertureLight(aperture, normal, toLight, sunRadius);
+      sun = light.x;
+      sky = light.y;
+    }
+#endif
+    colour = ambient * sky * albedo;
+#ifdef LIT
+    const float cosine = dot(normal, toLight);
     if (cosine > 0.0) {
-      colour += diffuse * cosine * shadow * albedo;
+      colour += diffuse * cosine * sun * albedo;
       const float highlight = dot(normal, normalize(toLight + view));
-      if (specular > 0.0 && highlight > 0.0) colour += specular * shadow * pow(highlight, shininess);
+      if (specular > 0.0 && highlight > 0.0) colour += specular * sun * pow(highlight, shininess);
     }
 #endif
   }

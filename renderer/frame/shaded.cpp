@@ -3,15 +3,15 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
 namespace {
-
-// Biases of the hard shadow, as soft_shadows/hard has them.
-constexpr float kBias = 1e-4F, kSlopeBias = 1.0F, kMaxSlope = 10.0F;
 
 gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const SurfaceBuffers& surface) {
   gl::ShaderDefines defines;
@@ -77,7 +77,7 @@ void Shaded::make(Frame& frame) {
   const ShadowMap* map = nullptr;
   if (lit_ && setting_.shadow) {
     receivers = &frame.get<Receivers>().texture();
-    map = &frame.get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
+    map = &frame.casters().get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
   }
   const auto scope = frame.passes().open("frame/shaded");
   const glm::dmat4& toCamera = frame.anchorToCamera();
@@ -93,16 +93,22 @@ void Shaded::make(Frame& frame) {
   const scene::Camera& seenBy =
       setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
   program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
-  if (lit_)
+  if (lit_) {
+    // Seen from the scene's middle: apertures belong to a light that is far away.
+    const scene::AreaLight& light = frame.scene().lights[0];
+    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
+    program_.set("sunRadius",
+                 static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
     program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
+  }
   if (map) {
     const LightFrustum& frustum = map->frustum();
     program_.set("tangentLow", glm::vec2(frustum.low));
     program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
     program_.set("resolution", setting_.shadowResolution);
-    program_.set("bias", kBias);
-    program_.set("slopeBias", kSlopeBias);
-    program_.set("maxSlope", kMaxSlope);
+    program_.set("bias", kShadowBias);
+    program_.set("slopeBias", kShadowSlopeBias);
+    program_.set("maxSlope", kShadowMaxSlope);
     receivers->bindTexture(1);
     map->texture().bindTexture(2);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/scene/scene.h"
 
@@ -44,7 +45,13 @@ Pose tangent(const std::vector<CameraPath::Key>& keys, size_t i) {
 Camera CameraPath::at(double timeS) const {
   if (keys.empty()) return {};
   // Negated so that a time that is no number gives the first key.
-  if (!(timeS > keys.front().timeS)) return keys.front().camera;
+  if (!(timeS > keys.front().timeS)) {
+    const double ahead = timeS - keys.front().timeS;
+    if (!runIn || keys.size() < 2 || !std::isfinite(ahead) || ahead == 0.0) return keys.front().camera;
+    const Pose pose =
+        combine(poseOf(keys.front().camera), tangent(keys, 0), [&](auto a, auto b) { return a + b * ahead; });
+    return {pose.eye, pose.target, pose.up, std::clamp(pose.fov, 0.01, 179.0)};
+  }
   if (timeS >= keys.back().timeS) return keys.back().camera;
   const auto next = std::upper_bound(keys.begin(), keys.end(), timeS,
                                      [](double time, const Key& key) { return time < key.timeS; });

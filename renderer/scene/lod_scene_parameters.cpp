@@ -13,11 +13,11 @@ void setRide(Scene& scene, const Ride& ride) {
   from.target = ride.target;
   from.eye = ride.target + ride.distance * ride.back;
   from.verticalFovDeg = ride.verticalFovDeg;
-  if (ride.motion == "still") {
+  if (ride.motion == "still" || ride.speed == 0.0) {
     setStillCamera(scene, from);
     return;
   }
-  glm::dvec3 velocity = -ride.speed * ride.back;
+  glm::dvec3 velocity = ride.speed * (ride.forward == glm::dvec3(0.0) ? -ride.back : ride.forward);
   double duration = ride.durationS;
   if (ride.motion == "horizontal")
     velocity = ride.speed * glm::normalize(glm::cross(from.up, ride.back));
@@ -27,6 +27,7 @@ void setRide(Scene& scene, const Ride& ride) {
   to.eye += duration * velocity;
   to.target += duration * velocity;
   scene.camera.keys = {{0.0, from}, {duration, to}};
+  scene.camera.runIn = true;
 }
 
 std::vector<Parameter> rideParameters(double distance, double longest, double speed, double fastest) {
@@ -35,7 +36,7 @@ std::vector<Parameter> rideParameters(double distance, double longest, double sp
           choiceParameter("motion", "approach", {"approach", "horizontal", "still"},
                           "How the camera moves: towards the object, past it, or not at all",
                           "Schwarz 2009, section 10.4.2"),
-          realParameter("speed", speed, 0.001 * fastest, fastest, "world units/s", "Speed of the camera",
+          realParameter("speed", speed, 0.0, fastest, "world units/s", "Speed of the camera; 0 is still",
                         "Schwarz 2009, section 10.4 (values not given there)"),
           realParameter("duration_s", 4.5, 0.1, 60.0, "s",
                         "Length of the ride; an approach ends earlier where it would reach the object",

@@ -13,6 +13,8 @@ namespace limen::scene {
 struct Ride {
   glm::dvec3 target{0.0};          ///< looked at when the ride begins
   glm::dvec3 back{0.0, 0.0, 1.0};  ///< unit, from the target to the eye
+  /// Unit, the way of an approach; the zero vector: straight at the target.
+  glm::dvec3 forward{0.0};
   double distance = 1.0;
   std::string motion;  ///< "approach", "horizontal" or "still"
   double speed = 0.0, durationS = 0.0;

@@ -54,6 +54,7 @@ void feed(Feed& out, const CameraPath& path) {
     out.vector(key.camera.eye), out.vector(key.camera.target), out.vector(key.camera.up);
     out.value(key.camera.verticalFovDeg);
   }
+  if (path.runIn) out.value(uint64_t{1});
 }
 
 /// What only some scenes have. Each stands behind a word of its own, so that scenes without keep their hash.

@@ -121,6 +121,9 @@ struct CameraPath {
     Camera camera;
   };
   std::vector<Key> keys;
+  /// Before the first key the camera already moves as it does there, so that a path's first frame has one
+  /// before it; else it rests.
+  bool runIn = false;
   Camera at(double timeS) const;
   double durationS() const { return keys.empty() ? 0.0 : keys.back().timeS - keys.front().timeS; }
 };

@@ -19,7 +19,8 @@ enum class ProductKind {
   Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
                ///< receivers
   Colour,      ///< RGBA32F, linear radiance, alpha 1
-  Threshold    ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
+  Threshold,   ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
+  JndMap       ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
 };
 std::string toText(ProductKind kind);
 
@@ -48,6 +49,9 @@ class Technique {
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
+  /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size. Made
+  /// outside the timed frames, after render(); may wait for the GPU.
+  virtual std::map<std::string, Image> pictures() const { return {}; }
 };
 
 /// Registration of a technique or a reference.

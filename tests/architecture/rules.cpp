@@ -39,9 +39,10 @@ std::vector<fs::path> sourcesUnder(const fs::path& root, bool withTests) {
 }
 
 bool isPublicHeader(const Module& module, const std::string& path) {
-  // Metrics are a module's parts that others name one by one.
-  const std::string metrics = "perception/metrics/";
-  if (path.rfind(metrics, 0) == 0) return path.find('/', metrics.size()) == std::string::npos;
+  // Parts of a module that others name one by one.
+  for (const std::string part :
+       {"perception/metrics/", "perception/popping/", "perception/threshold_maps/"})
+    if (path.rfind(part, 0) == 0) return path.find('/', part.size()) == std::string::npos;
   return path.find('/', module.folder.size() + 1) == std::string::npos;
 }
 

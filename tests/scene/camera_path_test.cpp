@@ -65,6 +65,17 @@ TEST(CameraPath, RestsBeforeItsFirstAndAfterItsLastKey) {
   EXPECT_EQ(kUneven.at(std::numeric_limits<double>::quiet_NaN()).eye, kUneven.keys.front().camera.eye);
 }
 
+TEST(CameraPath, WithARunInMovesBeforeItsFirstKeyAsItDoesThere) {
+  CameraPath path = {{key(0.0, {1.0, 0.0, 5.0}), key(2.0, {5.0, 0.0, 5.0})}, true};
+  // Two keys are a straight line at constant speed, here 2 a second.
+  EXPECT_NEAR(path.at(-0.25).eye.x, 0.5, 1e-12);
+  EXPECT_EQ(path.at(0.0).eye, glm::dvec3(1.0, 0.0, 5.0));
+  EXPECT_EQ(path.at(std::numeric_limits<double>::quiet_NaN()).eye, glm::dvec3(1.0, 0.0, 5.0));
+  EXPECT_EQ(path.at(-std::numeric_limits<double>::infinity()).eye, glm::dvec3(1.0, 0.0, 5.0));
+  path.keys.pop_back();
+  EXPECT_EQ(path.at(-1.0).eye, glm::dvec3(1.0, 0.0, 5.0));
+}
+
 TEST(CameraPath, OneKeyIsAStillCamera) {
   const CameraPath path = {{key(2.0, {1.0, 2.0, 3.0})}};
   for (const double t : {-5.0, 2.0, 8.0}) EXPECT_EQ(path.at(t).eye, glm::dvec3(1.0, 2.0, 3.0));

@@ -50,11 +50,11 @@ inline const std::string& smallMeshFile() {
   return file;
 }
 
-/// A sphere of 1152 triangles: something to take triangles from.
+/// A sphere of 512 triangles: something to take triangles from.
 inline const std::string& roundMeshFile() {
   static const TemporaryFolder folder;
   static const std::string file = [] {
-    const Mesh mesh = sphere(glm::dvec3(0.0), 1.0, 12);
+    const Mesh mesh = sphere(glm::dvec3(0.0), 1.0, 8);
     std::string text;
     for (const glm::dvec3& p : mesh.positions)
       text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';

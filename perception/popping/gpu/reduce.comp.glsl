@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The next level of both frames' Gaussian pyramids: binomial 1 4 6 4 1 along rows, then columns; pixel x of the
+// The next level of both frames' Gaussian pyramids: five taps along rows, then columns; pixel x of the
 // coarser level lies on pixel 2x of the finer.
 
 layout(local_size_x = 32, local_size_y = 8) in;
@@ -8,6 +8,7 @@ layout(binding = 0) uniform sampler2DArray cones;  // layer: frame
 layout(binding = 0, rgba32f) uniform writeonly image2DArray coarser;
 
 uniform int level;
+uniform vec3 taps;  // outer, inner, centre
 
 const int kRows = 2 * 8 + 3;
 shared vec4 rows[kRows * 32];
@@ -22,12 +23,11 @@ void main() {
     vec4 tap[5];
     for (int i = 0; i < 5; ++i)
       tap[i] = texelFetch(cones, ivec3(clamp(centre + i - 2, 0, fineSize.x - 1), y, frame), level);
-    rows[row * 32 + local.x] = (tap[0] + tap[4] + 4.0 * (tap[1] + tap[3]) + 6.0 * tap[2]) * (1.0 / 16.0);
+    rows[row * 32 + local.x] = taps.x * (tap[0] + tap[4]) + taps.y * (tap[1] + tap[3]) + taps.z * tap[2];
   }
   barrier();
   if (any(greaterThanEqual(pixel, size))) return;
   int at = 2 * local.y * 32 + local.x;
-  vec4 sum = (rows[at] + rows[at + 128] + 4.0 * (rows[at + 32] + rows[at + 96]) + 6.0 * rows[at + 64]) *
-             (1.0 / 16.0);
+  vec4 sum = taps.x * (rows[at] + rows[at + 128]) + taps.y * (rows[at + 32] + rows[at + 96]) + taps.z * rows[at + 64];
   imageStore(coarser, ivec3(pixel, frame), sum);
 }

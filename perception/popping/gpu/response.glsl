@@ -33,22 +33,22 @@ void prepare() {
   if (index == 0) groupGuarded = 0u;
   ivec2 origin = ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1;
   ivec2 nextSize = textureSize(cones, level + 1).xy, afterSize = textureSize(cones, level + 2).xy;
-  for (int frame = 0; frame < frameCount; ++frame) {
-    for (int i = index; i < kNeighbourCount; i += 256) {
-      ivec2 place = clamp(origin + ivec2(i % kNeighbours.x, i / kNeighbours.x), ivec2(0), nextSize - 1);
-      next[frame * kNeighbourCount + i] = texelFetch(cones, ivec3(place, frame), level + 1);
-      vec3 across = taps(place.x), down = taps(place.y);
-      ivec2 centre = place / 2;
-      vec4 sum = vec4(0.0);
-      for (int dy = -1; dy <= 1; ++dy) {
-        vec4 row = vec4(0.0);
-        for (int dx = -1; dx <= 1; ++dx)
-          row += across[dx + 1] * texelFetch(cones, ivec3(clamp(centre + ivec2(dx, dy), ivec2(0), afterSize - 1), frame),
-                                             level + 2);
-        sum += down[dy + 1] * row;
-      }
-      after[frame * kNeighbourCount + i] = sum;
+  for (int i = index; i < frameCount * kNeighbourCount; i += 256) {
+    int frame = i / kNeighbourCount, neighbour = i % kNeighbourCount;
+    ivec2 place =
+        clamp(origin + ivec2(neighbour % kNeighbours.x, neighbour / kNeighbours.x), ivec2(0), nextSize - 1);
+    next[i] = texelFetch(cones, ivec3(place, frame), level + 1);
+    vec3 across = taps(place.x), down = taps(place.y);
+    ivec2 centre = place / 2;
+    vec4 sum = vec4(0.0);
+    for (int dy = -1; dy <= 1; ++dy) {
+      vec4 row = vec4(0.0);
+      for (int dx = -1; dx <= 1; ++dx)
+        row += across[dx + 1] * texelFetch(cones, ivec3(clamp(centre + ivec2(dx, dy), ivec2(0), afterSize - 1), frame),
+                                           level + 2);
+      sum += down[dy + 1] * row;
     }
+    after[i] = sum;
   }
   barrier();
 }

@@ -85,10 +85,10 @@ Scene stage(const LodSet& set, const ParameterValues& values) {
                  switchDistances(values, set.levels.size()));
   }
   const glm::dvec3 middle = scene.lodObjects[0].bounds.centre();
-  scene.lights = {lightTowards(middle + glm::dvec3(-40.0, 80.0, 60.0), middle, glm::dvec2(4.0))};
+  scene.lights = {lightTowards(middle + glm::dvec3(-60.0, 70.0, 35.0), middle, glm::dvec2(4.0))};
   Ride ride = rideOf(values);
   ride.target = middle;
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, 0.0, 8.0).eye;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("azimuth_deg"), 8.0).eye;
   ride.nearest = 0.75;
   setRide(scene, ride);
   return scene;
@@ -107,6 +107,7 @@ std::vector<Parameter> parameters(std::vector<Parameter> own) {
        integerParameter("objects", 3, 1, 16, "", "Objects with levels"),
        realParameter("spacing", 2.0, 1.0, 10.0, "world units", "Between objects"),
        realParameter("yaw_deg", 0.0, -180.0, 180.0, "deg", "Turn of the first object"),
+       realParameter("azimuth_deg", 0.0, -180.0, 180.0, "deg", "Of the eye around the first object"),
        realParameter("object_contrast", 0.0, 0.0, 1.0, "", "Contrast of the objects' solid texture"),
        realParameter("ground_contrast", 0.5, 0.0, 1.0, "", "Contrast of the ground's solid texture"),
        integerParameter("seed", 1, 0, 1000000, "", "Of places, turns and textures")});

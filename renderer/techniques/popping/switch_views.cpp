@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/popping/switch_views.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+namespace limen::techniques {
+namespace {
+
+frame::LodPairSetting pairSetting(const SwitchSetting& setting) {
+  frame::LodPairSetting out;
+  out.dtS = setting.dtS;
+  out.shaded = setting.shaded;
+  out.previousColour = setting.usesFlicker();
+  out.moving = setting.dynamic;
+  return out;
+}
+
+/// Albedos are at most 1, so only these can bring a pixel above the display's white.
+bool mayPassWhite(const frame::ShadedSetting& shaded) {
+  return shaded.specular > 0.0 || shaded.ambient + shaded.diffuse > 1.0 ||
+         std::max({shaded.background.x, shaded.background.y, shaded.background.z}) > 1.0F;
+}
+
+}  // namespace
+
+SwitchViews::SwitchViews(frame::Frame& parent, const SwitchSetting& setting)
+    : setting_(setting), pair_(parent, pairSetting(setting)) {
+  setting_.levels(parent);
+  if (!mayPassWhite(setting.shaded)) return;
+  clamp_ = &parent.context().programs().compute("renderer/techniques/popping/clamp.comp.glsl");
+  for (int i = 0; i < 2; ++i) clamped_.emplace_back(gl::Format::RGBA32F, parent.sizePx());
+  parent.passes().setBytesHeld("popping/clamp", 2 * clamped_[0].bytes());
+}
+
+void SwitchViews::render(frame::Frame& parent) {
+  const auto [actual, predicted] = setting_.levels(parent);
+  pair_.setLevels(actual, predicted);
+  pair_.render();
+  shown_[0] = pair_.actual().colour;
+  shown_[1] = pair_.predicted().colour;
+  if (!clamp_) return;
+  const auto pass = parent.passes().open("popping/clamp");
+  clamp_->set("sizePx", parent.sizePx());
+  for (size_t i = 0; i < 2; ++i) {
+    shown_[i]->bindTexture(0);
+    clamped_[i].bindImage(0, gl::Access::Write);
+    clamp_->dispatch(parent.sizePx());
+    shown_[i] = &clamped_[i];
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+SwitchImages SwitchViews::read() const {
+  SwitchImages out;
+  out.input.actual = actual().read();
+  out.input.predicted = predicted().read();
+  out.input.linear = true;
+  if (!setting_.dynamic) return out;
+  const auto& now = pair_.actual();
+  out.input.actualDisplacement = now.displacement->read();
+  out.input.predictedDisplacement = pair_.predicted().displacement->read();
+  if (setting_.usesDisocclusion())
+    for (const auto* view : {&pair_.actual(), &pair_.predicted()})
+      out.disocclusion.push_back(
+          {view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
+  if (setting_.usesFlicker())
+    out.flicker = perception::FlickerInput{out.input.actual,
+                                           out.input.predicted,
+                                           now.shadedBefore->read(),
+                                           pair_.previousColour()->read(),
+                                           out.input.actualDisplacement,
+                                           now.previousDepth->read(),
+                                           pair_.predicted().depthBefore->read()};
+  return out;
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "perception/popping/predictor.h"
+#include "perception/popping/weights.h"
+#include "renderer/frame/lod_pair.h"
+#include "renderer/techniques/popping/switch_setting.h"
+
+namespace limen::techniques {
+
+/// What the predictor and its weight maps read, in memory.
+struct SwitchImages {
+  perception::PoppingInput input;                          ///< without weights
+  std::vector<perception::DisocclusionView> disocclusion;  ///< empty if the setting uses none
+  std::optional<perception::FlickerInput> flicker;
+};
+
+/// The views of a change of level that a viewer is shown (SP-39). The frame is a window of the display, pixel
+/// for pixel; its pictures are clamped to the display's range.
+class SwitchViews {
+ public:
+  /// Throws Error as SwitchSetting::levels().
+  SwitchViews(frame::Frame& parent, const SwitchSetting& setting);
+  /// Between the parent's begin() and end().
+  void render(frame::Frame& parent);
+
+  const gl::Texture& actual() const { return *shown_[0]; }     ///< RGBA32F in [0, 1]
+  const gl::Texture& predicted() const { return *shown_[1]; }  ///< the same
+  const frame::LodPair& pair() const { return pair_; }
+  /// Reads back what the last render() made.
+  SwitchImages read() const;
+
+ private:
+  SwitchSetting setting_;
+  frame::LodPair pair_;
+  const gl::Program* clamp_ = nullptr;  // null where no picture can leave the display's range
+  std::vector<gl::Texture> clamped_;
+  const gl::Texture* shown_[2] = {nullptr, nullptr};
+};
+
+}  // namespace limen::techniques
