@@ -22,6 +22,7 @@ const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
 const int kPlanes = LEVELS - 1;
 
+// Band 0 of 16 bits is its signed square root; luminance, which is what there is without levels, is stored plainly.
 float decoded(float code) {
 #if LEVELS > 1 && HALF && !FINEST_LUMINANCE
   return code * abs(code);

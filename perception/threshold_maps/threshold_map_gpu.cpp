@@ -158,8 +158,8 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
               {"FINEST_LUMINANCE", yes(settings.nineFetch)},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(maskingModel)},
-              {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
+              {"MASKING", std::to_string(settings.direct ? maskingModel : 0)},  // tables know it otherwise
+              {"FOURTH_ROOT", yes(settings.direct && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(settings.flatSmooth)},
               {"DIRECT", yes(settings.direct)},
               {"TILE_X", std::to_string(kTilePx.x)},
