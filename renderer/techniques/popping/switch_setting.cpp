@@ -7,6 +7,7 @@
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_control.h"
+#include "renderer/techniques/lod/box_view.h"
 
 namespace limen::techniques {
 
@@ -27,6 +28,8 @@ std::vector<Parameter> SwitchSetting::parameters() {
           "dt_s", 0.0, 0.0, 1.0, "s",
           "Time from the last frame before the change to the first after it; 0: one of the display's "
           "frames")};
+  // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
+  all.push_back(samplesParameter(2));
   for (const std::vector<Parameter>& more :
        {perception::viewingParameters(), frame::ShadedSetting::parameters(), perception::poppingParameters()})
     all.insert(all.end(), more.begin(), more.end());
@@ -40,6 +43,7 @@ SwitchSetting SwitchSetting::from(const ParameterValues& values) {
   s.toLevel = static_cast<int>(values.integer("to_level"));
   s.others = values.text("others");
   s.dynamic = values.text("presentation") == "dynamic";
+  s.samples = static_cast<int>(values.integer("samples"));
   s.shaded = frame::ShadedSetting::from(values);
   s.display = perception::viewingDisplay(values);
   s.popping = perception::PoppingSettings::from(values);

@@ -28,6 +28,10 @@ bool mayPassWhite(const frame::ShadedSetting& shaded) {
 SwitchViews::SwitchViews(frame::Frame& parent, const SwitchSetting& setting)
     : setting_(setting), pair_(parent, pairSetting(setting)) {
   setting_.levels(parent);
+  if (setting.samples > 1) {
+    supersampled_[0].emplace(parent, "shown_actual", setting.shaded, setting.samples);
+    supersampled_[1].emplace(parent, "shown_predicted", setting.shaded, setting.samples);
+  }
   if (!mayPassWhite(setting.shaded)) return;
   clamp_ = &parent.context().programs().compute("renderer/techniques/popping/clamp.comp.glsl");
   for (int i = 0; i < 2; ++i) clamped_.emplace_back(gl::Format::RGBA32F, parent.sizePx());
@@ -40,6 +44,12 @@ void SwitchViews::render(frame::Frame& parent) {
   pair_.render();
   shown_[0] = pair_.actual().colour;
   shown_[1] = pair_.predicted().colour;
+  for (size_t i = 0; i < 2; ++i) {
+    if (!supersampled_[i]) continue;
+    supersampled_[i]->setLevels(i == 0 ? actual : predicted);
+    supersampled_[i]->render();
+    shown_[i] = &supersampled_[i]->texture();
+  }
   if (!clamp_) return;
   const auto pass = parent.passes().open("popping/clamp");
   clamp_->set("sizePx", parent.sizePx());
@@ -66,8 +76,8 @@ SwitchImages SwitchViews::read() const {
       out.disocclusion.push_back(
           {view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
   if (setting_.usesFlicker())
-    out.flicker = perception::FlickerInput{out.input.actual,
-                                           out.input.predicted,
+    out.flicker = perception::FlickerInput{now.colour->read(),
+                                           pair_.predicted().colour->read(),
                                            now.shadedBefore->read(),
                                            pair_.previousColour()->read(),
                                            out.input.actualDisplacement,

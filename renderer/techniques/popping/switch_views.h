@@ -6,6 +6,7 @@
 #include "perception/popping/predictor.h"
 #include "perception/popping/weights.h"
 #include "renderer/frame/lod_pair.h"
+#include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/popping/switch_setting.h"
 
 namespace limen::techniques {
@@ -18,7 +19,8 @@ struct SwitchImages {
 };
 
 /// The views of a change of level that a viewer is shown (SP-39). The frame is a window of the display, pixel
-/// for pixel; its pictures are clamped to the display's range.
+/// for pixel; its pictures are supersampled and clamped to the display's range. Displacement, depth and what
+/// flicker is judged by are those of the pixels' centres.
 class SwitchViews {
  public:
   /// Throws Error as SwitchSetting::levels().
@@ -35,7 +37,8 @@ class SwitchViews {
  private:
   SwitchSetting setting_;
   frame::LodPair pair_;
-  const gl::Program* clamp_ = nullptr;  // null where no picture can leave the display's range
+  std::optional<BoxView> supersampled_[2];  // with more than one sample a pixel
+  const gl::Program* clamp_ = nullptr;      // null where no picture can leave the display's range
   std::vector<gl::Texture> clamped_;
   const gl::Texture* shown_[2] = {nullptr, nullptr};
 };

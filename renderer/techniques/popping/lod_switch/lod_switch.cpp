@@ -41,10 +41,9 @@ class LodSwitch : public Technique {
                                 {old.previousDepth, old.displacement, old.depthBefore}},
                                *disocclusion_);
       if (flicker_)
-        weights_->flicker(
-            {&views_->actual(), &views_->predicted(), now.shadedBefore, views_->pair().previousColour(),
-             now.displacement, now.previousDepth, old.depthBefore},
-            *flicker_);
+        weights_->flicker({now.colour, old.colour, now.shadedBefore, views_->pair().previousColour(),
+                           now.displacement, now.previousDepth, old.depthBefore},
+                          *flicker_);
     }
     predictor_->run({&views_->actual(), &views_->predicted(), true, now.displacement, old.displacement,
                      disocclusion_ ? &*disocclusion_ : nullptr, flicker_ ? &*flicker_ : nullptr},
