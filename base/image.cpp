@@ -20,15 +20,23 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec, const
   // A reader or a second sweep must never see half a file.
   const std::filesystem::path partial =
       target.parent_path() / ("." + std::to_string(::getpid()) + "-" + target.filename().string());
-  if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path());
+  const auto refuse = [&](const std::string& words) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    return Error("cannot write '" + path + "'" + (words.empty() ? "" : ": " + words), {},
+                 "check that the folder is writable and the disk has room");
+  };
+  std::error_code code;
+  if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), code);
+  if (code) throw refuse(code.message());
   {
     const auto out = OIIO::ImageOutput::create(partial.string());
     if (!out || !out->open(partial.string(), spec) ||
         !out->write_image(OIIO::BaseTypeFromC<T>::value, data.data()) || !out->close())
-      throw Error("cannot write '" + path + "'" + (out ? ": " + out->geterror() : ""), {},
-                  "check that the folder is writable and the disk has room");
+      throw refuse(out ? out->geterror() : "");
   }
-  std::filesystem::rename(partial, target);
+  std::filesystem::rename(partial, target, code);
+  if (code) throw refuse(code.message());
 }
 
 }  // namespace

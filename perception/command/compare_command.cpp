@@ -10,9 +10,9 @@
 #include "perception/command/image_commands.h"
 #include "perception/command/image_metrics.h"
 #include "perception/command/image_options.h"
+#include "perception/command/map_picture.h"
 #include "perception/command/output_files.h"
 #include "perception/command/popping_report.h"
-#include "perception/metrics/error_map.h"
 #include "perception/metrics/metric.h"
 
 namespace limen::perception {
@@ -63,17 +63,15 @@ void append(Figures& figures, const Figures& more) {
   figures.insert(figures.end(), more.begin(), more.end());
 }
 
-/// EXR of the values and PNG to look at. Returns what was written.
+/// EXR of the values and PNG to look at.
 void writeMap(const MetricMap& map, const std::string& folder, const std::string& statement,
               FrameReport& report) {
-  const double scale = errorScale(map.map);
-  const std::filesystem::path base = std::filesystem::path(folder) / map.name;
+  const std::string base = (std::filesystem::path(folder) / map.name).string();
   const std::string description = map.name + "; " + statement;
-  writeExr(base.string() + ".exr", map.map, description);
-  writePng(base.string() + ".png", errorPicture(map.map, scale),
-           "black 0, pale yellow " + shortestNumber(scale) + " and above; " + description);
-  report.outputs.emplace_back(map.name, base.string() + ".exr");
-  report.outputs.emplace_back(map.name + " picture, 0 to " + shortestNumber(scale), base.string() + ".png");
+  writeExr(base + ".exr", map.map, description);
+  const std::string meaning = writeMapPicture(base + ".png", map.map, pictureScale(map.map), "", description);
+  report.outputs.emplace_back(map.name, base + ".exr");
+  report.outputs.emplace_back(map.name + " picture, " + meaning, base + ".png");
 }
 
 int compare(const CompareOptions& options, const std::vector<std::string>& words) {
@@ -103,9 +101,10 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   ReportHeader header;
   header.command = "compare";
   const std::string changed = changedSettings(selected.groups, values);
-  header.statement = limenVersion() + " image comparison (" + join(selected.names()) +
-                     (selected.jnd ? ": popping predictor of " + poppingModelText(popping) : "") +
-                     (changed.empty() ? "" : "; " + changed) + "), display " + display.line();
+  header.statement =
+      limenVersion() + " image comparison (" + join(selected.names()) +
+      (selected.jnd ? ": popping predictor of " + poppingModelText(popping) + ", nothing moving" : "") +
+      (changed.empty() ? "" : "; " + changed) + "), display " + display.line();
   header.words = words;
   header.display = display;
   header.settings = valuesAsJson(selected.groups, values);
@@ -131,8 +130,8 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
       PoppingResult result = predictPopping(pair, display, popping);
       append(report.figures, poppingFigures(result));
       report.text = regionTable(result);
-      report.extra = {{"regions_table", regionsAsJson(result)},
-                      {"jnd_model", poppingModelAsJson(result.model)}};
+      report.extra["regions"] = regionsAsJson(result);
+      report.extra["jnd_model"] = poppingModelAsJson(result.model);
       if (!options.mapFolder.empty()) maps.push_back({kJnd, std::move(result.jnd)});
     }
     for (const MetricMap& map : maps)

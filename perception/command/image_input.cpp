@@ -133,6 +133,9 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
   out.warnings = file.remarks;
   const std::string& asked = input.text("values");
   const std::string values = asked != "auto" ? asked : file.integer ? "coded" : "linear";
+  if (values == "luminance" && file.integer)
+    throw Error("'" + path + "' holds integers, which are no cd/m2", "--scene-luminance",
+                "give EXR, HDR or floating-point TIFF");
   out.assumed = describeAssumption(values, display);
   out.coded = values == "coded";
 

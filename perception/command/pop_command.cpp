@@ -14,6 +14,7 @@
 #include "perception/command/popping_report.h"
 #include "perception/metrics/error_map.h"
 #include "perception/popping/comparator.h"
+#include "perception/popping/overlay.h"
 
 namespace limen::perception {
 namespace {
@@ -127,7 +128,7 @@ void predict(const Call& call, const FrameSet& frame, const OutputFiles& outputs
   report.figures.back().value = difference.value;
   report.text = regionTable(result);
   report.warnings = poppingWarnings(result);
-  report.extra = {{"regions_table", regionsAsJson(result)},
+  report.extra = {{"regions", regionsAsJson(result)},
                   {"model", poppingModelAsJson(result.model)},
                   {"max_de94_at_px", {difference.x, difference.y}},
                   {"guarded_contrasts", result.guardedContrasts}};
@@ -141,6 +142,12 @@ void predict(const Call& call, const FrameSet& frame, const OutputFiles& outputs
     const std::string path = outputs.file(call.options.jnd, frame);
     writeExr(path, result.jnd, "popping, JND; " + call.statement);
     report.outputs.emplace_back("difference map, JND", path);
+  }
+  if (!call.options.overlay.empty()) {
+    const std::string path = outputs.file(call.options.overlay, frame);
+    writePng(path, poppingOverlay(displayPicture(input.actual), result.regions),
+             "popping regions, coloured by rating R; " + call.statement);
+    report.outputs.emplace_back("overlay", path);
   }
   if (!call.options.stages.empty())
     writeStages(result, outputs.folder(call.options.stages, frame), call.statement, report);
@@ -168,6 +175,8 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
 
   const std::string changed = changedSettings(groups(), values);
   call.statement = limenVersion() + " popping predictor (" + poppingModelText(call.settings) +
+                   (options.motion.empty() ? ", nothing moving" : ", motion given") +
+                   (options.weights.empty() ? "" : ", weights given") +
                    (changed.empty() ? "" : "; " + changed) + "), display " + call.display.line();
   ReportHeader header;
   header.command = "pop";
@@ -177,7 +186,7 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   header.settings = valuesAsJson(groups(), values);
   header.settings["input"] = call.input.toJson();
   header.extra = {{"frames_are", options.after.empty() ? "each compared with the one before" : "pairs"}};
-  header.primaryFigures = {"rating", "regions", "largest_jnd", "max_de94"};
+  header.primaryFigures = {"rating", "region_count", "largest_jnd", "max_de94"};
   header.json = options.json;
   ReportPrinter printer(header, frames.size(), limits);
   for (const FrameSet& frame : frames) predict(call, frame, outputs, printer);

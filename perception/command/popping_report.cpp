@@ -50,7 +50,7 @@ Figures declaredPoppingFigures() {
            {},
            {}},
           {"detection_probability", "", "that a viewer who attends to it reports it", false, {}, {}},
-          {"regions", "", "popping regions", false, {}, {}},
+          {"region_count", "", "popping regions", false, {}, {}},
           {"coverage", "", "share of the image in popping regions", false, {}, {}},
           {"largest_jnd", "JND", "largest difference", false, {}, {}},
           {"mean_jnd", "JND", "mean difference", false, {}, {}},

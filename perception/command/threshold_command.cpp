@@ -11,8 +11,8 @@
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
 #include "perception/command/image_options.h"
+#include "perception/command/map_picture.h"
 #include "perception/command/output_files.h"
-#include "perception/metrics/error_map.h"
 #include "perception/metrics/quantile.h"
 #include "perception/metrics/row_sums.h"
 #include "perception/threshold_maps/reference.h"
@@ -55,12 +55,6 @@ Figures thresholdFigures(const ThresholdMap& map) {
            false,
            luminance.value() / pixels,
            {}}};
-}
-
-/// Round scale that one pixel in a hundred exceeds at most: single pixels would darken all others.
-double pictureScale(const ThresholdMap& map) {
-  std::vector<double> values = map.thresholdCdM2.data;
-  return errorScale(Image(1, 1, 1, static_cast<float>(nearestRank(values, 0.99))));
 }
 
 bool isPicture(const std::string& path) {
@@ -118,11 +112,11 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
         report.outputs.emplace_back("threshold map, cd/m2", path);
         continue;
       }
-      if (scale <= 0.0) scale = pictureScale(map);
-      const std::string text = "black 0, pale yellow " + shortestNumber(scale) + " cd/m2 and above";
-      writePng(path, errorPicture(picture, scale), "threshold map, " + text + "; " + header.statement);
+      if (scale <= 0.0) scale = pictureScale(picture);
+      const std::string meaning =
+          writeMapPicture(path, picture, scale, "cd/m2", "threshold map; " + header.statement);
       report.extra["picture_scale_cd_m2"] = scale;
-      report.outputs.emplace_back("picture, " + text, path);
+      report.outputs.emplace_back("picture, " + meaning, path);
     }
     printer.add(report);
   }

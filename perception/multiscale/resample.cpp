@@ -159,6 +159,14 @@ AxisTaps gaussianTaps(int size, double sigmaPx, Border border) {
   return out;
 }
 
+AxisTaps boxTaps(int size, int sidePx, Border border) {
+  AxisTaps out = emptyTaps(size, sidePx);
+  for (int x = 0; x < size; ++x)
+    for (int k = 0; k < sidePx; ++k)
+      setTap(out, x, k, borderIndex(x + k - sidePx / 2, size, border), 1.0 / sidePx);
+  return out;
+}
+
 AxisTaps dilatedTaps(int size, const Kernel& kernel, int dilation, Border border) {
   assert(!kernel.fused && "an even number of taps has no centre to dilate about");
   AxisTaps out = emptyTaps(size, 5);

@@ -54,6 +54,8 @@ AxisTaps bilinearTaps(int from, int to, bool cosited, int levels, Border border)
 AxisTaps expansionTaps(int from, int to, const Kernel& kernel, Border border);
 /// Convolution with a sampled Gaussian cut off at 6 sigma; sigma 0 copies.
 AxisTaps gaussianTaps(int size, double sigmaPx, Border border);
+/// Mean of `sidePx` samples about each; an even count leans to the left.
+AxisTaps boxTaps(int size, int sidePx, Border border);
 /// The kernel with its taps `dilation` pixels apart (cosited kernels only).
 AxisTaps dilatedTaps(int size, const Kernel& kernel, int dilation, Border border);
 

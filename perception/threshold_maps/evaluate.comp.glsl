@@ -22,6 +22,15 @@ const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
 const int kPlanes = LEVELS - 1;
 
+// Band 0 of 16 bits is its signed square root; luminance, which is what there is without levels, is stored plainly.
+float decoded(float code) {
+#if LEVELS > 1 && HALF && !FINEST_LUMINANCE
+  return code * abs(code);
+#else
+  return code;
+#endif
+}
+
 #if LEVELS > 1
 // Most samples around a tile at levels 1, 2 ...
 const int kWidth[8] = int[8](34, 19, 11, 7, 5, 4, 4, 4);
@@ -45,14 +54,6 @@ ivec2 originOf(int i) {
 ivec2 countOf(int i) {
   return ivec2(patches[int(gl_WorkGroupID.x) * kPlanes + i - 1].y,
                patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
-}
-
-float decoded(float code) {
-#if HALF && !FINEST_LUMINANCE
-  return code * abs(code);
-#else
-  return code;
-#endif
 }
 
 float between(float a, float b, float c, float d, vec2 t) {

@@ -37,6 +37,9 @@ double levelWidthPx(const Settings& settings, int level) {
       variance = sigma * sigma;
       break;
     }
+    case Settings::Decomposition::Repeated:
+      variance = Kernel::binomial5().variancePx2() * level;
+      break;
     case Settings::Decomposition::Pyramid:
       // A tent of half-width 2^level, less what sampling it on pixels leaves.
       variance += powers / 6.0;
@@ -65,6 +68,7 @@ AdaptationBlend adaptationBlend(const Settings& settings, double pixelsPerDegree
       if (lgPpd > 0.0 && blend.level < last) blend.next = lgPpd - std::floor(lgPpd);
       return blend;
     }
+    case Settings::Adaptation::MistakenDegree:
     case Settings::Adaptation::OneDegree:
       break;
   }

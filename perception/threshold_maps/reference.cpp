@@ -4,22 +4,51 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "perception/threshold_maps/model.h"
 
 namespace limen::perception {
+namespace {
+
+std::vector<Plane> levelsOf(const Plane& image, const ThresholdMapSettings& settings) {
+  PyramidSettings pyramid = settings.pyramid();
+  switch (settings.decomposition) {
+    case ThresholdMapSettings::Decomposition::TrueStack:
+      return gaussianStack(image, pyramid, settings.stackSigmaPx);
+    case ThresholdMapSettings::Decomposition::Repeated:
+      pyramid.kernel = Kernel::binomial5();
+      return repeatedStack(image, pyramid);
+    case ThresholdMapSettings::Decomposition::Stack:
+    case ThresholdMapSettings::Decomposition::Pyramid:
+      break;
+  }
+  return upsampledStack(gaussianPyramid(image, pyramid), pyramid);
+}
+
+/// Section 9.6: of an image 2 tan(fov / 2) / 0.01745 pixels wide each pixel would cover a degree; that
+/// number, taken for the side of the averaging kernel.
+std::optional<Plane> mistakenMean(const Plane& image, double pixelsPerDegree,
+                                  const ThresholdMapSettings& settings) {
+  if (settings.adaptation != ThresholdMapSettings::Adaptation::MistakenDegree) return {};
+  // The field of view whose centre has these pixels per degree: W = 2 tan(fov / 2) ppd / tan(1 degree).
+  const double side = std::tan(std::numbers::pi / 180.0) * image.width / pixelsPerDegree / 0.01745;
+  const int sidePx = std::clamp(static_cast<int>(std::lround(side)), 1, 4096);
+  return resample(image, boxTaps(image.width, sidePx, settings.border),
+                  boxTaps(image.height, sidePx, settings.border));
+}
+
+}  // namespace
 
 ThresholdMap computeThresholdMap(const Plane& luminanceCdM2, double pixelsPerDegree,
                                  const ThresholdMapSettings& settings) {
   const int width = luminanceCdM2.width, height = luminanceCdM2.height;
   const ThresholdModel model(settings, pixelsPerDegree, width, height);
-  const PyramidSettings pyramid = settings.pyramid();
   const Plane image = finiteNonNegative(luminanceCdM2, settings.largestCdM2);
 
   ThresholdMap map;
-  map.levels = settings.decomposition == ThresholdMapSettings::Decomposition::TrueStack
-                   ? gaussianStack(image, pyramid, settings.stackSigmaPx)
-                   : upsampledStack(gaussianPyramid(image, pyramid), pyramid);
+  map.levels = levelsOf(image, settings);
   ContrastLevels contrast = contrastStack(map.levels, settings.contrastEpsilonCdM2);
   map.contrasts = std::move(contrast.levels);
   map.guarded = contrast.guarded;
@@ -30,11 +59,13 @@ ThresholdMap computeThresholdMap(const Plane& luminanceCdM2, double pixelsPerDeg
   const AdaptationBlend& blend = model.adaptation();
   const Plane& near = map.levels[static_cast<size_t>(blend.level)];
   const Plane& far = map.levels[std::min(static_cast<size_t>(blend.level) + 1, map.levels.size() - 1)];
+  const std::optional<Plane> mistaken = mistakenMean(image, pixelsPerDegree, settings);
   forRowBlocks(height, static_cast<size_t>(width) * 400, [&](int first, int end) {
     std::vector<double> contrasts(map.contrasts.size());
     for (int y = first; y < end; ++y)
       for (int x = 0; x < width; ++x) {
-        const double adaptation = (1.0 - blend.next) * near.at(x, y) + blend.next * far.at(x, y);
+        const double adaptation =
+            mistaken ? mistaken->at(x, y) : (1.0 - blend.next) * near.at(x, y) + blend.next * far.at(x, y);
         for (size_t band = 0; band < contrasts.size(); ++band) contrasts[band] = map.contrasts[band].at(x, y);
         const double elevation = model.elevation(contrasts, adaptation);
         map.adaptationCdM2.at(x, y) = adaptation;

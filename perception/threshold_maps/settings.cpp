@@ -21,9 +21,9 @@ Enum chosen(const ParameterValues& values, const char* name, const std::vector<s
 }
 
 // Functions, since techniques declare their parameters before objects of other files exist.
-std::vector<std::string> decompositions() { return {"stack", "pyramid", "true_stack"}; }
+std::vector<std::string> decompositions() { return {"stack", "pyramid", "true_stack", "repeated"}; }
 std::vector<std::string> adaptations() {
-  return {"one_degree", "nearest_level", "fractional_level", "level"};
+  return {"one_degree", "nearest_level", "fractional_level", "level", "mistaken_degree"};
 }
 std::vector<std::string> frequencyRules() { return {"original", "actual", "none"}; }
 std::vector<std::string> lowFrequencies() { return {"by_rule", "one", "as_computed"}; }
@@ -53,8 +53,8 @@ std::vector<Parameter> thresholdMapParameters() {
                        kMap),
       choiceParameter(
           "decomposition", "stack", decompositions(),
-          "stack: levels upsampled one at a time; pyramid: sampled directly; true_stack: Gaussians "
-          "of doubling sigma at full resolution (reference only)",
+          "stack: levels upsampled one at a time; pyramid: sampled directly; reference only: true_stack, "
+          "Gaussians of doubling sigma; repeated, one small kernel again and again, a published mistake",
           kMap),
       choiceParameter("downsample", "exact", {"exact", "nine_fetch"},
                       "six taps an axis, or the thesis's nine bilinear fetches, which equal them for even "
@@ -78,8 +78,9 @@ std::vector<Parameter> thresholdMapParameters() {
                        "Schwarz 2009, section 10.3"),
       choiceParameter(
           "adaptation", "one_degree", adaptations(),
-          "adaptation luminance: mean over one degree (two levels blended), level round(lg2 ppd), "
-          "levels around lg2 ppd blended, or a given level",
+          "adaptation luminance: mean over one degree (two levels blended), level round(lg2 ppd), levels "
+          "around lg2 ppd blended, a given level; reference only: mistaken_degree, the image's degrees "
+          "taken for the pixels to average, a published mistake",
           kMap),
       integerParameter("adaptation_level", 5, 0, 8, "", "for adaptation: level; 0: every pixel its own",
                        kMap),

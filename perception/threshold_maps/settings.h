@@ -13,15 +13,17 @@ namespace limen::perception {
 
 struct ThresholdMapSettings {
   enum class Decomposition {
-    Stack,     ///< pyramid whose levels are brought up one level at a time (section 9.4)
-    Pyramid,   ///< pyramid sampled directly: faster, blocky
-    TrueStack  ///< Gaussians of doubling sigma at full resolution: what both stand for (CPU only)
+    Stack,      ///< pyramid whose levels are brought up one level at a time (section 9.4)
+    Pyramid,    ///< pyramid sampled directly: faster, blocky
+    TrueStack,  ///< Gaussians of doubling sigma at full resolution: what both stand for (CPU only)
+    Repeated    ///< a published mistake (section 9.6): one small kernel applied again and again (CPU only)
   };
   enum class Adaptation {
     OneDegree,        ///< mean over one degree: the two levels that enclose it, blended
     NearestLevel,     ///< level round(lg2 ppd), whose pixels are about a degree apart
     FractionalLevel,  ///< levels around lg2 ppd, blended
-    Level             ///< level `adaptationLevel`; 0: each pixel adapts to itself
+    Level,            ///< level `adaptationLevel`; 0: each pixel adapts to itself
+    MistakenDegree    ///< a published mistake (section 9.6): a count of degrees taken for pixels (CPU only)
   };
   enum class FrequencyRule {
     Original,  ///< at `fLuminanceCdM2`

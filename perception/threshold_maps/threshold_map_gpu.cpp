@@ -52,6 +52,12 @@ void checkSettings(const Settings& settings) {
   refuse(settings.decomposition == Settings::Decomposition::TrueStack,
          "a true stack is not computed on the GPU", "decomposition",
          "use stack or pyramid, or the technique perception/threshold_map_reference");
+  refuse(settings.decomposition == Settings::Decomposition::Repeated,
+         "the mistaken stack is not computed on the GPU", "decomposition",
+         "use stack or pyramid, or the technique perception/threshold_map_reference");
+  refuse(settings.adaptation == Settings::Adaptation::MistakenDegree,
+         "the mistaken mean is not computed on the GPU", "adaptation",
+         "use one_degree, or the technique perception/threshold_map_reference");
   refuse(settings.expand, "levels are brought up bilinearly on the GPU", "upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
   refuse(settings.direct && (settings.csf != "barten89" || settings.tvi != "ward"),
@@ -152,8 +158,8 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
               {"FINEST_LUMINANCE", yes(settings.nineFetch)},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(maskingModel)},
-              {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
+              {"MASKING", std::to_string(settings.direct ? maskingModel : 0)},  // tables know it otherwise
+              {"FOURTH_ROOT", yes(settings.direct && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(settings.flatSmooth)},
               {"DIRECT", yes(settings.direct)},
               {"TILE_X", std::to_string(kTilePx.x)},

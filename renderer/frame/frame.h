@@ -64,6 +64,10 @@ class Frame {
   void setLevels(const scene::LodSelection& selection);
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// Takes shadow maps from another view, whose levels are what casts shadows here; null: from this one.
+  /// begin() it first; it must outlive this frame.
+  void setCasters(Frame* casters) { casters_ = casters; }
+  Frame& casters() { return casters_ ? *casters_ : *this; }
   /// What inputs rasterise.
   Geometry geometry() const { return {gpuScene_, ranges_.get(), positions_}; }
 
@@ -104,6 +108,7 @@ class Frame {
   std::string prefix_;
   std::unique_ptr<TriangleRanges> ranges_;
   const gl::Buffer* positions_ = nullptr;
+  Frame* casters_ = nullptr;
   std::map<std::string, Entry> entries_;
   uint64_t number_ = 0;
 };

@@ -19,6 +19,10 @@ class TriangleIds : public FrameInput {
   void make(Frame& frame) override;
   /// R32UI; kNone: background.
   const gl::Texture& texture() const { return hardware_ ? hardware_->ids : compute_->ids(); }
+  /// What decided who is seen: near / distance along the view (reversed), 0: background. One channel of 32-bit
+  /// float, to be read by texelFetch. Of two triangles at the same depth the one with the smaller number is
+  /// seen. The near plane depends on scene and camera alone, so depths of two choices of levels compare.
+  const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
 
  private:
   struct HardwareTarget {

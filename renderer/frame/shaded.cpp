@@ -13,9 +13,6 @@
 namespace limen::frame {
 namespace {
 
-// Biases of the hard shadow, as soft_shadows/hard has them.
-constexpr float kBias = 1e-4F, kSlopeBias = 1.0F, kMaxSlope = 10.0F;
-
 gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const SurfaceBuffers& surface) {
   gl::ShaderDefines defines;
   if (lit) defines["LIT"] = "1";
@@ -80,7 +77,7 @@ void Shaded::make(Frame& frame) {
   const ShadowMap* map = nullptr;
   if (lit_ && setting_.shadow) {
     receivers = &frame.get<Receivers>().texture();
-    map = &frame.get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
+    map = &frame.casters().get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
   }
   const auto scope = frame.passes().open("frame/shaded");
   const glm::dmat4& toCamera = frame.anchorToCamera();
@@ -109,9 +106,9 @@ void Shaded::make(Frame& frame) {
     program_.set("tangentLow", glm::vec2(frustum.low));
     program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
     program_.set("resolution", setting_.shadowResolution);
-    program_.set("bias", kBias);
-    program_.set("slopeBias", kSlopeBias);
-    program_.set("maxSlope", kMaxSlope);
+    program_.set("bias", kShadowBias);
+    program_.set("slopeBias", kShadowSlopeBias);
+    program_.set("maxSlope", kShadowMaxSlope);
     receivers->bindTexture(1);
     map->texture().bindTexture(2);
   }

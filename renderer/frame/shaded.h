@@ -10,6 +10,10 @@
 
 namespace limen::frame {
 
+/// Biases of the hard shadow, as soft_shadows/hard has them: shares of the depth, texels of slope, and the
+/// largest slope over depth.
+inline constexpr float kShadowBias = 1e-4F, kShadowSlopeBias = 1.0F, kShadowMaxSlope = 10.0F;
+
 /// How Shaded lights a scene. The light is the scene's first; a scene without one has ambient light alone.
 struct ShadedSetting {
   double ambient = 0.2;   ///< share of the albedo that is seen without a light
@@ -19,7 +23,7 @@ struct ShadedSetting {
   glm::vec3 background{0.05F};  ///< linear; 0.05 is the dark grey 63 of 255 of sRGB
   bool smoothNormals = true;    ///< vertex or patch normals where the mesh has them
   bool pattern = true;          ///< solid textures of the materials
-  bool shadow = false;          ///< hard shadow by a map from the light's centre
+  bool shadow = false;          ///< hard shadow by a map of frame.casters() from the light's centre
   int shadowResolution = 1024;  ///< texels a side, a power of two
   double eyeDtS = 0.0;          ///< highlights as the camera saw them this long ago
   std::string key() const;

@@ -22,7 +22,34 @@ TEST_F(CompareCli, IdenticalImagesHaveNoError) {
     EXPECT_EQ(figure(found, name), 0.0) << name;
   EXPECT_EQ(figure(found, "ssim"), 1.0);
   EXPECT_EQ(figure(found, "psnr"), 200.0);  // what the metric declares for equal images
+  EXPECT_EQ(figure(found, "largest_jnd"), 0.0);
+  EXPECT_EQ(figure(found, "region_count"), 0.0);
+  EXPECT_THAT(found.at("regions"), IsEmpty());
+  EXPECT_GE(found.at("metric_versions").at("ssim").get<int>(), 1);
+  EXPECT_GE(found.at("jnd_model").at("contrast_levels").get<int>(), 1);
   EXPECT_THAT(found.at("warnings"), IsEmpty());
+}
+
+TEST_F(CompareCli, JndIsThePoppingPredictorWithNothingMoving) {
+  Image image = noise(48, 40, 3, 1);
+  save("b.png", image);
+  for (int y = 10; y < 22; ++y)
+    for (int x = 10; x < 22; ++x) image.at(x, y, 1) = (x / 3 + y / 3) % 2 ? 0.9F : 0.1F;
+  save("a.png", image);
+  const nlohmann::json compared = result({"compare", "a.png", "b.png", "--metrics", "jnd", "--map", "maps"}),
+                       popped = result({"pop", "b.png", "a.png"});
+  EXPECT_GT(figure(compared, "largest_jnd"), 2.0);
+  for (const auto& [name, value] : compared.at("figures").items())
+    EXPECT_EQ(value, popped.at("figures").at(name)) << name;
+  EXPECT_EQ(compared.at("regions"), popped.at("regions"));
+  const std::vector<float> map = readImageFile(path("maps/jnd.exr")).image.data;
+  EXPECT_FLOAT_EQ(*std::max_element(map.begin(), map.end()),
+                  static_cast<float>(figure(compared, "largest_jnd")));
+  EXPECT_EQ(call({"compare", "a.png", "b.png", "--fail-above", "largest_jnd=1"}).exitCode, 1);
+  const nlohmann::json other =
+      result({"compare", "a.png", "b.png", "--metrics", "jnd", "--set", "jnd.minkowski_exponent=4"});
+  EXPECT_EQ(other.at("settings").at("jnd").at("minkowski_exponent"), 4.0);
+  EXPECT_NE(figure(other, "largest_jnd"), figure(compared, "largest_jnd"));
 }
 
 TEST_F(CompareCli, FiguresOfFlatImagesAreThoseOfArithmetic) {
@@ -153,6 +180,18 @@ TEST_F(CompareCli, SettingsAreListedAndChecked) {
   EXPECT_THAT(call({"compare", "--list"}).out, HasSubstr("flip.pixels_per_degree"));
   const experiments::CallResult list = call({"compare", "--list", "--json"});
   EXPECT_FALSE(nlohmann::json::parse(list.out).empty());
+}
+
+TEST_F(CompareCli, TheProgramItselfAnswersAlike) {
+  save("a.png", noise(40, 30, 3, 1));
+  save("b.png", noise(40, 30, 3, 2));
+  const std::vector<std::string> words = {"compare", "a.png", "b.png", "--json"};
+  const experiments::CallResult answer = started(words);
+  EXPECT_EQ(answer.exitCode, 0) << answer.err;
+  EXPECT_EQ(answer.out, call(words).out);
+  EXPECT_EQ(started({"compare", "a.png", "none.png"}).exitCode, 2);
+  EXPECT_EQ(started({"compare", "a.png", "b.png", "--fail-above", "rmse=0"}).exitCode, 1);
+  EXPECT_THAT(started({"--version"}).out, AllOf(HasSubstr("limen-perceive 0."), HasSubstr("commit")));
 }
 
 TEST_F(CompareCli, SameCallGivesTheSameBytes) {

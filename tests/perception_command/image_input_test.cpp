@@ -158,6 +158,10 @@ TEST_F(ImageInputCli, RefusesWhatIsNoPairOfImages) {
   expectRefused({"compare", "a.png"}, {"an image is missing"});
   expectRefused({"compare", "a.png", "a.png", "--display", "schwarz"}, {"schwarz_2009"});
   expectRefused({"compare", "a.png", "a.png", "--alpha", "blend"}, {"over_black"});
+  expectRefused({"compare", "a.png", "a.png", "--scene-luminance"}, {"integers"});
+  expectRefused({"compare", "a.png", "a.png", "--linear", "--coded"}, {"--linear", "--coded"});
+  expectRefused({"compare", "a.png", "a.png", "a.png"}, {"unknown argument 'a.png'", "quote"});
+  expectRefused({"compare", "a.png", "a.png", "--fail-abov", "rmse=1"}, {"--fail-above"});
 }
 
 TEST_F(ImageInputCli, CutJpegAndExrAreRefused) {

@@ -10,6 +10,7 @@
 
 #include "base/image.h"
 #include "base/image_file.h"
+#include "perception/command/perceive.h"
 #include "tests/experiments/cli_fixture.h"
 
 namespace limen::perception {
@@ -21,10 +22,37 @@ struct FileForm {
   std::vector<std::pair<std::string, int>> whole;
 };
 
-/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here.
+/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here. A child
+/// process runs the program's own main function: loading the image library's two hundred libraries anew for
+/// each call would take longer than all tests. started() does so.
 class PerceiveCli : public experiments::SweepCli {
  protected:
-  PerceiveCli() { program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive"; }
+  PerceiveCli() {
+    program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive";
+    // A child has none of its parent's threads, and would wait for them.
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
+  }
+
+  /// The answer of the program itself.
+  experiments::CallResult started(const std::vector<std::string>& arguments) const {
+    return wait(start(arguments));
+  }
+
+  experiments::CallResult call(const std::vector<std::string>& arguments) const {
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return wait(child);
+    std::vector<std::string> words = {program_};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> raw;
+    for (std::string& word : words) raw.push_back(word.data());
+    const bool ready = std::freopen(path("call.out").c_str(), "w", stdout) &&
+                       std::freopen(path("call.err").c_str(), "w", stderr) && chdir(folder_.c_str()) == 0;
+    const int code = ready ? perceiveMain(static_cast<int>(raw.size()), raw.data()) : 126;
+    std::fflush(nullptr);
+    _exit(code);
+  }
 
   /// Values in [0, 1] (integer types) or as they are, through OpenImageIO alone.
   void save(const std::string& name, const Image& image, const FileForm& form = {}) const {

@@ -31,12 +31,12 @@ class PopCli : public PerceiveCli {
 TEST_F(PopCli, IdenticalFramesDoNotPop) {
   save("a.png", noise(64, 48, 3, 1));
   const nlohmann::json found = result({"pop", "a.png", "a.png", "--jnd", "jnd.exr"});
-  EXPECT_EQ(figure(found, "regions"), 0.0);
+  EXPECT_EQ(figure(found, "region_count"), 0.0);
   EXPECT_EQ(figure(found, "largest_jnd"), 0.0);
   EXPECT_EQ(figure(found, "max_de94"), 0.0);
   EXPECT_TRUE(found.at("figures").at("rating").is_null());
   EXPECT_FALSE(found.contains("unavailable"));
-  EXPECT_THAT(found.at("regions_table"), IsEmpty());
+  EXPECT_THAT(found.at("regions"), IsEmpty());
   for (const float value : readImageFile(path("jnd.exr")).image.data) EXPECT_EQ(value, 0.0F);
   // Nothing popped: no limit is exceeded.
   EXPECT_EQ(call({"pop", "a.png", "a.png", "--fail-above", "-5"}).exitCode, 0);
@@ -66,10 +66,10 @@ TEST_F(PopCli, RegionsAreThoseOfTheWrittenMaps) {
       r.largest = std::max(r.largest, double{jnd.at(x, y)});
     }
   ASSERT_FALSE(regions.empty());
-  ASSERT_EQ(found.at("regions_table").size(), regions.size());
-  EXPECT_EQ(figure(found, "regions"), static_cast<double>(regions.size()));
+  ASSERT_EQ(found.at("regions").size(), regions.size());
+  EXPECT_EQ(figure(found, "region_count"), static_cast<double>(regions.size()));
   double highest = -1e9, last = 1e9;
-  for (const nlohmann::json& told : found.at("regions_table")) {
+  for (const nlohmann::json& told : found.at("regions")) {
     const Region& r = regions.at(told.at("label").get<int>());
     EXPECT_EQ(told.at("size_px"), r.size);
     EXPECT_EQ(told.at("x_px"), r.left);
@@ -97,6 +97,28 @@ TEST_F(PopCli, RegionsAreThoseOfTheWrittenMaps) {
   EXPECT_NEAR(figure(found, "median_jnd"), values[values.size() / 2 - 1], 1e-5);
 }
 
+TEST_F(PopCli, OverlayColoursRegionsOnGrey) {
+  savePair("old.png", "new.png");
+  const nlohmann::json found = result({"pop", "old.png", "new.png", "--overlay", "over.png"});
+  const Image picture = readImageFile(path("over.png")).image;
+  ASSERT_EQ(picture.width, 96);
+  ASSERT_GE(picture.height, 80);
+  const auto spread = [&](int x, int y) {
+    const float r = picture.at(x, y, 0), g = picture.at(x, y, 1), b = picture.at(x, y, 2);
+    return std::max({r, g, b}) - std::min({r, g, b});
+  };
+  for (const nlohmann::json& region : found.at("regions")) {
+    double most = 0.0;
+    for (int y = 0; y < region.at("height_px").get<int>(); ++y)
+      for (int x = 0; x < region.at("width_px").get<int>(); ++x)
+        most = std::max(most,
+                        double{spread(region.at("x_px").get<int>() + x, region.at("y_px").get<int>() + y)});
+    EXPECT_GT(most, 0.1);
+  }
+  EXPECT_LT(spread(95, 0), 0.01);  // far from what pops
+  expectRefused({"pop", "old.png", "new.png", "--overlay", "new.png"}, {"never overwritten"});
+}
+
 TEST_F(PopCli, FormatsAndSwappingLeaveTheDifferenceAlone) {
   savePair("old.png", "new.png");
   for (const char* name : {"old", "new"})
@@ -107,7 +129,7 @@ TEST_F(PopCli, FormatsAndSwappingLeaveTheDifferenceAlone) {
                             std::vector<std::string>{"pop", "old.png", "new.exr"},
                             std::vector<std::string>{"pop", "new.png", "old.png"}}) {
     const nlohmann::json other = result(words);
-    for (const char* name : {"rating", "regions", "largest_jnd", "mean_jnd", "coverage"})
+    for (const char* name : {"rating", "region_count", "largest_jnd", "mean_jnd", "coverage"})
       EXPECT_NEAR(figure(other, name), figure(coded, name), 1e-4 * (1.0 + figure(coded, name)))
           << words[1] << name;
   }
@@ -126,7 +148,7 @@ TEST_F(PopCli, LimitsAreAboutTheRatingUnlessNamed) {
   EXPECT_THAT(over.err, AllOf(HasSubstr("rating is"), HasSubstr("above 1")));
   EXPECT_EQ(with("20").exitCode, 0);
   EXPECT_EQ(with("detection_probability=0.5").exitCode, 1);
-  EXPECT_EQ(with("regions=100").exitCode, 0);
+  EXPECT_EQ(with("region_count=100").exitCode, 0);
   expectRefused({"pop", "old.png", "new.png", "--fail-above", "ratng=1"}, {"rating"});
 }
 
@@ -189,8 +211,8 @@ TEST_F(PopCli, ASequenceAloneIsEachFrameAgainstTheNext) {
   EXPECT_EQ(lines[0].at("inputs").at("old").at("path"), "s_1.png");
   EXPECT_EQ(lines[0].at("inputs").at("new").at("path"), "s_2.png");
   EXPECT_EQ(lines[0].at("maps").at("motion"), "flow_2.exr");
-  EXPECT_GT(figure(lines[0], "regions"), 0.0);
-  EXPECT_EQ(figure(lines[1], "regions"), 0.0);
+  EXPECT_GT(figure(lines[0], "region_count"), 0.0);
+  EXPECT_EQ(figure(lines[1], "region_count"), 0.0);
   const nlohmann::json& summary = lines[2];
   EXPECT_EQ(summary.at("worst_frame"), "frame 2");
   EXPECT_EQ(summary.at("figures").at("rating").at("frames"), 1);

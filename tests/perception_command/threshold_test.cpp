@@ -83,6 +83,22 @@ TEST_F(ThresholdCli, SettingsReachTheModelAndTheStatement) {
   EXPECT_THAT(call({"threshold", "--help"}).out, HasSubstr("tvi_factor=0.2"));
 }
 
+TEST_F(ThresholdCli, SettingsOfAResultRepeatIt) {
+  save("a.png", noise(40, 30, 3, 1));
+  const nlohmann::json first = result(
+      {"threshold", "a.png", "--set", "tvi_factor=0.31", "--set", "masking=lubin", "--set", "levels=5"});
+  std::vector<std::string> again = {"threshold", "a.png"};
+  for (const auto& [name, value] : first.at("settings").items()) {
+    if (name == "input") continue;
+    again.emplace_back("--set");
+    again.push_back(name + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  const nlohmann::json second = result(again);
+  EXPECT_EQ(second.at("figures"), first.at("figures"));
+  EXPECT_EQ(second.at("settings"), first.at("settings"));
+  EXPECT_EQ(second.at("statement"), first.at("statement"));
+}
+
 TEST_F(ThresholdCli, RefusesToOverwriteAndToMixUpFiles) {
   save("a.exr", flat(8, 8, {0.5F}), {OIIO::TypeDesc::FLOAT, {}, {}});
   const std::string before = read("a.exr");
@@ -95,6 +111,8 @@ TEST_F(ThresholdCli, RefusesToOverwriteAndToMixUpFiles) {
   expectRefused({"threshold", "a.exr", "-o", "m.exr", "-o", "m.exr"}, {"written twice"});
   expectRefused({"threshold", "a.exr", "-o", "m.jpg"}, {".exr or .png"});
   expectRefused({"threshold"}, {"an image is missing"});
+  expectRefused({"threshold", "a.exr", "-o", "a.exr/m.exr"}, {"cannot write 'a.exr/m.exr'"});
+  expectRefused({"threshold", "a.exr", "-o", "/proc/m.exr"}, {"cannot write '/proc/m.exr'"});
   EXPECT_EQ(read("a.exr"), before);
 }
 

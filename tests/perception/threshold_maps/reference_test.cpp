@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+#include "perception/threshold_maps/model.h"
 #include "perception/vision/csf_models.h"
 #include "perception/vision/masking.h"
 #include "perception/vision/tvi.h"
@@ -103,6 +105,7 @@ TEST(ThresholdMap, IsFiniteForEveryImageAndSetting) {
       {{"masking", text("lubin")}, {"tvi", text("from_csf")}, {"csf", text("barten03")}},
       {{"masking", text("self")}, {"tvi", text("ward_smoothed")}, {"csf", text("daly98")}},
       {{"masking", text("none")}, {"csf", text("martin92")}, {"gain_compensation", true}},
+      {{"decomposition", text("repeated")}, {"adaptation", text("mistaken_degree")}},
   };
   for (const auto& [name, image] : images)
     for (const auto& given : variants)
@@ -195,25 +198,42 @@ TEST(ThresholdMap, AdaptsToOneDegree) {
 }
 
 TEST(ThresholdMap, AResolutionTakenForAKernelSizeIsNotOneDegree) {
-  // The published mistake: N = 2 tan(fov / 2) / 0.01745 pixels are one degree apart, but N is then used as
-  // the width of the averaging filter in the image of W pixels: N^2 / W degrees.
+  // The published mistake: in an image N = 2 tan(fov / 2) / 0.01745 pixels wide each covers a degree, but N
+  // is used as the width of the averaging filter in the image of W pixels: N^2 / W degrees.
   for (const auto& [fovDeg, width, degrees] :
        {std::tuple(10.0, 512, 0.196), {15.0, 512, 0.445}, {20.0, 512, 0.798}, {45.0, 1024, 2.20}}) {
-    const double ppd = width / fovDeg;
-    const double n = 2.0 * std::tan(fovDeg * M_PI / 360.0) / 0.01745;
-    const int kernel = static_cast<int>(std::lround(n));
-    const Plane edge = edgePattern(width, 1);
-    Plane averaged(width, 1);
-    for (int x = 0; x < width; ++x) {
-      double sum = 0.0;
-      for (int k = 0; k < kernel; ++k)
-        sum += edge.at(std::clamp(x + k - kernel / 2, 0, width - 1), 0) / kernel;
-      averaged.at(x, 0) = sum;
-    }
-    const double support = edgeSupportPx(averaged) / ppd;
-    EXPECT_NEAR(support, degrees, 0.11 * degrees);  // N is rounded, and fov / W is not quite 1 / ppd
-    EXPECT_GT(std::abs(support - 1.0), 0.2 - 0.002) << "the criterion must reject it";
+    const double ppd = width / (2.0 * std::tan(fovDeg * M_PI / 360.0)) * std::tan(M_PI / 180.0);
+    const ThresholdMap map = computeThresholdMap(edgePattern(width, 8), ppd,
+                                                 settingsOf({{"adaptation", text("mistaken_degree")}}));
+    const double support = edgeSupportPx(map.adaptationCdM2) / ppd;
+    EXPECT_NEAR(support, degrees, 0.05 * degrees);  // N is rounded to whole pixels
+    EXPECT_GT(std::abs(support - 1.0), 0.19) << "the criterion must reject it";
   }
+}
+
+TEST(ThresholdMap, AStackThatDoesNotDoubleIsCaughtByItsPeaks) {
+  // The model reads the CSF where a pyramid's bands peak; bands of a kernel applied repeatedly peak
+  // elsewhere.
+  const ThresholdMapSettings settings =
+      settingsOf({{"decomposition", text("repeated")}, {"levels", int64_t{6}}});
+  const auto decompose = [&](const Plane& image) {
+    return computeThresholdMap(image, kStudyPpd, settings).levels;
+  };
+  const ThresholdModel model(settings, kStudyPpd, 256, 64);
+  GratingSweep sweep;
+  sweep.widthPx = 256;
+  sweep.heightPx = 32;
+  sweep.lowestCyclesPerPx = 0.03;
+  sweep.step = 1.08;
+  EXPECT_THROW(requirePeaks(measureBandPeaks(decompose, 3, sweep), model.peaks(), "repeated"), Error);
+  // The same check lets the dilated form of the pyramid pass.
+  const auto right = [&](const Plane& image) {
+    PyramidSettings pyramid;
+    pyramid.levels = 6;
+    return dilatedStack(image, pyramid);
+  };
+  const auto peaks = bandPeaks(Kernel::binomial5(), Upsampler::Successive, PeakModel::NoUpsample, 3);
+  EXPECT_NO_THROW(requirePeaks(measureBandPeaks(right, 3, sweep), peaks, "dilated"));
 }
 
 TEST(ThresholdMap, EveryComponentCanBeSwitchedOffAndMatters) {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "base/image.h"
+
+namespace limen::perception {
+
+/// Round scale for a picture of a map: one that a pixel in a hundred exceeds at most, so that a few do not
+/// darken all others; of a map that is 0 nearly everywhere, one that none exceeds.
+double pictureScale(const Image& map);
+
+/// Writes the map in colours, with the scale and `description` in the file. Returns what the colours mean:
+/// "black 0, pale yellow 20 JND and above". Throws Error.
+std::string writeMapPicture(const std::string& path, const Image& map, double scale, const std::string& unit,
+                            const std::string& description);
+
+}  // namespace limen::perception

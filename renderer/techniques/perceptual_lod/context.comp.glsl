@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// C_i: what the picture would show without layer i, with the shadows that fall on the layer's visible surfaces
+// as a pattern on it.
+#include "renderer/techniques/perceptual_lod/surface_key.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D frontColour;
+layout(binding = 1) uniform usampler2D frontKey;
+layout(binding = 2) uniform sampler2D secondColour;
+layout(binding = 3) uniform sampler2D mask;
+layout(binding = 0, rgba32f) uniform writeonly image2D context;
+
+uniform ivec2 sizePx;
+uniform int layer;
+uniform float attenuation;  // of shadowed pixels; 1 without a mask
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  vec3 colour = texelFetch(frontColour, pixel, 0).rgb;
+  if (unpackKey(texelFetch(frontKey, pixel, 0)).layer == uint(layer)) {
+    colour = texelFetch(secondColour, pixel, 0).rgb;
+    if (attenuation < 1.0 && texelFetch(mask, pixel, 0).x > 0.5) colour *= attenuation;
+  }
+  imageStore(context, pixel, vec4(colour, 1.0));
+}

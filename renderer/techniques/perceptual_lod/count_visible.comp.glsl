@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts what lod_difference.glsl finds in the object's rectangle: sums in shared memory, then one addition of
+// integers a group, so that the order does not matter.
+#include "renderer/techniques/perceptual_lod/lod_difference.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) buffer Counts { uint counts[]; };  // covered, visible, next visible; a test each
+layout(binding = 0, r32f) uniform writeonly image2D visibleMap;
+
+uniform ivec2 lowPx, highPx;  // rectangle, high excluded
+uniform int test;
+
+shared uint sums[3];
+
+void main() {
+  if (gl_LocalInvocationIndex < 3u) sums[gl_LocalInvocationIndex] = 0u;
+  barrier();
+  const ivec2 pixel = lowPx + ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(pixel, highPx))) {
+    const Seen seen = look(pixel);
+    if (seen.covered) atomicAdd(sums[0], 1u);
+    if (seen.visible) {
+      atomicAdd(sums[1], 1u);
+      imageStore(visibleMap, pixel, vec4(1.0));
+    }
+    if (seen.nextVisible) atomicAdd(sums[2], 1u);
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < 3u && sums[gl_LocalInvocationIndex] > 0u)
+    atomicAdd(counts[4 * test + int(gl_LocalInvocationIndex)], sums[gl_LocalInvocationIndex]);
+}

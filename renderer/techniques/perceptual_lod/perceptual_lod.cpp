@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The interactive perceptual pipeline (SP-35 to SP-37): each frame is drawn in layers, what the other layers
+// show masks differences between levels of detail in a layer, and objects are tested in turn against their
+// finest level. Source: Schwarz 2009, section 9.5.
+//
+// What the thesis leaves open, and the choices made here:
+// - Layers: their number, and uniform, logarithmic or given borders of distance (parameters).
+// - Depth: the raster's own, so that the composite equals the ordinary picture bit for bit.
+// - Shadow mask M_i: surfaces of layer i that a shadow map without the layer's own objects calls shadowed,
+//   whether or not an object of the layer shadows them too. In C_i it darkens what lies behind the visible
+//   part of the layer by a constant factor.
+// - Where only one of two levels covers a pixel, the other shows what the other layers have there; objects of
+//   the same layer behind it are not looked for. An object of the same layer between the two levels' surfaces
+//   is taken for part of the object.
+// - The finest level is lit with the shadow that the scene has with the object at its finest level.
+// - C_i leaves out the object (and its layer), as in the thesis, whose thresholds are therefore those of
+//   another picture than the one seen; the counters of the oracle say what comes of it.
+// - An object of which no pixel is seen keeps its level. Objects wholly off the screen are passed over.
+#include <epoxy/gl.h>
+
+#include <optional>
+
+#include "renderer/techniques/perceptual_lod/oracle.h"
+#include "renderer/techniques/perceptual_lod/pipeline.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+namespace {
+
+class PerceptualLod : public Technique {
+ public:
+  explicit PerceptualLod(const ParameterValues& values) : settings_(PerceptualLodSettings::from(values)) {}
+
+  void prepare(frame::Frame& frame) override {
+    pipeline_.emplace(frame, settings_);
+    pipeline_->prime(frame.timeS());
+    for (int n = settings_.settleFrames; n > 0; --n)
+      pipeline_->render(frame.timeS() - n * settings_.frameStepS, true);
+    // All results are there when the first frame asks for them.
+    glFinish();
+  }
+
+  void render(frame::Frame& frame) override {
+    timeS_ = frame.timeS() + static_cast<double>(rendered_++) * settings_.frameStepS;
+    pipeline_->render(timeS_, settings_.wait);
+  }
+
+  const gl::Texture& product() const override { return pipeline_->picture(); }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    std::vector<Counter> out = countLevels(frame, timeS_, settings_, pipeline_->shown().levels);
+    const TestedLevels& control = pipeline_->control();
+    out.push_back({"triangles_tested", static_cast<double>(pipeline_->trianglesTested()), "triangles"});
+    out.push_back({"objects_tested", static_cast<double>(control.tested()), "tests"});
+    out.push_back({"tests_dropped", static_cast<double>(control.dropped()), "tests"});
+    out.push_back({"level_switches", static_cast<double>(control.switches()), "switches", false});
+    out.push_back({"level_reversals", static_cast<double>(control.reversals()), "switches", false});
+    out.push_back({"layers_drawn", static_cast<double>(pipeline_->images().layersDrawn()), "layers"});
+    out.push_back({"threshold_maps", static_cast<double>(pipeline_->mapsMade()), "maps"});
+    return out;
+  }
+
+  std::map<std::string, const gl::Texture*> debugViews() const override { return pipeline_->debugViews(); }
+
+ private:
+  PerceptualLodSettings settings_;
+  mutable std::optional<PerceptualPipeline> pipeline_;
+  int64_t rendered_ = 0;
+  double timeS_ = 0.0;
+};
+
+std::vector<std::string> counterNames() {
+  std::vector<std::string> out = levelCounterNames();
+  for (const char* name : {"triangles_tested", "objects_tested", "tests_dropped", "level_switches",
+                           "level_reversals", "layers_drawn", "threshold_maps"})
+    out.emplace_back(name);
+  return out;
+}
+
+const Registered<TechniqueInfo> kRegistered{
+    {.name = "lod/perceptual",
+     .version = 1,
+     .summary =
+         "Levels by visible difference: layers, a threshold map of each one's surroundings, tests in turn",
+     .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",
+     .product = ProductKind::Colour,
+     .parameters = PerceptualLodSettings::parameters(),
+     .needs = {"lod_sets"},
+     .reference = false,
+     .onCpu = false,
+     .make = [](const ParameterValues& values) { return std::make_unique<PerceptualLod>(values); },
+     .errorBound = {},
+     .counters = counterNames()}};
+
+}  // namespace
+}  // namespace limen::techniques

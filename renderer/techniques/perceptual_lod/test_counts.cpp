@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/perceptual_lod/test_counts.h"
+
+#include <epoxy/gl.h>
+
+#include <cassert>
+
+namespace limen::techniques {
+namespace {
+
+using Count = PerceptualLodSettings::Count;
+constexpr int64_t kWordsPerTest = 4;
+
+const gl::Program& programOf(gl::Context& context, Count method, bool withNext) {
+  const std::string folder = "renderer/techniques/perceptual_lod/";
+  const gl::ShaderDefines defines = withNext ? gl::ShaderDefines{{"NEXT", "1"}} : gl::ShaderDefines{};
+  if (method == Count::Compute)
+    return context.programs().compute(folder + "count_visible.comp.glsl", defines);
+  return context.programs().get({folder + "full_screen.vert.glsl", folder + "count_visible.frag.glsl"},
+                                defines);
+}
+
+}  // namespace
+
+TestCounts::TestCounts(gl::Context& context, Count method, int testsPerFrame, bool withNext,
+                       const gl::Texture& visible)
+    : method_(method),
+      testsPerFrame_(static_cast<size_t>(testsPerFrame)),
+      withNext_(withNext),
+      program_(programOf(context, method, withNext)),
+      visible_(visible),
+      counts_(kWordsPerTest * 4 * testsPerFrame, nullptr),
+      batches_(kBatches) {
+  for (Batch& batch : batches_) batch.tests.reserve(testsPerFrame_);
+  if (method == Count::Query) {
+    queries_.resize(kBatches * testsPerFrame_ * kQueries);
+    glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
+    glCreateVertexArrays(1, &vertexArray_);
+    target_.emplace(std::vector<const gl::Texture*>{&visible}, nullptr);
+    return;
+  }
+  const auto bytes = static_cast<GLsizeiptr>(counts_.bytes() * int64_t{kBatches});
+  constexpr GLbitfield kFlags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  glCreateBuffers(1, &readBack_);
+  glNamedBufferStorage(readBack_, bytes, nullptr, kFlags);
+  mapped_ = static_cast<const uint32_t*>(glMapNamedBufferRange(readBack_, 0, bytes, kFlags));
+}
+
+TestCounts::~TestCounts() {
+  for (const Batch& batch : batches_) glDeleteSync(static_cast<GLsync>(batch.fence));
+  if (!queries_.empty()) glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
+  glDeleteVertexArrays(1, &vertexArray_);
+  if (readBack_) glUnmapNamedBuffer(readBack_);
+  glDeleteBuffers(1, &readBack_);
+}
+
+void TestCounts::begin(int64_t frame, float blackCdM2, float rangeCdM2) {
+  assert(ready());
+  batches_[next_].frame = frame;
+  visible_.clear(glm::vec4(0.0F));
+  program_.set("blackCdM2", blackCdM2);
+  program_.set("rangeCdM2", rangeCdM2);
+  if (method_ == Count::Compute) counts_.clearUint(0);
+}
+
+void TestCounts::count(const CountRequest& request) {
+  Batch& batch = batches_[next_];
+  const size_t test = batch.tests.size();
+  assert(test < testsPerFrame_);
+  batch.tests.push_back({request.object, request.level, 0, 0, 0});
+  program_.set("firstTriangle", request.triangles.first);
+  program_.set("triangleCount", request.triangles.count);
+  const glm::ivec2 size = request.pixels.high - request.pixels.low;
+  if (method_ == Count::Compute) {
+    program_.set("lowPx", request.pixels.low);
+    program_.set("highPx", request.pixels.high);
+    program_.set("test", static_cast<int>(test));
+    counts_.bindStorage(0);
+    visible_.bindImage(0, gl::Access::Write);
+    program_.dispatch(size);
+    return;
+  }
+  target_->bind();
+  program_.use();
+  glBindVertexArray(vertexArray_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(request.pixels.low.x, request.pixels.low.y, size.x, size.y);
+  for (size_t kind = 0; kind < (withNext_ ? kQueries : kQueries - 1); ++kind) {
+    const GLboolean write = kind == 1 ? GL_TRUE : GL_FALSE;
+    glColorMask(write, write, write, write);
+    program_.set("counted", static_cast<int>(kind));
+    glBeginQuery(GL_SAMPLES_PASSED, query(next_, test, kind));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEndQuery(GL_SAMPLES_PASSED);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void TestCounts::end() {
+  Batch& batch = batches_[next_];
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                  GL_TEXTURE_UPDATE_BARRIER_BIT);
+  if (batch.tests.empty()) return;
+  if (method_ == Count::Compute) {
+    glCopyNamedBufferSubData(counts_.id(), readBack_, 0, static_cast<GLintptr>(next_) * counts_.bytes(),
+                             counts_.bytes());
+    batch.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  }
+  next_ = (next_ + 1) % kBatches;
+}
+
+bool TestCounts::arrived(const Batch& batch, bool wait) const {
+  if (method_ == Count::Compute) {
+    constexpr GLuint64 kSecond = 1'000'000'000;
+    GLenum result = GL_TIMEOUT_EXPIRED;
+    do {
+      result =
+          glClientWaitSync(static_cast<GLsync>(batch.fence), GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kSecond : 0);
+    } while (wait && result == GL_TIMEOUT_EXPIRED);
+    return result == GL_ALREADY_SIGNALED || result == GL_CONDITION_SATISFIED;
+  }
+  if (wait) return true;  // reading a query waits for it
+  GLuint available = GL_FALSE;
+  // Queries end in order: the last of the batch is there if all are.
+  glGetQueryObjectuiv(query(oldest_, batch.tests.size() - 1, withNext_ ? 2 : 1), GL_QUERY_RESULT_AVAILABLE,
+                      &available);
+  return available == GL_TRUE;
+}
+
+std::optional<std::vector<LevelTest>> TestCounts::take(int64_t newest, bool wait) {
+  Batch& batch = batches_[oldest_];
+  if (batch.tests.empty() || batch.frame > newest || !arrived(batch, wait)) return std::nullopt;
+  read(oldest_);
+  std::optional<std::vector<LevelTest>> out(batch.tests);
+  batch.tests.clear();
+  glDeleteSync(static_cast<GLsync>(batch.fence));
+  batch.fence = nullptr;
+  oldest_ = (oldest_ + 1) % kBatches;
+  return out;
+}
+
+void TestCounts::read(size_t number) {
+  std::vector<LevelTest>& tests = batches_[number].tests;
+  for (size_t i = 0; i < tests.size(); ++i) {
+    uint32_t counts[kQueries] = {0, 0, 0};
+    if (method_ == Count::Compute) {
+      const uint32_t* at = mapped_ + static_cast<int64_t>(number) * counts_.bytes() / 4 +
+                           static_cast<int64_t>(i) * kWordsPerTest;
+      std::copy(at, at + kQueries, counts);
+    } else {
+      for (size_t kind = 0; kind < (withNext_ ? kQueries : kQueries - 1); ++kind)
+        glGetQueryObjectuiv(query(number, i, kind), GL_QUERY_RESULT, &counts[kind]);
+    }
+    tests[i].coveredPx = counts[0];
+    tests[i].visiblePx = counts[1];
+    tests[i].nextVisiblePx = counts[2];
+  }
+}
+
+}  // namespace limen::techniques

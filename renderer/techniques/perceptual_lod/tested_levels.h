@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/parameter.h"
+
+namespace limen::techniques {
+
+/// What a test of an object at one level found.
+struct LevelTest {
+  int object = 0, level = 0;   ///< as they were when the test was drawn
+  uint32_t coveredPx = 0;      ///< pixels where the object is seen at this level or at the finest
+  uint32_t visiblePx = 0;      ///< of these, how many differ from the finest level by more than the threshold
+  uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, where that was looked at
+};
+
+/// When a test changes a level. Source: Schwarz 2009, section 9.5, which gives no figures.
+struct LevelRule {
+  enum class Unit {
+    Px,    ///< the thesis's: counts, which grow with resolution and with the object
+    Share  ///< of the pixels that the object covers
+  };
+  double lower = 4.0, upper = 16.0;  ///< delta_l and delta_u
+  Unit unit = Unit::Px;
+  /// Go coarser only if the next coarser level would not be sent back at once (n_vis <= delta_u). The
+  /// thesis's rule looks at the current level alone, so that an object goes to and fro between its last
+  /// invisible and its first visible level unless n_vis of the latter lies between delta_l and delta_u.
+  bool lookAhead = false;
+
+  /// delta_l, delta_u, delta_unit, coarsen.
+  static std::vector<Parameter> parameters();
+  /// Throws Error if delta_l is above delta_u.
+  static LevelRule from(const ParameterValues& values);
+
+  double measure(uint32_t count, uint32_t coveredPx) const {
+    return unit == Unit::Px ? count : coveredPx > 0 ? double(count) / coveredPx : 0.0;
+  }
+  /// +1: coarser, -1: finer, 0: keep; the caller clamps. An object of which nothing is seen keeps its level.
+  int step(const LevelTest& test) const;
+};
+
+/// Levels of all objects, and whose turn it is to be tested.
+class TestedLevels {
+ public:
+  /// `levelCounts`: levels of each object, at least one.
+  TestedLevels(LevelRule rule, std::vector<int> levelCounts, int startLevel);
+
+  const std::vector<int>& levels() const { return levels_; }
+  const LevelRule& rule() const { return rule_; }
+  /// The next at most `count` objects in turn among those that may be tested (`testable`, one an object) and
+  /// have more than one level.
+  std::vector<int> nextTests(int count, const std::vector<char>& testable);
+  /// Applies a test; one of a level that the object has left since is dropped.
+  void apply(const LevelTest& test);
+
+  int64_t tested() const { return tested_; }  ///< tests applied or dropped
+  int64_t dropped() const { return dropped_; }
+  int64_t switches() const { return switches_; }
+  /// Switches that took the object back to where it came from with its last: oscillation.
+  int64_t reversals() const { return reversals_; }
+
+ private:
+  LevelRule rule_;
+  std::vector<int> levelCounts_, levels_, lastSteps_;
+  size_t turn_ = 0;
+  int64_t tested_ = 0, dropped_ = 0, switches_ = 0, reversals_ = 0;
+};
+
+}  // namespace limen::techniques
