@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -94,8 +96,8 @@ glm::ivec2 tablePx(const PoppingModel& model, glm::ivec2 size) {
   return {size.x, size.y * std::max(1, model.contrastLevels)};
 }
 
-Image sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
-                       const PoppingSettings& settings, const TableGrid& grid) {
+Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& display,
+                           const PoppingSettings& settings, const TableGrid& grid) {
   const glm::ivec2 px = tablePx(model, grid.size);
   Image table(px.x, px.y, 4);
   if (model.contrastLevels == 0) return table;
@@ -110,6 +112,29 @@ Image sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
       }
   });
   return table;
+}
+
+/// Tables take a tenth of a second and more and are the same for all runs of a sweep on one display: the last
+/// few are kept. The key is all that makeSensitivityTable() reads.
+std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
+                                              const PoppingSettings& settings, const TableGrid& grid) {
+  constexpr size_t kKept = 8;
+  std::string key = display.hash() + "|" + settings.csfAchromatic + "|" + settings.csfRedGreen + "|" +
+                    settings.csfBlueYellow + "|" + std::to_string(model.contrastLevels);
+  const auto add = [&](double value) { key += "|" + shortestNumber(value); };
+  for (const double value : model.peakCpd) add(value);
+  for (const double value : {model.areaDeg2, model.widthDeg, model.scaleA, model.scaleRg, model.scaleBy,
+                             settings.chromaticReferenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
+                             double(grid.size.x), double(grid.size.y)})
+    add(value);
+  static std::mutex guard;
+  static std::vector<std::pair<std::string, std::shared_ptr<const Image>>> kept;
+  const std::scoped_lock lock(guard);
+  for (const auto& [known, table] : kept)
+    if (known == key) return table;
+  if (kept.size() == kKept) kept.erase(kept.begin());
+  kept.emplace_back(key, std::make_shared<const Image>(makeSensitivityTable(model, display, settings, grid)));
+  return kept.back().second;
 }
 
 glm::dvec3 luminanceRow() {
@@ -148,7 +173,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
                  lmsFromXyz(display.xyz({0, 0, 1})) - black);
   const TableGrid grid = gridOf(settings, display);
   tableLow_ = grid.low, tablePer_ = grid.per;
-  sensitivities_.write(sensitivityTable(model_, display, settings, grid));
+  sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
 

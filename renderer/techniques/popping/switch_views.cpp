@@ -68,21 +68,19 @@ SwitchImages SwitchViews::read() const {
   out.input.predicted = predicted().read();
   out.input.linear = true;
   if (!setting_.dynamic) return out;
-  const auto& now = pair_.actual();
-  out.input.actualDisplacement = now.displacement->read();
+  out.input.actualDisplacement = pair_.actual().displacement->read();
   out.input.predictedDisplacement = pair_.predicted().displacement->read();
   if (setting_.usesDisocclusion())
     for (const auto* view : {&pair_.actual(), &pair_.predicted()})
       out.disocclusion.push_back(
           {view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
-  if (setting_.usesFlicker())
-    out.flicker = perception::FlickerInput{now.colour->read(),
-                                           pair_.predicted().colour->read(),
-                                           now.shadedBefore->read(),
-                                           pair_.previousColour()->read(),
-                                           out.input.actualDisplacement,
-                                           now.previousDepth->read(),
-                                           pair_.predicted().depthBefore->read()};
+  if (setting_.usesFlicker()) {
+    const frame::LodPair::View& view = flickering();
+    out.flicker = perception::FlickerInput{
+        pair_.actual().colour->read(),        pair_.predicted().colour->read(), view.shadedBefore->read(),
+        pair_.previousColour()->read(),       view.displacement->read(),        view.previousDepth->read(),
+        pair_.predicted().depthBefore->read()};
+  }
   return out;
 }
 

@@ -31,6 +31,10 @@ class SwitchViews {
   const gl::Texture& actual() const { return *shown_[0]; }     ///< RGBA32F in [0, 1]
   const gl::Texture& predicted() const { return *shown_[1]; }  ///< the same
   const frame::LodPair& pair() const { return pair_; }
+  /// The view whose shading over time is flicker.
+  const frame::LodPair::View& flickering() const {
+    return setting_.flickerOfBefore ? pair_.predicted() : pair_.actual();
+  }
   /// Reads back what the last render() made.
   SwitchImages read() const;
 
