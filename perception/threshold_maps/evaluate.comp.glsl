@@ -40,6 +40,7 @@ const int kHeight[8] = int[8](20, 12, 8, 6, 5, 5, 5, 5);
 const int kStart[9] = int[9](0, 720, 960, 1056, 1104, 1134, 1159, 1184, 1209);
 const int kFirstRow[9] = int[9](0, 20, 32, 40, 46, 51, 56, 61, 66);
 shared float samples[kStart[kPlanes]];
+shared vec4 rowTaps[kPlanes * kTile.y];
 shared float rows[kFirstRow[kPlanes] * kTile.x];  // at the tile's columns
 
 ivec2 originOf(int i) {
@@ -96,6 +97,11 @@ void loadTile(int thread, int x, int mapColumns) {
     int i = max(slot - kFirstSlots + 2, 1), p = thread + (slot < kFirstSlots ? slot * THREADS : 0);
     if (p < kStart[i] - kStart[i - 1]) samples[kStart[i - 1] + p] = loaded[slot];
   }
+  for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
+    int plane = i / kTile.y, mapRows = imageSize(threshold).y;
+    int y = min(int(gl_WorkGroupID.y) * kTile.y + i % kTile.y, mapRows - 1);
+    rowTaps[i] = taps[kPlanes * mapColumns + plane * mapRows + y];
+  }
   barrier();
   for (int plane = 0; plane < kPlanes; ++plane) {
     int q = kStart[plane] + int(columnTaps[plane].x) - originOf(plane + 1).x, count = countOf(plane + 1).y;
@@ -127,10 +133,9 @@ void main() {
   for (int plane = 0; plane < kPlanes; ++plane)
     rowOrigin[plane] = (kFirstRow[plane] - originOf(plane + 1).y) * kTile.x + thread % kTile.x;
   for (int i = 0; i < kRun; ++i) {
-    int y = min(first.y + i, size.y - 1);
     float gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane) {
-      vec4 tap = taps[kPlanes * size.x + plane * size.y + y];
+      vec4 tap = rowTaps[plane * kTile.y + first.y - tile.y + i];
       int q = rowOrigin[plane] + int(tap.x) * kTile.x;
       gathered[plane] = weigh(rows[q], rows[q + kTile.x], rows[q + 2 * kTile.x], tap);
     }
