@@ -130,6 +130,10 @@ SwitchReport analyse(const store::Store& store, const store::Experiment& experim
           }))
         varying.insert(path);
   for (const Group& group : groups) report.switches.push_back(estimate(group, varying, options));
+  for (const auto& [path, text] : groups.front().all)
+    if (!varying.count(path) && !text.empty() &&
+        isNamed(path, {"image.width", "image.height", "display", "display_file"}))
+      report.seen[leafOf(path)] = text;
   return report;
 }
 

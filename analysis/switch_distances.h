@@ -38,6 +38,8 @@ struct SwitchReport {
   double probability = 0.5, confidence = 0.95;
   std::vector<SwitchDistance> switches;
   size_t leftOut = 0;  ///< runs missing or failed, with `force`
+  /// Without which the distances say nothing, where it is the same for all: "display", "height", "width" ...
+  std::map<std::string, std::string> seen = {};
 };
 
 /// Distances at which each level-of-detail switch of a sweep may happen. The sweep varies the distance, and

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "analysis/gnuplot.h"
@@ -37,9 +39,41 @@ std::string distanceText(const std::optional<Crossing>& crossing) {
 
 std::string nameOf(const SwitchDistance& one) {
   std::vector<std::string> parts;
-  for (const auto& [name, text] : one.condition) parts.push_back(name + "=" + text);
+  const auto from = one.condition.find("from_level"), to = one.condition.find("to_level");
+  const bool pair = from != one.condition.end() && to != one.condition.end();
+  if (pair) parts.push_back("level " + from->second + " to " + to->second);
+  for (const auto& [name, text] : one.condition)
+    if (!pair || (name != "from_level" && name != "to_level")) parts.push_back(name + "=" + text);
   return parts.empty() ? one.technique : join(parts);
 }
+
+/// "in a window of 320 x 240 px, display schwarz_2009"; "" if nothing is known.
+std::string seenText(const SwitchReport& report) {
+  const auto get = [&](const char* name) {
+    const auto found = report.seen.find(name);
+    return found == report.seen.end() ? std::string() : found->second;
+  };
+  std::vector<std::string> parts;
+  if (!get("width").empty() && !get("height").empty())
+    parts.push_back("in a window of " + get("width") + " x " + get("height") + " px");
+  const std::string display = get("display_file").empty() ? get("display") : get("display_file");
+  if (!display.empty()) parts.push_back("display " + display);
+  return join(parts);
+}
+
+/// 1, 2 and 5 times powers of ten within a range, as gnuplot takes tics.
+std::string logarithmicTics(double low, double high) {
+  std::vector<std::string> out;
+  for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, decade) <= high; ++decade)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (const double tic = step * std::pow(10.0, decade); tic >= low && tic <= high)
+        out.push_back(shortestNumber(tic));
+  return "(" + join(out) + ")";
+}
+
+// Distinct on white and for colour-blind readers (Okabe and Ito 2008, without yellow); then dashes tell.
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                    "#56b4e9", "#e69f00", "#000000"};
 
 std::vector<double> meanOf(const SwitchDistance& one) {
   std::vector<double> out(one.distances.size(), 0.0);
@@ -51,9 +85,13 @@ std::vector<double> meanOf(const SwitchDistance& one) {
 }  // namespace
 
 std::string toJson(const SwitchReport& report) {
-  nlohmann::json out = {{"event", "switch_distances"},        {"title", report.title},
-                        {"experiment", report.hash},          {"probability", report.probability},
-                        {"confidence", report.confidence},    {"runs_left_out", report.leftOut},
+  nlohmann::json out = {{"event", "switch_distances"},
+                        {"title", report.title},
+                        {"experiment", report.hash},
+                        {"probability", report.probability},
+                        {"confidence", report.confidence},
+                        {"runs_left_out", report.leftOut},
+                        {"seen", report.seen},
                         {"switches", nlohmann::json::array()}};
   for (const SwitchDistance& one : report.switches) {
     nlohmann::json curve = nlohmann::json::array();
@@ -101,6 +139,7 @@ std::string toText(const SwitchReport& report) {
   std::string out =
       fmt::format("{}\nnearest distance at which a switch is seen with a probability of {} at most\n",
                   report.title, shortestNumber(report.probability));
+  if (const std::string seen = seenText(report); !seen.empty()) out += seen + "\n";
   size_t width = 6;
   for (const SwitchDistance& one : report.switches) width = std::max(width, nameOf(one).size());
   out += fmt::format("  {:<{}}  {:>10}  {:>22}  {:>10}  {}\n", "switch", width, "distance",
@@ -113,6 +152,7 @@ std::string toText(const SwitchReport& report) {
                        distanceText(estimate.ofMean), interval, distanceText(estimate.farthest),
                        one.views.size());
   }
+  out += "  distance: of the mean over views; every view: none is seen more often from there on\n";
   if (report.leftOut > 0)
     out += fmt::format("  {} planned runs are missing or failed and were left out\n", report.leftOut);
   return out;
@@ -121,51 +161,73 @@ std::string toText(const SwitchReport& report) {
 std::string drawSwitchChart(const SwitchReport& report, const std::string& folder) {
   const std::string name = "switch_distances";
   const std::filesystem::path base = std::filesystem::path(folder) / name;
-  // Data sets: for each switch the curve of all views together with the views' range, then its crossing.
+  // Data sets: for each switch the curve of all views together with the views' range, then its crossing. The
+  // bars are set a little apart so that those of one distance do not hide one another.
   std::string data, plots;
   size_t index = 0;
+  double nearest = 1e300, farthest = 0.0;
+  size_t longest = 0;
+  for (const SwitchDistance& one : report.switches) {
+    nearest = std::min(nearest, one.distances.front());
+    farthest = std::max(farthest, one.distances.back());
+    longest = std::max(longest, nameOf(one).size());
+  }
+  const double low = nearest / 1.15, high = farthest * 1.15;
+  const double apart = std::pow(high / low, 0.004);
   for (const SwitchDistance& one : report.switches) {
     const std::vector<double> mean = meanOf(one);
+    const double aside =
+        std::pow(apart, static_cast<double>(index) - 0.5 * static_cast<double>(report.switches.size() - 1));
     data += "# " + nameOf(one) + ": distance, mean, lowest and highest probability\n";
     for (size_t i = 0; i < mean.size(); ++i) {
-      double low = mean[i], high = mean[i];
+      double least = mean[i], most = mean[i];
       for (const std::vector<double>& view : one.views) {
-        low = std::min(low, view[i]);
-        high = std::max(high, view[i]);
+        least = std::min(least, view[i]);
+        most = std::max(most, view[i]);
       }
       data += fmt::format("{} {} {} {}\n", shortestNumber(one.distances[i]), shortestNumber(mean[i]),
-                          shortestNumber(low), shortestNumber(high));
+                          shortestNumber(least), shortestNumber(most));
     }
     const CrossingEstimate& estimate = one.estimate;
-    const double low = estimate.low ? estimate.low->x : estimate.ofMean.x;
-    const double high = estimate.high ? estimate.high->x : estimate.ofMean.x;
+    const double from = estimate.low ? estimate.low->x : estimate.ofMean.x;
+    const double to = estimate.high ? estimate.high->x : estimate.ofMean.x;
     data += fmt::format(
         "\n\n# where it comes down to the probability: distance, probability, low, high\n{} {} {} {}\n\n\n",
         estimate.ofMean.place == Place::Within ? shortestNumber(estimate.ofMean.x) : "NaN",
-        shortestNumber(report.probability), shortestNumber(low), shortestNumber(high));
-    const size_t colour = index / 2 + 1;
+        shortestNumber(report.probability), shortestNumber(from), shortestNumber(to));
     plots += fmt::format(
-        "{0}'{1}.dat' index {2} using 1:2:3:4 with yerrorlines lc {3} pt {3} lw 1.5 title {4}, \\\n"
-        "  '' index {5} using 1:2:3:4 with xerrorbars lc {3} pt 7 ps 1.3 lw 2.5 notitle",
-        plots.empty() ? "" : ", \\\n  ", name, index, colour, gnuplotQuoted(nameOf(one)), index + 1);
-    index += 2;
+        "{0}'{1}.dat' index {2} using ($1*{6}):2:3:4 with yerrorbars lc rgb '{3}' pt {7} ps 0.6 lw 1 "
+        "notitle, \\\n"
+        "  '' index {2} using 1:2 with linespoints lc rgb '{3}' dt {8} pt {7} ps 0.6 lw 2 title {4}, "
+        "\\\n"
+        "  '' index {5} using 1:2:3:4 with xerrorbars lc rgb '{3}' pt 7 ps 1.1 lw 2.5 notitle",
+        plots.empty() ? "" : ", \\\n  ", name, 2 * index, kColours[index % std::size(kColours)],
+        gnuplotQuoted(nameOf(one)), 2 * index + 1, shortestNumber(aside), 4 + index % 10,
+        1 + index / std::size(kColours));
+    ++index;
   }
+  const size_t columns = std::clamp<size_t>(84 / (longest + 8), 1, 4),
+               rows = (report.switches.size() + columns - 1) / columns;
+  const std::string seen = seenText(report);
   writeFileBytes(base.string() + ".dat", data);
   writeFileBytes(
       base.string() + ".gp",
       fmt::format(
           "# Draws {0}.svg from {0}.dat. For a paper: gnuplot -e pdf=1 {0}.gp\nreset\n"
-          "if (exists('pdf')) {{\n  set terminal pdfcairo size 14cm,9cm font 'sans,10'\n"
+          "if (exists('pdf')) {{\n  set terminal pdfcairo size 14cm,{4}cm font 'sans,10'\n"
           "  set output '{0}.pdf'\n}} else {{\n"
-          "  set terminal svg size 760,480 dynamic font 'DejaVu Sans,13' background '#ffffff' noenhanced\n"
+          "  set terminal svg size 760,{5} dynamic font 'DejaVu Sans,13' background '#ffffff' noenhanced\n"
           "  set output '{0}.svg'\n}}\n"
           "set encoding utf8\nset border 3\nset tics nomirror out\nset logscale x\n"
-          "set key outside below noenhanced\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
-          "set title {1} noenhanced\nset xlabel 'distance (world units)'\n"
+          "set xrange [{6}:{7}]\nset xtics {8}\nset mxtics 1\nset rmargin 4\n"
+          "set key outside below noenhanced maxcols {9} samplen 3\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
+          "set bars 0.5\nset title {1} noenhanced\nset xlabel 'distance (world units){10}' noenhanced\n"
           "set ylabel 'probability of detection; bars: range over views'\nset yrange [0:1]\n"
           "set arrow from graph 0, first {2} to graph 1, first {2} nohead dt 2 lc rgb '#777777'\n"
           "plot {3}\n",
-          name, gnuplotQuoted(report.title), shortestNumber(report.probability), plots));
+          name, gnuplotQuoted(report.title), shortestNumber(report.probability), plots,
+          shortestNumber(8.5 + 0.5 * static_cast<double>(rows)), 440 + 20 * rows, shortestNumber(low),
+          shortestNumber(high), logarithmicTics(low, high), columns, seen.empty() ? "" : ", " + seen));
   runGnuplot(folder, name + ".gp");
   return base.string() + ".svg";
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -23,9 +25,9 @@ using gl::Format;
 constexpr glm::ivec2 kGroup{32, 8};
 const std::string kFolder = "perception/popping/gpu/";
 
-// Nodes of the sensitivity table over lg velocity and lg luminance. Some 65 a decade: sensitivities are
-// straight enough between them for an error below 1e-3 of their value.
-constexpr glm::ivec2 kTableSize{384, 256};
+// Nodes of the sensitivity table in a decade of velocity or luminance: sensitivities are straight enough
+// between them for an error below 1e-3 of their value.
+constexpr double kNodesPerDecade = 65.0;
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
 constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
 
@@ -77,21 +79,62 @@ double darkest(const PoppingSettings& settings, const DisplayProfile& display) {
   return std::clamp(0.99 * least, kDarkest, 0.5 * kBrightest);
 }
 
-Image sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
-                       const PoppingSettings& settings, glm::dvec2 low, glm::dvec2 per) {
-  const int levels = std::max(1, model.contrastLevels);
-  Image table(kTableSize.x, kTableSize.y * levels, 4);
+/// Range and nodes of the table.
+struct TableGrid {
+  glm::dvec2 low, per;  ///< log2 of the first node; nodes per octave
+  glm::ivec2 size;
+};
+
+TableGrid gridOf(const PoppingSettings& settings, const DisplayProfile& display) {
+  const glm::dvec2 low(std::log2(slowest(settings)), std::log2(darkest(settings, display)));
+  const glm::dvec2 octaves = glm::log2(glm::dvec2(kFastest, kBrightest)) - low;
+  const glm::ivec2 size = glm::ivec2(glm::ceil(octaves * std::log10(2.0) * kNodesPerDecade)) + 1;
+  return {low, glm::dvec2(size - 1) / octaves, size};
+}
+
+glm::ivec2 tablePx(const PoppingModel& model, glm::ivec2 size) {
+  return {size.x, size.y * std::max(1, model.contrastLevels)};
+}
+
+Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& display,
+                           const PoppingSettings& settings, const TableGrid& grid) {
+  const glm::ivec2 px = tablePx(model, grid.size);
+  Image table(px.x, px.y, 4);
   if (model.contrastLevels == 0) return table;
   const Sensitivity sensitivity(model, display, settings, true);
   forRowBlocks(table.height, static_cast<size_t>(table.width) * 1000, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < table.width; ++x) {
-        const std::array<double, 3> at = sensitivity.at(y / kTableSize.y, std::exp2(low.x + x / per.x),
-                                                        std::exp2(low.y + y % kTableSize.y / per.y));
+        const std::array<double, 3> at =
+            sensitivity.at(y / grid.size.y, std::exp2(grid.low.x + x / grid.per.x),
+                           std::exp2(grid.low.y + y % grid.size.y / grid.per.y));
         for (int c = 0; c < 3; ++c) table.at(x, y, c) = static_cast<float>(at[static_cast<size_t>(c)]);
       }
   });
   return table;
+}
+
+/// Tables take a tenth of a second and more and are the same for all runs of a sweep on one display: the last
+/// few are kept. The key is all that makeSensitivityTable() reads.
+std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
+                                              const PoppingSettings& settings, const TableGrid& grid) {
+  constexpr size_t kKept = 8;
+  std::string key = display.hash() + "|" + settings.csfAchromatic + "|" + settings.csfRedGreen + "|" +
+                    settings.csfBlueYellow + "|" + std::to_string(model.contrastLevels);
+  const auto add = [&](double value) { key += "|" + shortestNumber(value); };
+  for (const double value : model.peakCpd) add(value);
+  for (const double value : {model.areaDeg2, model.widthDeg, model.scaleA, model.scaleRg, model.scaleBy,
+                             settings.chromaticReferenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
+                             double(grid.size.x), double(grid.size.y)})
+    add(value);
+  static std::mutex guard;
+  static std::vector<std::pair<std::string, std::shared_ptr<const Image>>> kept;
+  const std::scoped_lock lock(guard);
+  for (const auto& [known, table] : kept)
+    if (known == key) return table;
+  if (kept.size() == kKept) kept.erase(kept.begin());
+  kept.emplace_back(key, std::make_shared<const Image>(makeSensitivityTable(model, display, settings, grid)));
+  return kept.back().second;
 }
 
 glm::dvec3 luminanceRow() {
@@ -111,9 +154,10 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       model_(modelOf(sizePx, display, settings)),
       defines_(maskingDefines(settings.masking)),
       luminanceOfCones_(luminanceRow()),
+      tableSize_(gridOf(settings, display).size),
       cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
       differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
-      sensitivities_(Format::RGBA32F, {kTableSize.x, kTableSize.y * std::max(1, model_.contrastLevels)}),
+      sensitivities_(Format::RGBA32F, tablePx(model_, tableSize_)),
       jnd_(Format::R32F, sizePx),
       seeds_(Format::R8UI, sizePx),
       counters_(8, nullptr),
@@ -127,10 +171,9 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   conesOfLight_ =
       glm::dmat3(lmsFromXyz(display.xyz({1, 0, 0})) - black, lmsFromXyz(display.xyz({0, 1, 0})) - black,
                  lmsFromXyz(display.xyz({0, 0, 1})) - black);
-  const glm::dvec2 low(std::log2(slowest(settings)), std::log2(darkest(settings, display)));
-  const glm::dvec2 per = glm::dvec2(kTableSize - 1) / (glm::log2(glm::dvec2(kFastest, kBrightest)) - low);
-  tableLow_ = low, tablePer_ = per;
-  sensitivities_.write(sensitivityTable(model_, display, settings, low, per));
+  const TableGrid grid = gridOf(settings, display);
+  tableLow_ = grid.low, tablePer_ = grid.per;
+  sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
 
@@ -236,7 +279,7 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS));
   program.set("degSPerPx",
               static_cast<float>(screenVelocityDegS(1.0, display_.refreshHz, model_.pixelsPerDegree)));
-  program.set("tableSize", kTableSize);
+  program.set("tableSize", tableSize_);
   program.set("tableLow", tableLow_);
   program.set("tablePer", tablePer_);
 }

@@ -72,6 +72,7 @@ class PoppingPredictorGpu {
   PoppingModel model_;
   gl::ShaderDefines defines_, stageDefines_;
   glm::vec3 luminanceOfCones_;
+  glm::ivec2 tableSize_;  ///< nodes of velocity and luminance
   glm::mat3 conesOfLight_;
   glm::vec3 conesOfBlack_;
   glm::vec2 tableLow_, tablePer_;

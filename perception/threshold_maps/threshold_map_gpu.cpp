@@ -27,12 +27,8 @@ constexpr int64_t kSmallLevelPx = 600'000;
 constexpr int kMostSteps = 3;
 constexpr float kLargestHalfCdM2 = 6e4F;
 // As the shader declares its shared memory.
-constexpr std::array<int, 8> kMostColumns{34, 19, 11, 7, 5, 4, 4, 4};
-constexpr std::array<int, 8> kMostRows{18, 11, 7, 5, 4, 4, 4, 4};
-
-constexpr std::array<const char*, 9> kUpwardNames{"upward[0]", "upward[1]", "upward[2]",
-                                                  "upward[3]", "upward[4]", "upward[5]",
-                                                  "upward[6]", "upward[7]", "upward[8]"};
+constexpr std::array<int, 8> kMostColumns{36, 20, 12, 8, 6, 5, 5, 5};
+constexpr std::array<int, 8> kMostRows{20, 12, 8, 6, 5, 5, 5, 5};
 
 constexpr std::array<const char*, kMostSteps> kDownwardNames{"downward[0]", "downward[1]", "downward[2]"};
 
@@ -131,8 +127,13 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     const glm::ivec2 half = halvedSize(sizePx);
     gaussian_.emplace(settings.half && settings.nineFetch ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
                       settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest);
-    std::vector<glm::ivec2> patches = tilePatches(sizePx.x, kTilePx.x, levels_);
-    const std::vector<glm::ivec2> rows = tilePatches(sizePx.y, kTilePx.y, levels_);
+    const bool direct = settings.decomposition == Settings::Decomposition::Pyramid;
+    std::vector<glm::vec4> taps = levelTaps(sizePx.x, levels_, direct);
+    const std::vector<glm::vec4> rowTaps = levelTaps(sizePx.y, levels_, direct);
+    std::vector<glm::ivec2> patches = tilePatches(taps, sizePx.x, kTilePx.x, levels_);
+    const std::vector<glm::ivec2> rows = tilePatches(rowTaps, sizePx.y, kTilePx.y, levels_);
+    taps.insert(taps.end(), rowTaps.begin(), rowTaps.end());
+    taps_.emplace(taps);
     for (size_t i = 0; i < patches.size(); ++i)
       assert(patches[i].y <= kMostColumns[i % static_cast<size_t>(levels_ - 1)]);
     for (size_t i = 0; i < rows.size(); ++i)
@@ -155,11 +156,10 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"HALF", yes(settings.half)},
               {"LEVELS", std::to_string(levels_)},
               {"BANDS", std::to_string(model.bands())},
-              {"STACK", yes(settings.decomposition == Settings::Decomposition::Stack)},
               {"FINEST_LUMINANCE", yes(settings.nineFetch)},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(maskingModel)},
-              {"FOURTH_ROOT", yes(maskingModel == 1 && block.masking.z == 4.0F)},
+              {"MASKING", std::to_string(settings.direct ? maskingModel : 0)},  // tables know it otherwise
+              {"FOURTH_ROOT", yes(settings.direct && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(settings.flatSmooth)},
               {"DIRECT", yes(settings.direct)},
               {"TILE_X", std::to_string(kTilePx.x)},
@@ -207,6 +207,7 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
   if (patches_) {
     patches_->bindStorage(1);
     places_->bindStorage(2);
+    taps_->bindStorage(4);
   }
   const auto timed = [&](const char* name, const auto& work) {
     if (!passes) return work();
@@ -276,8 +277,6 @@ void ThresholdMapGpu::evaluate() {
   threshold_.bindImage(0, Access::Write);
   if (stages_) stages_->bindImage(1, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
-  for (size_t level = 0; level < upward_.size(); ++level)
-    programs_->evaluate->set(kUpwardNames.at(level), upward_[level]);
   programs_->evaluate->dispatch(sizePx_, kTilePx);
 }
 
@@ -294,7 +293,7 @@ int64_t ThresholdMapGpu::bytesHeld() const {
       threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes() + elevations_->bytes();
   for (const auto* texture : {&gaussian_, &stages_})
     if (*texture) bytes += (*texture)->bytes();
-  return bytes + (patches_ ? patches_->bytes() + places_->bytes() : 0);
+  return bytes + (patches_ ? patches_->bytes() + places_->bytes() + taps_->bytes() : 0);
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {

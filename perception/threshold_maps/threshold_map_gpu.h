@@ -67,7 +67,7 @@ class ThresholdMapGpu {
   gl::ShaderDefines defines_;
   gl::Texture threshold_, finest_;
   std::optional<gl::Texture> gaussian_, stages_;
-  std::optional<gl::Buffer> run_, tables_, elevations_, places_, patches_;
+  std::optional<gl::Buffer> run_, tables_, elevations_, places_, taps_, patches_;
   std::vector<glm::ivec2> upward_, downward_;  // first entries in places_, by level
   glm::ivec2 tiles_;
   std::unique_ptr<Programs> programs_;

@@ -2,8 +2,10 @@
 #include "perception/threshold_maps/threshold_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace limen::perception {
 namespace {
@@ -75,19 +77,44 @@ LevelPlaces levelPlaces(glm::ivec2 sizePx, int levels) {
   return out;
 }
 
-std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels) {
-  std::vector<glm::ivec2> out;
-  for (int start = 0; start < size; start += tilePx) {
-    int first = start, last = std::min(start + tilePx, size) - 1, fine = size;
-    for (int level = 1; level < levels; ++level) {
-      const int coarse = halved(fine);
-      const int left = placeOf(std::clamp(first, 0, fine - 1), coarse, fine);
-      last = placeOf(std::clamp(last, 0, fine - 1), coarse, fine) + 1;
-      first = left;
-      out.emplace_back(first, last - first + 1);
-      fine = coarse;
+std::vector<glm::vec4> levelTaps(int size, int levels, bool direct) {
+  std::vector<glm::vec4> out;
+  std::vector<int> sizes{size};
+  for (int level = 1; level < levels; ++level) sizes.push_back(halved(sizes.back()));
+  for (int level = 1; level < levels; ++level)
+    for (int x = 0; x < size; ++x) {
+      // Weights of samples of one level, which go over to the next coarser one.
+      std::map<int, double> weights{{x, 1.0}};
+      for (int at = direct ? level : 1; at <= level; ++at) {
+        const int fine = sizes[direct ? 0 : static_cast<size_t>(at) - 1],
+                  coarse = sizes[static_cast<size_t>(at)];
+        std::map<int, double> next;
+        for (const auto& [sample, weight] : weights) {
+          const int left = placeOf(sample, coarse, fine);
+          const double t = (sample + 0.5) * coarse / fine - 0.5 - left;
+          next[std::clamp(left, 0, coarse - 1)] += weight * (1.0 - t);
+          next[std::clamp(left + 1, 0, coarse - 1)] += weight * t;
+        }
+        weights = std::move(next);
+      }
+      const int first = weights.begin()->first;
+      assert(weights.rbegin()->first <= first + 2);
+      out.emplace_back(first, weights.begin()->second, weights.count(first + 2) ? weights.at(first + 2) : 0.0,
+                       0.0);
     }
-  }
+  return out;
+}
+
+std::vector<glm::ivec2> tilePatches(const std::vector<glm::vec4>& taps, int size, int tilePx, int levels) {
+  std::vector<glm::ivec2> out;
+  for (int start = 0; start < size; start += tilePx)
+    for (int level = 1; level < levels; ++level) {
+      const auto begin = taps.begin() + int64_t{level - 1} * size + start;
+      const auto end = begin + std::min(tilePx, size - start);
+      const auto [least, most] =
+          std::minmax_element(begin, end, [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; });
+      out.emplace_back(static_cast<int>(least->x), static_cast<int>(most->x - least->x) + 3);
+    }
   return out;
 }
 

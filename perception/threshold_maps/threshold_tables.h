@@ -27,8 +27,13 @@ struct LevelPlaces {
 };
 LevelPlaces levelPlaces(glm::ivec2 sizePx, int levels);
 
-/// Samples of levels 1 to levels - 1 of one axis of `size` pixels that tiles of `tilePx` pixels touch:
+/// How levels 1 to levels - 1 come up to full size along one axis of `size` pixels: for each level and pixel
+/// (first sample, its weight, weight of the third, 0); the second has the rest. Bilinearly: `direct` from the
+/// level itself, else by way of every level between.
+std::vector<glm::vec4> levelTaps(int size, int levels, bool direct);
+
+/// Samples of levels 1 to levels - 1 that tiles of `tilePx` pixels of an axis touch through levelTaps():
 /// (first, count) for each tile and level; samples beyond the ends stand for the end ones.
-std::vector<glm::ivec2> tilePatches(int size, int tilePx, int levels);
+std::vector<glm::ivec2> tilePatches(const std::vector<glm::vec4>& taps, int size, int tilePx, int levels);
 
 }  // namespace limen::perception

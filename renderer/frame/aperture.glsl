@@ -1,29 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ambient aperture lighting: the same as capIntersection() and apertureLight() of renderer/scene/lod/aperture.cpp,
-// where the derivations stand.
+// Ambient aperture lighting: what apertureLight() of renderer/scene/lod/aperture.h states, for a small sun.
 
 const float kPi = 3.14159265358979;
 
+// Area between a chord of half-length w and its arc on a circle of radius r, w <= r.
+float segmentArea(float r, float w) {
+  const float t = asin(min(w / r, 1.0));
+  // The difference of nearly equal numbers is taken by its series where t is small.
+  const float difference = t < 0.3 ? t * t * t * (2.0 / 3.0 - t * t * (2.0 / 15.0 - t * t * 4.0 / 315.0))
+                                   : t - 0.5 * sin(2.0 * t);
+  return r * r * difference;
+}
+
 float capArea(float radius) {
-  const float half_ = sin(0.5 * radius);
-  return 4.0 * kPi * half_ * half_;
+  const float halfSine = sin(0.5 * radius);
+  return 4.0 * kPi * halfSine * halfSine;
 }
 
-float cornerAngle(float s, float a, float b, float c) {
-  return 2.0 * atan(sqrt(max(sin(s - b) * sin(s - c), 0.0)), sqrt(max(sin(s) * sin(s - a), 0.0)));
-}
-
-// Share of a cap of radius b that lies in a cap of radius a; d: angle between their axes.
-float capShare(float a, float b, float d) {
+// Share of the smaller of two caps, of radius b, that lies in the larger, of radius a up to pi/2; d: angle between
+// their axes. The CPU's two sectors less a kite would lose all digits to the GPU's coarse sines where b is small (the
+// sun). Here: the exact segment of b that the great circle through both crossings cuts off, and the narrow segment
+// between that great circle and a's rim, taken for plane with the rim's geodesic curvature 1 / tan(a): right to 1e-4
+// for 3 degrees, 5e-3 for 20; to a few hundredths where both caps are of about one size.
+float smallerCapShare(float a, float b, float d) {
   if (d >= a + b) return 0.0;
   if (d <= a - b) return 1.0;
-  const float whole = capArea(b);
-  if (d <= b - a) return capArea(a) / whole;
-  const float s = 0.5 * (a + b + d);
-  const float product = tan(0.5 * s) * tan(0.5 * (s - a)) * tan(0.5 * (s - b)) * tan(0.5 * (s - d));
-  const float excess = 4.0 * atan(sqrt(max(product, 0.0)));
-  const float shared_ = (cornerAngle(s, b, a, d) * capArea(a) + cornerAngle(s, a, b, d) * whole) / kPi - 2.0 * excess;
-  return clamp(shared_ / whole, 0.0, 1.0);
+  const float halfSine = sin(0.5 * b);
+  // Angle at b's axis between a's axis and a crossing of the rims: the law of cosines, without cancellation.
+  const float c = clamp((2.0 * sin(0.5 * (a + d)) * sin(0.5 * (d - a)) + 2.0 * cos(d) * halfSine * halfSine) /
+                            (sin(b) * sin(d)),
+                        -1.0, 1.0);
+  const float s = sqrt((1.0 - c) * (1.0 + c));
+  // Isosceles triangle with legs b: its spherical excess.
+  const float t = tan(0.5 * b) * tan(0.5 * b);
+  const float excess = 2.0 * atan(t * 2.0 * s * c, 1.0 + t * (c * c - s * s));
+  const float narrow = segmentArea(tan(min(a, 1.57)), b * s);
+  return clamp(atan(s, c) / kPi + (narrow - excess) / capArea(b), 0.0, 1.0);
+}
+
+// Share of a cap of radius b in one of radius a.
+float capShare(float a, float b, float d) {
+  if (!(a > 0.0)) return 0.0;
+  return a >= b ? smallerCapShare(a, b, d) : smallerCapShare(b, a, d) * capArea(a) / capArea(b);
 }
 
 // (share of the sun's disc in the cone, irradiance of a uniform sky through it over that of the whole sky).

@@ -34,14 +34,16 @@ void main() {
   }
   // The point over its depth, so that a point at infinity is no special case and a camera at rest gives
   // exactly 0.
-  const vec3 then = mat3(nowToThen) * ray + nowToThen[3].xyz * inverse;
+  precise const vec3 then = mat3(nowToThen) * ray + nowToThen[3].xyz * inverse;
   const vec2 half_ = 0.5 * vec2(sizePx);
-  const vec2 nowNdc = ray.xy / rayScale;
-  vec2 displacement;
+  // Both places by the same steps, none of them fused with another, so that they are equal where nothing moves.
+  precise const vec2 nowTangent = ray.xy / -ray.z, thenTangent = then.xy / -then.z;
+  precise const vec2 nowNdc = nowTangent / rayScale, thenNdc = thenTangent / rayScaleThen;
+  precise vec2 displacement;
   float previousDepth;
   const float reach = max(abs(then.x), max(abs(then.y), abs(then.z)));
   if (then.z < -kBeside * reach) {
-    displacement = (nowNdc - then.xy / -then.z / rayScaleThen) * half_;
+    displacement = (nowNdc - thenNdc) * half_;
     previousDepth = -then.z * depth;
   } else {
     const vec2 outwards = nowNdc * half_;

@@ -83,6 +83,22 @@ TEST(SwitchDistances, JsonAndChartHoldTheEstimates) {
   EXPECT_THAT(toText(report), HasSubstr("to_level=1"));
 }
 
+TEST(SwitchDistances, AreNamedByTheirLevelsAndSayInWhichWindowTheyHold) {
+  const TemporaryFolder folder;
+  writeSwitches(folder.path("s.sqlite"));
+  SwitchOptions options;
+  options.storePath = folder.path("s.sqlite");
+  SwitchReport report = findSwitchDistances(options).at(0);
+  EXPECT_EQ(report.seen.at("width"), "64");
+  EXPECT_THAT(toText(report), testing::Not(HasSubstr("window"))) << "the height is not known";
+  report.seen["height"] = "48";
+  report.seen["display"] = "laptop_14";
+  report.switches[0].condition = {{"from_level", "1"}, {"speed", "2"}, {"to_level", "0"}};
+  EXPECT_THAT(toText(report), HasSubstr("in a window of 64 x 48 px, display laptop_14"));
+  EXPECT_THAT(toText(report), HasSubstr("level 1 to 0, speed=2"));
+  EXPECT_EQ(nlohmann::json::parse(toJson(report)).at("seen").at("height"), "48");
+}
+
 TEST(SwitchDistances, RefuseWhatWouldMislead) {
   const TemporaryFolder folder;
   writeSwitches(folder.path("s.sqlite"), 2);

@@ -252,8 +252,8 @@ TEST_F(PoppingGpu, RepeatsToTheByte) {
 }
 
 TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
-  PoppingInput in = linearPair(sceneImage(96, 80, 0.45), sceneImage(96, 80, 0.5));
-  in.actualDisplacement = noiseImage(96, 80, 2, 5, -4.0, 4.0);
+  PoppingInput in = linearPair(sceneImage(72, 40, 0.45), sceneImage(72, 40, 0.5));
+  in.actualDisplacement = noiseImage(72, 40, 2, 5, -4.0, 4.0);
   const auto with = [&](const std::map<std::string, ParameterValue>& given) {
     std::string what;
     for (const auto& [name, value] : given) what += name + "=" + toText(value) + " ";

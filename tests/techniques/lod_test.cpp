@@ -334,7 +334,7 @@ TEST_F(TerrainTest, IsLitAsApertureLightSaysInDoublePrecision) {
         const double expected = scene.materials[0].albedo.x * (0.2 * through.sky + 0.8 * through.sun);
         // Float places a point in its triangle to a few 2^-23 of distance over edge, more at grazing
         // incidence, and the cone turns by up to a quarter circle over a triangle; the sun's share changes by
-        // at most 2 / (pi r) a radian. The overlap itself is a small difference: 1e-4 of it.
+        // at most 2 / (pi r) a radian. The plane approximation of a narrow segment is right to 1e-4 for 3 degrees.
         const glm::dvec3 view = frame.camera().eye - p;
         const double cosine = glm::dot(glm::normalize(n), glm::normalize(view));
         const double place = 4.0 * 0x1p-23 * glm::length(view) / glm::length(e1) / cosine;

@@ -7,6 +7,7 @@
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_control.h"
+#include "renderer/techniques/lod/box_view.h"
 
 namespace limen::techniques {
 
@@ -27,6 +28,12 @@ std::vector<Parameter> SwitchSetting::parameters() {
           "dt_s", 0.0, 0.0, 1.0, "s",
           "Time from the last frame before the change to the first after it; 0: one of the display's "
           "frames")};
+  all.push_back(choiceParameter(
+      "flicker_level", "before", {"before", "after"},
+      "Level whose shading is compared with the previous frame; after: the change itself counts as flicker",
+      "choice; Schwarz 2009, section 10.3.5, does not say"));
+  // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
+  all.push_back(samplesParameter(2));
   for (const std::vector<Parameter>& more :
        {perception::viewingParameters(), frame::ShadedSetting::parameters(), perception::poppingParameters()})
     all.insert(all.end(), more.begin(), more.end());
@@ -40,6 +47,8 @@ SwitchSetting SwitchSetting::from(const ParameterValues& values) {
   s.toLevel = static_cast<int>(values.integer("to_level"));
   s.others = values.text("others");
   s.dynamic = values.text("presentation") == "dynamic";
+  s.flickerOfBefore = values.text("flicker_level") == "before";
+  s.samples = static_cast<int>(values.integer("samples"));
   s.shaded = frame::ShadedSetting::from(values);
   s.display = perception::viewingDisplay(values);
   s.popping = perception::PoppingSettings::from(values);

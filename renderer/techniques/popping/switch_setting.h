@@ -22,6 +22,10 @@ struct SwitchSetting {
   std::string others;       ///< levels of all other objects: "finest", "distance", "omitted"
   bool dynamic = true;      ///< the camera moves as the scene says; false: both frames of it at rest
   double dtS = 1.0 / 60.0;  ///< between the frame before the change and the first one after
+  /// Flicker is what the level before the change shows over time; false: what the level after it shows
+  /// against the frame before, which has the change in it.
+  bool flickerOfBefore = true;
+  int samples = 2;  ///< a pixel along each axis, of what is shown
   frame::ShadedSetting shaded;
   /// Its refreshHz is 1 / dtS: the rate at which displacements in pixels per frame follow one another.
   perception::DisplayProfile display;

@@ -28,6 +28,10 @@ bool mayPassWhite(const frame::ShadedSetting& shaded) {
 SwitchViews::SwitchViews(frame::Frame& parent, const SwitchSetting& setting)
     : setting_(setting), pair_(parent, pairSetting(setting)) {
   setting_.levels(parent);
+  if (setting.samples > 1) {
+    supersampled_[0].emplace(parent, "shown_actual", setting.shaded, setting.samples);
+    supersampled_[1].emplace(parent, "shown_predicted", setting.shaded, setting.samples);
+  }
   if (!mayPassWhite(setting.shaded)) return;
   clamp_ = &parent.context().programs().compute("renderer/techniques/popping/clamp.comp.glsl");
   for (int i = 0; i < 2; ++i) clamped_.emplace_back(gl::Format::RGBA32F, parent.sizePx());
@@ -40,6 +44,12 @@ void SwitchViews::render(frame::Frame& parent) {
   pair_.render();
   shown_[0] = pair_.actual().colour;
   shown_[1] = pair_.predicted().colour;
+  for (size_t i = 0; i < 2; ++i) {
+    if (!supersampled_[i]) continue;
+    supersampled_[i]->setLevels(i == 0 ? actual : predicted);
+    supersampled_[i]->render();
+    shown_[i] = &supersampled_[i]->texture();
+  }
   if (!clamp_) return;
   const auto pass = parent.passes().open("popping/clamp");
   clamp_->set("sizePx", parent.sizePx());
@@ -58,21 +68,19 @@ SwitchImages SwitchViews::read() const {
   out.input.predicted = predicted().read();
   out.input.linear = true;
   if (!setting_.dynamic) return out;
-  const auto& now = pair_.actual();
-  out.input.actualDisplacement = now.displacement->read();
+  out.input.actualDisplacement = pair_.actual().displacement->read();
   out.input.predictedDisplacement = pair_.predicted().displacement->read();
   if (setting_.usesDisocclusion())
     for (const auto* view : {&pair_.actual(), &pair_.predicted()})
       out.disocclusion.push_back(
           {view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
-  if (setting_.usesFlicker())
-    out.flicker = perception::FlickerInput{out.input.actual,
-                                           out.input.predicted,
-                                           now.shadedBefore->read(),
-                                           pair_.previousColour()->read(),
-                                           out.input.actualDisplacement,
-                                           now.previousDepth->read(),
-                                           pair_.predicted().depthBefore->read()};
+  if (setting_.usesFlicker()) {
+    const frame::LodPair::View& view = flickering();
+    out.flicker = perception::FlickerInput{
+        pair_.actual().colour->read(),        pair_.predicted().colour->read(), view.shadedBefore->read(),
+        pair_.previousColour()->read(),       view.displacement->read(),        view.previousDepth->read(),
+        pair_.predicted().depthBefore->read()};
+  }
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "perception/popping/predictor.h"
 #include "perception/popping/weights.h"
 #include "renderer/frame/lod_pair.h"
+#include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/popping/switch_setting.h"
 
 namespace limen::techniques {
@@ -18,7 +19,8 @@ struct SwitchImages {
 };
 
 /// The views of a change of level that a viewer is shown (SP-39). The frame is a window of the display, pixel
-/// for pixel; its pictures are clamped to the display's range.
+/// for pixel; its pictures are supersampled and clamped to the display's range. Displacement, depth and what
+/// flicker is judged by are those of the pixels' centres.
 class SwitchViews {
  public:
   /// Throws Error as SwitchSetting::levels().
@@ -29,13 +31,18 @@ class SwitchViews {
   const gl::Texture& actual() const { return *shown_[0]; }     ///< RGBA32F in [0, 1]
   const gl::Texture& predicted() const { return *shown_[1]; }  ///< the same
   const frame::LodPair& pair() const { return pair_; }
+  /// The view whose shading over time is flicker.
+  const frame::LodPair::View& flickering() const {
+    return setting_.flickerOfBefore ? pair_.predicted() : pair_.actual();
+  }
   /// Reads back what the last render() made.
   SwitchImages read() const;
 
  private:
   SwitchSetting setting_;
   frame::LodPair pair_;
-  const gl::Program* clamp_ = nullptr;  // null where no picture can leave the display's range
+  std::optional<BoxView> supersampled_[2];  // with more than one sample a pixel
+  const gl::Program* clamp_ = nullptr;      // null where no picture can leave the display's range
   std::vector<gl::Texture> clamped_;
   const gl::Texture* shown_[2] = {nullptr, nullptr};
 };

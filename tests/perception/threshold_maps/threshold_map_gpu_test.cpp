@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "base/error.h"
 #include "perception/threshold_maps/model.h"
 #include "perception/threshold_maps/reference.h"
@@ -49,9 +51,13 @@ class ThresholdMapGpuTest : public gl::GlTest {
 };
 
 TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
+  // Of the pyramid those alone on which it differs most from the stack: every variant is a program to
+  // compile.
+  const std::set<std::string> both = {"faint ramp", "spike in the dark", "prime sizes", "single pixel"};
   for (const auto& [name, image] : adversarialPatterns())
     for (const char* decomposition : {"stack", "pyramid"})
       for (const char* precision : {"32", "16"}) {
+        if (text(decomposition) == "pyramid" && !both.count(name)) continue;
         const ThresholdMapSettings settings =
             settingsOf({{"decomposition", text(decomposition)}, {"precision", text(precision)}});
         EXPECT_LT(largestError(image, settings, name), settings.half ? 0.02 : 0.005)
@@ -60,19 +66,22 @@ TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
 }
 
 TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceForEverySetting) {
+  // Number of levels, adaptation level and direct evaluation are compiled in; the rest are tables and
+  // uniforms.
   const std::vector<Given> variants = {
-      {{"levels", int64_t{3}}},
-      {{"levels", int64_t{4}}, {"decomposition", text("pyramid")}},
+      {{"levels", int64_t{3}},
+       {"adaptation", text("level")},
+       {"adaptation_level", int64_t{0}},
+       {"f_low", text("one")}},
       {{"levels", int64_t{8}}, {"border", text("mirror")}},
       {{"kernel", text("burt")}, {"burt_a", 0.5}, {"peak_model", text("with_upsample")}},
       {{"adaptation", text("nearest_level")}, {"f_rule", text("original")}},
       {{"adaptation", text("fractional_level")}, {"f_rule", text("none")}, {"gain_compensation", true}},
-      {{"adaptation", text("level")}, {"adaptation_level", int64_t{0}}, {"f_low", text("one")}},
       {{"masking", text("none")}, {"csf", text("barten03")}, {"tvi", text("from_csf")}},
-      {{"masking", text("self")}},
+      {{"masking", text("self")}, {"tvi", text("ward_smoothed")}},
       {{"masking", text("schwarz")}, {"tvi_factor", 1.0}},
       {{"lookup", text("direct")}},
-      {{"lookup", text("direct")}, {"f_rule", text("original")}, {"decomposition", text("pyramid")}},
+      {{"lookup", text("direct")}, {"f_rule", text("original")}},
       {{"lookup", text("direct")}, {"f_low", text("one")}}};
   const Plane image = picture(150, 101);
   for (const Given& given : variants) {
@@ -95,7 +104,7 @@ TEST_F(ThresholdMapGpuTest, LevelsEqualTheDoublePyramid) {
   // However many levels a pass makes; sizes that halve evenly, and sizes that do not.
   for (const int64_t perPass : {1, 2, 3})
     for (const char* border : {"clamp", "mirror"})
-      for (const auto& [width, height] : {std::pair(256, 128), {263, 67}, {211, 90}, {16, 9}}) {
+      for (const auto& [width, height] : {std::pair(256, 128), {263, 67}, {211, 90}}) {
         const Plane image = noisePattern(width, height);
         gl::Texture input(gl::Format::R32F, {width, height});
         input.write(toImage(image));

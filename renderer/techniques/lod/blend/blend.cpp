@@ -147,7 +147,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Blend>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"triangles_drawn", "new_level_weight", "screen_error_px"}}};
 
 }  // namespace
 }  // namespace limen::techniques

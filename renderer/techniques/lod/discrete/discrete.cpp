@@ -55,7 +55,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Discrete>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"triangles_drawn", "level_mean", "screen_error_px", "level_switches"}}};
 
 }  // namespace
 }  // namespace limen::techniques

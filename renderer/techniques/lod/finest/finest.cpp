@@ -48,7 +48,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = true,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Finest>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"triangles_drawn", "level_mean", "screen_error_px"}}};
 
 }  // namespace
 }  // namespace limen::techniques

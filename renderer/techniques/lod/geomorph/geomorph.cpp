@@ -177,7 +177,8 @@ const Registered<TechniqueInfo> kRegistered{
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Geomorph>(values); },
-     .errorBound = {}}};
+     .errorBound = {},
+     .counters = {"triangles_drawn", "level_mean", "screen_error_px", "morph_mean"}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -40,11 +40,12 @@ class LodSwitch : public Technique {
         weights_->disocclusion({{now.previousDepth, now.displacement, now.depthBefore},
                                 {old.previousDepth, old.displacement, old.depthBefore}},
                                *disocclusion_);
-      if (flicker_)
-        weights_->flicker(
-            {&views_->actual(), &views_->predicted(), now.shadedBefore, views_->pair().previousColour(),
-             now.displacement, now.previousDepth, old.depthBefore},
-            *flicker_);
+      if (flicker_) {
+        const frame::LodPair::View& view = views_->flickering();
+        weights_->flicker({now.colour, old.colour, view.shadedBefore, views_->pair().previousColour(),
+                           view.displacement, view.previousDepth, old.depthBefore},
+                          *flicker_);
+      }
     }
     predictor_->run({&views_->actual(), &views_->predicted(), true, now.displacement, old.displacement,
                      disocclusion_ ? &*disocclusion_ : nullptr, flicker_ ? &*flicker_ : nullptr},
