@@ -84,10 +84,8 @@ Scene build(const ParameterValues& values) {
   const double height = setting.relief + values.real("altitude");
   ride.target = glm::dvec3(0.0, height - ride.distance * ride.back.y, 0.0);
   if (const int64_t tile = values.integer("tile"); tile >= 0) {
-    if (tile >= static_cast<int64_t>(scene.lodObjects.size()))
-      throw Error("the terrain has no tile " + std::to_string(tile), "scene 'lod/terrain'",
-                  "choose 0 to " + std::to_string(scene.lodObjects.size() - 1));
-    ride.target = scene.lodObjects[static_cast<size_t>(tile)].bounds.centre();
+    const size_t last = scene.lodObjects.size() - 1;
+    ride.target = scene.lodObjects[std::min(static_cast<size_t>(tile), last)].bounds.centre();
     const glm::dvec3 eye = ride.target + ride.distance * ride.back;
     if (!(eye.y > ground->field.height(eye.x, eye.z)))
       throw Error("the eye lies within the mountains", "scene 'lod/terrain'",
@@ -124,8 +122,8 @@ std::vector<Parameter> parameters() {
       realParameter("azimuth_deg", 0.0, -180.0, 180.0, "deg", "Side of the terrain that the eye comes from"),
       integerParameter(
           "tile", -1, -1, 255, "",
-          "Tile that `distance` leads to, in the order of objects; `altitude` plays no part then. "
-          "-1: none"),
+          "Tile that `distance` leads to, in the order of objects, the last one if there are fewer; "
+          "`altitude` plays no part then. -1: none"),
       realParameter("pitch_deg", 14.0, 0.0, 80.0, "deg", "Of the view below the horizontal"),
       integerParameter("seed", 1, 0, 1000000, "", "Of the mountains")};
   for (const std::vector<Parameter>& more :
