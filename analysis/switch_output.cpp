@@ -71,7 +71,10 @@ std::string logarithmicTics(double low, double high) {
   return "(" + join(out) + ")";
 }
 
-// Distinct on white and for colour-blind readers (Okabe and Ito 2008, without yellow); then dashes tell.
+// With more curves the views' ranges hide them; the table has them all the same.
+// Colours: distinct on white and for colour-blind readers (Okabe and Ito 2008, without yellow); then dashes
+// tell.
+constexpr size_t kMostWithBars = 8;
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                     "#56b4e9", "#e69f00", "#000000"};
 
@@ -173,6 +176,7 @@ std::string drawSwitchChart(const SwitchReport& report, const std::string& folde
     longest = std::max(longest, nameOf(one).size());
   }
   const double low = nearest / 1.15, high = farthest * 1.15;
+  const bool bars = report.switches.size() <= kMostWithBars;
   const double apart = std::pow(high / low, 0.004);
   for (const SwitchDistance& one : report.switches) {
     const std::vector<double> mean = meanOf(one);
@@ -195,15 +199,17 @@ std::string drawSwitchChart(const SwitchReport& report, const std::string& folde
         "\n\n# where it comes down to the probability: distance, probability, low, high\n{} {} {} {}\n\n\n",
         estimate.ofMean.place == Place::Within ? shortestNumber(estimate.ofMean.x) : "NaN",
         shortestNumber(report.probability), shortestNumber(from), shortestNumber(to));
+    if (bars)
+      plots += fmt::format(
+          "{0}'{1}.dat' index {2} using ($1*{3}):2:3:4 with yerrorbars lc rgb '{4}' ps 0 lw 1 notitle",
+          plots.empty() ? "" : ", \\\n  ", name, 2 * index, shortestNumber(aside),
+          kColours[index % std::size(kColours)]);
     plots += fmt::format(
-        "{0}'{1}.dat' index {2} using ($1*{6}):2:3:4 with yerrorbars lc rgb '{3}' pt {7} ps 0.6 lw 1 "
-        "notitle, \\\n"
-        "  '' index {2} using 1:2 with linespoints lc rgb '{3}' dt {8} pt {7} ps 0.6 lw 2 title {4}, "
+        "{0}'{1}.dat' index {2} using 1:2 with linespoints lc rgb '{3}' dt {7} pt {6} ps 0.6 lw 2 title {4}, "
         "\\\n"
         "  '' index {5} using 1:2:3:4 with xerrorbars lc rgb '{3}' pt 7 ps 1.1 lw 2.5 notitle",
         plots.empty() ? "" : ", \\\n  ", name, 2 * index, kColours[index % std::size(kColours)],
-        gnuplotQuoted(nameOf(one)), 2 * index + 1, shortestNumber(aside), 4 + index % 10,
-        1 + index / std::size(kColours));
+        gnuplotQuoted(nameOf(one)), 2 * index + 1, 4 + index % 10, 1 + index / std::size(kColours));
     ++index;
   }
   const size_t columns = std::clamp<size_t>(84 / (longest + 8), 1, 4),
@@ -222,12 +228,13 @@ std::string drawSwitchChart(const SwitchReport& report, const std::string& folde
           "set xrange [{6}:{7}]\nset xtics {8}\nset mxtics 1\nset rmargin 4\n"
           "set key outside below noenhanced maxcols {9} samplen 3\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
           "set bars 0.5\nset title {1} noenhanced\nset xlabel 'distance (world units){10}' noenhanced\n"
-          "set ylabel 'probability of detection; bars: range over views'\nset yrange [0:1]\n"
+          "set ylabel 'probability of detection{11}'\nset yrange [0:1]\n"
           "set arrow from graph 0, first {2} to graph 1, first {2} nohead dt 2 lc rgb '#777777'\n"
           "plot {3}\n",
           name, gnuplotQuoted(report.title), shortestNumber(report.probability), plots,
           shortestNumber(8.5 + 0.5 * static_cast<double>(rows)), 440 + 20 * rows, shortestNumber(low),
-          shortestNumber(high), logarithmicTics(low, high), columns, seen.empty() ? "" : ", " + seen));
+          shortestNumber(high), logarithmicTics(low, high), columns, seen.empty() ? "" : ", " + seen,
+          bars ? "; bars: range over views" : ""));
   runGnuplot(folder, name + ".gp");
   return base.string() + ".svg";
 }

@@ -247,6 +247,9 @@ class GlExecutor : public Executor {
     }
     if (reference && plan.artefacts.pictures)
       run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
+    for (const auto& [name, map] : maps)
+      if (name == "relative_error" && plan.artefacts.pictures)
+        run.outcome.measurements.push_back({"relative_error_png_white", kErrorScale, "", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::Threshold) {
       run.outcome.measurements.push_back(
           {"threshold_png_black", perception::kThresholdPictureBlack, "cd/m2", "fact"});
