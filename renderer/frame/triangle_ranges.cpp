@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/frame/triangle_ranges.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <cassert>
 
@@ -21,13 +19,7 @@ struct DrawCommand {
 TriangleRanges::TriangleRanges(size_t capacity)
     : capacity_(capacity),
       ranges_(static_cast<int64_t>(capacity * sizeof(glm::uvec2)), nullptr),
-      commands_(static_cast<int64_t>(capacity * sizeof(DrawCommand)), nullptr) {
-  for (Stage& stage : stages_) stage.data.emplace(ranges_.bytes() + commands_.bytes(), nullptr);
-}
-
-TriangleRanges::~TriangleRanges() {
-  for (const Stage& stage : stages_) glDeleteSync(static_cast<GLsync>(stage.done));
-}
+      commands_(static_cast<int64_t>(capacity * sizeof(DrawCommand)), nullptr) {}
 
 void TriangleRanges::set(std::vector<scene::TriangleRange> given) {
   std::sort(given.begin(), given.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -50,23 +42,8 @@ void TriangleRanges::set(std::vector<scene::TriangleRange> given) {
   }
   rangeCount_ = static_cast<int>(merged.size());
   if (merged.empty()) return;
-  Stage& stage = stages_[nextStage_];
-  nextStage_ = (nextStage_ + 1) % stages_.size();
-  if (stage.done) {
-    constexpr GLuint64 kSecond = 1'000'000'000;
-    while (glClientWaitSync(static_cast<GLsync>(stage.done), GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) ==
-           GL_TIMEOUT_EXPIRED) {
-    }
-    glDeleteSync(static_cast<GLsync>(stage.done));
-  }
-  const auto put = [&](const gl::Buffer& to, int64_t at, int64_t bytes, const void* data) {
-    stage.data->write(at, bytes, data);
-    glCopyNamedBufferSubData(stage.data->id(), to.id(), at, 0, bytes);
-  };
-  put(ranges_, 0, static_cast<int64_t>(ranges.size() * sizeof(glm::uvec2)), ranges.data());
-  put(commands_, ranges_.bytes(), static_cast<int64_t>(commands.size() * sizeof(DrawCommand)),
-      commands.data());
-  stage.done = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  ranges_.write(0, static_cast<int64_t>(ranges.size() * sizeof(glm::uvec2)), ranges.data());
+  commands_.write(0, static_cast<int64_t>(commands.size() * sizeof(DrawCommand)), commands.data());
 }
 
 }  // namespace limen::frame

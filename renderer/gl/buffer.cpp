@@ -32,7 +32,11 @@ void Buffer::clearUint(uint32_t value) const {
 }
 
 void Buffer::write(int64_t offset, int64_t bytes, const void* data) const {
-  glNamedBufferSubData(id_, offset, bytes, data);
+  uint32_t staging = 0;
+  glCreateBuffers(1, &staging);
+  glNamedBufferStorage(staging, bytes, data, 0);
+  glCopyNamedBufferSubData(staging, id_, 0, offset, bytes);
+  glDeleteBuffers(1, &staging);  // takes effect when the copy is done
 }
 
 void Buffer::readBytes(int64_t offset, int64_t bytes, void* out) const {
