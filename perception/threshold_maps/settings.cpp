@@ -29,8 +29,8 @@ std::vector<std::string> frequencyRules() { return {"original", "actual", "none"
 std::vector<std::string> lowFrequencies() { return {"by_rule", "one", "as_computed"}; }
 
 std::vector<std::string> achromaticCsfs() {
-  return {"barten89", "barten89_size", "barten03", "martin92",
-          "daly93",   "kelly79",       "daly98",   "burbeck_kelly80"};
+  return {"barten89", "barten89_size",   "barten03", "martin92", "daly93",   "kelly79",
+          "daly98",   "burbeck_kelly80", "laird06",  "stelacsf", "castlecsf"};
 }
 std::vector<std::string> maskings() { return {"none", "daly", "lubin", "self", "schwarz"}; }
 
