@@ -10,7 +10,6 @@
 
 #include "base/image.h"
 #include "base/image_file.h"
-#include "perception/command/perceive.h"
 #include "tests/experiments/cli_fixture.h"
 
 namespace limen::perception {
@@ -22,36 +21,13 @@ struct FileForm {
   std::vector<std::pair<std::string, int>> whole;
 };
 
-/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here. A child
-/// process runs the program's own main function: loading the image library's two hundred libraries anew for
-/// each call would take longer than all tests. started() does so.
+/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here.
 class PerceiveCli : public experiments::SweepCli {
  protected:
-  PerceiveCli() {
-    program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive";
-    // A child has none of its parent's threads, and would wait for them.
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);
-  }
-
-  /// The answer of the program itself.
-  experiments::CallResult started(const std::vector<std::string>& arguments) const {
-    return wait(start(arguments));
-  }
+  PerceiveCli() { program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive"; }
 
   experiments::CallResult call(const std::vector<std::string>& arguments) const {
-    std::fflush(nullptr);
-    const pid_t child = fork();
-    if (child != 0) return wait(child);
-    std::vector<std::string> words = {program_};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> raw;
-    for (std::string& word : words) raw.push_back(word.data());
-    const bool ready = std::freopen(path("call.out").c_str(), "w", stdout) &&
-                       std::freopen(path("call.err").c_str(), "w", stderr) && chdir(folder_.c_str()) == 0;
-    const int code = ready ? perceiveMain(static_cast<int>(raw.size()), raw.data()) : 126;
-    std::fflush(nullptr);
-    _exit(code);
+    return wait(start(arguments));
   }
 
   /// Values in [0, 1] (integer types) or as they are, through OpenImageIO alone.
