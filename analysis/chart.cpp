@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <map>
 
-#include "analysis/gnuplot.h"
 #include "analysis/text_output.h"
 #include "base/error.h"
+#include "base/gnuplot.h"
 #include "base/text.h"
 
 namespace limen::analysis {

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "analysis/gnuplot.h"
 #include "analysis/switch_distances.h"
 #include "analysis/text_output.h"
+#include "base/gnuplot.h"
 #include "base/text.h"
 
 namespace limen::analysis {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
+#include "base/gnuplot.h"
 #include "base/text.h"
 #include "perception/command/model_commands.h"
 
@@ -21,16 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 7> kColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
                                                  "#B07C00", "#2E86C1", "#444444"};
 
-// Inside single quotes gnuplot takes everything as it is but the quote itself.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "'";
-}
-
 std::string terminal(const std::string& extension) {
   if (extension == ".svg") return "svg size 720,480 dynamic font 'system-ui, sans-serif,13'";
   if (extension == ".png") return "pngcairo size 1440,960 font 'sans,20' linewidth 2";
@@ -40,20 +28,21 @@ std::string terminal(const std::string& extension) {
 std::string script(const Plot& plot, const fs::path& file) {
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
-                    terminal(file.extension().string()) + "\nset output " + quoted(file.filename().string()) +
+                    terminal(file.extension().string()) + "\nset output " +
+                    gnuplotQuoted(file.filename().string()) +
                     "\nset encoding utf8\nset border 3\nset tics nomirror out\nset logscale xy\n"
                     "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
   out += plot.curves.size() > 1 ? "set key outside right top Left reverse noenhanced samplen 2\n"
                                 : "set key off\n";
-  out += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.xTitle) +
-         " noenhanced\nset ylabel " + quoted(plot.yTitle) + " noenhanced\nset format xy '%g'\n";
+  out += "set title " + gnuplotQuoted(plot.title) + " noenhanced\nset xlabel " + gnuplotQuoted(plot.xTitle) +
+         " noenhanced\nset ylabel " + gnuplotQuoted(plot.yTitle) + " noenhanced\nset format xy '%g'\n";
   std::string curves;
   for (size_t i = 0; i < plot.curves.size(); ++i)
     curves += fmt::format(
         "{0}{1} index {2} using 1:2 with lines lw 2.5 dt {3} lc rgb '{4}' title {5}"
         ", \\\n  '' index {2} using 1:3 with lines lw 1 dt {3} lc rgb '{4}' notitle",
-        i == 0 ? "" : ", \\\n  ", i == 0 ? quoted(stem + ".dat") : "''", i, 1 + i / kColours.size(),
-        kColours[i % kColours.size()], quoted(plot.curves[i].name));
+        i == 0 ? "" : ", \\\n  ", i == 0 ? gnuplotQuoted(stem + ".dat") : "''", i, 1 + i / kColours.size(),
+        kColours[i % kColours.size()], gnuplotQuoted(plot.curves[i].name));
   return out + "plot " + curves + "\n";
 }
 
@@ -87,34 +76,6 @@ void write(const fs::path& path, const std::string& text) {
   if (!(file << text) || !file.flush()) throw Error("cannot be written", path.string());
 }
 
-void runGnuplot(const fs::path& folder, const std::string& name) {
-  std::array<int, 2> messages{};
-  if (pipe(messages.data()) != 0) throw Error("no pipe can be made", "gnuplot");
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(messages[1], 2);
-    dup2(messages[1], 1);
-    close(messages[0]);
-    close(messages[1]);
-    if (folder.empty() || chdir(folder.c_str()) == 0)
-      execlp("gnuplot", "gnuplot", ("." + std::string("/") + name).c_str(), static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  close(messages[1]);
-  std::string text;
-  std::array<char, 1024> buffer{};
-  for (ssize_t n; (n = read(messages[0], buffer.data(), buffer.size())) > 0;)
-    text.append(buffer.data(), static_cast<size_t>(n));
-  close(messages[0]);
-  int status = -1;
-  if (child < 0 || waitpid(child, &status, 0) < 0) throw Error("gnuplot cannot be started");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw Error("gnuplot is not installed; it draws the charts", "--plot",
-                "install the Debian package gnuplot-nox");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error("gnuplot failed: " + text.substr(0, 400), (folder / name).string());
-}
-
 }  // namespace
 
 void drawPlot(const Plot& plot, const std::string& file) {
@@ -126,7 +87,7 @@ void drawPlot(const Plot& plot, const std::string& file) {
   write(fs::path(path).replace_extension(".dat"), data(plot));
   const fs::path scriptPath = fs::path(path).replace_extension(".gp");
   write(scriptPath, script(plot, path));
-  runGnuplot(path.parent_path(), scriptPath.filename().string());
+  runGnuplot(path.has_parent_path() ? path.parent_path().string() : ".", scriptPath.filename().string());
 }
 
 }  // namespace limen::perception

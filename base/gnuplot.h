@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace limen::analysis {
+namespace limen {
 
 /// A text as gnuplot's single-quoted string; control characters become blanks.
 std::string gnuplotQuoted(const std::string& text);
@@ -12,4 +12,4 @@ std::string gnuplotQuoted(const std::string& text);
 /// (with the package to install) or fails (with what it said).
 void runGnuplot(const std::string& folder, const std::string& file);
 
-}  // namespace limen::analysis
+}  // namespace limen

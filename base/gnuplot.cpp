@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/gnuplot.h"
+#include "base/gnuplot.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace limen::analysis {
+namespace limen {
 
 // Inside single quotes gnuplot takes everything as it is but the quote itself.
 std::string gnuplotQuoted(const std::string& text) {
@@ -30,7 +30,8 @@ void runGnuplot(const std::string& folder, const std::string& file) {
     dup2(messages[1], 1);
     close(messages[0]);
     close(messages[1]);
-    if (chdir(folder.c_str()) == 0) execlp("gnuplot", "gnuplot", file.c_str(), static_cast<char*>(nullptr));
+    if (chdir(folder.c_str()) == 0)
+      execlp("gnuplot", "gnuplot", ("." + std::string("/") + file).c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
   close(messages[1]);
@@ -48,4 +49,4 @@ void runGnuplot(const std::string& folder, const std::string& file) {
     throw Error("gnuplot failed: " + text.substr(0, 400), (std::filesystem::path(folder) / file).string());
 }
 
-}  // namespace limen::analysis
+}  // namespace limen
