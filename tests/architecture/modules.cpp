@@ -9,6 +9,7 @@ namespace limen::architecture {
 const std::vector<Module>& modules() {
   static const std::vector<Module> kModules = {
       {"base", {}, false},
+      {"psychometrics", {"base"}, false},
       {"renderer/gl", {"base"}, true},
       {"renderer/scene", {"base"}, false},
       {"renderer/frame", {"base", "renderer/gl", "renderer/scene"}, true},
@@ -37,10 +38,11 @@ const std::vector<Module>& modules() {
        {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
         "renderer/references", "perception"},
        true},
-      {"analysis", {"base", "experiments/store"}, false},
+      {"analysis", {"base", "psychometrics", "experiments/store"}, false},
+      {"study/procedures", {"base", "psychometrics"}, false},
       {"study",
-       {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
-        "renderer/references", "renderer", "perception"},
+       {"base", "psychometrics", "study/procedures", "experiments/store", "renderer/gl", "renderer/scene",
+        "renderer/frame", "renderer/techniques", "renderer/references", "renderer", "perception"},
        true},
   };
   return kModules;
