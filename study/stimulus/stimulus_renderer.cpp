@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "study/stimulus/display_coding.h"
 #include "study/stimulus/state_view.h"
@@ -16,9 +17,12 @@ bool sameView(const scene::Camera& a, const scene::Camera& b) {
   return a.eye == b.eye && a.target == b.target && a.up == b.up && a.verticalFovDeg == b.verticalFovDeg;
 }
 
-Image withoutAlpha(const Image& image) {
+/// Without alpha, as codes over 255 to the last digit, which drivers' conversions miss.
+Image codesOf(const Image& image) {
   Image out(image.width, image.height, 3);
-  for (size_t i = 0; i < out.pixels(); ++i) std::copy_n(&image.data[4 * i], 3, &out.data[3 * i]);
+  for (size_t i = 0; i < out.pixels(); ++i)
+    for (size_t c = 0; c < 3; ++c)
+      out.data[3 * i + c] = static_cast<float>(std::round(255.0 * image.data[4 * i + c]) / 255.0);
   return out;
 }
 
@@ -85,10 +89,10 @@ const gl::Texture& StimulusRenderer::renderState(double sceneTimeS, bool after) 
   return coded_;
 }
 
-Image StimulusRenderer::readBack(int frame) { return withoutAlpha(render(frame).read()); }
+Image StimulusRenderer::readBack(int frame) { return codesOf(render(frame).read()); }
 
 Image StimulusRenderer::readBackState(double sceneTimeS, bool after) {
-  return withoutAlpha(renderState(sceneTimeS, after).read());
+  return codesOf(renderState(sceneTimeS, after).read());
 }
 
 }  // namespace limen::study

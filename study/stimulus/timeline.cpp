@@ -36,8 +36,9 @@ Timeline timelineOf(const Stimulus& stimulus, double refreshHz) {
                 "stimulus", "raise 'duration_s'");
   const int changed = framesFor(stimulus.changeAtS, refreshHz);
   out.changeSceneTimeS = out.sceneTimeS(changed);
-  if (!stimulus.changes) {
-    out.startsAfter = stimulus.catchShowsAfter;
+  const bool hasAfter = stimulus.levels || stimulus.after;
+  if (!stimulus.changes || !hasAfter) {
+    out.startsAfter = hasAfter && stimulus.catchShowsAfter;
     return out;
   }
   out.changed = changed;
