@@ -15,7 +15,16 @@ constexpr int kForm = 1;
 using nlohmann::json;
 
 json toJson(const NamedEntry& entry) {
-  return {{"name", entry.name}, {"version", entry.version}, {"values", entry.values.toJson()}};
+  json out = {{"name", entry.name}, {"version", entry.version}, {"values", entry.values.toJson()}};
+  if (!entry.fileHashes.empty()) out["file_hashes"] = entry.fileHashes;
+  return out;
+}
+
+/// Content of files in the place of their paths.
+void namePathsByContent(json& stimulus, const char* key) {
+  if (!stimulus.contains(key) || !stimulus.at(key).contains("file_hashes")) return;
+  json& entry = stimulus.at(key);
+  for (const auto& [parameter, hash] : entry.at("file_hashes").items()) entry["values"].erase(parameter);
 }
 
 /// Values as they were declared: JSON keeps whole numbers and reals apart.
@@ -45,8 +54,13 @@ ParameterValues valuesFromJson(const json& object) {
 }
 
 NamedEntry entryFromJson(const json& object) {
-  return {object.at("name").get<std::string>(), object.at("version").get<int>(),
-          valuesFromJson(object.at("values"))};
+  NamedEntry out;
+  out.name = object.at("name").get<std::string>();
+  out.version = object.at("version").get<int>();
+  out.values = valuesFromJson(object.at("values"));
+  if (object.contains("file_hashes"))
+    out.fileHashes = object.at("file_hashes").get<std::map<std::string, std::string>>();
+  return out;
 }
 
 std::optional<NamedEntry> optionalEntry(const json& stimulus, const char* key) {
@@ -151,6 +165,10 @@ Stimulus stimulusFromJson(const json& object) {
   }
 }
 
-std::string stimulusHash(const Stimulus& stimulus) { return sha256(toJson(stimulus).dump()); }
+std::string stimulusHash(const Stimulus& stimulus) {
+  json form = toJson(stimulus);
+  for (const char* entry : {"scene", "before", "after"}) namePathsByContent(form, entry);
+  return sha256(form.dump());
+}
 
 }  // namespace limen::study
