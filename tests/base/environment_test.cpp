@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/environment.h"
+#include "base/environment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <regex>
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 TEST(Environment, CommandsReadBackInAShell) {
@@ -31,4 +31,4 @@ TEST(Environment, FactsAreCompleteAndNameNoFolderAboveTheTree) {
 }
 
 }  // namespace
-}  // namespace limen::experiments
+}  // namespace limen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/environment.h"
+#include "base/environment.h"
 
 #include <fmt/core.h>
 #include <sqlite3.h>
@@ -13,9 +13,9 @@
 #include <thread>
 
 #include "base/build_facts.h"
-#include "experiments/store/store.h"
+#include "base/clock.h"
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 const std::string kUnknown = "unknown";
@@ -88,7 +88,7 @@ nlohmann::json environmentFacts(const std::vector<std::string>& command, const s
           {"commit", buildCommit()},
           {"command", quoteCommand(command)},
           {"working_directory", code || relative.empty() ? kUnknown : relative},
-          {"time", store::utcNow()}};
+          {"time", utcNow()}};
 }
 
-}  // namespace limen::experiments
+}  // namespace limen

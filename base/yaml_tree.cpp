@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/yaml_tree.h"
+#include "base/yaml_tree.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -17,7 +17,7 @@
 
 #include "base/error.h"
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 constexpr size_t kMaxDepth = 16;       // a descriptor needs six
@@ -277,4 +277,4 @@ std::string readTextFile(const std::string& path) {
   return text;
 }
 
-}  // namespace limen::experiments
+}  // namespace limen

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/parameter.h"
-#include "experiments/problems.h"
-#include "experiments/yaml_tree.h"
+#include "base/problems.h"
+#include "base/yaml_tree.h"
 
-namespace limen::experiments {
+namespace limen {
 
 /// Files that a descriptor names: found relative to its folder, then to the working directory, each hashed
 /// once.
@@ -48,4 +48,4 @@ class ValueReader {
   FileFinder& files_;
 };
 
-}  // namespace limen::experiments
+}  // namespace limen

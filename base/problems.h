@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/yaml_tree.h"
+#include "base/yaml_tree.h"
 
-namespace limen::experiments {
+namespace limen {
 
 /// Collects what is wrong with one file, so that a user sees all of it at once.
 class Problems {
@@ -31,4 +31,4 @@ class Problems {
   std::vector<Line> lines_;
 };
 
-}  // namespace limen::experiments
+}  // namespace limen

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/interrupt.h"
+#include "base/interrupt.h"
 
 #include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 std::atomic<int> receivedSignal{0};
@@ -36,4 +36,4 @@ void throwIfInterrupted() {
   if (interruptSignal() != 0) throw Interrupted{};
 }
 
-}  // namespace limen::experiments
+}  // namespace limen

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/yaml_tree.h"
+#include "base/yaml_tree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 using testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(YamlTree, ErrorsAreNeverAnythingButError) {
 }
 
 }  // namespace
-}  // namespace limen::experiments
+}  // namespace limen

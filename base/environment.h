@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace limen::experiments {
+namespace limen {
 
 /// Facts about this machine, build and call, for store::Environment::facts: cpu, cores, memory_bytes, os,
 /// kernel, compiler, build_type, libraries, commit (of the built source tree, with "-dirty" if it had
@@ -16,4 +16,4 @@ nlohmann::json environmentFacts(const std::vector<std::string>& command, const s
 /// Words as a shell would read them back.
 std::string quoteCommand(const std::vector<std::string>& words);
 
-}  // namespace limen::experiments
+}  // namespace limen

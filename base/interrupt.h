@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace limen::experiments {
+namespace limen {
 
 /// Thrown out of long work after SIGINT or SIGTERM.
 struct Interrupted {};
@@ -13,4 +13,4 @@ void installInterruptHandlers();
 int interruptSignal();
 void throwIfInterrupted();
 
-}  // namespace limen::experiments
+}  // namespace limen

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limen::experiments {
+namespace limen {
 
 /// Position in a file, both from 1.
 struct Mark {
@@ -44,4 +44,4 @@ YamlNode parseYaml(const std::string& text, const std::string& file);
 /// The whole file. Throws Error on a folder, a missing or unreadable file and on one too large to be meant.
 std::string readTextFile(const std::string& path);
 
-}  // namespace limen::experiments
+}  // namespace limen

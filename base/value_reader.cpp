@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/descriptor_values.h"
+#include "base/value_reader.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 
-namespace limen::experiments {
+namespace limen {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ std::optional<double> ValueReader::number(const YamlNode& node, const std::strin
   return {};
 }
 
-}  // namespace limen::experiments
+}  // namespace limen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/problems.h"
+#include "base/problems.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace limen::experiments {
+namespace limen {
 
 void Problems::add(Mark mark, const std::string& what, const std::string& mend) {
   lines_.push_back({mark, Error(what, location(file_, mark), mend).what()});
@@ -26,4 +26,4 @@ void Problems::throwIfAny() const {
   throw Error(text);
 }
 
-}  // namespace limen::experiments
+}  // namespace limen
