@@ -107,7 +107,7 @@ double fairCoinLower(double k, double trials) {
 
 double noncentralityOfF(double f, double degrees1, double degrees2, double p) {
   assert(f >= 0.0 && p > 0.0 && p < 1.0);
-  if (f > 1e9) throw std::runtime_error("noncentral F of too large a value");
+  if (degrees1 * f > 1e8) throw std::runtime_error("noncentral F of too large a value");
   const auto excess = [&](double noncentrality) {
     if (noncentrality == 0.0) return 1.0 - fUpper(f, degrees1, degrees2) - p;
     return boost::math::cdf(

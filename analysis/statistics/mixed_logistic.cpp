@@ -23,6 +23,7 @@
 namespace limen::analysis {
 namespace {
 
+constexpr double kEdge = 1e-4;             ///< of the scaled random effects: less is no spread
 constexpr double kWidestDeviation = 50.0;  ///< of the scaled random effects; wider spreads are runaway fits
 
 class Negative final : public ceres::FirstOrderFunction {
@@ -53,6 +54,31 @@ Eigen::MatrixXd information(const LaplaceModel& model, const Eigen::VectorXd& at
     h.col(k) = (evaluateLaplace(model, down).gradient - evaluateLaplace(model, up).gradient) / (2.0 * kStep);
   }
   return 0.5 * (h + h.transpose());
+}
+
+/// Inverse information of the fixed effects, with those entries of L beside them that are not on the edge.
+/// Turning the sign of a column of L changes nothing, so that a column of zeros is uncoupled from all others:
+/// leaving it out holds it fixed.
+Eigen::MatrixXd covarianceOfCoefficients(const LaplaceModel& model, Eigen::VectorXd at) {
+  const Eigen::Index p = model.fixed.cols();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < p; ++k) kept.push_back(k);
+  if (model.random.cols() == 1) {
+    if (std::abs(at(p)) >= kEdge) kept.push_back(p);
+  } else if (std::abs(at(p)) >= kEdge) {
+    kept.insert(kept.end(), {p, p + 1});
+    if (std::abs(at(p + 2)) >= kEdge) kept.push_back(p + 2);
+  } else {
+    // Without spread of the intercept both entries of the slope do the same; one is enough.
+    at(p + 2) = std::hypot(at(p + 1), at(p + 2));
+    at(p) = at(p + 1) = 0.0;
+    if (at(p + 2) >= kEdge) kept.push_back(p + 2);
+  }
+  const Eigen::MatrixXd all = information(model, at), h = all(kept, kept);
+  const Eigen::LLT<Eigen::MatrixXd> factored(h);
+  if (factored.info() != Eigen::Success)
+    throw Error("the likelihood is flat at its maximum, errors cannot be told", "design");
+  return factored.solve(Eigen::MatrixXd::Identity(h.rows(), h.cols())).topLeftCorner(p, p);
 }
 
 void check(const MixedLogisticData& data, const MixedLogisticOptions& options) {
@@ -251,21 +277,16 @@ MixedLogistic fitMixedLogistic(const MixedLogisticData& data, const MixedLogisti
     if (sigma(0, 0) > 1e-12 && sigma(1, 1) > 1e-12)
       result.correlation = std::clamp(sigma(0, 1) / std::sqrt(sigma(0, 0) * sigma(1, 1)), -1.0, 1.0);
   }
-  result.singular = lower.diagonal().cwiseAbs().minCoeff() < 1e-4;
   const Eigen::Index p = pooled.size();
-  Eigen::MatrixXd h = information(model, best.at);
-  if (result.singular) {
-    h = h.topLeftCorner(p, p).eval();
-    result.note = hasSlope ? "the covariance over groups is singular (no spread, or a correlation of +-1); "
-                             "errors hold it fixed"
-                           : "no spread over groups was found; errors hold it at 0";
-  }
-  const Eigen::LLT<Eigen::MatrixXd> factored(h);
-  if (factored.info() != Eigen::Success)
-    throw Error("the likelihood is flat at its maximum, errors cannot be told", "design");
-  const Eigen::MatrixXd inverse = factored.solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
+  result.singular = lower.diagonal().cwiseAbs().minCoeff() < kEdge;
+  if (result.singular)
+    result.note =
+        hasSlope ? "the covariance over groups is singular (no spread, or a correlation of +-1); errors hold "
+                   "fixed what is on that edge"
+                 : "no spread over groups was found; errors hold it at 0";
+  const Eigen::MatrixXd inverse = covarianceOfCoefficients(model, best.at);
   const Eigen::VectorXd beta = white.back * best.at.head(p);
-  const Eigen::MatrixXd covariance = white.back * inverse.topLeftCorner(p, p) * white.back.transpose();
+  const Eigen::MatrixXd covariance = white.back * inverse * white.back.transpose();
   const double z = -normalQuantile((1.0 - options.level) / 2.0);
   for (Eigen::Index c = 0; c < p; ++c) {
     FixedEffect effect{

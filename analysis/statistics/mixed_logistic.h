@@ -51,8 +51,8 @@ struct MixedLogistic {
   double logLikelihood = 0.0;       ///< Laplace's approximation, binomial coefficients included
   double aic = 0.0;                 ///< 2 (fixed effects + entries of Sigma) - 2 logLikelihood
   std::vector<GroupEffect> groups;  ///< by growing group
-  /// Sigma is on the edge of what is possible (a deviation of 0, a correlation of +-1): errors hold Sigma
-  /// fixed then.
+  /// Sigma is on the edge of what is possible (a deviation of 0, a correlation of +-1): errors hold fixed
+  /// what is on the edge.
   bool singular = false;
   std::string note;  ///< says so in words; empty otherwise
 };

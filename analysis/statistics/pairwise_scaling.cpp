@@ -156,10 +156,10 @@ Fit fitLikelihood(const std::vector<Pair>& pairs, size_t items, PairwiseModel mo
     }
     const Eigen::VectorXd direction = invertCentred(hessian) * gradient;
     const double promise = gradient.dot(direction);
-    // The promised gain of half of this is below rounding of the likelihood, and the step far below its
-    // error.
-    if (direction.cwiseAbs().maxCoeff() < 1e-11 * (1.0 + s.cwiseAbs().maxCoeff()))
-      return {s, invertCentred(hessian), precision > 0.0};
+    // With very unequal counts rounding may keep the step from shrinking further; a promised gain so small is
+    // a step of some 1e-5 standard errors.
+    const bool settled = direction.cwiseAbs().maxCoeff() < 1e-11 * (1.0 + s.cwiseAbs().maxCoeff());
+    if (settled || (step > 30 && promise < 1e-10)) return {s, invertCentred(hessian), precision > 0.0};
     double length = 1.0;
     Eigen::VectorXd next = s + direction;
     double after = objective(next);

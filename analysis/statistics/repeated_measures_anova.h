@@ -59,7 +59,8 @@ struct AnovaEffect {
   std::optional<double> f, p;
   std::optional<double> partialEtaSquared;  ///< SS / (SS + error SS)
   /// From noncentral F (Steiger 2004): bounds of the noncentrality L turned into L / (L + df + dfError + 1).
-  /// None where F is infinite, missing or above 1e9. A common choice beside a test at 5 % is the level 0.9.
+  /// None where F is infinite, missing or df F above 1e8. A common choice beside a test at 5 % is the level
+  /// 0.9.
   std::optional<Interval> partialEtaSquaredInterval;
   /// SS / (SS + SS of subjects + all error SS) (Olejnik and Algina 2003), all factors being manipulated.
   std::optional<double> generalisedEtaSquared;

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detection_rates.h"
@@ -16,7 +19,7 @@
 namespace limen::analysis {
 namespace {
 
-constexpr double kLargestDPrime = 50.0;
+constexpr double kLargestDPrime = 60.0;
 constexpr int kMostAlternatives = 1000;
 
 double correctedRate(int64_t successes, int64_t trials, RateCorrection correction, const std::string& where) {
@@ -43,16 +46,42 @@ void requireMAfc(double dPrime, int alternatives) {
                 "d'");
 }
 
+constexpr double kStep = 1.0 / 32.0;
+
 /// Trapezoidal sums converge faster than any power of the step for such integrands; at this step their error
 /// is below rounding. Outside of the range the integrand is below 1e-300 of its peak.
 template <typename Integrand>
 double integrate(double dPrime, Integrand integrand) {
-  constexpr double kStep = 1.0 / 32.0, kReach = 39.0;
+  constexpr double kReach = 39.0;
   const double low = std::min(0.0, dPrime) - kReach, high = std::max(0.0, dPrime) + kReach;
   const int steps = static_cast<int>((high - low) / kStep);
   double sum = 0.0;
   for (int i = 0; i <= steps; ++i) sum += integrand(low + kStep * i);
   return sum * kStep;
+}
+
+/// ln of the integral of phi(x - d') times e to `logFactor` of ln Phi(x)^(m-1); in logarithms, so that
+/// nothing underflows.
+template <typename LogFactor>
+double logIntegral(double dPrime, int alternatives, LogFactor logFactor) {
+  std::vector<double> terms;
+  double largest = -std::numeric_limits<double>::infinity();
+  integrate(dPrime, [&](double x) {
+    terms.push_back(-0.5 * (x - dPrime) * (x - dPrime) + logFactor((alternatives - 1) * logNormalLower(x)));
+    largest = std::max(largest, terms.back());
+    return 0.0;
+  });
+  double sum = 0.0;
+  for (const double term : terms) sum += std::exp(term - largest);
+  return largest + std::log(sum * kStep) - 0.5 * std::log(2.0 * std::numbers::pi);
+}
+
+double logCorrect(double dPrime, int alternatives) {
+  return logIntegral(dPrime, alternatives, [](double logPower) { return logPower; });
+}
+
+double logWrong(double dPrime, int alternatives) {
+  return logIntegral(dPrime, alternatives, [](double logPower) { return std::log(-std::expm1(logPower)); });
 }
 
 double slope(double dPrime, int alternatives) {
@@ -104,17 +133,13 @@ double mAfcProportionCorrect(double dPrime, int alternatives) {
   requireMAfc(dPrime, alternatives);
   // Of two the exact integral has a closed form.
   if (alternatives == 2) return normalLower(dPrime / std::sqrt(2.0));
-  return integrate(dPrime, [&](double x) {
-    return normalDensity(x - dPrime) * std::exp((alternatives - 1) * logNormalLower(x));
-  });
+  return std::exp(logCorrect(dPrime, alternatives));
 }
 
 double mAfcProportionWrong(double dPrime, int alternatives) {
   requireMAfc(dPrime, alternatives);
   if (alternatives == 2) return normalUpper(dPrime / std::sqrt(2.0));
-  return integrate(dPrime, [&](double x) {
-    return normalDensity(x - dPrime) * -std::expm1((alternatives - 1) * logNormalLower(x));
-  });
+  return std::exp(logWrong(dPrime, alternatives));
 }
 
 double mAfcDPrime(double proportionCorrect, int alternatives) {
@@ -122,12 +147,12 @@ double mAfcDPrime(double proportionCorrect, int alternatives) {
   if (!(proportionCorrect > 0.0 && proportionCorrect < 1.0))
     throw Error(fmt::format("a proportion of {} has no finite d'", proportionCorrect), "proportionCorrect",
                 "give one between 0 and 1");
+  if (alternatives == 2) return std::sqrt(2.0) * normalQuantile(proportionCorrect);
   // On a logarithmic scale of the smaller side, so that the far tails are found as well as the middle.
   const bool fromAbove = proportionCorrect > 0.5;
   const double target = std::log(fromAbove ? 1.0 - proportionCorrect : proportionCorrect);
   const auto excess = [&](double d) {
-    return fromAbove ? target - std::log(mAfcProportionWrong(d, alternatives))
-                     : std::log(mAfcProportionCorrect(d, alternatives)) - target;
+    return fromAbove ? target - logWrong(d, alternatives) : logCorrect(d, alternatives) - target;
   };
   double low = -1.0, high = 1.0;
   while (excess(low) > 0.0 && low > -kLargestDPrime) low = std::max(2.0 * low, -kLargestDPrime);

@@ -46,7 +46,7 @@ double aPrime(double hitRate, double falseAlarmRate);
 /// Proportion correct of an unbiased observer who picks the largest of `alternatives` observations:
 /// integral of phi(x - d') Phi(x)^(m-1) dx (Green and Swets 1966). By the trapezoidal rule, to a relative
 /// error of 1e-12; the second form gives 1 minus that without cancellation. limen::Error unless d' is finite
-/// with |d'| <= 50 and 2 <= m <= 1000.
+/// with |d'| <= 60 and 2 <= m <= 1000.
 double mAfcProportionCorrect(double dPrime, int alternatives);
 double mAfcProportionWrong(double dPrime, int alternatives);
 

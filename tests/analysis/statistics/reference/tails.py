@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tails of distributions to 40 digits with mpmath, and some statistics with SciPy as a second opinion.
+# Tails of distributions to 60 digits with mpmath, and some statistics with SciPy as a second opinion.
 # Run: python3 tails.py
 from mpmath import mp, mpf, betainc, erfc, gammainc, linspace, loggamma, quad, sqrt, exp, pi, inf, nstr
-mp.dps = 40
+mp.dps = 60
 show = lambda label, x: print(label, nstr(mpf(x), 17))
 
 for z in (1, 5, 10, 20, 37):
