@@ -65,7 +65,9 @@ MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double leve
   MeanOverSubjects result;
   result.subjects = values.size();
   const auto n = static_cast<double>(values.size());
-  for (const double value : values) result.mean += value / n;
+  // The sum is divided, not each value: subjects who all answered with the same share have exactly that mean.
+  for (const double value : values) result.mean += value;
+  result.mean /= n;
   if (values.size() == 1) return result;
   double squares = 0.0;
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);

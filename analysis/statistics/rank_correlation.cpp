@@ -16,6 +16,7 @@ namespace limen::analysis {
 namespace {
 
 constexpr size_t kExactSpearman = 9;
+constexpr double kSure = 1e-12;  ///< what averaging may take off a rate of 1
 
 double criticalZ(double level) { return -normalQuantile((1.0 - level) / 2.0); }
 
@@ -134,7 +135,8 @@ ClampedPearson clampedPearson(const std::vector<double>& predictions, const std:
     if (rates[i] < 0.0 || rates[i] > 1.0)
       throw Error(fmt::format("{} is no rate", rates[i]), indexed("rates", i),
                   "give fractions, not per cent");
-    if (rates[i] == 1.0) result.clamp = std::min(result.clamp.value_or(predictions[i]), predictions[i]);
+    if (rates[i] >= 1.0 - kSure)
+      result.clamp = std::min(result.clamp.value_or(predictions[i]), predictions[i]);
   }
   std::vector<double> lowered = predictions;
   if (result.clamp)

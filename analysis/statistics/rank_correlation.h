@@ -66,7 +66,7 @@ std::optional<Correlation> pearson(const std::vector<double>& x, const std::vect
 std::optional<Correlation> spearman(const std::vector<double>& x, const std::vector<double>& y,
                                     double level = 0.95);
 
-/// Correlation of a predictor with detection rates after Schwarz (thesis, section 10.3): beyond the smallest
+/// Correlation of a predictor with detection rates after Schwarz (2009, section 10.4.1): beyond the smallest
 /// prediction that everybody detected, R_c = min{R : rate = 1}, larger ones cannot show, so R becomes min(R,
 /// R_c).
 struct ClampedPearson {
@@ -75,7 +75,7 @@ struct ClampedPearson {
   std::optional<Correlation> correlation;
 };
 
-/// `rates` as fractions; limen::Error also for one outside 0 .. 1.
+/// `rates` as fractions, within 1e-12 of 1 being 1; limen::Error also for one outside 0 .. 1.
 ClampedPearson clampedPearson(const std::vector<double>& predictions, const std::vector<double>& rates,
                               double level = 0.95);
 

@@ -76,7 +76,7 @@ struct RepeatedMeasuresAnova {
 };
 
 /// Univariate repeated-measures analysis of variance: each effect is tested against its own interaction with
-/// subjects (Winer, Brown and Michels 1991, chapter 4; Schwarz, thesis section 10.3). Sums of squares below
+/// subjects (Winer, Brown and Michels 1991, chapter 4; Schwarz 2009, section 10.4). Sums of squares below
 /// what rounding of the values leaves count as zero. limen::Error for fewer than two subjects, no factor, a
 /// factor of fewer than two levels, values that are missing, too many or not finite.
 RepeatedMeasuresAnova analyseRepeatedMeasures(const RepeatedMeasures& data, double level = 0.95);

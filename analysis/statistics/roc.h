@@ -31,7 +31,7 @@ struct RocArea {
   std::optional<double> variance;
   std::optional<Interval>
       interval;  ///< area +- z error, cut to 0 .. 1; of no width for variance 0: no certainty
-  /// On the scale ln(A / (1 - A)), better next to 1 (Pepe 2003, section 5.2); none for an area of 0 or 1.
+  /// On the scale ln(A / (1 - A)), better next to 1 (Pepe 2003); none for an area of 0 or 1.
   std::optional<Interval> logitInterval;
 };
 RocArea rocArea(const std::vector<double>& scores, const std::vector<int>& outcomes, double level = 0.95);

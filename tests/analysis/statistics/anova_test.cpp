@@ -100,7 +100,7 @@ RepeatedMeasures withF(double f, size_t subjects) {
 TEST(RepeatedMeasuresAnova, IntervalOfPartialEtaSquaredIsThatOfNoncentralF) {
   const AnovaEffect effect = analyseRepeatedMeasures(withF(5.337, 12)).effects[0];
   expectRelative(*effect.f, 5.337, 1e-10);
-  EXPECT_NEAR(*effect.p, 0.0413, 5e-5);  // Schwarz, section 10.3.2
+  EXPECT_NEAR(*effect.p, 0.0413, 5e-5);  // Schwarz 2009, section 10.4.2
   EXPECT_EQ(effect.partialEtaSquaredInterval->low, 0.0);
   expectRelative(effect.partialEtaSquaredInterval->high, 0.603476011801789, 1e-6);
 }

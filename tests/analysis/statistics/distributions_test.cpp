@@ -53,7 +53,7 @@ TEST(Distributions, FTailsKeepTheirDigitsFarOut) {
 }
 
 TEST(Distributions, FValuesOfTheThesisHaveItsProbabilities) {
-  // Recomputed probabilities of Schwarz, sections 10.3.1 and 10.3.2.
+  // Recomputed probabilities of Schwarz 2009, sections 10.4.1 and 10.4.2.
   EXPECT_NEAR(fUpper(5.337, 1.0, 11.0), 0.0413, 5e-5);
   EXPECT_LT(fUpper(30.226, 6.0, 42.0), 1e-4);
   EXPECT_NEAR(fUpper(3.139, 6.0, 42.0), 0.01239, 5e-6);
@@ -79,6 +79,13 @@ TEST(Distributions, NoncentralityOfFIsThatOfPublishedMeans) {
   // With one degree over very many, F is the square of a normal deviate: at F = z^2 the upper tail is 1/2 for
   // a mean of z, so the noncentrality is z^2, but for the far side, Phi(-2 z).
   EXPECT_NEAR(noncentralityOfF(25.0, 1.0, 1e7, 0.5), 25.0, 1e-3);
+  // reference/anova.R, as shares of variance L / (L + 6 + 42 + 1).
+  const auto share = [](double p) {
+    const double noncentrality = noncentralityOfF(30.226, 6.0, 42.0, p);
+    return noncentrality / (noncentrality + 49.0);
+  };
+  expectRelative(share(0.95), 0.682791560989442, 1e-9);
+  expectRelative(share(0.05), 0.842294390643561, 1e-9);
   // 1 - P(F < x) already below what is asked for: no noncentrality can be that small.
   EXPECT_EQ(noncentralityOfF(0.1, 3.0, 20.0, 0.975), 0.0);
 }

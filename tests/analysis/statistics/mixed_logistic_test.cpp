@@ -92,6 +92,28 @@ TEST(MixedLogistic, SingleAnswersAreThoseOfLme4) {
   expectRelative(m.logLikelihood, -11.9254378125, 1e-7);
 }
 
+TEST(MixedLogistic, SingularSlopeHasTheErrorsOfLme4AndSaysSo) {
+  const int64_t k[] = {1, 1, 0, 0, 1, 3, 3, 3, 4, 3, 4, 4, 1, 2, 3, 2, 3, 4,
+                       1, 1, 1, 0, 4, 3, 0, 0, 0, 1, 1, 1, 3, 4, 3, 3, 4, 4};
+  MixedLogisticData data;
+  data.columns = {"intercept", "x"};
+  for (size_t i = 0; i < 36; ++i) {
+    data.successes.push_back(k[i]);
+    data.trials.push_back(4);
+    data.groups.push_back(i / 6);
+    data.design.insert(data.design.end(), {1.0, -1.0 + 0.4 * static_cast<double>(i % 6)});
+  }
+  MixedLogisticOptions options;
+  options.random = RandomEffects::kInterceptAndSlope;
+  const MixedLogistic m = fitMixedLogistic(data, options);
+  EXPECT_TRUE(m.singular);
+  EXPECT_FALSE(m.note.empty());
+  expectEffect(m.fixed[0], 0.1520435861, 0.6970488054);
+  expectEffect(m.fixed[1], 1.2542867105, 0.3510012312);
+  expectRelative(*m.correlation, -1.0, 1e-6);
+  expectRelative(m.logLikelihood, -43.0368613167, 1e-8);
+}
+
 TEST(MixedLogistic, UnitsOfAColumnOnlyScaleItsCoefficient) {
   MixedLogisticData metres = detections();
   for (size_t i = 0; i < 40; ++i) metres.design[2 * i + 1] *= 1e6;
@@ -152,6 +174,22 @@ TEST(MixedLogistic, DataWithoutAMaximumAreRefused) {
   MixedLogisticData separated = answers();
   for (size_t i = 0; i < 36; ++i) separated.successes[i] = separated.design[3 * i + 1] > 0.25 ? 1 : 0;
   expectError([&] { fitMixedLogistic(separated); }, "separates");
+  // Every group changes its answer once, at its own intensity: the steeper and the wider, the better.
+  MixedLogisticData stepped;
+  stepped.columns = {"intercept", "x"};
+  const int64_t steps[6][5] = {{0, 0, 0, 0, 1}, {0, 0, 0, 0, 1}, {0, 0, 0, 0, 1},
+                               {0, 0, 1, 1, 1}, {0, 0, 1, 1, 1}, {0, 0, 0, 1, 1}};
+  for (size_t g = 0; g < 6; ++g)
+    for (size_t i = 0; i < 5; ++i) {
+      stepped.groups.push_back(g);
+      stepped.trials.push_back(1);
+      stepped.successes.push_back(steps[g][i]);
+      stepped.design.insert(stepped.design.end(), {1.0, -1.0 + 0.5 * static_cast<double>(i)});
+    }
+  expectError([&] { fitMixedLogistic(stepped); }, "grows without bound");
+  MixedLogisticData silent = detections();
+  silent.successes.assign(40, 0);
+  expectError([&] { fitMixedLogistic(silent); }, "separates");
   MixedLogisticData dependent = detections();
   for (size_t i = 0; i < 40; ++i) dependent.design[2 * i + 1] = 3.0;
   expectError([&] { fitMixedLogistic(dependent); }, "column 'x'");

@@ -19,7 +19,7 @@ const std::vector<double> kB = {2.2, 0.9, 4.1, 6.3, 0.5, 3.7, 5.2, 8.8};
 constexpr double kZ = 1.959963984540054;
 
 TEST(StuartTauC, PrintedValuesOfTheThesisAreFractionsOfItsCounts) {
-  // Schwarz, sections 10.3.1 and 10.3.2: n, m and P - Q that give each printed value.
+  // Schwarz 2009, sections 10.4.1 and 10.4.2: n, m and P - Q that give each printed value.
   const struct {
     int64_t n, m, s;
     double printed;

@@ -21,7 +21,7 @@ void expectInterval(const Interval& interval, double low, double high, double to
 
 // Intervals from R: reference/rates.R.
 TEST(DetectionRate, IntervalsAreThoseOfR) {
-  // 455 of 672 change trials and 10 of 224 catch trials: Schwarz, section 10.3.1, 67.71 % and 4.46 %.
+  // 455 of 672 change trials and 10 of 224 catch trials: Schwarz 2009, section 10.4.1, 67.71 % and 4.46 %.
   const Rate change = detectionRate(455, 672), caught = detectionRate(10, 224);
   EXPECT_NEAR(change.rate, 0.6771, 5e-5);
   EXPECT_NEAR(caught.rate, 0.0446, 5e-5);
@@ -55,6 +55,7 @@ TEST(MeanOverSubjects, IntervalIsThatOfR) {
   const MeanOverSubjects m = meanOverSubjects({0.55, 0.71, 0.82, 0.64, 0.60, 0.77, 0.49, 0.84});
   expectInterval(*m.interval, 0.570274002014098, 0.784725997985902);
   EXPECT_FALSE(meanOverSubjects({0.5}).interval);
+  for (size_t n = 2; n < 60; ++n) EXPECT_EQ(meanOverSubjects(std::vector<double>(n, 1.0)).mean, 1.0);
   EXPECT_EQ(meanOverSubjects({0.5}).mean, 0.5);
   expectError([] { meanOverSubjects({0.5, kNan}); }, "values[1]");
   expectError([] { meanOverSubjects({}); }, "values");
@@ -127,6 +128,12 @@ TEST(SignalDetection, ProportionsOfManyAlternativesKeepTheirDigitsFarOut) {
   expectRelative(mAfcProportionWrong(12.0, 4), 3.2279581891440704e-17, 1e-12);
   expectRelative(mAfcProportionCorrect(-6.0, 3), 1.163320937779937e-7, 1e-12);
   EXPECT_NEAR(mAfcDPrime(1.163320937779937e-7, 3), -6.0, 1e-9);
+  // Below any double that the integrand itself could hold on the way, the inverse still returns.
+  for (const int m : {2, 3, 10, 1000}) {
+    const double d = mAfcDPrime(1e-300, m);
+    EXPECT_LT(d, -30.0);
+    expectRelative(mAfcProportionCorrect(d, m), 1e-300, 1e-9);
+  }
 }
 
 TEST(SignalDetection, CountsOfManyAlternativesHaveErrorsAndBounds) {

@@ -28,3 +28,8 @@ b <- data.frame(
   w = c(0,1,0,1,1,0,1,0,1,0,1,0,0,1,1,0,1,0,1,0,1,0,1,0,1,1,0,1,0,1,0,0,1,1,0,1),
   group = factor(c(rep(1, 5), rep(2, 8), rep(3, 7), rep(4, 9), rep(5, 7))))
 m3 <- glmer(y ~ v + w + (1 | group), b, binomial, control = control); report(m3)
+
+# A random slope whose correlation with the level is -1: 6 subjects (rows) at 6 intensities, 4 trials.
+e <- data.frame(k = c(1, 1, 0, 0, 1, 3, 3, 3, 4, 3, 4, 4, 1, 2, 3, 2, 3, 4, 1, 1, 1, 0, 4, 3, 0, 0, 0, 1, 1, 1, 3, 4, 3, 3, 4, 4),
+  x = rep(c(-1, -0.6, -0.2, 0.2, 0.6, 1), 6), subject = factor(rep(1:6, each = 6)))
+m4 <- glmer(cbind(k, 4 - k) ~ x + (x | subject), e, binomial, control = control); report(m4)
