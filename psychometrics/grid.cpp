@@ -107,7 +107,7 @@ std::vector<double> linearValues(double from, double to, size_t count) {
   assert(count >= 2);
   std::vector<double> values(count);
   const auto last = static_cast<double>(count - 1);
-  // Weights of both ends rather than from + i step: round numbers come out round.
+  // Weights of both ends, so that no rounding of a step adds up.
   for (size_t i = 0; i < count; ++i) {
     const auto place = static_cast<double>(i);
     values[i] = (from * (last - place) + to * place) / last;
