@@ -74,6 +74,8 @@ class Session {
   int nextEvent() const { return nextEvent_; }  ///< number that the next event must have
   /// Whether the trial that is due is on the screen: begun, and neither answered nor invalid.
   bool trialInProgress() const { return inProgress_; }
+  /// Block of the trial that is due, as index of Design::blocks. There is one.
+  int blockOfDue() const { return queue_.front().slot.block; }
   /// How often a trial was invalid (late frames and the like; interruptions do not count).
   int timesInvalid(int trial) const;
   /// First event of the block (or round of practice) that would start over if the session were broken off
@@ -142,7 +144,7 @@ class Session {
   size_t stretch_ = 0;
   std::vector<Queued> queue_;  ///< of the stretch, the due one first
   std::map<int, int> attempts_, invalid_;
-  bool inProgress_ = false;
+  bool inProgress_ = false, paused_ = false;
   int done_ = 0, sinceBreak_ = 0, right_ = 0;
   bool passed_ = true;
   std::optional<int> begunAt_;  ///< first event of a trial of the stretch
