@@ -23,12 +23,17 @@ class Clock {
 };
 Clock& systemClock();
 
+/// What a committed event survives: a cut of the power, or (simulations, which need no disk to answer for
+/// them) only the end of the process, by whatever signal.
+enum class Durability { PowerLoss, ProcessKill };
+
 struct SessionRequest {
   std::string store;          ///< SQLite file
   std::string participant;    ///< code: letters, digits, - and _
   std::string session = "1";  ///< number or name of the sitting
   uint64_t seed = 0;          ///< of a new session; a resumed one keeps its own
   bool resume = false;
+  Durability durability = Durability::PowerLoss;
   perception::DisplayProfile display;
   nlohmann::json calibration = nlohmann::json::object();  ///< how the display profile was measured
   /// Takes what the experimenter should know and nothing stops for (a wall clock that was set). Standard
