@@ -95,7 +95,10 @@ std::string nameOf(sqlite3* database, const char* sql, const std::string& hash) 
 
 }  // namespace
 
-SessionLog::SessionLog(const std::string& path) : path_(path), database_(openDatabase(path, false)) {}
+SessionLog::SessionLog(const std::string& path, bool syncEach)
+    : path_(path), database_(openDatabase(path, false)) {
+  if (!syncEach) execute(database_, "PRAGMA synchronous = NORMAL");
+}
 
 SessionLog::~SessionLog() { sqlite3_close(database_); }
 

@@ -124,7 +124,8 @@ struct StudyEntry {
 /// was committed stays. One object a thread.
 class SessionLog {
  public:
-  explicit SessionLog(const std::string& path);
+  /// Commits survive a cut of the power, or without `syncEach` (quicker) the end of the process alone.
+  explicit SessionLog(const std::string& path, bool syncEach = true);
   ~SessionLog();
   SessionLog(const SessionLog&) = delete;
   SessionLog& operator=(const SessionLog&) = delete;

@@ -33,20 +33,26 @@ Session::Session(const Protocol& protocol, uint64_t seed, int participantNumber)
   settle();
 }
 
-// Rounds of practice are told apart by the number of trials in each, whether the plan has them in one block
-// or in several.
 void Session::makeStretches() {
+  size_t rounds = 0;
+  for (const PlannedBlock& block : design_.blocks)
+    if (block.practice)
+      rounds += static_cast<size_t>(std::max(1, partOf(protocol_, block.part).practice.rounds));
+  rounds_.reserve(rounds);  // slots point into it
   for (size_t block = 0; block < design_.blocks.size(); ++block) {
     const PlannedBlock& planned = design_.blocks[block];
-    const size_t round = static_cast<size_t>(std::max(1, partOf(protocol_, planned.part).practice.trials));
-    for (const PlannedTrial& trial : planned.trials) {
-      const bool joins = !stretches_.empty() && stretches_.back().part == planned.part &&
-                         stretches_.back().practice == planned.practice &&
-                         (planned.practice ? stretches_.back().slots.size() < round
-                                           : stretches_.back().slots.back().block == static_cast<int>(block));
-      if (!joins) stretches_.push_back({planned.part, planned.practice, {}});
-      stretches_.back().slots.push_back({&trial, static_cast<int>(block)});
-    }
+    const auto add = [&](const PlannedBlock& from) {
+      if (from.trials.empty()) return;
+      Stretch& stretch = stretches_.emplace_back();
+      stretch.part = planned.part;
+      stretch.practice = planned.practice;
+      for (const PlannedTrial& trial : from.trials)
+        stretch.slots.push_back({&trial, static_cast<int>(block)});
+    };
+    add(planned);
+    if (!planned.practice) continue;
+    for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round)
+      add(rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round)));
   }
 }
 

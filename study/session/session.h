@@ -96,7 +96,7 @@ class Session {
     Finished,
     Aborted
   };
-  /// A trial of the plan and the block that it stands in.
+  /// A trial of the plan and the block that it stands in; all rounds of practice stand in the first one's.
   struct Slot {
     const PlannedTrial* trial = nullptr;
     int block = 0;
@@ -133,6 +133,7 @@ class Session {
   uint64_t seed_;
   int participantNumber_;
   Design design_;
+  std::vector<PlannedBlock> rounds_;  ///< of practice after the first
   std::vector<Stretch> stretches_;
   std::vector<ProcedureSettings> settings_;
   std::vector<std::unique_ptr<Procedure>> procedures_;
