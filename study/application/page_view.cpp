@@ -4,82 +4,32 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <sstream>
+
+#include "study/application/lettering.h"
 
 namespace limen::study {
 namespace {
 
 // Longer lines are hard to follow back: 36 times the size are 70 characters or so.
 constexpr float kTextWidthEm = 36.0F;
+// Sizes that are tried one after the other until a page fits.
+constexpr std::array<float, 6> kShares = {1.0F, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F};
 
-ImU32 colour(glm::vec3 value, float alpha = 1.0F) {
-  return ImGui::ColorConvertFloat4ToU32({value.x, value.y, value.z, alpha});
-}
+ImU32 colour(glm::vec3 value) { return ImGui::ColorConvertFloat4ToU32({value.x, value.y, value.z, 1.0F}); }
 
 struct Palette {
-  glm::vec3 text, dim, button, lit, border;
+  ImU32 text, dim, button, lit, border, faint;
 };
 
 Palette paletteFor(glm::vec3 background) {
   const float level = (background.x + background.y + background.z) / 3.0F;
   const bool dark = level < 0.5F;
   const auto towards = [&](float share) {
-    return glm::mix(background, glm::vec3(dark ? 1.0F : 0.0F), share);
+    return colour(glm::mix(background, glm::vec3(dark ? 1.0F : 0.0F), share));
   };
-  return {towards(0.92F), towards(0.55F), towards(0.10F), towards(0.22F), towards(0.45F)};
-}
-
-struct Lettering {
-  ImFont* font;
-  float px;
-  float lineHeight() const { return std::round(px * 1.35F); }
-  float width(const std::string& text) const {
-    return font->CalcTextSizeA(px, 1e9F, 0.0F, text.c_str(), text.c_str() + text.size()).x;
-  }
-};
-
-// Lines of at most `width`; words that are longer are broken.
-std::vector<std::string> wrapped(const Lettering& lettering, const std::string& text, float width) {
-  std::vector<std::string> lines;
-  std::istringstream paragraphs(text);
-  std::string paragraph;
-  while (std::getline(paragraphs, paragraph)) {
-    const char* from = paragraph.c_str();
-    const char* end = from + paragraph.size();
-    if (from == end) lines.emplace_back();
-    while (from < end) {
-      const char* to =
-          lettering.font->CalcWordWrapPositionA(lettering.px / lettering.font->FontSize, from, end, width);
-      if (to == from) ++to;
-      lines.emplace_back(from, to);
-      while (to < end && *to == ' ') ++to;
-      from = to;
-    }
-  }
-  return lines;
-}
-
-bool wordsFit(const Lettering& lettering, const std::string& text, float width) {
-  std::istringstream words(text);
-  std::string word;
-  while (words >> word)
-    if (lettering.width(word) > width) return false;
-  return true;
-}
-
-// Draws lines one below the other and returns the height.
-float putLines(const Lettering& lettering, const std::vector<std::string>& lines, float x, float y,
-               float width, bool centred, glm::vec3 value) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  float at = y;
-  for (const std::string& line : lines) {
-    const float left = centred ? x + (width - lettering.width(line)) / 2 : x;
-    list.AddText(lettering.font, lettering.px, {std::round(left), std::round(at)}, colour(value),
-                 line.c_str(), line.c_str() + line.size());
-    at += lettering.lineHeight();
-  }
-  return at - y;
+  return {towards(0.92F), towards(0.60F), towards(0.10F), towards(0.22F), towards(0.45F), towards(0.20F)};
 }
 
 // Sizes of the buttons' grid, alike for all of them.
@@ -135,9 +85,11 @@ void drawButton(const PageButton& button, const TargetRect& rect, bool focused, 
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float rounding = 8 * style.scale;
   const ImVec2 low(rect.x0, rect.y0), high(rect.x1, rect.y1);
-  if (button.enabled)
-    list.AddRectFilled(low, high, colour(lit || focused ? palette.lit : palette.button), rounding);
-  list.AddRect(low, high, colour(focused ? palette.text : palette.border, button.enabled ? 1.0F : 0.4F),
+  if (button.enabled) list.AddRectFilled(low, high, lit || focused ? palette.lit : palette.button, rounding);
+  list.AddRect(low, high,
+               !button.enabled ? palette.faint
+               : focused       ? palette.text
+                               : palette.border,
                rounding, 0, (focused ? 4.0F : 2.0F) * style.scale);
   const float padding = 18 * style.scale, width = rect.x1 - rect.x0;
   const std::vector<std::string> lines = wrapped(body, button.label, width - 2 * padding);
@@ -181,107 +133,113 @@ float drawFooter(const Page& page, glm::vec2 sizePx, const PageStyle& style, con
     const float width = std::min(sizePx.x * 0.5F, 480 * style.scale), height = 12 * style.scale;
     y -= height + 8 * style.scale;
     const float x = (sizePx.x - width) / 2;
-    list.AddRectFilled({x, y}, {x + width, y + height}, colour(palette.button), height / 2);
+    list.AddRectFilled({x, y}, {x + width, y + height}, palette.button, height / 2);
     list.AddRectFilled(
         {x, y}, {x + std::max(width * static_cast<float>(std::min(page.progress, 1.0)), height), y + height},
-        colour(palette.dim), height / 2);
+        palette.dim, height / 2);
   }
   return sizePx.y - y;
+}
+
+// Where everything goes with lettering of a given share of its size.
+struct Arrangement {
+  Lettering body, title;
+  float titleTop = 0, questionTop = 0, textTop = 0, statusTop = 0, buttonsTop = 0;
+  float left = 0, width = 0;  // of the text
+  std::vector<std::string> titleLines, questionLines, textLines;
+  size_t linesAPage = 0;
+  ButtonGrid grid;
+  bool fits = true;
+};
+
+Arrangement arrange(const Page& page, glm::vec2 sizePx, float footer, const PageStyle& style, float share) {
+  Arrangement at;
+  at.body = {style.fonts.body, std::round(style.fonts.bodyPx * share)};
+  at.title = {style.fonts.title, std::round(style.fonts.titlePx * share)};
+  const float scale = style.scale * share;
+  const float margin = std::min(48 * scale, 0.06F * sizePx.x), available = sizePx.x - 2 * margin;
+  at.width = std::min(available, kTextWidthEm * at.body.px);
+  at.left = std::round((sizePx.x - at.width) / 2);
+  at.grid = gridFor(page.buttons, page.columns, available, at.body, scale);
+  const float buttons = page.buttons.empty() ? 0 : at.grid.totalHeight();
+  const float bottom = sizePx.y - std::max(footer + 24 * scale, margin);
+  const float status = at.body.lineHeight() + 12 * scale;
+
+  at.titleTop = margin;
+  at.titleLines = wrapped(at.title, page.title, at.width);
+  at.textTop = at.titleTop;
+  if (!page.title.empty())
+    at.textTop += at.title.lineHeight() * static_cast<float>(at.titleLines.size()) + 16 * scale;
+  at.textLines = wrapped(at.body, unwrapped(page.text), at.width);
+  const float text = at.body.lineHeight() * static_cast<float>(at.textLines.size());
+
+  at.buttonsTop = bottom - buttons;
+  float textBottom = at.buttonsTop - (page.status.empty() ? 0 : status) - 24 * scale;
+  if (!page.reserved.empty())
+    textBottom =
+        bottom - gridFor(page.reserved, 0, available, at.body, scale).totalHeight() - status - 24 * scale;
+  if (!page.question.empty()) {
+    // A question stands with its buttons in the middle, where the eyes are; a text leaves the buttons below.
+    at.questionLines = wrapped(at.title, page.question, available);
+    const float question = at.title.lineHeight() * static_cast<float>(at.questionLines.size());
+    const float gap = 40 * scale, block = question + gap + buttons;
+    const float top = at.textTop + (page.text.empty() ? 0 : text + 24 * scale);
+    at.questionTop = std::max((sizePx.y - block) / 2, top);
+    at.buttonsTop = at.questionTop + question + gap;
+    at.fits = at.buttonsTop + buttons <= bottom;
+    textBottom = at.questionTop;
+  }
+  at.statusTop = at.buttonsTop - status;
+  at.linesAPage = static_cast<size_t>(std::max((textBottom - at.textTop) / at.body.lineHeight(), 1.0F));
+  // What cannot be turned must fit as a whole; what can needs a few lines a page to be readable.
+  const size_t needed =
+      page.reserved.empty() ? at.textLines.size() : std::min<size_t>(at.textLines.size(), 4);
+  at.fits = at.fits && at.linesAPage >= needed && at.buttonsTop >= at.textTop;
+  return at;
 }
 
 }  // namespace
 
 PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, const PageStyle& style) {
   const Palette palette = paletteFor(style.background);
-  const Lettering body{style.fonts.body, style.fonts.bodyPx}, title{style.fonts.title, style.fonts.titlePx};
-  const float margin = std::min(48 * style.scale, 0.06F * sizePx.x);
-  const float available = sizePx.x - 2 * margin;
-  const float textWidth = std::min(available, kTextWidthEm * body.px);
-  const float textX = std::round((sizePx.x - textWidth) / 2);
   const float footer = drawFooter(page, sizePx, style, palette);
-
-  const ButtonGrid grid = gridFor(page.buttons, page.columns, available, body, style.scale);
-  const float bottom = sizePx.y - std::max(footer + 24 * style.scale, margin);
-  float buttonsTop = bottom - (page.buttons.empty() ? 0 : grid.totalHeight());
-  const float statusHeight = page.status.empty() ? 0 : body.lineHeight() + 12 * style.scale;
-
-  float y = margin;
-  if (!page.title.empty())
-    y += putLines(title, wrapped(title, page.title, textWidth), textX, y, textWidth, false, palette.text) +
-         16 * style.scale;
-
-  const std::vector<std::string> question = wrapped(title, page.question, available);
-  const float questionHeight =
-      page.question.empty() ? 0 : title.lineHeight() * static_cast<float>(question.size());
-  // A question stands with its buttons in the middle, where the eyes are; a text leaves the buttons below.
-  if (!page.question.empty()) {
-    const float gap = 40 * style.scale;
-    const float block = questionHeight + gap + (bottom - buttonsTop);
-    const float top = std::max((sizePx.y - block) / 2, margin);
-    buttonsTop = std::min(top + questionHeight + gap, buttonsTop);
-    putLines(title, question, margin, buttonsTop - gap - questionHeight, available, true, palette.text);
+  Arrangement at;
+  for (const float share : kShares) {
+    at = arrange(page, sizePx, footer, style, share);
+    if (at.fits) break;
   }
+  putLines(at.title, at.titleLines, at.left, at.titleTop, at.width, false, palette.text);
+  putLines(at.title, at.questionLines, 0, at.questionTop, sizePx.x, true, palette.text);
 
   PageLayout layout;
-  if (!page.text.empty()) {
-    float textBottom = buttonsTop - 24 * style.scale;
-    if (!page.question.empty()) textBottom -= questionHeight + 40 * style.scale;
-    if (!page.reserved.empty()) {
-      const ButtonGrid reserved = gridFor(page.reserved, 0, available, body, style.scale);
-      textBottom = bottom - reserved.totalHeight() - body.lineHeight() - 36 * style.scale;
-    }
-    const std::vector<std::string> lines = wrapped(body, unwrapped(page.text), textWidth);
-    const auto pageLines = static_cast<size_t>(std::max((textBottom - y) / body.lineHeight(), 1.0F));
-    layout.textPages = static_cast<int>((lines.size() + pageLines - 1) / pageLines);
-    const size_t first =
-        std::min(static_cast<size_t>(std::max(page.textPages.index, 0)) * pageLines, lines.size());
-    const size_t last = std::min(first + pageLines, lines.size());
-    putLines(body,
-             {lines.begin() + static_cast<std::ptrdiff_t>(first),
-              lines.begin() + static_cast<std::ptrdiff_t>(last)},
-             textX, y, textWidth, false, palette.text);
-  }
-  if (!page.status.empty())
-    putLines(body, {page.status}, 0, buttonsTop - statusHeight, sizePx.x, true, palette.dim);
+  layout.fits = at.fits;
+  const size_t lines = at.textLines.size();
+  layout.textPages = static_cast<int>(std::max<size_t>((lines + at.linesAPage - 1) / at.linesAPage, 1));
+  const auto first = std::min(static_cast<size_t>(page.textPages.index) * at.linesAPage, lines);
+  const auto last = std::min(first + at.linesAPage, lines);
+  using Step = std::vector<std::string>::difference_type;
+  putLines(at.body,
+           {at.textLines.begin() + static_cast<Step>(first), at.textLines.begin() + static_cast<Step>(last)},
+           at.left, at.textTop, at.width, false, palette.text);
+  if (!page.status.empty()) putLines(at.body, {page.status}, 0, at.statusTop, sizePx.x, true, palette.dim);
 
-  layout.targets = placeButtons(page, grid, sizePx, buttonsTop);
+  layout.targets = placeButtons(page, at.grid, sizePx, at.buttonsTop);
   for (size_t i = 0; i < layout.targets.size(); ++i) {
     const TargetRect& rect = layout.targets[i];
     const bool lit =
         cursorPx.x >= rect.x0 && cursorPx.x < rect.x1 && cursorPx.y >= rect.y0 && cursorPx.y < rect.y1;
-    drawButton(page.buttons[i], rect, page.focus == static_cast<int>(i), lit, body, style, palette);
+    drawButton(page.buttons[i], rect, page.focus == static_cast<int>(i), lit, at.body, style, palette);
   }
   return layout;
 }
 
 void drawFixation(glm::vec2 sizePx, const PageStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImU32 value = colour(paletteFor(style.background).dim);
+  const ImU32 value = paletteFor(style.background).dim;
   const glm::vec2 middle = glm::round(sizePx / 2.0F);
   const float arm = std::round(14 * style.scale), half = std::max(std::round(1.5F * style.scale), 1.0F);
   list.AddRectFilled({middle.x - arm, middle.y - half}, {middle.x + arm, middle.y + half}, value);
   list.AddRectFilled({middle.x - half, middle.y - arm}, {middle.x + half, middle.y + arm}, value);
-}
-
-std::string unwrapped(const std::string& text) {
-  std::string out;
-  std::istringstream lines(text);
-  std::string line;
-  bool open = false;  // a paragraph has begun
-  while (std::getline(lines, line)) {
-    while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.pop_back();
-    const bool item = line.rfind("- ", 0) == 0;
-    if (line.empty()) {
-      if (open) out += "\n\n";
-      open = false;
-      continue;
-    }
-    if (open) out += item ? "\n" : " ";
-    out += line;
-    open = true;
-  }
-  while (!out.empty() && out.back() == '\n') out.pop_back();
-  return out;
 }
 
 }  // namespace limen::study

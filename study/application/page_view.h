@@ -21,16 +21,14 @@ struct PageStyle {
 struct PageLayout {
   std::vector<TargetRect> targets;
   int textPages = 1;  ///< that the text needs
+  bool fits = true;   ///< false: the window is too small for it even with lettering of half the size
 };
 
-/// Draws a page with the current ImGui frame over a window of `sizePx`. The target under `cursorPx` is lit.
+/// Draws a page with the current ImGui frame over a window of `sizePx`, smaller where it does not fit. The
+/// target under `cursorPx` is lit.
 PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, const PageStyle& style);
 
 /// A cross in the middle, for eyes to rest on.
 void drawFixation(glm::vec2 sizePx, const PageStyle& style);
-
-/// Paragraphs of a text whose lines were wrapped in a file: single line breaks become spaces, empty lines and
-/// lists ("- ") stay.
-std::string unwrapped(const std::string& text);
 
 }  // namespace limen::study

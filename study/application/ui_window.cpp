@@ -166,10 +166,10 @@ void UiWindow::State::installCallbacks() {
     of(w).closeRequested = true;
     glfwSetWindowShouldClose(w, GLFW_FALSE);
   });
-  glfwSetMonitorCallback([](GLFWmonitor* monitor, int event) {
+  glfwSetMonitorCallback([](GLFWmonitor* gone, int event) {
     if (event != GLFW_DISCONNECTED) return;
     for (State* state : all())
-      if (state->monitor == monitor) {
+      if (state->monitor == gone) {
         state->loss = "the display was unplugged";
         state->monitor = nullptr;
       }
