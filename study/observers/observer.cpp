@@ -25,6 +25,12 @@ double moveLogit(double p, double by) {
                                       psychometrics::standardInverse(SigmoidFamily::Logistic, p) + by);
 }
 
+Variables allVariables(const PlannedTrial& plan, const Variables& axes) {
+  Variables out = plan.variables;
+  for (const auto& [name, value] : axes) out[name] = value;
+  return out;
+}
+
 double normalOf(uint64_t seed, const std::string& name) { return Random(childSeed(seed, name)).normal(); }
 
 }  // namespace
@@ -54,7 +60,8 @@ double SimulatedObserver::shiftOf(const SimulationRules& rules, const PlannedTri
 }
 
 double SimulatedObserver::detectedOf(const SimulationRules& rules, const Trial& trial,
-                                     const Variables& variables) {
+                                     const Variables& axes) {
+  const Variables variables = allVariables(trial.plan, axes);
   const std::string& file = simulation_.protocol().path;
   const double shift = shiftOf(rules, trial.plan);
   if (rules.source == SimulationRules::Source::Sigmoid && !behaviour_.fromModel) {
@@ -88,25 +95,25 @@ double SimulatedObserver::detectedOf(const SimulationRules& rules, const Trial& 
       throw Error(shortestNumber(detected) + " is no probability", rules.where + ".detected");
   } else {
     if (!model_) throw Error("the trial needs the popping predictor", rules.where, "declare what is seen");
-    const size_t which = trial.stimuli.size() > 1 ? static_cast<size_t>(trial.plan.target) : 0;
-    assert(which < trial.stimuli.size());
+    const Task task = simulation_.protocol().parts[static_cast<size_t>(trial.plan.part)].task.type;
+    const bool several = task == Task::Interval || task == Task::Alternative;
+    const size_t which = several ? static_cast<size_t>(trial.plan.target) : 0;
     const perception::DetectionModel& detection = behaviour_.detection;
-    const double p = detection.probabilityOfAny(model_->predict(trial.stimuli[which]).ratings);
-    detected =
-        std::clamp((p - detection.guessRate) / (1.0 - detection.guessRate - detection.lapseRate), 0.0, 1.0);
+    const StimulusPrediction seen = model_->predict(trial, axes, which);
+    const double p = detection.probability(seen.rating);
+    if (seen.popping)
+      detected =
+          std::clamp((p - detection.guessRate) / (1.0 - detection.guessRate - detection.lapseRate), 0.0, 1.0);
   }
   return moveLogit(detected, shift);
 }
 
-double SimulatedObserver::valueOf(const SimulationRules& rules, const Trial& trial, const std::string& item,
-                                  int which) {
+double SimulatedObserver::valueOf(const SimulationRules& rules, const Trial& trial, const Variables& axes,
+                                  const std::string& item, size_t which) {
   double value = 0.0;
   if (rules.source == SimulationRules::Source::Model || behaviour_.fromModel) {
     if (!model_) throw Error("the trial needs the popping predictor", rules.where, "declare items");
-    const StimulusRatings seen = model_->predict(trial.stimuli.at(static_cast<size_t>(which)));
-    double rating = behaviour_.ratingWithoutRegion;
-    for (const double one : seen.ratings) rating = std::max(rating, one);
-    value = behaviour_.valuePerRating * rating;
+    value = behaviour_.valuePerRating * model_->predict(trial, axes, which).rating;
   } else {
     const auto found = rules.items.find(item);
     if (found == rules.items.end())
@@ -123,8 +130,7 @@ SimulatedObserver::Sight SimulatedObserver::look(const Trial& trial, const Varia
   const TaskSetting& task = simulation_.protocol().parts[static_cast<size_t>(plan.part)].task;
   out.rules = &simulation_.rules(plan.part, plan.condition);
   const SimulationRules& rules = *out.rules;
-  Variables variables = plan.variables;
-  for (const auto& [name, value] : axes) variables[name] = value;
+  const Variables variables = allVariables(plan, axes);
   const std::string& file = simulation_.protocol().path;
   const bool fromModel = rules.source == SimulationRules::Source::Model || behaviour_.fromModel;
   const bool yesNo = task.type == Task::YesNo || task.type == Task::Rating;
@@ -156,10 +162,10 @@ SimulatedObserver::Sight SimulatedObserver::look(const Trial& trial, const Varia
 
   if (task.type == Task::Pairwise) {
     const std::string a = plan.condition.at("item_a"), b = plan.condition.at("item_b");
-    out.first = valueOf(rules, trial, plan.target == 1 ? a : b, 0);
-    out.second = valueOf(rules, trial, plan.target == 1 ? b : a, 1);
+    out.first = valueOf(rules, trial, axes, plan.target == 1 ? a : b, 0);
+    out.second = valueOf(rules, trial, axes, plan.target == 1 ? b : a, 1);
   } else if (plan.change || !yesNo) {
-    setting.detected = detectedOf(rules, trial, variables);
+    setting.detected = detectedOf(rules, trial, axes);
   }
   return out;
 }
@@ -198,6 +204,10 @@ ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables&
   if (task.type == Task::Rating) index = static_cast<size_t>(stepOf(judgement.evidence, rules.rating)) - 1;
   assert(index < task.answers.size());
   out.answer = task.answers[index];
+  out.outcome = static_cast<int>(index);
+  if (yesNo) out.outcome = judgement.choice;
+  if (task.type == Task::Interval || task.type == Task::Alternative)
+    out.outcome = judgement.choice == trial.plan.target ? 1 : 0;
   if (task.severity && (task.severityAlways || !yesNo || judgement.choice))
     out.severity = stepOf(judgement.evidence, rules.severity);
   if (task.confidence) {

@@ -15,18 +15,21 @@
 namespace limen::study {
 
 /// What a vision model says of a stimulus.
-struct StimulusRatings {
-  std::vector<double> ratings;  ///< R of every popping region; none: nothing pops
+struct StimulusPrediction {
+  double rating = 0.0;   ///< R of the region rated highest; without a region below all that one can have
+  bool popping = false;  ///< there is a region
 };
 class StimulusModel {
  public:
   virtual ~StimulusModel() = default;
-  /// Throws Error if the stimulus cannot be rendered.
-  virtual StimulusRatings predict(const Stimulus& stimulus) = 0;
+  /// Of the trial's stimulus `which`, shown at the procedure's variables `axes`. Throws Error if it cannot be
+  /// rendered.
+  virtual StimulusPrediction predict(const Trial& trial, const Variables& axes, size_t which) = 0;
 };
 
 struct ObserverResponse {
   std::string answer;  ///< one of TaskSetting::answers
+  int outcome = 0;     ///< as Session::outcomeOf() has it
   std::optional<int> severity, confidence;
   double reactionTimeS = 0.0;
   double detected = 0.0;     ///< F of this observer and trial; 0 without a change; Pairwise: not used
@@ -45,8 +48,8 @@ class SimulatedObserver {
   SimulatedObserver(const Simulation& simulation, const ObserverBehaviour& behaviour, uint64_t seed,
                     StimulusModel* model = nullptr);
 
-  /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only for the model. Throws Error naming
-  /// file and key if an expression cannot be evaluated or gives what is out of range.
+  /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only where the model does. Throws Error
+  /// naming file and key if an expression cannot be evaluated or gives what is out of range.
   ObserverResponse respond(const Trial& trial, const Variables& axes = {});
 
   /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the least.
@@ -55,9 +58,10 @@ class SimulatedObserver {
  private:
   struct Sight;  // what a trial is to this observer
   Sight look(const Trial& trial, const Variables& axes);
-  double detectedOf(const SimulationRules& rules, const Trial& trial, const Variables& variables);
+  double detectedOf(const SimulationRules& rules, const Trial& trial, const Variables& axes);
   double shiftOf(const SimulationRules& rules, const PlannedTrial& trial);
-  double valueOf(const SimulationRules& rules, const Trial& trial, const std::string& item, int which);
+  double valueOf(const SimulationRules& rules, const Trial& trial, const Variables& axes,
+                 const std::string& item, size_t which);
 
   const Simulation& simulation_;
   ObserverBehaviour behaviour_;

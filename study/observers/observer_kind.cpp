@@ -37,8 +37,6 @@ std::vector<Parameter> modelParameters() {
   out.push_back(
       realParameter("value_per_rating", -1.0, -100.0, 100.0, "",
                     "pairwise: scale value of one step of rating; negative: less popping is better"));
-  out.push_back(realParameter("rating_without_region", -1.0, -100.0, 100.0, "",
-                              "pairwise: rating of a stimulus without a popping region"));
   return out;
 }
 
@@ -51,7 +49,6 @@ ObserverBehaviour makeModel(const ParameterValues& values) {
   out.detection.scaleR = values.real("rating_scale_r");
   out.strengthSd = values.real("strength_sd");
   out.valuePerRating = values.real("value_per_rating");
-  out.ratingWithoutRegion = values.real("rating_without_region");
   return out;
 }
 

@@ -23,7 +23,7 @@ struct ObserverBehaviour {
   double lapsePerHundred = 0.0;        ///< added to the lapse rate over 100 trials
   double strengthSd = 0.0;             ///< over observers, beside the block's
   perception::DetectionModel detection;
-  double valuePerRating = -1.0, ratingWithoutRegion = -1.0;
+  double valuePerRating = -1.0;  ///< Pairwise: scale value of a step of rating
 };
 
 struct ObserverKind {

@@ -97,7 +97,7 @@ class Layer {
     const std::string text = value.is_string() ? value.get<std::string>() : "";
     if (text.empty() || (text[0] != '=' && !nameAlone))
       fail(key, "is neither a number nor an expression", "write \"= ...\" for an expression");
-    out.text = text;
+    out.text = text[0] == '=' ? text.substr(1) : text;
     return out;
   }
   std::vector<double> rising(const std::string& key) const {
@@ -230,7 +230,7 @@ void readSigmoid(const Layer& layer, SimulationRules& out) {
     layer.fail("between_observers", "spreads the width, but a slope is given", "give the width");
   out.family =
       psychometrics::sigmoidFamily(layer.choice("sigmoid", "logistic", psychometrics::sigmoidNames()));
-  out.axis = layer.choice("axis", "linear", {"linear", "logarithmic"}) == "linear"
+  out.axis = layer.choice("axis", "linear", {"linear", "log"}) == "linear"
                  ? psychometrics::StimulusAxis::Linear
                  : psychometrics::StimulusAxis::Logarithmic;
   out.falling = layer.choice("direction", "rising", {"rising", "falling"}) == "falling";

@@ -65,10 +65,10 @@ struct SimulationRules {
 ///     theory              high_threshold (default) or signal_detection (needs a guess rate above 0)
 ///     variable            stimulus variable x: a name, or "= expression" over the trial's variables
 ///     sigmoid             family of F (psychometrics/standard_sigmoid.h); logistic
-///     axis                linear (default) or logarithmic
+///     axis                linear (default) or log: F is a function of ln x
 ///     direction           rising (default) or falling with x
 ///     threshold           x at which F is `level` (0.5); a number or "= expression"
-///     width | slope       from F = 0.05 to 0.95 (of ln x on a logarithmic axis) | dF/dx at the threshold
+///     width | slope       from F = 0.05 to 0.95 (of ln x on a log axis) | dF/dx at the threshold
 ///     detected            instead of all these: F itself
 ///     guess, lapse        P(yes) = guess + (1 - guess - lapse) F; 0 and 0. With m alternatives the guess
 ///     rate is 1/m severity, confidence, rating   lower bounds of the evidence for the steps 2, 3, ... of the
