@@ -16,5 +16,6 @@ struct Run {
 };
 
 // Each adds its subcommand; the callback does the work, sets Run::exitCode and throws Error for bad input.
+void addProtocolCommand(CLI::App& app, Run& run);
 
 }  // namespace limen::study
