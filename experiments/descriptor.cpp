@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/problems.h"
 #include "base/text.h"
-#include "experiments/descriptor_values.h"
+#include "base/value_reader.h"
 #include "experiments/expectation_reader.h"
 #include "experiments/measurement_name.h"
-#include "experiments/problems.h"
 
 namespace limen::experiments {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/yaml_tree.h"
 #include "experiments/catalogue.h"
 #include "experiments/executor.h"
-#include "experiments/yaml_tree.h"
 
 namespace limen::experiments {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/problems.h"
 #include "experiments/descriptor.h"
 #include "experiments/executor.h"
-#include "experiments/problems.h"
 #include "experiments/store/store.h"
 
 namespace limen::experiments {

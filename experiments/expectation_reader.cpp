@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "experiments/descriptor_values.h"
+#include "base/value_reader.h"
 
 namespace limen::experiments {
 namespace {

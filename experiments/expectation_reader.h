@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "base/problems.h"
 #include "experiments/descriptor.h"
-#include "experiments/problems.h"
 
 namespace limen::experiments {
 

@@ -8,9 +8,9 @@
 #include <functional>
 #include <regex>
 
+#include "base/problems.h"
 #include "base/text.h"
-#include "experiments/problems.h"
-#include "experiments/yaml_tree.h"
+#include "base/yaml_tree.h"
 
 namespace limen::experiments {
 namespace {

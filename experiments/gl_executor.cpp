@@ -10,9 +10,9 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/interrupt.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
-#include "experiments/interrupt.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
 #include "perception/metrics/error_map.h"

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/problems.h"
 #include "base/text.h"
 #include "experiments/expectation.h"
-#include "experiments/problems.h"
 
 namespace limen::experiments {
 namespace {

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "experiments/environment.h"
+#include "base/environment.h"
 
 namespace limen::experiments {
 namespace {

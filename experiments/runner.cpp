@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "experiments/expectation.h"
-#include "experiments/interrupt.h"
 
 namespace limen::experiments {
 namespace {

@@ -9,12 +9,12 @@
 #include <map>
 #include <system_error>
 
+#include "base/environment.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/text.h"
 #include "experiments/console.h"
-#include "experiments/environment.h"
 #include "experiments/features.h"
-#include "experiments/interrupt.h"
 #include "experiments/plan.h"
 #include "experiments/report_step.h"
 #include "experiments/runner.h"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
 
-#include <fmt/format.h>
 #include <array>
-#include <chrono>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -52,18 +49,6 @@ std::optional<bool> isOwnerDead(const std::string& owner) {
   if (first == std::string::npos) return true;  // nobody signs like this
   if (owner.substr(0, first) != hostName()) return std::nullopt;
   return startTime(owner.substr(first + 1, second - first - 1)) != owner.substr(second + 1);
-}
-
-std::string utcNow() {
-  const auto now = std::chrono::system_clock::now();
-  const auto milliseconds =
-      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
-  return fmt::format("{}.{:03}Z", text.data(), milliseconds);
 }
 
 }  // namespace limen::store

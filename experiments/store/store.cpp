@@ -5,6 +5,7 @@
 
 #include <cassert>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "experiments/store/rows.h"

@@ -124,7 +124,5 @@ class Store {
 
 /// host:pid:start-time of this process, as Run::owner.
 std::string processIdentity();
-/// UTC now, ISO 8601 with milliseconds.
-std::string utcNow();
 
 }  // namespace limen::store

@@ -9,6 +9,7 @@ namespace limen::architecture {
 const std::vector<Module>& modules() {
   static const std::vector<Module> kModules = {
       {"base", {}, false},
+      {"psychometrics", {"base"}, false},
       {"renderer/gl", {"base"}, true},
       {"renderer/scene", {"base"}, false},
       {"renderer/frame", {"base", "renderer/gl", "renderer/scene"}, true},
@@ -37,11 +38,12 @@ const std::vector<Module>& modules() {
        {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
         "renderer/references", "perception"},
        true},
-      {"analysis/statistics", {"base"}, false},
-      {"analysis", {"base", "experiments/store", "analysis/statistics"}, false},
+      {"analysis/statistics", {"base", "psychometrics"}, false},
+      {"analysis", {"base", "psychometrics", "experiments/store", "analysis/statistics"}, false},
+      {"study/procedures", {"base", "psychometrics"}, false},
       {"study",
-       {"base", "experiments/store", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
-        "renderer/references", "renderer", "perception"},
+       {"base", "psychometrics", "study/procedures", "experiments/store", "renderer/gl", "renderer/scene",
+        "renderer/frame", "renderer/techniques", "renderer/references", "renderer", "perception"},
        true},
   };
   return kModules;

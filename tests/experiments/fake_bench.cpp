@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "experiments/interrupt.h"
+#include "base/interrupt.h"
 
 namespace limen::experiments {
 namespace {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace limen {
+
+/// Parses a program's command line and runs the subcommand that it names (callbacks do the work and set
+/// `exitCode`). Returns what main() returns. What is wrong is said in one line: an unknown command or option
+/// with the nearest known one; Error and everything that belongs to the input gives kExitBadInput, other
+/// exceptions kExitFailedRuns.
+int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode);
+
+}  // namespace limen

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace limen::study {
+
+/// What a subcommand knows of its call and tells main().
+struct Run {
+  std::vector<std::string> words;  ///< the call as it was typed
+  int exitCode = kExitSuccess;     ///< 1: it ran and something failed
+};
+
+// Each adds its subcommand; the callback does the work, sets Run::exitCode and throws Error for bad input.
+void addPowerCommand(CLI::App& app, Run& run);
+void addSimulateCommand(CLI::App& app, Run& run);
+void addTraceCommand(CLI::App& app, Run& run);
+
+}  // namespace limen::study

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/build_facts.h"
+#include "base/program.h"
+#include "study/command/commands.h"
+
+int main(int argc, char** argv) {
+  using namespace limen;
+  CLI::App app("Asks viewers: runs and simulates popping studies, exports what they answered.",
+               "limen-study");
+  app.set_version_flag("--version", versionText("limen-study"));
+  app.require_subcommand(1);
+  study::Run run{{argv, argv + argc}};
+  return runProgram(app, argc, argv, run.exitCode);
+}

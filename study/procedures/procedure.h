@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limen::study {
+
+struct ProcedureTrial {
+  std::vector<double>
+      stimulus;     ///< one value a stimulus dimension, in the order of ProcedureSettings::stimulus
+  int outcome = 0;  ///< 0 = no or incorrect, 1 = yes or correct; or the category
+};
+
+struct ParameterEstimate {
+  std::string name;
+  double mean = 0.0, median = 0.0, mode = 0.0;
+  double low = 0.0, high = 0.0;  ///< interval of Estimate::kind
+  std::string unit;
+};
+
+/// What the answers so far say. `kind` names the interval; they are not the same thing:
+///   - "equal-tailed credible interval" (quest, psi, quest_plus): given model, prior and answers the
+///   parameter lies
+///     inside with probability `level`. For observers drawn from the prior it holds the truth that often,
+///     which the tests check; for one fixed observer it may not, and it knows nothing of a wrong slope or
+///     lapse rate that was fixed in the settings.
+///   - "mean of N reversals, approximate t interval of block means" (staircase): for the stimulus at which
+///   the rule
+///     targets its probability. Reversals depend on each other and the rule settles only near its target
+///     (Garcia-Perez 1998, Vision Research 38), so that it holds the targeted stimulus less often than
+///     `level` says, much less with few reversals: see meanOfReversals() in staircase.h for what was
+///     measured. There is no mode.
+///   - "proportions, Wilson score interval" (constant): for every stimulus the proportion of outcome 1 with
+///   Wilson's
+///     (1927) interval: over repetitions of the experiment it holds the true probability about `level` often.
+/// With too few answers for an interval `low` and `high` are NaN, and so are estimates that do not exist yet.
+struct Estimate {
+  double level = 0.95;
+  std::string kind;
+  std::vector<ParameterEstimate> parameters;
+};
+
+/// Chooses the stimulus of each trial from the answers before it. A pure function of settings, seed and
+/// answered trials: the same trials give the same next stimulus and state bit for bit.
+class Procedure {
+ public:
+  virtual ~Procedure();
+  /// Stimulus of the next trial, the same until update(); nothing once the procedure has finished.
+  virtual std::optional<std::vector<double>> next() const = 0;
+  /// Takes an answer, in the order of the answers. The stimulus need not be the one that next() gave: a trial
+  /// may have been shown with another (rounded, or published). Answers after the end are taken too. Throws
+  /// Error for a stimulus of the wrong length, an outcome that does not exist or an answer that the model
+  /// holds for impossible.
+  virtual void update(const std::vector<double>& stimulus, int outcome) = 0;
+  virtual int trialsDone() const = 0;
+  virtual Estimate estimate(double level = 0.95) const = 0;
+  /// Everything that decides the future, for bit-for-bit comparison; a posterior as its hash.
+  virtual nlohmann::json state() const = 0;
+};
+
+struct StimulusDimension {
+  std::string name, unit;
+  double minimum = 0.0, maximum = 0.0;  ///< limits of what next() may ask for; infinite where there are none
+};
+
+/// Settings of one type of procedure, checked.
+class ProcedureDetail {
+ public:
+  virtual ~ProcedureDetail();
+  virtual std::unique_ptr<Procedure> make(uint64_t seed) const = 0;
+  /// All keys but `type`, defaults written out.
+  virtual nlohmann::json toJson() const = 0;
+};
+
+/// Parsed and checked settings; cheap to copy.
+struct ProcedureSettings {
+  std::string type;  ///< "constant", "staircase", "quest", "psi", "quest_plus", "interleaved"
+  std::vector<StimulusDimension> stimulus;  ///< what next() gives, in this order
+  int outcomes = 2;
+  std::optional<int> mostTrials;  ///< the procedure ends after these at the latest, where that is known
+  std::shared_ptr<const ProcedureDetail> detail;
+};
+
+/// Reads settings: an object with `type` and the keys of that type (describeProcedures()). Throws Error that
+/// names the key after `where`, what is allowed and the nearest valid name; unknown keys are refused.
+ProcedureSettings readProcedure(const nlohmann::json& settings, const std::string& where);
+
+/// The settings with every default written out; readProcedure() reads it back to the same.
+nlohmann::json toJson(const ProcedureSettings& settings);
+
+std::unique_ptr<Procedure> makeProcedure(const ProcedureSettings& settings, uint64_t seed);
+
+/// Help text: all types and keys with defaults, units and sources.
+std::string describeProcedures();
+
+}  // namespace limen::study

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "study/protocol/protocol.h"
+#include "study/stimulus/stimulus.h"
+
+namespace limen::study {
+
+/// A trial as the design plans it; an adaptive one takes its stimulus from its procedure when its turn comes.
+struct PlannedTrial {
+  int number = 0;  ///< within the session's plan, from 0; practice rounds included
+  int part = 0, block = 0;
+  bool practice = false;
+  std::map<std::string, std::string> condition;  ///< factor -> level's name; Pairwise: "item_a", "item_b"
+  Variables variables;                           ///< all but those of the procedure's axes
+  bool change = true;                            ///< false: catch trial (YesNo and Rating)
+  int repetition = 0;
+  int target = 0;  ///< Interval, Alternative: which one has the change; Pairwise: which one shows item_b
+  /// Index into Design::procedures, or -1. A catch trial of an adaptive part has one too: it is shown at the
+  /// stimulus that the procedure asks for next and its answer is not fed to it.
+  int procedure = -1;
+};
+
+struct PlannedBlock {
+  int part = 0;
+  std::string name;  ///< "PART", "PART: LEVEL" or "PART: practice"
+  bool practice = false;
+  std::vector<PlannedTrial> trials;  ///< in order of showing
+};
+
+/// A procedure that runs in the session, one a condition of an adaptive part.
+struct PlannedProcedure {
+  int part = 0;
+  std::map<std::string, std::string> condition;
+  nlohmann::json settings;
+  uint64_t seed = 0;
+};
+
+/// Adaptive trials are planned as many as their procedure asks for at most; a procedure that ends early
+/// leaves the rest of its trials, its catch trials among them, out.
+struct Design {
+  std::vector<PlannedBlock> blocks;
+  std::vector<PlannedProcedure> procedures;
+};
+
+/// The plan of one session: a pure function of protocol, seed and the participant's number (from 0; picks
+/// rows of Latin squares). Same arguments, same plan, on every machine.
+Design makeDesign(const Protocol& protocol, uint64_t seed, int participantNumber);
+
+/// Practice of a part, round 0 being the one that the design holds but for the trials' numbers and block.
+/// Trials of further rounds are numbered on from the plan's last one, rounds of different parts apart. A pure
+/// function of its arguments.
+PlannedBlock makePracticeRound(const Protocol& protocol, int part, uint64_t seed, int round);
+
+/// Stimuli of a trial in the order (Interval) or position (Alternative, Pairwise) in which they are shown:
+/// one for YesNo and Rating. `axes` are the procedure's stimulus variables. Throws Error naming file and
+/// line.
+std::vector<Stimulus> stimuliOf(const Protocol& protocol, const PlannedTrial& trial,
+                                const Variables& axes = {});
+
+/// Balanced Latin square: row `row` of n treatments; for n even (Williams) every treatment follows every
+/// other equally often over n rows, for n odd over 2 n rows. Source: Williams 1949; Bradley 1958.
+std::vector<int> williamsRow(int treatments, int row);
+/// Cyclic Latin square's row, each treatment once in each place over n rows.
+std::vector<int> latinRow(int treatments, int row);
+
+}  // namespace limen::study

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "base/parameter.h"
+
+namespace limen::study {
+
+/// A registered scene or technique with a complete set of values.
+struct NamedEntry {
+  std::string name;
+  int version = 1;  ///< as its registration declares it
+  ParameterValues values;
+  /// Parameter that names a file -> SHA-256 of the file.
+  std::map<std::string, std::string> fileHashes;
+};
+
+/// One object's change of level of detail.
+struct LevelChange {
+  int object = 0;                 ///< of Scene::lodObjects
+  int before = 1, after = 0;      ///< levels, 0 the finest
+  std::string others = "finest";  ///< levels of all other objects: "finest", "distance", "omitted"
+};
+
+enum class Presentation {
+  Dynamic,  ///< the camera moves as the scene says
+  Static    ///< the frame of the change, before and after it, the camera at rest
+};
+
+/// What guides the viewer's attention before a stimulus.
+struct Cue {
+  enum class Kind { None, Arrow, Circle } kind = Kind::None;
+  double xPx = 0.0, yPx = 0.0;  ///< where it points, from the window's upper left corner
+  double radiusPx = 50.0;       ///< Circle only
+  double durationS = 0.0;       ///< shown before the stimulus, over its first frame
+};
+
+/// One sequence as it is put on the screen, every value decided: the unit that is rendered, predicted, hashed
+/// and logged. Row 0 on top, window pixels, times in seconds from the sequence's first frame.
+struct Stimulus {
+  NamedEntry scene;
+  /// What changes: a level of detail, rendered as frame::Shaded ...
+  std::optional<LevelChange> levels;
+  ParameterValues shading;  ///< of frame::ShadedSetting
+  /// ... or the technique; without `after` nothing changes.
+  std::optional<NamedEntry> before, after;
+  bool changes =
+      true;  ///< false: a catch trial or the other interval, which shows what `catchShowsAfter` says
+  bool catchShowsAfter = false;
+  Presentation presentation = Presentation::Dynamic;
+  double durationS = 4.0, changeAtS = 2.0;
+  /// Scene time of the sequence's first frame; a static one shows the scene at sceneStartS + changeAtS.
+  double sceneStartS = 0.0;
+  int showings = 1;   ///< how often it is shown before the question
+  double gapS = 1.0;  ///< of background between showings
+  int samples = 2;    ///< a pixel along each axis
+  Cue cue;
+};
+
+/// Canonical form; fromJson() gives the same back. The hash is SHA-256 over it, with the content of files in
+/// place of their paths: with the display profile and the window it decides every pixel that is shown, as
+/// far as the versions of scene and techniques are kept. stimulusFromJson() throws Error on what is no
+/// stimulus.
+nlohmann::json toJson(const Stimulus& stimulus);
+Stimulus stimulusFromJson(const nlohmann::json& json);
+std::string stimulusHash(const Stimulus& stimulus);
+
+}  // namespace limen::study
