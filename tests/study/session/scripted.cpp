@@ -132,4 +132,16 @@ Protocol largeProtocol() {
   return protocol;
 }
 
+Protocol killedProtocol() {
+  Protocol protocol = largeProtocol();
+  protocol.session.repeatInvalidAtMost = 1;
+  return protocol;
+}
+
+// Numbers that are 0, 5, 10, ... are invalid up to three times; after the second they are lost.
+Outcome killedOutcome(const Trial& trial, const Session& session) {
+  return trial.number % 5 == 0 && session.timesInvalid(trial.number) < trial.number % 4 ? Outcome::Invalid
+                                                                                        : Outcome::Done;
+}
+
 }  // namespace limen::study

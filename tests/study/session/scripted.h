@@ -60,4 +60,8 @@ Protocol smallProtocol(int changes = 6, int catches = 2);
 /// conditions; a rating.
 Protocol largeProtocol();
 
+/// What kill_victim runs: the large protocol, with trials that are invalid the first times.
+Protocol killedProtocol();
+Outcome killedOutcome(const Trial& trial, const Session& session);
+
 }  // namespace limen::study
