@@ -121,8 +121,8 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
   bool draw = true;
   while (!screen.done()) {
     if (stopAsked()) return Left::StopForNow;
-    if (experimenter_) experimenter_->tick(watch_, notes_);
-    if (experimenter_ && experimenter_->takeAbort()) return Left::End;
+    if (experimenter_) experimenter_->tick(watch_);
+    if (experimenter_ && experimenter_->takeAbort()) return Left::EndedByExperimenter;
     if (timedOut && timedOut()) return Left::TimedOut;
     // Nothing is drawn while nothing changes, so that no input waits for a frame before it gets its time.
     const Page page = screen.page(steadyNs());
@@ -181,10 +181,12 @@ ScreenResult WindowFrontEnd::show(const Screen& screen, const Session& session) 
   Left left = run(*page);
   while (left == Left::Paused && (left = pause({})) == Left::Done) left = run(*page);
   ScreenResult result;
-  result.note = notes_.take();
-  if (left == Left::End) result.outcome = Outcome::Aborted;
-  if (left == Left::StopForNow) result.outcome = Outcome::Paused;
-  if (left != Left::Done) return result;
+  if (left != Left::Done) {
+    result.outcome = left == Left::StopForNow ? Outcome::Paused : Outcome::Aborted;
+    result.by = stoppedBy(left);
+    result.reason = stopReason_;
+    return result;
+  }
   if (const auto* consent = dynamic_cast<const ConsentScreen*>(page.get())) {
     result.answers = {{"consent", consent->agreed()}};
     if (!consent->agreed()) result.outcome = Outcome::Aborted;
@@ -308,9 +310,19 @@ WindowFrontEnd::Left WindowFrontEnd::afterStop() {
 }
 
 TrialResult WindowFrontEnd::stopped(Left left, TrialResult result) const {
-  result.outcome = left == Left::End ? Outcome::Aborted : Outcome::Paused;
+  result.outcome = left == Left::StopForNow ? Outcome::Paused : Outcome::Aborted;
+  result.by = stoppedBy(left);
   if (result.reason.empty()) result.reason = stopReason_;
   return result;
+}
+
+std::string WindowFrontEnd::stoppedBy(Left left) const {
+  if (left == Left::EndedByExperimenter) return "experimenter";
+  return stopReason_.empty() ? "participant" : "system";
+}
+
+std::vector<std::string> WindowFrontEnd::takeNotes() {
+  return experimenter_ ? experimenter_->takeNotes() : std::vector<std::string>();
 }
 
 void WindowFrontEnd::feedback(bool correct) {
