@@ -16,5 +16,8 @@ struct Run {
 };
 
 // Each adds its subcommand; the callback does the work, sets Run::exitCode and throws Error for bad input.
+void addPowerCommand(CLI::App& app, Run& run);
+void addSimulateCommand(CLI::App& app, Run& run);
+void addTraceCommand(CLI::App& app, Run& run);
 
 }  // namespace limen::study

@@ -98,13 +98,26 @@ TEST(Staircase, EndsAfterReversalsAndAveragesTheLast) {
   // 10 - 12 - 14 + | 12 - | 14 + | 12 + 10 - | 12 + end: reversals 14 12 14 10 12
   EXPECT_THAT(shown(*procedure, "0010110111"), ElementsAre(10, 12, 14, 12, 14, 12, 10, 12, -1));
   EXPECT_THAT(reversals(*procedure), ElementsAre(14, 12, 14, 10, 12));
-  // The last four: 12 14 | 10 12, middles 13 and 11: mean 12, SD sqrt 2, standard error 1, t(1) = 12.706.
   const Estimate estimate = procedure->estimate();
-  EXPECT_EQ(estimate.kind, "mean of 4 reversals, t interval of 2 mid-runs");
+  EXPECT_EQ(estimate.kind, "mean of 4 reversals, approximate t interval of block means");
   EXPECT_NEAR(estimate.parameters[0].mean, 12, 1e-12);
   EXPECT_NEAR(estimate.parameters[0].median, 12, 1e-12);
-  EXPECT_NEAR(estimate.parameters[0].low, 12 - 12.7062047362, 1e-9);
-  EXPECT_NEAR(estimate.parameters[0].high, 12 + 12.7062047362, 1e-9);
+  EXPECT_TRUE(std::isnan(estimate.parameters[0].low));  // too few reversals
+}
+
+TEST(Staircase, IntervalComesFromFourBlocksOfReversals) {
+  // Blocks of two: means 11 13 12 14, mean 12.5, variance 5/3, standard error sqrt(5/12); t(3) = 3.1824463.
+  const ReversalMean eight = meanOfReversals({12, 10, 14, 12, 13, 11, 15, 13}, 0.95);
+  EXPECT_NEAR(eight.mean, 12.5, 1e-12);
+  EXPECT_NEAR(eight.high - eight.mean, 3.1824463 * std::sqrt(5.0 / 12), 1e-6);
+  // Blocks of four: means 12 13 11 13, squares sum to 2.75.
+  const ReversalMean sixteen =
+      meanOfReversals({12, 10, 14, 12, 13, 11, 15, 13, 12, 10, 12, 10, 14, 12, 14, 12}, 0.95);
+  EXPECT_NEAR(sixteen.mean - sixteen.low, 3.1824463 * std::sqrt(2.75 / 12), 1e-6);
+  // Ten: the last eight make the interval, around the mean of all.
+  const ReversalMean ten = meanOfReversals({20, 18, 12, 10, 14, 12, 13, 11, 15, 13}, 0.95);
+  EXPECT_NEAR(ten.mean, 13.8, 1e-12);
+  EXPECT_NEAR(ten.high - ten.mean, 3.1824463 * std::sqrt(5.0 / 12), 1e-6);
 }
 
 TEST(Staircase, WithoutReversalsThereIsNoEstimate) {
