@@ -189,19 +189,16 @@ ScreenResult WindowFrontEnd::show(const Screen& screen, const Session& session) 
   }
   if (const auto* consent = dynamic_cast<const ConsentScreen*>(page.get())) {
     result.answers = {{"consent", consent->agreed()}};
-    if (!consent->agreed()) result.outcome = Outcome::Aborted;
   }
   if (const auto* form = dynamic_cast<const FormScreen*>(page.get())) result.answers = form->answers();
   return result;
 }
 
-void WindowFrontEnd::drawNeutral(bool fixation, const std::string& status) {
+void WindowFrontEnd::drawNeutral(const std::string& status) {
   window_.draw(setting_.background, [&] {
-    const glm::vec2 size(window_.sizePx());
-    if (fixation) drawFixation(size, style());
     Page page;
     page.status = status;
-    if (!status.empty()) drawPage(page, size, {-1, -1}, style());
+    if (!status.empty()) drawPage(page, glm::vec2(window_.sizePx()), {-1, -1}, style());
   });
 }
 
@@ -218,36 +215,20 @@ bool WindowFrontEnd::watchWindow() {
   return !pauseAsked_ && loss_.empty() && !stopAsked();
 }
 
-bool WindowFrontEnd::neutral(double seconds, bool fixation) {
-  if (seconds <= 0) return true;
-  drawNeutral(fixation, {});
-  if (fixation) screenshot("fixation");
-  const int64_t end = window_.show() + static_cast<int64_t>(seconds * 1e9);
-  if (fixation) announce("fixation");
-  while (steadyNs() < end) {
-    window_.poll(std::min(static_cast<double>(end - steadyNs()) * 1e-9, kPollS));
-    if (!watchWindow()) return false;
-  }
-  return true;
-}
-
-bool WindowFrontEnd::lead(const Trial& trial, const Session& session) {
-  const Timing& timing = session.protocol().timing;
+bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
   const int64_t start = steadyNs();
-  drawNeutral(false, {});
+  drawNeutral({});
   window_.show();
   bool told = false;
   player_.prepare(trial, session, [&] {
     watchWindow();
     if (told || steadyNs() - start < kPatienceNs) return;
-    drawNeutral(false, "One moment, please");
+    drawNeutral("One moment, please");
     screenshot("wait");
     window_.show(0);
     told = true;
   });
-  const double rest = timing.betweenTrialsS - static_cast<double>(steadyNs() - start) * 1e-9;
-  return watchWindow() && neutral(rest, false) && neutral(timing.fixationS, true) &&
-         neutral(timing.afterFixationS, false);
+  return watchWindow();
 }
 
 TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) {
@@ -260,18 +241,25 @@ TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) 
 }
 
 TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) {
-  window_.hideCursor(true);
-  // Until the stimulus begins nothing is lost by a pause: the way to it is gone again.
-  for (forget(); !lead(trial, session); forget()) {
-    if (const Left left = afterStop(); left != Left::Done) return stopped(left);
+  PlayResult played;
+  while (true) {
+    forget();
     window_.hideCursor(true);
+    if (prepare(trial, session)) {
+      early_.clear();
+      announce("stimulus");
+      played = player_.play([this] { return watchWindow(); });
+    } else {
+      played = {};
+      played.stopped = true;
+    }
+    // Until the stimulus has begun nothing is lost by a pause: the way to it is gone again.
+    if (!played.stopped || !played.frames.empty()) break;
+    if (const Left left = afterStop(); left != Left::Done) return stopped(left);
   }
-  early_.clear();
-  announce("stimulus");
-  const PlayResult played = player_.play([this] { return watchWindow(); });
   TrialResult result;
   result.frames = played.frames;
-  if (played.stopped || !loss_.empty() || pauseAsked_ || stopAsked()) {
+  if (played.stopped || !loss_.empty()) {
     result.outcome = Outcome::Invalid;
     result.reason = loss_.empty() ? "paused in the middle" : "window lost: " + loss_;
     const Left left = afterStop();

@@ -53,10 +53,8 @@ class WindowFrontEnd : public FrontEnd {
   Left afterStop();
   std::string stoppedBy(Left left) const;
   TrialResult stopped(Left left, TrialResult result = {}) const;
-  void drawNeutral(bool fixation, const std::string& status);
-  bool neutral(double seconds, bool fixation);
-  /// All that comes before the stimulus.
-  bool lead(const Trial& trial, const Session& session);
+  void drawNeutral(const std::string& status);
+  bool prepare(const Trial& trial, const Session& session);
   TrialResult attempt(const Trial& trial, const Session& session);
   PageStyle style() const;
   void announce(const std::string& name);
