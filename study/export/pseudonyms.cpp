@@ -74,8 +74,8 @@ void Pseudonyms::assign(std::vector<std::string> codes) {
     while (taken.count(pseudonym));
     known_[code] = pseudonym;
   }
-  std::string text = std::string(kHeader) + "\n";
-  for (const auto& [code, pseudonym] : known_) text += code + "," + pseudonym + "\n";
+  std::string text = fmt::format("{}\n", kHeader);
+  for (const auto& [code, pseudonym] : known_) text += fmt::format("{},{}\n", code, pseudonym);
   writeForOwner(file_, text);
 }
 
