@@ -12,5 +12,6 @@ int main(int argc, char** argv) {
   study::Run run{{argv, argv + argc}};
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
+  study::addProtocolCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
 }
