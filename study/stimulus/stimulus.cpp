@@ -9,148 +9,152 @@
 namespace limen::study {
 namespace {
 
-/// Of the canonical form: raised when it changes, so that no hash passes for another's.
-constexpr int kForm = 1;
-
 using nlohmann::json;
 
-json toJson(const NamedEntry& entry) {
-  return {{"name", entry.name}, {"version", entry.version}, {"values", entry.values.toJson()}};
+json entryToJson(const NamedEntry& entry) {
+  json out = {{"name", entry.name}, {"version", entry.version}, {"values", entry.values.toJson()}};
+  if (!entry.fileHashes.empty()) out["file_hashes"] = entry.fileHashes;
+  return out;
 }
 
-/// Values as they were declared: JSON keeps whole numbers and reals apart.
-ParameterValues valuesFromJson(const json& object) {
+/// Values as JSON has them: their types are those of the declarations that they were once checked against.
+ParameterValues valuesFromJson(const json& values) {
   std::vector<Parameter> declared;
-  std::map<std::string, ParameterValue> given;
-  for (const auto& [name, value] : object.items()) {
+  for (const auto& [name, value] : values.items()) {
     Parameter parameter;
     parameter.name = name;
     if (value.is_boolean()) {
       parameter.type = ParameterType::Boolean;
-      given[name] = value.get<bool>();
-    } else if (value.is_number_float()) {
-      parameter.type = ParameterType::Real;
-      given[name] = value.get<double>();
+      parameter.defaultValue = value.get<bool>();
     } else if (value.is_number_integer()) {
       parameter.type = ParameterType::Integer;
-      given[name] = value.get<int64_t>();
+      parameter.defaultValue = value.get<int64_t>();
+    } else if (value.is_number()) {
+      parameter.type = ParameterType::Real;
+      parameter.defaultValue = value.get<double>();
     } else {
       parameter.type = ParameterType::Text;
-      given[name] = value.get<std::string>();
+      parameter.defaultValue = value.get<std::string>();
     }
-    parameter.defaultValue = given[name];
     declared.push_back(std::move(parameter));
   }
-  return ParameterValues(declared, given);
+  return {declared, {}};
 }
 
-NamedEntry entryFromJson(const json& object) {
-  return {object.at("name").get<std::string>(), object.at("version").get<int>(),
-          valuesFromJson(object.at("values"))};
+NamedEntry entryFromJson(const json& entry) {
+  NamedEntry out{entry.at("name").get<std::string>(),
+                 entry.at("version").get<int>(),
+                 valuesFromJson(entry.at("values")),
+                 {}};
+  if (entry.contains("file_hashes"))
+    out.fileHashes = entry["file_hashes"].get<std::map<std::string, std::string>>();
+  return out;
 }
 
-std::optional<NamedEntry> optionalEntry(const json& stimulus, const char* key) {
-  if (!stimulus.contains(key)) return std::nullopt;
-  return entryFromJson(stimulus.at(key));
+const char* toText(Presentation presentation) {
+  return presentation == Presentation::Dynamic ? "dynamic" : "static";
 }
 
 const char* toText(Cue::Kind kind) {
   switch (kind) {
-    case Cue::Kind::None:
-      return "none";
     case Cue::Kind::Arrow:
       return "arrow";
     case Cue::Kind::Circle:
       return "circle";
+    case Cue::Kind::None:
+      break;
   }
-  return "";
+  return "none";
 }
 
-Cue::Kind cueKind(const std::string& text) {
-  for (const Cue::Kind kind : {Cue::Kind::None, Cue::Kind::Arrow, Cue::Kind::Circle})
-    if (text == toText(kind)) return kind;
-  throw Error("no cue '" + text + "'", "stimulus", "known: none, arrow, circle");
+/// The value whose text is `text`.
+template <class Value>
+Value parse(const std::string& text, std::initializer_list<Value> values) {
+  for (const Value value : values)
+    if (text == toText(value)) return value;
+  throw Error("a stimulus has '" + text + "' where a kind is named", "stimulus");
 }
 
-json toJson(const Cue& cue) {
-  return {{"kind", toText(cue.kind)},
-          {"x_px", cue.xPx},
-          {"y_px", cue.yPx},
-          {"radius_px", cue.radiusPx},
-          {"duration_s", cue.durationS}};
+Stimulus read(const json& in) {
+  Stimulus out;
+  out.scene = entryFromJson(in.at("scene"));
+  if (in.contains("levels")) {
+    const json& levels = in["levels"];
+    out.levels = LevelChange{levels.at("object").get<int>(), levels.at("before").get<int>(),
+                             levels.at("after").get<int>(), levels.at("others").get<std::string>()};
+  }
+  out.shading = valuesFromJson(in.at("shading"));
+  if (in.contains("before")) out.before = entryFromJson(in["before"]);
+  if (in.contains("after")) out.after = entryFromJson(in["after"]);
+  out.changes = in.at("changes").get<bool>();
+  out.catchShowsAfter = in.at("catch_shows_after").get<bool>();
+  out.presentation =
+      parse(in.at("presentation").get<std::string>(), {Presentation::Dynamic, Presentation::Static});
+  out.durationS = in.at("duration_s").get<double>();
+  out.changeAtS = in.at("change_at_s").get<double>();
+  out.sceneStartS = in.at("scene_start_s").get<double>();
+  out.showings = in.at("showings").get<int>();
+  out.gapS = in.at("gap_s").get<double>();
+  out.samples = in.at("samples").get<int>();
+  const json& cue = in.at("cue");
+  out.cue.kind =
+      parse(cue.at("kind").get<std::string>(), {Cue::Kind::None, Cue::Kind::Arrow, Cue::Kind::Circle});
+  out.cue.xPx = cue.at("x_px").get<double>();
+  out.cue.yPx = cue.at("y_px").get<double>();
+  out.cue.radiusPx = cue.at("radius_px").get<double>();
+  out.cue.durationS = cue.at("duration_s").get<double>();
+  return out;
 }
 
-Cue cueFromJson(const json& object) {
-  Cue cue;
-  cue.kind = cueKind(object.at("kind").get<std::string>());
-  cue.xPx = object.at("x_px").get<double>();
-  cue.yPx = object.at("y_px").get<double>();
-  cue.radiusPx = object.at("radius_px").get<double>();
-  cue.durationS = object.at("duration_s").get<double>();
-  return cue;
+/// A file is what it holds, wherever it lies.
+void nameFilesByContent(json& entry) {
+  if (!entry.contains("file_hashes")) return;
+  for (const auto& [parameter, hash] : entry["file_hashes"].items()) entry["values"][parameter] = hash;
 }
 
 }  // namespace
 
 json toJson(const Stimulus& stimulus) {
-  json out = {{"form", kForm},
-              {"scene", toJson(stimulus.scene)},
+  json out = {{"scene", entryToJson(stimulus.scene)},
               {"shading", stimulus.shading.toJson()},
               {"changes", stimulus.changes},
               {"catch_shows_after", stimulus.catchShowsAfter},
-              {"presentation", stimulus.presentation == Presentation::Dynamic ? "dynamic" : "static"},
+              {"presentation", toText(stimulus.presentation)},
               {"duration_s", stimulus.durationS},
               {"change_at_s", stimulus.changeAtS},
               {"scene_start_s", stimulus.sceneStartS},
               {"showings", stimulus.showings},
               {"gap_s", stimulus.gapS},
               {"samples", stimulus.samples},
-              {"cue", toJson(stimulus.cue)}};
+              {"cue",
+               {{"kind", toText(stimulus.cue.kind)},
+                {"x_px", stimulus.cue.xPx},
+                {"y_px", stimulus.cue.yPx},
+                {"radius_px", stimulus.cue.radiusPx},
+                {"duration_s", stimulus.cue.durationS}}}};
   if (stimulus.levels)
     out["levels"] = {{"object", stimulus.levels->object},
                      {"before", stimulus.levels->before},
                      {"after", stimulus.levels->after},
                      {"others", stimulus.levels->others}};
-  if (stimulus.before) out["before"] = toJson(*stimulus.before);
-  if (stimulus.after) out["after"] = toJson(*stimulus.after);
+  if (stimulus.before) out["before"] = entryToJson(*stimulus.before);
+  if (stimulus.after) out["after"] = entryToJson(*stimulus.after);
   return out;
 }
 
-Stimulus stimulusFromJson(const json& object) {
+Stimulus stimulusFromJson(const json& in) {
   try {
-    if (object.at("form").get<int>() != kForm)
-      throw Error("a stimulus of form " + object.at("form").dump(), "stimulus",
-                  "this program reads form " + std::to_string(kForm));
-    Stimulus out;
-    out.scene = entryFromJson(object.at("scene"));
-    out.shading = valuesFromJson(object.at("shading"));
-    out.changes = object.at("changes").get<bool>();
-    out.catchShowsAfter = object.at("catch_shows_after").get<bool>();
-    const std::string presentation = object.at("presentation").get<std::string>();
-    if (presentation != "dynamic" && presentation != "static")
-      throw Error("no presentation '" + presentation + "'", "stimulus", "known: dynamic, static");
-    out.presentation = presentation == "dynamic" ? Presentation::Dynamic : Presentation::Static;
-    out.durationS = object.at("duration_s").get<double>();
-    out.changeAtS = object.at("change_at_s").get<double>();
-    out.sceneStartS = object.at("scene_start_s").get<double>();
-    out.showings = object.at("showings").get<int>();
-    out.gapS = object.at("gap_s").get<double>();
-    out.samples = object.at("samples").get<int>();
-    out.cue = cueFromJson(object.at("cue"));
-    if (object.contains("levels")) {
-      const json& levels = object.at("levels");
-      out.levels = LevelChange{levels.at("object").get<int>(), levels.at("before").get<int>(),
-                               levels.at("after").get<int>(), levels.at("others").get<std::string>()};
-    }
-    out.before = optionalEntry(object, "before");
-    out.after = optionalEntry(object, "after");
-    return out;
+    return read(in);
   } catch (const json::exception& error) {
-    throw Error(std::string("not a stimulus: ") + error.what(), "stimulus",
-                "it was damaged or written by hand");
+    throw Error(std::string("not a stimulus: ") + error.what(), "stimulus");
   }
 }
 
-std::string stimulusHash(const Stimulus& stimulus) { return sha256(toJson(stimulus).dump()); }
+std::string stimulusHash(const Stimulus& stimulus) {
+  json canonical = toJson(stimulus);
+  for (const char* key : {"scene", "before", "after"})
+    if (canonical.contains(key)) nameFilesByContent(canonical[key]);
+  return sha256(canonical.dump());
+}
 
 }  // namespace limen::study
