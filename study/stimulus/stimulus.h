@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@ struct NamedEntry {
   std::string name;
   int version = 1;  ///< as its registration declares it
   ParameterValues values;
+  /// Parameter that names a file -> SHA-256 of the file.
+  std::map<std::string, std::string> fileHashes;
 };
 
 /// One object's change of level of detail.
@@ -58,8 +61,10 @@ struct Stimulus {
   Cue cue;
 };
 
-/// Canonical form; fromJson() gives the same back. The hash is SHA-256 over it: with the display profile and
-/// the window it decides every pixel that is shown, as far as the versions of scene and techniques are kept.
+/// Canonical form; fromJson() gives the same back. The hash is SHA-256 over it, with the content of files in
+/// place of their paths: with the display profile and the window it decides every pixel that is shown, as
+/// far as the versions of scene and techniques are kept. stimulusFromJson() throws Error on what is no
+/// stimulus.
 nlohmann::json toJson(const Stimulus& stimulus);
 Stimulus stimulusFromJson(const nlohmann::json& json);
 std::string stimulusHash(const Stimulus& stimulus);
