@@ -22,12 +22,14 @@ using psychometrics::SigmoidFamily;
 using psychometrics::StimulusAxis;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = 1e100;        // of a parameter: its products and inverses are numbers
+constexpr double kMostEqualLapse = 0.49;  // at 0.5 on either side nothing would be left to rise
 
 ModelParameter anyNumber(const char* name, const char* description) {
-  return {name, description, std::nullopt, -kInfinity, kInfinity, true, true};
+  return {name, description, std::nullopt, -kLargest, kLargest, true, true};
 }
 ModelParameter positive(const char* name, const char* description, bool ofStimulus = false) {
-  return {name, description, std::nullopt, 0.0, kInfinity, true, ofStimulus};
+  return {name, description, std::nullopt, 0.0, kLargest, true, ofStimulus};
 }
 ModelParameter guessRate() {
   return {"guess", "P where nothing is seen: false alarms, or 1/m of m alternatives", 0.5, 0.0, 1.0};
@@ -57,7 +59,7 @@ class SigmoidModel : public Model {
         parameters_(form_.shape) {
     if (!equal_) parameters_.push_back(guessRate());
     parameters_.push_back(lapseRate());
-    if (equal_) parameters_.back().maximum = 0.5;
+    if (equal_) parameters_.back().maximum = kMostEqualLapse;
   }
   int outcomes() const override { return 2; }
   const std::vector<ModelParameter>& parameters() const override { return parameters_; }
@@ -121,7 +123,7 @@ class ThurstoneModel : public Model {
         positive("maximum", "scale value of 1, in standard deviations of a judgement"),
         {"threshold", "below it the scale is 0", 0.0, 0.0, 1.0 - 1e-9},
         positive("power", "exponent of the scale"),
-        {"lapse", "probability of either answer whatever is shown", 0.0, 0.0, 0.5}};
+        {"lapse", "probability of either answer whatever is shown", 0.0, 0.0, kMostEqualLapse}};
     return kParameters;
   }
   bool knows(const double* x) const override {
@@ -146,7 +148,7 @@ class RatingModel : public Model {
     for (int k = 2; k < categories; ++k) {
       parameters_.push_back({"step_" + std::to_string(k),
                              "from criterion " + std::to_string(k - 1) + " to criterion " + std::to_string(k),
-                             std::nullopt, 0.0, kInfinity, true, true});
+                             std::nullopt, 0.0, kLargest, true, true});
     }
   }
   int outcomes() const override { return categories_; }
