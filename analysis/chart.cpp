@@ -114,7 +114,7 @@ std::string data(const Chart& chart, const ChartAxis& x, const ChartAxis& y, siz
       if (mark.series != series) continue;
       any = true;
       const double px = x.place(mark.x);
-      const Interval bar = mark.interval.value_or(Interval{px, px, false});
+      const MedianInterval bar = mark.interval.value_or(MedianInterval{px, px, false});
       out +=
           row(px, y.place(mark.y), std::clamp(bar.low, x.low, x.high), std::clamp(bar.high, x.low, x.high));
     }

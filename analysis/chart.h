@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/statistics.h"
+#include "analysis/statistics/summary.h"
 #include "analysis/sweep.h"
 
 namespace limen::analysis {
@@ -16,7 +16,7 @@ inline constexpr int kMarkerShapes = 7;
 
 struct ChartMark {
   double x = 0.0, y = 0.0;
-  std::optional<Interval> interval;  ///< of x
+  std::optional<MedianInterval> interval;  ///< of x
   size_t series = 0;
   bool onFront = false;  ///< drawn strongly
   int frontNumber = 0;   ///< printed beside the mark; 0: none

@@ -4,6 +4,7 @@
 
 #include "analysis/chart.h"
 #include "analysis/text_output.h"
+#include "analysis/trade_off.h"
 
 namespace limen::analysis {
 namespace {

@@ -72,7 +72,7 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
     }
     if (index < sweep.cells.size() && sweep.cells[index].frame) {
       const Summary& s = *sweep.cells[index].frame;
-      const Interval& i = *sweep.cells[index].interval;
+      const MedianInterval& i = *sweep.cells[index].interval;
       row = joined(row, {std::to_string(s.n), number(s.median), number(i.low), number(i.high), number(s.p95),
                          number(s.minimum), number(s.mean), number(s.standardDeviation)});
     } else {

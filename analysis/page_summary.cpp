@@ -7,6 +7,7 @@
 #include "analysis/chart.h"
 #include "analysis/page.h"
 #include "analysis/text_output.h"
+#include "analysis/trade_off.h"
 
 namespace limen::analysis {
 namespace {

@@ -98,14 +98,14 @@ std::vector<Column> columnsOf(const Sweep& sweep) {
         return cell.frame ? std::optional((*cell.frame).*member) : std::nullopt;
       };
     };
-    const auto bound = [](double Interval::*member) {
+    const auto bound = [](double MedianInterval::*member) {
       return [member](const Cell& cell) -> std::optional<double> {
         return cell.interval ? std::optional((*cell.interval).*member) : std::nullopt;
       };
     };
     columns.push_back({"median (ms)", true, frame(&Summary::median), {}});
-    columns.push_back({"95 % low (ms)", true, bound(&Interval::low), {}});
-    columns.push_back({"95 % high (ms)", true, bound(&Interval::high), {}});
+    columns.push_back({"95 % low (ms)", true, bound(&MedianInterval::low), {}});
+    columns.push_back({"95 % high (ms)", true, bound(&MedianInterval::high), {}});
     columns.push_back({"p95 (ms)", true, frame(&Summary::p95), {}});
     columns.push_back({"frames",
                        true,

@@ -12,6 +12,7 @@
 #include "analysis/export.h"
 #include "analysis/page.h"
 #include "analysis/text_output.h"
+#include "analysis/trade_off.h"
 #include "base/error.h"
 #include "base/text.h"
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/grouping.h"
+#include "analysis/trade_off.h"
 
 namespace limen::analysis {
 namespace {

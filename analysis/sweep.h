@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics.h"
+#include "analysis/statistics/summary.h"
 #include "experiments/store/store.h"
 
 namespace limen::analysis {
@@ -29,10 +29,10 @@ struct PassTime {
 /// A finished run with what the report needs of it.
 struct Cell {
   store::Run run;
-  size_t series = 0, panel = 0;         ///< indices into Sweep
-  std::optional<double> x, y, counter;  ///< values on the axes
-  std::optional<Summary> frame;         ///< of the x axis' pass, milliseconds
-  std::optional<Interval> interval;     ///< of the median of that
+  size_t series = 0, panel = 0;            ///< indices into Sweep
+  std::optional<double> x, y, counter;     ///< values on the axes
+  std::optional<Summary> frame;            ///< of the x axis' pass, milliseconds
+  std::optional<MedianInterval> interval;  ///< of the median of that
   std::vector<PassTime> passes;
   std::map<std::string, std::string> varying;  ///< column -> value, of what varies among the runs
   int frontNumber = 0;                         ///< place on the panel's Pareto front, from 1; 0: not on it

@@ -10,7 +10,10 @@
 namespace limen {
 
 void Problems::add(Mark mark, const std::string& what, const std::string& mend) {
-  lines_.push_back({mark, Error(what, location(file_, mark), mend).what()});
+  std::string text = Error(what, location(file_, mark), mend).what();
+  const bool said =
+      std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) { return line.text == text; });
+  if (!said) lines_.push_back({mark, std::move(text)});
 }
 
 void Problems::throwIfAny() const {

@@ -13,6 +13,7 @@ class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
+  /// The same problem at the same place counts once.
   void add(Mark mark, const std::string& what, const std::string& mend = {});
   bool empty() const { return lines_.empty(); }
   size_t size() const { return lines_.size(); }

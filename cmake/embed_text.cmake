@@ -9,5 +9,6 @@ function(limen_embed_text target symbol file)
             ${PROJECT_SOURCE_DIR}/cmake/write_embedded_text.cmake
     DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/write_embedded_text.cmake
     VERBATIM)
+  set_source_files_properties(${out} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${out})
 endfunction()

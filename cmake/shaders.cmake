@@ -17,5 +17,6 @@ function(limen_shaders target)
             ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
     DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
     VERBATIM)
+  set_source_files_properties(${out} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${out})
 endfunction()

@@ -13,10 +13,10 @@ void throwDatabaseError(sqlite3* database) {
   const std::string detail = sqlite3_errmsg(database);
   switch (sqlite3_errcode(database) & 0xff) {
     case SQLITE_NOTADB:
-      throw Error("is not a result store", where, "give a file that limen-sweep wrote, or a new name");
+      throw Error("is not a result store", where, "give a store that Limen wrote, or a new name");
     case SQLITE_CORRUPT:
       throw Error("the store is damaged (" + detail + ")", where,
-                  "save what is left with 'sqlite3 FILE .recover' and sweep into a new store");
+                  "save what is left with 'sqlite3 FILE .recover' and go on in a new store");
     case SQLITE_READONLY:
       throw Error("the store cannot be written", where, "make the file and its folder writable");
     case SQLITE_BUSY:
@@ -26,6 +26,9 @@ void throwDatabaseError(sqlite3* database) {
     case SQLITE_FULL:
       throw Error("the disk is full", where,
                   "free some space and run the command again; what is done is kept");
+    case SQLITE_IOERR:
+      throw Error("the disk cannot be written or read (" + detail + ")", where,
+                  "look at the disk and its quotas and run the command again; what is done is kept");
     case SQLITE_CANTOPEN:
       throw Error("the store cannot be opened", where, "check the path and the rights on its folder");
     default:

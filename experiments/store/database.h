@@ -77,8 +77,9 @@ class Transaction {
   bool open_ = true;
 };
 
-/// Opens, checks that the file is a store of a known schema, migrates. Store's constructor.
-sqlite3* openDatabase(const std::string& path, bool readOnly);
+/// Opens, checks that the file is a store of a known schema, migrates. A file that is only read keeps its
+/// schema, which must be of version `oldest` at least: 1 has sweeps, 2 studies too.
+sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest = 1);
 
 /// Whether the process named by `owner` (host:pid:start-time) is known to be gone; nullopt: it is on another
 /// host.

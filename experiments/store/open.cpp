@@ -14,7 +14,8 @@
 
 namespace limen::embedded {
 extern const char* const kStoreSchema;
-}
+extern const char* const kStudySchema;
+}  // namespace limen::embedded
 
 namespace limen::store {
 namespace {
@@ -26,7 +27,7 @@ constexpr int kApplicationId = 0x4c494d4e;  // "LIMN": tells a store from other 
 
 // migrations[i] leads from schema version i to i + 1. A store of today is the result of all of them, so an
 // old store and a new one cannot differ.
-const char* const kMigrations[] = {embedded::kStoreSchema};
+const char* const kMigrations[] = {embedded::kStoreSchema, embedded::kStudySchema};
 constexpr int kSchemaVersion = static_cast<int>(std::size(kMigrations));
 
 struct Closer {
@@ -114,7 +115,7 @@ void prepareFolder(const std::string& path) {
 
 }  // namespace
 
-sqlite3* openDatabase(const std::string& path, bool readOnly) {
+sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
   if (readOnly && !fs::exists(path))
     throw Error("no such result store", path, "check the path, or make the store with limen-sweep");
@@ -131,8 +132,9 @@ sqlite3* openDatabase(const std::string& path, bool readOnly) {
   execute(database, "PRAGMA foreign_keys = ON");
   if (readOnly) {
     requireStore(database, path);
-    if (pragma(database, "PRAGMA user_version") < kSchemaVersion)
-      throw Error("the store has an older schema", path, "open it once for writing with limen-sweep");
+    if (pragma(database, "PRAGMA user_version") < oldest)
+      throw Error("the store is of an older Limen and holds no studies", path,
+                  "name a store that a study was run into");
     return closer.release();
   }
   if (!isEmpty(database)) requireStore(database, path);

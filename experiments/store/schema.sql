@@ -1,5 +1,5 @@
 -- Result store, schema version 1 (PRAGMA user_version). Times are UTC, ISO 8601.
--- The tables for studies (participant, session, ...) come with the study in a later version.
+-- The tables for studies (participant, session, ...) come with version 2: schema_study.sql.
 
 CREATE TABLE experiment (
   id INTEGER PRIMARY KEY,

@@ -124,7 +124,8 @@ struct StudyEntry {
 /// was committed stays. One object a thread.
 class SessionLog {
  public:
-  explicit SessionLog(const std::string& path);
+  /// Commits survive a cut of the power, or without `syncEach` (quicker) the end of the process alone.
+  explicit SessionLog(const std::string& path, bool syncEach = true);
   ~SessionLog();
   SessionLog(const SessionLog&) = delete;
   SessionLog& operator=(const SessionLog&) = delete;
@@ -132,7 +133,7 @@ class SessionLog {
   const std::string& path() const { return path_; }
 
   /// Number of a participant, who becomes known by this.
-  int participantNumber(const std::string& code);
+  int participantNumber(const std::string& code, const std::string& createdUtc);
   std::optional<StudySession> find(const std::string& participant, const std::string& name) const;
   std::vector<std::string> sessionNames(const std::string& participant) const;
   std::vector<StudyEvent> events(int64_t session) const;

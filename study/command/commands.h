@@ -16,5 +16,14 @@ struct Run {
 };
 
 // Each adds its subcommand; the callback does the work, sets Run::exitCode and throws Error for bad input.
+void addCalibrateCommand(CLI::App& app, Run& run);
+void addExportCommand(CLI::App& app, Run& run);
+void addPowerCommand(CLI::App& app, Run& run);
+void addProtocolCommand(CLI::App& app, Run& run);
+void addRunCommand(CLI::App& app, Run& run);
+void addSessionsCommand(CLI::App& app, Run& run);  ///< sessions, replay
+void addSimulateCommand(CLI::App& app, Run& run);
+void addTimingCommand(CLI::App& app, Run& run);
+void addTraceCommand(CLI::App& app, Run& run);
 
 }  // namespace limen::study

@@ -10,5 +10,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", versionText("limen-study"));
   app.require_subcommand(1);
   study::Run run{{argv, argv + argc}};
+  study::addProtocolCommand(app, run);
+  study::addTraceCommand(app, run);
+  study::addExportCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
 }

@@ -34,13 +34,17 @@ struct ScreenResult {
   Outcome outcome = Outcome::Done;
   nlohmann::json answers = nlohmann::json::object();  ///< Form: field -> choice; Consent: {"consent": true}
   std::string note;  ///< free text from the form; goes through the privacy filter
+  std::string by =
+      "participant";   ///< who asked for Paused or Aborted: "participant", "experimenter", "system"
+  std::string reason;  ///< why Paused or Aborted, if anything is to be said
 };
 
 struct TrialResult {
   Outcome outcome = Outcome::Done;
   std::string reason;  ///< why Invalid: "2 missed frames", "window lost", "answered during the blank"
   std::vector<ShownFrame> frames;
-  std::optional<Answer> answer;  ///< with Done
+  std::optional<Answer> answer;    ///< with Done
+  std::string by = "participant";  ///< as in ScreenResult
 };
 
 /// Whoever sits before the session: a person at a window, or a simulated observer. Calls block until done.
@@ -51,6 +55,9 @@ class FrontEnd {
   virtual TrialResult present(const Trial& trial, const Session& session) = 0;
   /// After an answer in practice with feedback.
   virtual void feedback(bool correct) = 0;
+  /// Codes of the notes (see privacy.h) that the experimenter took since the last call, for events of kind
+  /// Note. Asked after each screen and each trial.
+  virtual std::vector<std::string> takeNotes() { return {}; }
   /// The machine this runs on: refresh rate, GPU, window system, whether it is fit for a lab.
   virtual nlohmann::json environment() const = 0;
 };

@@ -18,6 +18,8 @@ class Clock {
   virtual ~Clock() = default;
   virtual std::string utc() = 0;
   virtual int64_t monotonicNs() = 0;
+  /// Names the run of the machine since it was switched on, within which monotonicNs() goes on; "": unknown.
+  virtual std::string boot() { return {}; }
 };
 Clock& systemClock();
 
@@ -33,11 +35,15 @@ struct SessionRequest {
   bool resume = false;
   Durability durability = Durability::PowerLoss;
   perception::DisplayProfile display;
+  nlohmann::json calibration = nlohmann::json::object();  ///< how the display profile was measured
+  /// Takes what the experimenter should know and nothing stops for (a wall clock that was set). Standard
+  /// error if empty.
+  std::function<void(const std::string&)> warn;
 };
 
 struct SessionEnd {
-  Step::Kind kind = Step::Kind::Finished;
-  int64_t session = 0;  ///< row id
+  Step::Kind kind = Step::Kind::Finished;  ///< Screen or Trial: paused before it, or in the middle of it
+  int64_t session = 0;                     ///< row id; 0: not stored
   int trialsAnswered = 0, trialsInvalid = 0;
 };
 
@@ -47,5 +53,9 @@ struct SessionEnd {
 /// store that cannot be written. What was committed stays.
 SessionEnd runSession(const Protocol& protocol, const SessionRequest& request, FrontEnd& frontEnd,
                       Clock& clock = systemClock());
+
+/// The same without a store, for simulations by the thousand: from the start to the end, `events` the log.
+SessionEnd runInMemory(const Protocol& protocol, uint64_t seed, int participantNumber, FrontEnd& frontEnd,
+                       Clock& clock, std::vector<Event>& events);
 
 }  // namespace limen::study

@@ -64,16 +64,93 @@ class Session {
   static int outcomeOf(const Part& part, const PlannedTrial& trial, const std::string& answer);
   const Procedure& procedure(int index) const { return *procedures_[static_cast<size_t>(index)]; }
 
-  int trialsDone() const;   ///< answered, practice apart
-  int trialsInAll() const;  ///< planned, practice apart; falls when a procedure ends early
+  int trialsDone() const { return done_; }  ///< answered, practice apart
+  int trialsInAll() const;                  ///< planned, practice apart; falls when a procedure ends early
   /// Everything that decides what comes: queue, procedures' states. Equal states have equal futures.
   nlohmann::json state() const;
 
+  uint64_t seed() const { return seed_; }
+  int participantNumber() const { return participantNumber_; }
+  int nextEvent() const { return nextEvent_; }  ///< number that the next event must have
+  /// Whether the trial that is due is on the screen: begun, and neither answered nor invalid.
+  bool trialInProgress() const { return inProgress_; }
+  /// Block of the trial that is due, as index of Design::blocks. There is one.
+  int blockOfDue() const { return queue_.front().slot.block; }
+  /// How often a trial was invalid (late frames and the like; interruptions do not count).
+  int timesInvalid(int trial) const;
+  /// First event of the block (or round of practice) that would start over if the session were broken off
+  /// now under ResumePolicy::RestartBlock; nothing between blocks.
+  std::optional<int> brokenBlockEvent() const;
+
  private:
-  // (the state: position, the block's queue, attempts, practice counts, procedures)
+  enum class Stage {
+    Consent,
+    Form,
+    Instructions,
+    PracticeStart,
+    PracticeResult,
+    BlockStart,
+    Break,
+    Trials,
+    Debrief,
+    Finished,
+    Aborted
+  };
+  /// A trial of the plan and the block that it stands in; all rounds of practice stand in the first one's.
+  struct Slot {
+    const PlannedTrial* trial = nullptr;
+    int block = 0;
+  };
+  /// A block, or one round of practice.
+  struct Stretch {
+    int part = 0;
+    bool practice = false;
+    std::vector<Slot> slots;
+  };
+  struct Queued {
+    Slot slot;
+    std::optional<std::vector<double>> stimulus;  ///< of an adaptive trial that was begun before
+  };
+
+  void makeStretches();
+  bool isOver(const Slot& slot) const;
+  void enter(size_t stretch, bool pause);
+  void begin(size_t stretch);
+  void endStretch();
+  void restartStretch();
+  void dropFinished();
+  void settle();
+  void settleTrial();
+  void leaveScreen(const Event& event);
+  void startTrial(const Event& event);
+  void endTrial(const Event& event);
+  void requeue(Queued trial);
+  void feed(int procedure, const std::vector<double>& stimulus, int outcome);
+  void rebuildProcedures();
+  [[noreturn]] void refuse(const Event& event, const std::string& why) const;
+
   const Protocol& protocol_;
+  uint64_t seed_;
+  int participantNumber_;
   Design design_;
+  std::vector<PlannedBlock> rounds_;  ///< of practice after the first
+  std::vector<Stretch> stretches_;
+  std::vector<ProcedureSettings> settings_;
   std::vector<std::unique_ptr<Procedure>> procedures_;
+  std::vector<std::optional<std::vector<double>>> nexts_;  ///< of the procedures, asked for once an answer
+  std::vector<std::vector<ProcedureTrial>> fed_;           ///< what the procedures were told
+
+  int nextEvent_ = 0;
+  Stage stage_ = Stage::Consent;
+  size_t stretch_ = 0;
+  std::vector<Queued> queue_;  ///< of the stretch, the due one first
+  std::map<int, int> attempts_, invalid_;
+  bool inProgress_ = false, paused_ = false;
+  int done_ = 0, sinceBreak_ = 0, right_ = 0;
+  bool passed_ = true;
+  std::optional<int> begunAt_;  ///< first event of a trial of the stretch
+  int doneBefore_ = 0;          ///< done_ when the stretch began
+  std::vector<size_t> fedBefore_;
   Step step_;
 };
 

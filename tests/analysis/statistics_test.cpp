@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/statistics.h"
+#include "analysis/statistics/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 #include <set>
+
+#include "analysis/trade_off.h"
 
 namespace limen::analysis {
 namespace {
@@ -60,7 +62,7 @@ TEST(BootstrapMedian, OfFramesMatchesItsExactDistribution) {
   int low = 1, high = 1;
   while (medianAtMost(low, kN) < 0.025) ++low;
   while (medianAtMost(high, kN) < 0.975) ++high;
-  const Interval interval = bootstrapMedian(values, std::vector<int>(kN, 0));
+  const MedianInterval interval = bootstrapMedian(values, std::vector<int>(kN, 0));
   EXPECT_FALSE(interval.byRounds);
   // The exact quantile may sit on the edge between two order statistics, so one rank either way.
   EXPECT_NEAR(interval.low, low, 1.0);
@@ -77,12 +79,12 @@ TEST(BootstrapMedian, DrawsWholeRoundsFromThreeOn) {
       twoRounds.push_back(round % 2);
     }
   // Three draws of {1, 2, 3}: two or more are 1 with probability 7/27, far above 2.5 %; so also for 3.
-  const Interval rounds = bootstrapMedian(values, threeRounds);
+  const MedianInterval rounds = bootstrapMedian(values, threeRounds);
   EXPECT_TRUE(rounds.byRounds);
   EXPECT_EQ(rounds.low, 1.0);
   EXPECT_EQ(rounds.high, 3.0);
   // Frame by frame the count of ones has mean 100 and SD 8: 150 of 300 never come.
-  const Interval frames = bootstrapMedian(values, twoRounds);
+  const MedianInterval frames = bootstrapMedian(values, twoRounds);
   EXPECT_FALSE(frames.byRounds);
   EXPECT_EQ(frames.low, 2.0);
   EXPECT_EQ(frames.high, 2.0);
@@ -93,7 +95,7 @@ TEST(BootstrapMedian, IsTheSameForTheSameSeedAndHoldsTheMedian) {
   std::vector<double> values;
   for (int i = 0; i < 64; ++i) values.push_back(1.0 + static_cast<double>(random() % 1000) / 1000.0);
   const std::vector<int> rounds(64, 0);
-  const Interval first = bootstrapMedian(values, rounds, 7), again = bootstrapMedian(values, rounds, 7);
+  const MedianInterval first = bootstrapMedian(values, rounds, 7), again = bootstrapMedian(values, rounds, 7);
   EXPECT_EQ(first.low, again.low);
   EXPECT_EQ(first.high, again.high);
   EXPECT_LE(first.low, quantile(values, 0.5));
@@ -102,7 +104,7 @@ TEST(BootstrapMedian, IsTheSameForTheSameSeedAndHoldsTheMedian) {
 }
 
 TEST(BootstrapMedian, OfOneFrameIsAPoint) {
-  const Interval interval = bootstrapMedian({2.0}, {0});
+  const MedianInterval interval = bootstrapMedian({2.0}, {0});
   EXPECT_EQ(interval.low, 2.0);
   EXPECT_EQ(interval.high, 2.0);
 }

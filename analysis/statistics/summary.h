@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace limen::analysis {
@@ -22,7 +20,7 @@ double quantile(std::vector<double> values, double q);
 /// `values` is not empty.
 Summary summarise(const std::vector<double>& values);
 
-struct Interval {
+struct MedianInterval {
   double low = 0.0, high = 0.0;
   bool byRounds = false;  ///< whole rounds were resampled, not single frames
 };
@@ -31,16 +29,7 @@ struct Interval {
 /// `rounds` names the round of each value. With three or more rounds these are drawn as blocks: frames of one
 /// round share the clock and the temperature of the machine, so single frames would promise too much. Same
 /// seed, same bytes.
-Interval bootstrapMedian(const std::vector<double>& values, const std::vector<int>& rounds,
-                         uint64_t seed = 1);
-
-/// Indices of the points that no other point beats: smaller is better in both, in order of growing first
-/// value. Of equal points all stay.
-std::vector<size_t> paretoFront(const std::vector<std::pair<double, double>>& points);
-
-/// Round numbers to cut a range of errors at: powers of ten (and their triples) where the range is wide,
-/// steps of 1, 2 or 5 where it is narrow or `logarithmic` is false. Ascending, within [low, high], five at
-/// most.
-std::vector<double> roundLevels(double low, double high, bool logarithmic);
+MedianInterval bootstrapMedian(const std::vector<double>& values, const std::vector<int>& rounds,
+                               uint64_t seed = 1);
 
 }  // namespace limen::analysis

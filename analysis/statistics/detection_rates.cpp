@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/statistics/detection_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics/detail/check.h"
+#include "analysis/statistics/distributions.h"
+
+namespace limen::analysis {
+namespace {
+
+Rate rateOf(int64_t successes, int64_t trials, double level) {
+  return {successes, trials, static_cast<double>(successes) / static_cast<double>(trials),
+          wilsonInterval(successes, trials, level), clopperPearsonInterval(successes, trials, level)};
+}
+
+}  // namespace
+
+Interval wilsonInterval(int64_t successes, int64_t trials, double level) {
+  requireCounts(successes, trials, "successes", true);
+  requireLevel(level);
+  const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
+  const double z = -normalQuantile((1.0 - level) / 2.0), z2 = z * z;
+  const double centre = k + z2 / 2.0, reach = z * std::sqrt(k * (n - k) / n + z2 / 4.0);
+  Interval interval{(centre - reach) / (n + z2), (centre + reach) / (n + z2)};
+  if (successes == 0) interval.low = 0.0;
+  if (successes == trials) interval.high = 1.0;
+  return interval;
+}
+
+Interval clopperPearsonInterval(int64_t successes, int64_t trials, double level) {
+  requireCounts(successes, trials, "successes", true);
+  requireLevel(level);
+  const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
+  const double tail = (1.0 - level) / 2.0;
+  Interval interval{0.0, 1.0};
+  if (successes > 0) interval.low = betaQuantile(tail, k, n - k + 1.0);
+  // By symmetry, so that a bound next to 1 is as good as one next to 0.
+  if (successes < trials) interval.high = 1.0 - betaQuantile(tail, n - k, k + 1.0);
+  return interval;
+}
+
+Rate detectionRate(int64_t successes, int64_t trials, double level) {
+  requireCounts(successes, trials, "successes", true);
+  return rateOf(successes, trials, level);
+}
+
+std::vector<Rate> detectionRates(const std::vector<int64_t>& successes, const std::vector<int64_t>& trials,
+                                 double level) {
+  requireSameLength(successes.size(), "successes", trials.size(), "trials");
+  std::vector<Rate> rates;
+  rates.reserve(trials.size());
+  for (size_t i = 0; i < trials.size(); ++i) {
+    requireCounts(successes[i], trials[i], indexed("successes", i), true);
+    rates.push_back(rateOf(successes[i], trials[i], level));
+  }
+  return rates;
+}
+
+MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double level) {
+  requireAtLeast(values.size(), 1, "values");
+  requireFinite(values, "values");
+  requireLevel(level);
+  MeanOverSubjects result;
+  result.subjects = values.size();
+  const auto n = static_cast<double>(values.size());
+  // The sum is divided, not each value: subjects who all answered with the same share have exactly that mean.
+  for (const double value : values) result.mean += value;
+  result.mean /= n;
+  if (values.size() == 1) return result;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.standardDeviation = std::sqrt(squares / (n - 1.0));
+  result.standardError = *result.standardDeviation / std::sqrt(n);
+  const double reach = tCritical(1.0 - level, n - 1.0) * *result.standardError;
+  result.interval = Interval{result.mean - reach, result.mean + reach};
+  return result;
+}
+
+}  // namespace limen::analysis

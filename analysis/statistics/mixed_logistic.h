@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics/interval.h"
+
+namespace limen::analysis {
+
+enum class RandomEffects {
+  kIntercept,         ///< each group has its own level
+  kInterceptAndSlope  ///< and its own slope along one column, correlated with the level
+};
+
+/// Binomial answers of groups, such as subjects: ln(p / (1 - p)) = x beta + b_g (+ c_g x_slope), (b, c) ~
+/// N(0, Sigma).
+struct MixedLogisticData {
+  std::vector<int64_t> successes, trials;  ///< one entry a row; a single answer has one trial
+  std::vector<size_t> groups;              ///< of each row; any numbers
+  std::vector<std::string> columns;        ///< names of the fixed effects; the intercept is a column of ones
+  std::vector<double> design;              ///< rows x columns, by row
+};
+
+struct MixedLogisticOptions {
+  RandomEffects random = RandomEffects::kIntercept;
+  size_t slopeColumn = 1;  ///< of kInterceptAndSlope
+  double level = 0.95;
+};
+
+struct FixedEffect {
+  std::string name;
+  double estimate = 0.0, standardError = 0.0;
+  double z = 0.0, p = 1.0;  ///< Wald, two-sided
+  Interval interval;        ///< estimate +- z error
+};
+
+struct GroupEffect {
+  size_t group = 0;
+  double intercept = 0.0, slope = 0.0;  ///< conditional modes, deviations from the fixed effects
+};
+
+struct MixedLogistic {
+  std::vector<FixedEffect> fixed;
+  double interceptDeviation = 0.0;  ///< of b over groups
+  std::optional<double> slopeDeviation,
+      correlation;                  ///< with a random slope; correlation none if a deviation is 0
+  double logLikelihood = 0.0;       ///< Laplace's approximation, binomial coefficients included
+  double aic = 0.0;                 ///< 2 (fixed effects + entries of Sigma) - 2 logLikelihood
+  std::vector<GroupEffect> groups;  ///< by growing group
+  /// Sigma is on the edge of what is possible (a deviation of 0, a correlation of +-1): errors hold fixed
+  /// what is on the edge.
+  bool singular = false;
+  std::string note;  ///< says so in words; empty otherwise
+};
+
+/// Maximum of the likelihood by Laplace's approximation (Breslow and Clayton 1993; Bates, Maechler, Bolker
+/// and Walker 2015): penalised Newton steps within each group, BFGS with exact derivatives outside. Errors
+/// from the Hessian over fixed effects and Sigma. The approximation is poor, Sigma too small, with few yes/no
+/// answers a group. limen::Error (names the index) for lengths that do not fit, values that are not finite,
+/// counts out of order; for fewer than 2 groups, columns that depend on one another, answers that some
+/// combination of columns separates (estimates would be infinite), and if the optimiser finds no maximum.
+MixedLogistic fitMixedLogistic(const MixedLogisticData& data, const MixedLogisticOptions& options = {});
+
+}  // namespace limen::analysis

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace limen::analysis {
+
+/// Friedman (1937): do k treatments, ranked by each of n subjects, differ?
+struct FriedmanTest {
+  size_t subjects = 0, treatments = 0;
+  std::vector<double> meanRanks;  ///< of each treatment; 1 is smallest
+  /// 12 sum (R_j - n(k+1)/2)^2 / (n k (k+1) - sum(t^3 - t)/(k-1)), corrected for ties; p by chi-squared, k -
+  /// 1 degrees. None if every subject ties all treatments.
+  std::optional<double> chiSquared, p;
+  /// F form (Iman and Davenport 1980), less conservative: (n-1) chi2 / (n(k-1) - chi2) with k-1 and
+  /// (k-1)(n-1) degrees; +infinity with p = 0 if all subjects agree perfectly.
+  std::optional<double> f, fP;
+  std::optional<double> kendallW;  ///< agreement, chi2 / (n (k-1)): 0 none, 1 perfect
+};
+
+/// `values` by subject, treatment varying fastest. limen::Error for fewer than 2 subjects or treatments, a
+/// length that does not fit, values that are not finite.
+FriedmanTest friedmanTest(const std::vector<double>& values, size_t subjects, size_t treatments);
+
+/// Wilcoxon (1945) signed ranks of paired differences first - second.
+struct SignedRankTest {
+  size_t pairs = 0;                                 ///< that differ
+  size_t zeros = 0;                                 ///< dropped pairs
+  double positiveRanks = 0.0, negativeRanks = 0.0;  ///< sums; V = W+ is the first
+  /// Two-sided. Exact without ties and zeros for up to 50 pairs; else normal, with tie and continuity
+  /// correction, as R does. 1 if no pair differs.
+  double p = 1.0;
+  bool exact = false;
+  double rankBiserial = 0.0;  ///< (W+ - W-) / (W+ + W-) (Kerby 2014); 0 if no pair differs
+};
+
+/// limen::Error for lists that differ in length, are empty, or hold values that are not finite.
+SignedRankTest signedRankTest(const std::vector<double>& first, const std::vector<double>& second);
+
+/// Exact two-sided sign test: min(1, 2 P(X <= min(b, c))) of a fair coin (Arbuthnot 1710; McNemar 1947 for
+/// the two kinds of discordant pairs, "noticed only in the first", "only in the second").
+struct SignTest {
+  int64_t first = 0, second = 0;
+  double p = 1.0;  ///< 1 without discordant pairs
+  /// (|b - c| - 1)^2 / (b + c), Edwards' corrected chi-squared with one degree, and its p; none without
+  /// pairs.
+  std::optional<double> chiSquared, chiSquaredP;
+};
+
+/// Counts of discordant pairs. limen::Error if negative.
+SignTest mcNemarTest(int64_t onlyFirst, int64_t onlySecond);
+/// Counts signs of first - second; equal pairs drop out. Errors as for signedRankTest.
+SignTest signTest(const std::vector<double>& first, const std::vector<double>& second);
+
+}  // namespace limen::analysis

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "study/application/page.h"
+#include "study/application/ui_fonts.h"
+
+namespace limen::study {
+
+/// How pages look in a window.
+struct PageStyle {
+  UiFonts fonts;
+  float scale = 1.0F;
+  glm::vec3 background{0.25F};  ///< values of the screen; lettering is light on dark and dark on light
+  bool gamepad = false;         ///< show its keys
+};
+
+/// Where things were drawn.
+struct PageLayout {
+  std::vector<TargetRect> targets;
+  int textPages = 1;  ///< that the text needs
+  bool fits = true;   ///< false: the window is too small for it even with lettering of half the size
+};
+
+/// Draws a page with the current ImGui frame over a window of `sizePx`, smaller where it does not fit. The
+/// target under `cursorPx` is lit.
+PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, const PageStyle& style);
+
+/// A cross in the middle, for eyes to rest on.
+void drawFixation(glm::vec2 sizePx, const PageStyle& style);
+
+}  // namespace limen::study

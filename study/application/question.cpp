@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/application/question.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace limen::study {
+namespace {
+
+int firstLetter(const std::string& word) {
+  const auto first = static_cast<unsigned char>(word.empty() ? '\0' : word[0]);
+  return first < 0x80 && std::isalpha(first) ? std::tolower(first) : kKeyNone;
+}
+
+std::string upper(int letter) { return {static_cast<char>(std::toupper(letter))}; }
+
+std::vector<PageButton> digitButtons(const std::vector<std::string>& labels) {
+  std::vector<PageButton> buttons;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    PageButton button{static_cast<int>(i), labels[i], "", "", {}, true};
+    if (i < 10) {
+      button.keys = {i == 9 ? '0' : '1' + static_cast<int>(i)};
+      button.hint = {static_cast<char>(button.keys[0])};
+    }
+    buttons.push_back(button);
+  }
+  return buttons;
+}
+
+bool isLeftRight(const TaskSetting& task) {
+  return task.type == Task::Alternative || (task.type == Task::Pairwise && task.sideBySide);
+}
+
+double secondsBetween(int64_t from, int64_t to) { return static_cast<double>(to - from) * 1e-9; }
+
+}  // namespace
+
+std::vector<PageButton> answerButtons(const TaskSetting& task) {
+  std::vector<PageButton> buttons = digitButtons(task.answers);
+  if (task.type == Task::Rating || buttons.size() != 2) return buttons;
+  buttons[0].keys.insert(buttons[0].keys.end(), {kKeyLeft, kPadLeft});
+  buttons[1].keys.insert(buttons[1].keys.end(), {kKeyRight, kPadRight});
+  buttons[0].padHint = "Left";
+  buttons[1].padHint = "Right";
+  if (isLeftRight(task)) {
+    buttons[0].hint = "\u2190";
+    buttons[1].hint = "\u2192";
+  }
+  const int first = firstLetter(task.answers[0]), second = firstLetter(task.answers[1]);
+  if (task.type == Task::YesNo && first != kKeyNone && second != kKeyNone && first != second) {
+    buttons[0].keys.push_back(first);
+    buttons[1].keys.push_back(second);
+    buttons[0].hint = upper(first) + " or \u2190";
+    buttons[1].hint = upper(second) + " or \u2192";
+  } else if (!isLeftRight(task)) {
+    buttons[0].hint += " or \u2190";
+    buttons[1].hint += " or \u2192";
+  }
+  return buttons;
+}
+
+std::vector<PageButton> scaleButtons(const Scale& scale) { return digitButtons(scale.labels); }
+
+int answerColumns(const TaskSetting& task) {
+  if (task.type != Task::Alternative || task.alternatives <= 3) return 0;
+  return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(task.alternatives))));
+}
+
+bool asksSeverity(const TaskSetting& task, int answer) {
+  return task.severity && (task.severityAlways || (task.type == Task::YesNo && answer == 0));
+}
+
+std::string questionOf(const TaskSetting& task) {
+  if (!task.question.empty()) return task.question;
+  switch (task.type) {
+    case Task::YesNo:
+      return "Did you notice a change?";
+    case Task::Interval:
+      return "Which one had the change?";
+    case Task::Alternative:
+      return "Where was the change?";
+    case Task::Rating:
+      return "How do you rate it?";
+    case Task::Pairwise:
+      return "Which one is better?";
+  }
+  return "";
+}
+
+std::string answerHelp(const TaskSetting& task) {
+  std::string help = "You can answer with the mouse or with the keys that the buttons show:";
+  const std::vector<PageButton> buttons = answerButtons(task);
+  for (size_t i = 0; i < buttons.size(); ++i)
+    help += (i == 0 ? " " : ", ") + buttons[i].label +
+            (buttons[i].hint.empty() ? "" : " (" + buttons[i].hint + ")");
+  return help + ". Wait for the question before you answer. Esc makes a pause.";
+}
+
+QuestionScreen::QuestionScreen(const TaskSetting& task, int64_t stimulusEndNs)
+    : task_(task), stimulusEndNs_(stimulusEndNs) {}
+
+std::string QuestionScreen::name() const {
+  return step_ == Step::Answer ? "question" : step_ == Step::Severity ? "severity" : "confidence";
+}
+
+bool QuestionScreen::timedOut(int64_t nowNs, double timeoutS) const {
+  return timeoutS > 0 && step_ == Step::Answer && shownNs() && secondsBetween(*shownNs(), nowNs) > timeoutS;
+}
+
+Page QuestionScreen::build(int64_t) const {
+  Page page;
+  switch (step_) {
+    case Step::Answer:
+      page.question = questionOf(task_);
+      page.buttons = answerButtons(task_);
+      page.columns = answerColumns(task_);
+      break;
+    case Step::Severity:
+      page.question = task_.severity->question;
+      page.buttons = scaleButtons(*task_.severity);
+      break;
+    case Step::Confidence:
+      page.question = task_.confidence->question;
+      page.buttons = scaleButtons(*task_.confidence);
+      break;
+  }
+  return page;
+}
+
+void QuestionScreen::pressed(int id, const Input& input) {
+  const double sinceShownS = secondsBetween(*shownNs(), input.timeNs);
+  switch (step_) {
+    case Step::Answer:
+      choice_ = id;
+      answer_.answer = task_.answers[static_cast<size_t>(id)];
+      answer_.questionNs = *shownNs();
+      answer_.answeredNs = input.timeNs;
+      answer_.reactionTimeS = secondsBetween(std::max(stimulusEndNs_, *shownNs()), input.timeNs);
+      answer_.device = toText(input.device);
+      break;
+    case Step::Severity:
+      answer_.severity = id + 1;
+      answer_.extra["severity_reaction_time_s"] = sinceShownS;
+      break;
+    case Step::Confidence:
+      answer_.confidence = id + 1;
+      answer_.extra["confidence_reaction_time_s"] = sinceShownS;
+      break;
+  }
+  next();
+}
+
+void QuestionScreen::next() {
+  if (step_ == Step::Answer && asksSeverity(task_, choice_))
+    step_ = Step::Severity;
+  else if (step_ != Step::Confidence && task_.confidence)
+    step_ = Step::Confidence;
+  else
+    return finish();
+  turn();
+}
+
+}  // namespace limen::study

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "study/application/page_screen.h"
+#include "study/protocol/protocol.h"
+
+namespace limen::study {
+
+/// A text to read, left with one button.
+class TextScreen : public PageScreen {
+ public:
+  struct Setting {
+    std::string name, title, text;
+    std::string button = "Continue";
+    double atLeastS = 0.0;   ///< counted from when it was first shown
+    double progress = -1.0;  ///< see Page
+    std::string footer;
+  };
+  explicit TextScreen(Setting setting) : setting_(std::move(setting)) {}
+  std::string name() const override { return setting_.name; }
+
+ protected:
+  Page build(int64_t nowNs) const override;
+  void pressed(int id, const Input& input) override;
+
+ private:
+  Setting setting_;
+};
+
+/// Must be read to its end and agreed to; declining is asked back once.
+class ConsentScreen : public PageScreen {
+ public:
+  explicit ConsentScreen(std::string text) : text_(std::move(text)) {}
+  std::string name() const override { return declining_ ? "consent_declined" : "consent"; }
+  bool agreed() const { return agreed_; }
+
+ protected:
+  Page build(int64_t nowNs) const override;
+  void pressed(int id, const Input& input) override;
+
+ private:
+  std::string text_;
+  bool declining_ = false, agreed_ = false;
+};
+
+/// Asks one thing after the other, choices only, and shows all choices before they are taken.
+class FormScreen : public PageScreen {
+ public:
+  explicit FormScreen(std::vector<FormField> fields) : fields_(std::move(fields)) {}
+  std::string name() const override { return reviewing() ? "form_review" : "form"; }
+  /// Field -> choice.
+  nlohmann::json answers() const;
+
+ protected:
+  Page build(int64_t nowNs) const override;
+  void pressed(int id, const Input& input) override;
+
+ private:
+  bool reviewing() const { return chosen_.size() == fields_.size(); }
+  std::vector<FormField> fields_;
+  std::vector<size_t> chosen_;
+};
+
+/// The session rests: go on, or stop after a second question.
+class PauseScreen : public PageScreen {
+ public:
+  enum class Choice { Continue, StopForNow, End };
+  explicit PauseScreen(std::string text, std::string reason = {})
+      : text_(std::move(text)), reason_(std::move(reason)) {}
+  std::string name() const override { return stopping_ ? "pause_stop" : "pause"; }
+  Choice choice() const { return choice_; }
+
+ protected:
+  Page build(int64_t nowNs) const override;
+  void pressed(int id, const Input& input) override;
+
+ private:
+  std::string text_, reason_;
+  bool stopping_ = false;
+  Choice choice_ = Choice::Continue;
+};
+
+}  // namespace limen::study

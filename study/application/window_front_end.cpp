@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/application/window_front_end.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/image.h"
+#include "base/interrupt.h"
+#include "renderer/gl/window_context.h"
+#include "study/application/question.h"
+#include "study/application/screens.h"
+
+namespace limen::study {
+namespace {
+
+// How long is waited for an input before clocks are looked at again.
+constexpr double kPollS = 0.05;
+// A window that was covered may have lost what it showed, and not every system says so.
+constexpr int64_t kRedrawAnywayNs = 1'000'000'000;
+// Preparation that takes longer is explained.
+constexpr int64_t kPatienceNs = 1'500'000'000;
+constexpr double kFeedbackS = 1.0;
+
+std::string keyName(const Input& input) {
+  if (input.device == Device::Mouse) return "mouse";
+  if (input.key > ' ' && input.key < 0x7F) return {static_cast<char>(input.key)};
+  switch (input.key) {
+    case kKeyLeft:
+    case kPadLeft:
+      return "left";
+    case kKeyRight:
+    case kPadRight:
+      return "right";
+    case kKeyUp:
+    case kPadUp:
+      return "up";
+    case kKeyDown:
+    case kPadDown:
+      return "down";
+    case kKeyEnter:
+      return "enter";
+    case kKeySpace:
+      return "space";
+    case kKeyBackspace:
+      return "backspace";
+    case kPadAccept:
+      return "accept";
+    case kPadBack:
+      return "back";
+    case kPadStart:
+      return "start";
+    default:
+      return "other";
+  }
+}
+
+// One word or two in the middle for a moment.
+class FeedbackPage : public PageScreen {
+ public:
+  explicit FeedbackPage(bool correct) : correct_(correct) {}
+  std::string name() const override { return "feedback"; }
+  bool over(int64_t nowNs) const {
+    return shownNs() && static_cast<double>(nowNs - *shownNs()) * 1e-9 >= kFeedbackS;
+  }
+
+ protected:
+  Page build(int64_t) const override {
+    Page page;
+    page.question = correct_ ? "Right" : "Not right";
+    return page;
+  }
+  void pressed(int, const Input&) override {}
+
+ private:
+  bool correct_;
+};
+
+}  // namespace
+
+WindowFrontEnd::WindowFrontEnd(UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
+                               ExperimenterWindow* experimenter, Setting setting)
+    : window_(window),
+      player_(player),
+      watch_(watch),
+      experimenter_(experimenter),
+      setting_(std::move(setting)) {
+  if (!setting_.screenshots.empty()) std::filesystem::create_directories(setting_.screenshots);
+}
+
+PageStyle WindowFrontEnd::style() const {
+  return {window_.fonts(), window_.scale(), setting_.background, window_.gamepadPresent()};
+}
+
+void WindowFrontEnd::announce(const std::string& name) {
+  if (setting_.announce) setting_.announce("screen: " + name);
+}
+
+void WindowFrontEnd::screenshot(const std::string& name) {
+  if (setting_.screenshots.empty()) return;
+  const std::string file =
+      fmt::format("{}/{:04}_{}_{}.png", setting_.screenshots, screenshots_++, name, ++screenshotsOf_[name]);
+  writePng(file, window_.readBack());
+}
+
+bool WindowFrontEnd::stopAsked() {
+  if (!stopReason_.empty()) return true;
+  if (interruptSignal() != 0) stopReason_ = "asked to stop by a signal";
+  if (window_.contextLost()) stopReason_ = "the graphics driver was reset";
+  return !stopReason_.empty();
+}
+
+WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function<bool()>& timedOut) {
+  window_.hideCursor(false);
+  screen.hidden();
+  watch_.setScreen(screen.name());
+  PageLayout layout;
+  glm::vec2 cursor(0);
+  int64_t drawnNs = 0;
+  bool draw = true;
+  while (!screen.done()) {
+    if (stopAsked()) return Left::StopForNow;
+    if (experimenter_) experimenter_->tick(watch_, notes_);
+    if (experimenter_ && experimenter_->takeAbort()) return Left::End;
+    if (timedOut && timedOut()) return Left::TimedOut;
+    // Nothing is drawn while nothing changes, so that no input waits for a frame before it gets its time.
+    const Page page = screen.page(steadyNs());
+    const bool fresh = screen.isNew(), moved = window_.cursorPx() != cursor, counts = !page.status.empty();
+    if (draw || fresh || moved || counts || steadyNs() - drawnNs > kRedrawAnywayNs) {
+      cursor = window_.cursorPx();
+      window_.draw(setting_.background,
+                   [&] { layout = drawPage(page, glm::vec2(window_.sizePx()), cursor, style()); });
+      if (layout.textPages != page.textPages.count) {
+        screen.setTextPages(layout.textPages);
+        continue;
+      }
+      if (fresh) screenshot(screen.name());
+      drawnNs = window_.show(fresh ? 1 : 0);
+      if (fresh) {
+        screen.shown(drawnNs);
+        announce(screen.name());
+      }
+    }
+    window_.poll(kPollS);
+    window_.takeLoss();  // nothing is missed by seeing a page later
+    const std::vector<Input> inputs = window_.takeInputs();
+    draw = !inputs.empty();
+    const int turns = screen.turns();
+    for (const Input& input : inputs) {
+      if (input.key == kKeyEscape) return Left::Paused;
+      if (screen.turns() == turns) screen.take(input, layout.targets);
+    }
+    if (window_.takeCloseRequest()) return Left::Paused;
+  }
+  return Left::Done;
+}
+
+WindowFrontEnd::Left WindowFrontEnd::pause(const std::string& reason) {
+  PauseScreen page(pauseText_, reason);
+  watch_.rested();
+  const Left left = run(page);
+  watch_.rested();
+  if (left != Left::Done) return left == Left::Paused ? Left::Done : left;  // Esc goes on again
+  switch (page.choice()) {
+    case PauseScreen::Choice::StopForNow:
+      return Left::StopForNow;
+    case PauseScreen::Choice::End:
+      return Left::End;
+    case PauseScreen::Choice::Continue:
+      break;
+  }
+  return Left::Done;
+}
+
+ScreenResult WindowFrontEnd::show(const Screen& screen, const Session& session) {
+  pauseText_ = session.protocol().texts.pause;
+  watch_.progress(session.trialsDone(), session.trialsInAll());
+  watch_.rested();
+  const std::unique_ptr<PageScreen> page = pageFor(screen, session);
+  Left left = run(*page);
+  while (left == Left::Paused && (left = pause({})) == Left::Done) left = run(*page);
+  ScreenResult result;
+  result.note = notes_.take();
+  if (left == Left::End) result.outcome = Outcome::Aborted;
+  if (left == Left::StopForNow) result.outcome = Outcome::Paused;
+  if (left != Left::Done) return result;
+  if (const auto* consent = dynamic_cast<const ConsentScreen*>(page.get())) {
+    result.answers = {{"consent", consent->agreed()}};
+    if (!consent->agreed()) result.outcome = Outcome::Aborted;
+  }
+  if (const auto* form = dynamic_cast<const FormScreen*>(page.get())) result.answers = form->answers();
+  return result;
+}
+
+void WindowFrontEnd::drawNeutral(bool fixation, const std::string& status) {
+  window_.draw(setting_.background, [&] {
+    const glm::vec2 size(window_.sizePx());
+    if (fixation) drawFixation(size, style());
+    Page page;
+    page.status = status;
+    if (!status.empty()) drawPage(page, size, {-1, -1}, style());
+  });
+}
+
+bool WindowFrontEnd::watchWindow() {
+  window_.poll();
+  for (const Input& input : window_.takeInputs()) {
+    if (input.key == kKeyEscape)
+      pauseAsked_ = true;
+    else
+      early_.push_back(input);
+  }
+  if (window_.takeCloseRequest()) pauseAsked_ = true;
+  if (const std::string loss = window_.takeLoss(); !loss.empty()) loss_ = loss;
+  return !pauseAsked_ && loss_.empty() && !stopAsked();
+}
+
+bool WindowFrontEnd::neutral(double seconds, bool fixation) {
+  if (seconds <= 0) return true;
+  drawNeutral(fixation, {});
+  if (fixation) screenshot("fixation");
+  const int64_t end = window_.show() + static_cast<int64_t>(seconds * 1e9);
+  if (fixation) announce("fixation");
+  while (steadyNs() < end) {
+    window_.poll(std::min(static_cast<double>(end - steadyNs()) * 1e-9, kPollS));
+    if (!watchWindow()) return false;
+  }
+  return true;
+}
+
+bool WindowFrontEnd::lead(const Trial& trial, const Session& session) {
+  const Timing& timing = session.protocol().timing;
+  const int64_t start = steadyNs();
+  drawNeutral(false, {});
+  window_.show();
+  bool told = false;
+  player_.prepare(trial, session, [&] {
+    watchWindow();
+    if (told || steadyNs() - start < kPatienceNs) return;
+    drawNeutral(false, "One moment, please");
+    screenshot("wait");
+    window_.show(0);
+    told = true;
+  });
+  const double rest = timing.betweenTrialsS - static_cast<double>(steadyNs() - start) * 1e-9;
+  return watchWindow() && neutral(rest, false) && neutral(timing.fixationS, true) &&
+         neutral(timing.afterFixationS, false);
+}
+
+TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) {
+  pauseText_ = session.protocol().texts.pause;
+  watch_.progress(session.trialsDone(), session.trialsInAll());
+  watch_.began(trial, steadyNs());
+  TrialResult result = attempt(trial, session);
+  watch_.ended(result, steadyNs());
+  return result;
+}
+
+TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) {
+  window_.hideCursor(true);
+  // Until the stimulus begins nothing is lost by a pause: the way to it is gone again.
+  for (forget(); !lead(trial, session); forget()) {
+    if (const Left left = afterStop(); left != Left::Done) return stopped(left);
+    window_.hideCursor(true);
+  }
+  early_.clear();
+  announce("stimulus");
+  const PlayResult played = player_.play([this] { return watchWindow(); });
+  TrialResult result;
+  result.frames = played.frames;
+  if (played.stopped || !loss_.empty() || pauseAsked_ || stopAsked()) {
+    result.outcome = Outcome::Invalid;
+    result.reason = loss_.empty() ? "paused in the middle" : "window lost: " + loss_;
+    const Left left = afterStop();
+    return left == Left::Done ? result : stopped(left, result);
+  }
+  QuestionScreen question(session.protocol().parts.at(static_cast<size_t>(trial.plan.part)).task,
+                          played.endNs);
+  const double timeoutS = session.protocol().timing.answerTimeoutS;
+  Left left = run(question, [&] { return question.timedOut(steadyNs(), timeoutS); });
+  if (left == Left::Done && played.invalid.empty()) {
+    result.answer = question.answer();
+    for (const Input& input : early_)
+      result.answer->extra["early_inputs"].push_back(
+          {{"key", keyName(input)},
+           {"device", toText(input.device)},
+           {"before_question_s", static_cast<double>(result.answer->questionNs - input.timeNs) * 1e-9}});
+    return result;
+  }
+  result.outcome = Outcome::Invalid;
+  result.reason = left == Left::TimedOut ? "no answer in time"
+                  : left == Left::Paused ? "paused in the middle"
+                                         : played.invalid;
+  if (left == Left::Paused) left = pause({});
+  return left == Left::Done || left == Left::TimedOut ? result : stopped(left, result);
+}
+
+void WindowFrontEnd::forget() {
+  early_.clear();
+  loss_.clear();
+  pauseAsked_ = false;
+}
+
+WindowFrontEnd::Left WindowFrontEnd::afterStop() {
+  if (stopAsked()) return Left::StopForNow;
+  return pause(loss_.empty() ? std::string() : "The picture could not be shown: " + loss_ + ".");
+}
+
+TrialResult WindowFrontEnd::stopped(Left left, TrialResult result) const {
+  result.outcome = left == Left::End ? Outcome::Aborted : Outcome::Paused;
+  if (result.reason.empty()) result.reason = stopReason_;
+  return result;
+}
+
+void WindowFrontEnd::feedback(bool correct) {
+  FeedbackPage page(correct);
+  run(page, [&] { return page.over(steadyNs()); });
+}
+
+nlohmann::json WindowFrontEnd::environment() const {
+  const gl::DeviceInfo& device = window_.context().device();
+  const UiMonitor monitor = window_.monitor();
+  const glm::ivec2 size = window_.sizePx();
+  nlohmann::json facts = {{"front_end", "window"},
+                          {"gpu", device.renderer},
+                          {"opengl", device.version},
+                          {"software_renderer", device.software},
+                          {"window_system", window_.windowSystem()},
+                          {"monitor", monitor.name},
+                          {"monitor_width_px", monitor.sizePx.x},
+                          {"monitor_height_px", monitor.sizePx.y},
+                          {"monitor_refresh_hz", monitor.refreshHz},
+                          {"window_width_px", size.x},
+                          {"window_height_px", size.y},
+                          {"full_screen", setting_.fullScreen},
+                          {"scale", window_.scale()}};
+  facts.update(player_.environment());
+  facts.update(setting_.facts);
+  return facts;
+}
+
+}  // namespace limen::study

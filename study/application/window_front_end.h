@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "study/application/experimenter.h"
+#include "study/application/page_screen.h"
+#include "study/application/page_view.h"
+#include "study/application/stimulus_player.h"
+#include "study/application/ui_window.h"
+#include "study/session/front_end.h"
+
+namespace limen::study {
+
+/// The session's front end for people: screens, stimuli and questions in a window. Whatever happens to the
+/// window ends in an outcome that the session can log: a stimulus that could not be seen makes the trial
+/// invalid and leads to a pause, a request to stop (a signal, the window closed, the graphics context lost)
+/// to a session that can be taken up again.
+class WindowFrontEnd : public FrontEnd {
+ public:
+  struct Setting {
+    glm::vec3 background{0.25F};  ///< values of the screen
+    bool fullScreen = false;
+    nlohmann::json facts = nlohmann::json::object();  ///< added to environment()
+    /// Told "screen: NAME" when a page is on the screen, and "screen: stimulus" when one begins.
+    std::function<void(const std::string& line)> announce;
+    std::string screenshots;  ///< folder for a PNG of every page; "" none
+  };
+
+  /// All must outlive it; `experimenter` may be null.
+  WindowFrontEnd(UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
+                 ExperimenterWindow* experimenter, Setting setting);
+
+  ScreenResult show(const Screen& screen, const Session& session) override;
+  TrialResult present(const Trial& trial, const Session& session) override;
+  void feedback(bool correct) override;
+  nlohmann::json environment() const override;
+  /// Why the session stopped although nobody on the screen asked for it; "" otherwise.
+  const std::string& stopReason() const { return stopReason_; }
+
+ private:
+  enum class Left { Done, TimedOut, Paused, StopForNow, End };
+  Left run(PageScreen& screen, const std::function<bool()>& timedOut = {});
+  Left pause(const std::string& reason);
+  bool stopAsked();
+  /// Takes what happened to the window while nobody is asked; false: stop what is shown.
+  bool watchWindow();
+  void forget();
+  Left afterStop();
+  TrialResult stopped(Left left, TrialResult result = {}) const;
+  void drawNeutral(bool fixation, const std::string& status);
+  bool neutral(double seconds, bool fixation);
+  /// All that comes before the stimulus.
+  bool lead(const Trial& trial, const Session& session);
+  TrialResult attempt(const Trial& trial, const Session& session);
+  PageStyle style() const;
+  void announce(const std::string& name);
+  void screenshot(const std::string& name);
+
+  UiWindow& window_;
+  StimulusPlayer& player_;
+  SessionWatch& watch_;
+  ExperimenterWindow* experimenter_;
+  Setting setting_;
+  NoteBox notes_;
+  std::string stopReason_, pauseText_;
+  // Since the present trial began.
+  std::string loss_;
+  bool pauseAsked_ = false;
+  std::vector<Input> early_;
+
+  int screenshots_ = 0;
+  std::map<std::string, int> screenshotsOf_;
+};
+
+/// Page for a screen of the session.
+std::unique_ptr<PageScreen> pageFor(const Screen& screen, const Session& session);
+
+}  // namespace limen::study

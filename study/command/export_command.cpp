@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "study/command/commands.h"
+#include "study/export/export.h"
+#include "study/export/pseudonyms.h"
+
+namespace limen::study {
+
+void addExportCommand(CLI::App& app, Run&) {
+  CLI::App* command = app.add_subcommand("export", "Writes sessions as tables for other programs");
+  auto request = std::make_shared<ExportRequest>();
+  command->add_option("store", request->store, "Result store with sessions")->required();
+  command->add_option("-o,--output", request->folder, "Folder to make")->required();
+  static const std::map<std::string, ExportFormat> kFormats = {
+      {"csv", ExportFormat::Csv}, {"bids", ExportFormat::Bids}, {"psych-ds", ExportFormat::PsychDs}};
+  command
+      ->add_option("--format", request->formats, "csv, bids or psych-ds, several are possible (default: csv)")
+      ->transform(CLI::CheckedTransformer(kFormats));
+  command->add_option("--protocol", request->protocol, "Only sessions of this protocol (name or SHA-256)");
+  command->add_flag("--frames", request->frames, "Frame logs too");
+  command->add_flag("--codes", request->codes,
+                    "Participant codes instead of pseudonyms: for the lab's own use");
+  command->callback([request] {
+    if (request->formats.empty()) request->formats = {ExportFormat::Csv};
+    for (const std::string& file : writeExport(*request))
+      std::printf("%s/%s\n", request->folder.c_str(), file.c_str());
+    if (!request->codes)
+      std::printf("who is who: %s (keep it apart from the export)\n", keyFileOf(request->store).c_str());
+  });
+}
+
+}  // namespace limen::study

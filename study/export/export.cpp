@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/export/export.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "study/export/pseudonyms.h"
+
+namespace limen::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Two names that give the same label would write one file over the other.
+void requireDistinct(const std::vector<ExportedSession>& sessions) {
+  std::map<std::string, std::string> files;
+  for (const ExportedSession& session : sessions) {
+    const std::string own = session.subject + " " + session.name;
+    const auto [entry, fresh] = files.emplace(label(session.subject) + " " + label(session.name), own);
+    if (!fresh)
+      throw Error(
+          "'" + entry->second + "' and '" + own + "' have the same letters and digits, and so the same file",
+          {}, "export CSV, or leave --codes out");
+  }
+}
+
+std::string folderName(ExportFormat format) {
+  return format == ExportFormat::Csv ? "csv" : format == ExportFormat::Bids ? "bids" : "psych_ds";
+}
+
+Files filesOf(ExportFormat format, const std::vector<ExportedSession>& sessions, bool frames) {
+  switch (format) {
+    case ExportFormat::Bids:
+      requireDistinct(sessions);
+      return bidsFiles(sessions, frames);
+    case ExportFormat::PsychDs:
+      requireDistinct(sessions);
+      return psychDsFiles(sessions, frames);
+    case ExportFormat::Csv:
+      break;
+  }
+  return csvFiles(sessions, frames);
+}
+
+}  // namespace
+
+std::vector<ExportedSession> loadSessions(const ExportRequest& request) {
+  const store::SessionReader reader(request.store);
+  std::vector<ExportedSession> out;
+  std::vector<std::string> codes, protocols;
+  for (const store::StudySession& session : reader.sessions()) {
+    const store::StudyProtocol protocol = reader.protocol(session.protocol);
+    protocols.push_back(protocol.name);
+    if (!request.protocol.empty() && request.protocol != protocol.name && request.protocol != protocol.hash)
+      continue;
+    codes.push_back(session.participant);
+    ExportedSession one;
+    one.subject = session.participant;
+    one.name = session.name;
+    one.protocolName = protocol.name;
+    one.protocolTitle = protocol.title;
+    one.protocolHash = protocol.hash;
+    one.displayHash = session.display;
+    one.displayName = reader.display(session.display).name;
+    one.state = session.state;
+    one.programVersion = session.programVersion;
+    one.seed = session.seed;
+    if (session.form.is_object()) one.form = session.form;
+    one.trials = reader.trials(session.id, true);
+    const std::vector<store::StudyEvent> events = reader.events(session.id);
+    const std::vector<double> times = eventTimesS(events);
+    for (const store::StudyTrial& trial : one.trials) {
+      const auto start = static_cast<size_t>(trial.event);
+      one.startS.push_back(times[start]);
+      double end = -1.0;
+      for (size_t i = start + 1; i < events.size() && end < 0.0; ++i)
+        if (events[i].kind == "answered" || events[i].kind == "trial_invalid") end = times[i];
+      one.endS.push_back(trial.valid ? end : -1.0);
+    }
+    out.push_back(std::move(one));
+  }
+  if (protocols.empty())
+    throw Error("holds no sessions", request.store, "run or simulate a study into it first");
+  if (out.empty()) {
+    std::sort(protocols.begin(), protocols.end());
+    protocols.erase(std::unique(protocols.begin(), protocols.end()), protocols.end());
+    throw Error("no session of a protocol '" + request.protocol + "'", request.store,
+                suggest(request.protocol, protocols));
+  }
+  if (!request.codes) {
+    Pseudonyms pseudonyms(keyFileOf(request.store));
+    pseudonyms.assign(codes);
+    for (ExportedSession& session : out) session.subject = pseudonyms.of(session.subject);
+  }
+  std::sort(out.begin(), out.end(), [](const ExportedSession& a, const ExportedSession& b) {
+    return std::tie(a.subject, a.name) < std::tie(b.subject, b.name);
+  });
+  return out;
+}
+
+std::vector<std::string> writeExport(const ExportRequest& request) {
+  std::error_code error;
+  if (fs::exists(request.folder) && !fs::is_empty(request.folder, error))
+    throw Error("is not an empty folder", request.folder, "name a new one; exports never overwrite");
+  const std::vector<ExportedSession> sessions = loadSessions(request);
+  std::vector<std::string> written;
+  for (const ExportFormat format : request.formats) {
+    const std::string prefix = request.formats.size() > 1 ? folderName(format) + "/" : "";
+    for (const auto& [path, content] : filesOf(format, sessions, request.frames)) {
+      const fs::path file = fs::path(request.folder) / (prefix + path);
+      fs::create_directories(file.parent_path(), error);
+      std::ofstream out(file, std::ios::binary);
+      out << content;
+      out.close();
+      if (!out)
+        throw Error("cannot be written", file.string(), "check the folder's rights and its free space");
+      written.push_back(prefix + path);
+    }
+  }
+  return written;
+}
+
+}  // namespace limen::study

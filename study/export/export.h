@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/export/trial_table.h"
+
+namespace limen::study {
+
+enum class ExportFormat {
+  Csv,     ///< trials.csv, participants.csv, frames.csv, dictionary.json
+  Bids,    ///< Brain Imaging Data Structure 1.9: behavioural events, one file a session
+  PsychDs  ///< Psych-DS 1.0: one CSV a session and a schema.org description
+};
+
+struct ExportRequest {
+  std::string store, folder;          ///< the folder must not exist, or be empty
+  std::vector<ExportFormat> formats;  ///< several: each in a folder of its own ("csv", "bids", "psych_ds")
+  bool codes = false;                 ///< participant codes instead of pseudonyms
+  bool frames = false;                ///< frame logs too
+  std::string protocol;               ///< name or hash; "": all
+};
+
+/// Sessions of a store without what could tell who somebody is. Throws Error: no sessions, no such protocol.
+std::vector<ExportedSession> loadSessions(const ExportRequest& request);
+
+/// Writes an export; returns the files' paths relative to the folder. Nothing is overwritten. Throws Error.
+std::vector<std::string> writeExport(const ExportRequest& request);
+
+/// Content of the files of a format by relative path.
+using Files = std::vector<std::pair<std::string, std::string>>;
+Files csvFiles(const std::vector<ExportedSession>& sessions, bool frames);
+Files bidsFiles(const std::vector<ExportedSession>& sessions, bool frames);
+Files psychDsFiles(const std::vector<ExportedSession>& sessions, bool frames);
+
+}  // namespace limen::study

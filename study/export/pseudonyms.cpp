@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/export/pseudonyms.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <random>
+#include <set>
+
+#include "base/error.h"
+#include "psychometrics/random.h"
+
+namespace limen::study {
+namespace {
+
+constexpr const char* kHeader = "participant,pseudonym";
+
+void writeForOwner(const std::string& path, const std::string& text) {
+  const std::string fresh = path + ".new";
+  const int file = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  bool good = file >= 0;
+  for (size_t done = 0; good && done < text.size();) {
+    const ssize_t written = write(file, text.data() + done, text.size() - done);
+    good = written > 0;
+    if (good) done += static_cast<size_t>(written);
+  }
+  good = good && fsync(file) == 0;
+  if (file >= 0) close(file);
+  if (!good || rename(fresh.c_str(), path.c_str()) != 0)
+    throw Error("the key table cannot be written", path, "check the folder's rights and its free space");
+}
+
+}  // namespace
+
+std::string keyFileOf(const std::string& store) { return store + ".key.csv"; }
+
+Pseudonyms::Pseudonyms(const std::string& keyFile) : file_(keyFile) {
+  std::ifstream in(keyFile);
+  if (!in) return;
+  std::string line;
+  std::set<std::string> taken;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line == kHeader) continue;
+    const size_t comma = line.find(',');
+    const std::string where = keyFile + ":" + std::to_string(number);
+    if (number == 1 || comma == std::string::npos || comma == 0 || comma + 1 == line.size())
+      throw Error("not a line of a key table: '" + line + "'", where, "restore the file from a copy");
+    if (!known_.emplace(line.substr(0, comma), line.substr(comma + 1)).second ||
+        !taken.insert(line.substr(comma + 1)).second)
+      throw Error("a code or pseudonym stands twice", where, "restore the file from a copy");
+  }
+}
+
+void Pseudonyms::assign(std::vector<std::string> codes) {
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  std::erase_if(codes, [this](const std::string& code) { return known_.count(code) != 0; });
+  if (codes.empty()) return;
+  // Not to be found out again from anything that is exported: no seed is kept, the file is.
+  std::random_device device;
+  psychometrics::Random random((uint64_t{device()} << 32) ^ device());
+  random.shuffle(codes);
+  std::set<std::string> taken;
+  for (const auto& [code, pseudonym] : known_) taken.insert(pseudonym);
+  int next = 1;
+  for (const std::string& code : codes) {
+    std::string pseudonym;
+    do pseudonym = fmt::format("P{:03}", next++);
+    while (taken.count(pseudonym));
+    known_[code] = pseudonym;
+  }
+  std::string text = fmt::format("{}\n", kHeader);
+  for (const auto& [code, pseudonym] : known_) text += fmt::format("{},{}\n", code, pseudonym);
+  writeForOwner(file_, text);
+}
+
+const std::string& Pseudonyms::of(const std::string& code) const { return known_.at(code); }
+
+std::string ageBin(const std::string& age) {
+  int years = 0;
+  const auto [end, error] = std::from_chars(age.data(), age.data() + age.size(), years);
+  if (error != std::errc() || end != age.data() + age.size() || years < 0 || years > 120) return age;
+  return years < 18    ? "under 18"
+         : years >= 80 ? "80 or more"
+                       : fmt::format("{}-{}", years < 20 ? 18 : years / 10 * 10, years / 10 * 10 + 9);
+}
+
+}  // namespace limen::study

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace limen::study {
+
+/// Which pseudonym stands for which participant code. The table lies in a file of its own beside the store
+/// ("STORE.key.csv", readable by its owner alone) and is never part of an export: whoever has both can tell
+/// who is who.
+class Pseudonyms {
+ public:
+  /// Reads the file if there is one. Throws Error on a damaged one.
+  explicit Pseudonyms(const std::string& keyFile);
+
+  /// Gives every code that has none yet a pseudonym P001, P002 ... in an order that says nothing about that
+  /// of the sessions, and writes the file. Pseudonyms given before stay. Throws Error if it cannot be
+  /// written.
+  void assign(std::vector<std::string> codes);
+  const std::string& of(const std::string& code) const;
+
+ private:
+  std::string file_;
+  std::map<std::string, std::string> known_;
+};
+
+std::string keyFileOf(const std::string& store);
+
+/// A decade: "20-29" of "23"; text that is no whole number from 0 to 120 (a bin already) stays as it is.
+std::string ageBin(const std::string& age);
+
+}  // namespace limen::study

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/observers/decision.h"
+#include "study/observers/observer_kind.h"
+#include "study/observers/simulation.h"
+#include "study/session/session.h"
+
+namespace limen::study {
+
+/// What a vision model says of a stimulus.
+struct StimulusPrediction {
+  double rating = 0.0;   ///< R of the region rated highest; without a region below all that one can have
+  bool popping = false;  ///< there is a region
+};
+class StimulusModel {
+ public:
+  virtual ~StimulusModel() = default;
+  /// Of the trial's stimulus `which`, shown at the procedure's variables `axes`. Throws Error if it cannot be
+  /// rendered.
+  virtual StimulusPrediction predict(const Trial& trial, const Variables& axes, size_t which) = 0;
+};
+
+struct ObserverResponse {
+  std::string answer;  ///< one of TaskSetting::answers
+  int outcome = 0;     ///< as Session::outcomeOf() has it
+  std::optional<int> severity, confidence;
+  double reactionTimeS = 0.0;
+  double detected = 0.0;     ///< F of this observer and trial; 0 without a change; Pairwise: not used
+  double probability = 0.0;  ///< of "yes", of a right answer, of item b, of more than the least rating
+  bool lapsed = false;
+};
+
+/// One simulated observer. What it is like is drawn from its seed, what it answers from each trial's seed: a
+/// trial is answered in the same way whatever came before it.
+///
+/// Rating gives the step that the evidence reaches; severity likewise from the evidence, and confidence from
+/// its distance from the criterion. Nothing seen, a guess and a lapse are the least of either.
+class SimulatedObserver {
+ public:
+  /// `model` may be missing where no condition needs one.
+  SimulatedObserver(const Simulation& simulation, const ObserverBehaviour& behaviour, uint64_t seed,
+                    StimulusModel* model = nullptr);
+
+  /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only where the model does. Throws Error
+  /// naming file and key if an expression cannot be evaluated or gives what is out of range.
+  ObserverResponse respond(const Trial& trial, const Variables& axes = {});
+
+  /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the least.
+  double probability(const Trial& trial, const Variables& axes = {});
+
+ private:
+  struct Sight;  // what a trial is to this observer
+  Sight look(const Trial& trial, const Variables& axes);
+  double detectedOf(const SimulationRules& rules, const Trial& trial, const Variables& axes);
+  double shiftOf(const SimulationRules& rules, const PlannedTrial& trial);
+  double valueOf(const SimulationRules& rules, const Trial& trial, const Variables& axes,
+                 const std::string& item, size_t which);
+
+  const Simulation& simulation_;
+  ObserverBehaviour behaviour_;
+  uint64_t seed_;
+  StimulusModel* model_;
+  double threshold_, width_, strength_, guess_, lapse_;  // standard normal each
+};
+
+}  // namespace limen::study

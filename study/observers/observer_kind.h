@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+#include "perception/popping/detection.h"
+
+namespace limen::study {
+
+/// How an observer departs from what the protocol's `simulation:` block says of its conditions.
+struct ObserverBehaviour {
+  bool fromModel = false;              ///< all conditions from the popping predictor
+  bool lapses = true;                  ///< false: the lapse rate is 0 whatever the block says
+  std::optional<double> guess, lapse;  ///< instead of the block's
+  double criterionShift = 0.0;         ///< in SD of the noise
+  double firstBias = 0.0;              ///< towards the first or left alternative, in SD of the noise
+  double strengthPerHundred = 0.0;     ///< added to the sigmoid's argument over 100 trials
+  double lapsePerHundred = 0.0;        ///< added to the lapse rate over 100 trials
+  double strengthSd = 0.0;             ///< over observers, beside the block's
+  perception::DetectionModel detection;
+  double valuePerRating = -1.0;  ///< Pairwise: scale value of a step of rating
+};
+
+struct ObserverKind {
+  static constexpr const char* kKind = "observer";
+  std::string name;
+  int version = 1;  ///< raised when the same settings give other answers
+  std::string summary;
+  std::vector<Parameter> parameters;
+  std::function<ObserverBehaviour(const ParameterValues&)> make;
+};
+
+/// "biased", "drifting", "ideal", "lapsing", "model", in this order.
+std::vector<const ObserverKind*> observerKinds();
+/// Throws Error with the nearest known name.
+const ObserverKind& observerKind(const std::string& name, const std::string& where = {});
+
+/// A kind with all its values.
+struct ObserverChoice {
+  std::string name;
+  int version = 1;
+  ParameterValues values;
+  ObserverBehaviour behaviour;
+};
+/// `settings`: texts "NAME=VALUE". Throws Error: unknown kind or name, a value that does not fit.
+ObserverChoice chooseObserver(const std::string& kind, const std::vector<std::string>& settings = {});
+/// {kind, version, parameters}
+nlohmann::json toJson(const ObserverChoice& choice);
+
+}  // namespace limen::study

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/observers/observer.h"
+
+namespace limen::study {
+
+struct PowerRequest {
+  std::vector<int> observers = {5, 10, 20, 40}, repetitions = {1, 2, 3, 5};
+  double confidence = 0.95;
+  /// Asked width of the intervals (upper minus lower end) of rates, and of thresholds in their own units;
+  /// without the latter thresholds are reported, not judged.
+  double width = 0.2;
+  std::optional<double> thresholdWidth;
+  double probability = 0.8;  ///< with which a condition's interval has to be as narrow
+  int simulations = 200;
+  uint64_t seed = 1;
+};
+
+/// One condition of one design. "Rate" is the share of change trials with "yes", of right answers, of ratings
+/// above the least, of choices of the second item.
+struct PowerCell {
+  std::string part;
+  std::map<std::string, std::string> condition;
+  bool threshold = false;  ///< false: rate
+  std::string unit;
+  double mean = 0.0;            ///< of the estimates over all simulated observers
+  double sdBetween = 0.0;       ///< root of the mean sample variance of the observers' values
+  double meanWidth = 0.0;       ///< expected width; infinite if an estimate was missing
+  double meanWidthError = 0.0;  ///< Monte Carlo standard error
+  double reached = 0.0;         ///< share of experiments with a width up to the asked one
+  double reachedError = 0.0;    ///< Monte Carlo standard error, binomial
+  double degenerate = 0.0;      ///< share in which all observers agreed: width 0, which says nothing
+};
+
+struct PowerDesign {
+  int observers = 0, repetitions = 0;
+  std::vector<PowerCell> cells;
+  bool judged = false;   ///< some cell has an asked width
+  size_t worst = 0;      ///< the cell that reaches it least often
+  bool reaches = false;  ///< the worst cell does with the asked probability
+  bool clear = false;    ///< and that probability is two standard errors off the asked one
+};
+
+struct PowerResult {
+  std::vector<PowerDesign> designs;  ///< by repetitions, then observers
+  std::optional<size_t> fewestObservers, fewestTrials;
+};
+
+/// Expected widths of Student's t intervals over observers of each condition's mean rate (and of the mean of
+/// adaptive procedures' threshold estimates), by simulation: per experiment `observers` observers are drawn
+/// and answer the protocol's trials with `repetitions` in place of its own (a procedure is run so often, its
+/// estimates averaged; constant stimuli count each stimulus as a condition). Designs share their observers
+/// and seeds, so that their differences are less noisy than their values. Catch trials and practice are left
+/// out. An experiment in which all observers gave the same rate has an interval of width 0: it counts as
+/// not reaching, since it knows nothing of the spread.
+/// `progress`: share done; returns true to stop (the result then has no designs).
+PowerResult simulatePower(const Protocol& protocol, const ObserverBehaviour& behaviour,
+                          const PowerRequest& request, StimulusModel* model = nullptr,
+                          const std::function<bool(double)>& progress = {});
+
+}  // namespace limen::study

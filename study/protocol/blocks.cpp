@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/protocol/blocks.h"
+
+#include <cassert>
+#include <numeric>
+
+#include "base/yaml_tree.h"
+#include "study/procedures/procedure.h"
+#include "study/protocol/conditions.h"
+
+namespace limen::study {
+namespace {
+
+using psychometrics::Random;
+
+void addAdaptive(PlannedBlock& block, PlannedTrial trial, int mostTrials, int catches) {
+  for (trial.repetition = 0; trial.repetition < mostTrials; ++trial.repetition) block.trials.push_back(trial);
+  trial.change = false;
+  for (trial.repetition = 0; trial.repetition < catches; ++trial.repetition) block.trials.push_back(trial);
+}
+
+void addConstant(const Part& part, PlannedBlock& block, PlannedTrial trial) {
+  const int changes = part.changeRepetitions;
+  if (const Factor* items = itemsOf(part)) {
+    for (const auto& [a, b] : pairsOf(*items))
+      for (trial.repetition = 0; trial.repetition < changes; ++trial.repetition)
+        for (trial.target = 0; trial.target < 2; ++trial.target) {
+          trial.condition["item_a"] = items->levels[a].name;
+          trial.condition["item_b"] = items->levels[b].name;
+          block.trials.push_back(trial);
+        }
+    return;
+  }
+  for (trial.repetition = 0; trial.repetition < changes; ++trial.repetition) block.trials.push_back(trial);
+  trial.change = false;
+  for (trial.repetition = 0; trial.repetition < part.catchRepetitions; ++trial.repetition)
+    block.trials.push_back(trial);
+}
+
+}  // namespace
+
+std::vector<PlannedBlock> unorderedBlocks(const Part& part, int partNumber, int firstProcedure) {
+  int mostTrials = 0;
+  if (part.procedure) mostTrials = *readProcedure(part.procedure->settings, "procedure").mostTrials;
+  std::vector<PlannedBlock> out;
+  const size_t blocks = part.blockBy.empty() ? 1 : part.blockLevels.size();
+  for (size_t i = 0; i < blocks; ++i)
+    out.push_back(
+        {partNumber, part.blockBy.empty() ? part.name : part.name + ": " + part.blockLevels[i], false, {}});
+
+  const std::vector<Condition> conditions = conditionsOf(part);
+  const auto count = static_cast<int>(conditions.size());
+  for (int c = 0; c < count; ++c) {
+    const Condition& condition = conditions[static_cast<size_t>(c)];
+    PlannedTrial trial;
+    trial.part = partNumber;
+    trial.condition = condition.levels;
+    trial.variables = condition.variables;
+    size_t block = 0;
+    while (!part.blockBy.empty() && part.blockLevels[block] != condition.levels.at(part.blockBy)) ++block;
+    if (part.procedure) {
+      trial.procedure = firstProcedure + c;
+      // Of n catch trials condition c has those from n c / count to n (c + 1) / count.
+      const int64_t n = part.catchRepetitions;
+      addAdaptive(out[block], trial, mostTrials, static_cast<int>(n * (c + 1) / count - n * c / count));
+    } else {
+      addConstant(part, out[block], trial);
+    }
+  }
+  return out;
+}
+
+std::vector<RunLimit> runLimits(const Part& part, const std::vector<PlannedTrial>& trials) {
+  std::vector<RunLimit> out;
+  for (const auto& [name, atMost] : part.trialOrder.atMostInARow) {
+    RunLimit limit{{}, atMost};
+    std::map<std::string, int> numbers;
+    for (const PlannedTrial& trial : trials) {
+      const std::string value = name == "change" ? (trial.change ? "1" : "0") : trial.condition.at(name);
+      limit.values.push_back(numbers.emplace(value, static_cast<int>(numbers.size())).first->second);
+    }
+    out.push_back(std::move(limit));
+  }
+  return out;
+}
+
+size_t trialCount(const Part& part) {
+  size_t out = 0;
+  for (const PlannedBlock& block : unorderedBlocks(part, 0, 0)) out += block.trials.size();
+  return out;
+}
+
+void setTargets(const Part& part, std::vector<PlannedTrial>& trials, uint64_t seed) {
+  if (part.task.type != Task::Interval && part.task.type != Task::Alternative) return;
+  const auto alternatives = static_cast<size_t>(part.task.alternatives);
+  Random random(seed);
+  std::map<std::string, std::vector<PlannedTrial*>> conditions;
+  for (PlannedTrial& trial : trials) conditions[nameOf(part, trial.condition)].push_back(&trial);
+  std::vector<int> deck;  // what is left over is dealt from here, without putting back until it is empty
+  for (auto& [name, ofCondition] : conditions) {
+    std::vector<int> targets;
+    while (targets.size() + alternatives <= ofCondition.size())
+      for (size_t a = 0; a < alternatives; ++a) targets.push_back(static_cast<int>(a));
+    const size_t full = targets.size();
+    std::vector<int> later;
+    while (targets.size() < ofCondition.size()) {
+      if (deck.empty()) {
+        deck.resize(alternatives);
+        std::iota(deck.begin(), deck.end(), 0);
+        random.shuffle(deck);
+      }
+      const int next = deck.back();
+      deck.pop_back();
+      bool fresh = true;  // no alternative is left over twice in one condition
+      for (size_t i = full; i < targets.size(); ++i) fresh = fresh && targets[i] != next;
+      (fresh ? targets : later).push_back(next);
+    }
+    deck.insert(deck.end(), later.begin(), later.end());
+    random.shuffle(targets);
+    for (size_t i = 0; i < targets.size(); ++i) ofCondition[i]->target = targets[i];
+  }
+}
+
+}  // namespace limen::study

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/protocol/node_reader.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace limen::study {
+
+using Kind = YamlNode::Kind;
+
+bool NodeReader::isMap(const YamlNode& node, const std::string& what, const std::string& example) {
+  if (node.kind == Kind::Map) return true;
+  problems_.add(node.mark, what + " is " + node.describe(), "write it as a map: " + example);
+  return false;
+}
+
+bool NodeReader::isFilledList(const YamlNode& node, const std::string& what, const std::string& example) {
+  if (node.kind != Kind::List)
+    problems_.add(node.mark, what + " is " + node.describe(), "write it as a list: " + example);
+  else if (node.items.empty())
+    problems_.add(node.mark, "the list of " + what + " is empty", "give at least one: " + example);
+  return node.kind == Kind::List && !node.items.empty();
+}
+
+void NodeReader::checkKeys(const YamlNode& map, const std::string& what,
+                           const std::vector<std::string>& known) {
+  for (const auto& [key, value] : map.members)
+    if (std::find(known.begin(), known.end(), key.text) == known.end())
+      problems_.add(key.mark, "unknown key '" + key.text + "' of " + what, suggest(key.text, known));
+}
+
+std::optional<ParameterValue> NodeReader::valueOf(const YamlNode& map, const Parameter& parameter) {
+  const YamlNode* node = map.find(parameter.name);
+  return node ? values_.value(*node, parameter) : std::nullopt;
+}
+
+void NodeReader::take(const YamlNode& map, const Parameter& parameter, double& out) {
+  if (const auto value = valueOf(map, parameter)) out = std::get<double>(*value);
+}
+
+void NodeReader::take(const YamlNode& map, const Parameter& parameter, int& out) {
+  if (const auto value = valueOf(map, parameter)) out = static_cast<int>(std::get<int64_t>(*value));
+}
+
+void NodeReader::take(const YamlNode& map, const Parameter& parameter, bool& out) {
+  if (const auto value = valueOf(map, parameter)) out = std::get<bool>(*value);
+}
+
+void NodeReader::takeChoice(const YamlNode& map, const Parameter& parameter, std::string& out) {
+  if (const auto value = valueOf(map, parameter)) out = std::get<std::string>(*value);
+}
+
+void NodeReader::takeText(const YamlNode& map, const std::string& key, bool required, std::string& out) {
+  const YamlNode* node = map.find(key);
+  if (!node && required) problems_.add(map.mark, "'" + key + "' is missing", "give it: text");
+  if (node) out = values_.text(*node, key).value_or("");
+}
+
+std::vector<std::string> NodeReader::texts(const YamlNode& node, const std::string& what,
+                                           const std::string& example) {
+  std::vector<std::string> out;
+  if (!isFilledList(node, what, example)) return out;
+  for (const YamlNode& item : node.items) {
+    const auto text = values_.text(item, "an entry of " + what);
+    if (!text) continue;
+    if (std::find(out.begin(), out.end(), *text) != out.end())
+      problems_.add(item.mark, what + " lists '" + *text + "' twice", "keep one");
+    else
+      out.push_back(*text);
+  }
+  return out;
+}
+
+}  // namespace limen::study

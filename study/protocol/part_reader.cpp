@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/protocol/part_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "study/protocol/conditions.h"
+#include "study/protocol/expression.h"
+#include "study/protocol/words.h"
+
+namespace limen::study {
+
+using Kind = YamlNode::Kind;
+
+const std::vector<std::string>& partKeys() {
+  static const std::vector<std::string> kKeys = {"task",   "stimulus",  "variables", "factors",
+                                                 "trials", "procedure", "blocks",    "order",
+                                                 "breaks", "practice",  "items"};
+  return kKeys;
+}
+
+OrderSetting readOrder(NodeReader& reader, const YamlNode& node, const std::string& key,
+                       const std::vector<std::string>& limits) {
+  OrderSetting out;
+  std::string kind = "shuffle";
+  if (node.kind == Kind::Scalar) {
+    if (const auto value = reader.values().value(node, choiceParameter(key, kind, orderNames(), "")))
+      out.kind = orderNamed(std::get<std::string>(*value));
+    return out;
+  }
+  if (!reader.isMap(node, "'" + key + "'", "{kind: shuffle, at_most_in_a_row: {change: 4}}")) return out;
+  reader.checkKeys(node, key, {"kind", "at_most_in_a_row"});
+  reader.takeChoice(node, choiceParameter("kind", kind, orderNames(), ""), kind);
+  out.kind = orderNamed(kind);
+  const YamlNode* runs = node.find("at_most_in_a_row");
+  if (!runs || !reader.isMap(*runs, "'at_most_in_a_row'", "{change: 4}")) return out;
+  if (out.kind != OrderKind::Shuffle)
+    reader.problems().add(runs->mark, "'at_most_in_a_row' goes with the order '" + kind + "'",
+                          "only 'shuffle' can keep to it");
+  if (limits.empty())
+    reader.problems().add(runs->mark, "'at_most_in_a_row' of '" + key + "'", "only 'order' has it");
+  else
+    reader.checkKeys(*runs, "at_most_in_a_row", limits);
+  for (const auto& [name, value] : runs->members)
+    if (const auto most =
+            reader.values().value(value, integerParameter(name.text, 1, 1, 1000000, "trials", "")))
+      out.atMostInARow[name.text] = static_cast<int>(std::get<int64_t>(*most));
+  return out;
+}
+
+std::optional<Scale> PartReader::readScale(const YamlNode& node, const std::string& key, bool always,
+                                           Part& out) {
+  if (!reader_.isMap(node, "'" + key + "'", "{question: ..., labels: [hardly, clearly]}")) return {};
+  std::vector<std::string> keys = {"question", "labels"};
+  if (always) keys.emplace_back("always");
+  reader_.checkKeys(node, key, keys);
+  Scale scale;
+  reader_.takeText(node, "question", true, scale.question);
+  if (const YamlNode* labels = node.find("labels")) {
+    scale.labels = reader_.texts(*labels, "'labels' of " + key, "[hardly, clearly]");
+    if (scale.labels.size() == 1)
+      reader_.problems().add(labels->mark, "a scale of one step", "give two to eleven labels");
+  } else {
+    reader_.problems().add(node.mark, "'labels' of " + key + " is missing", "give it: [hardly, clearly]");
+  }
+  if (always) reader_.take(node, booleanParameter("always", false, ""), out.task.severityAlways);
+  return scale;
+}
+
+void PartReader::readAnswers(const YamlNode& map, Part& out) {
+  TaskSetting& task = out.task;
+  static const char* const kOrdinals[] = {"first", "second",  "third",  "fourth", "fifth",
+                                          "sixth", "seventh", "eighth", "ninth"};
+  const auto count = static_cast<size_t>(task.alternatives);
+  if (task.type == Task::YesNo) {
+    task.answers = {"yes", "no"};
+  } else if (task.type == Task::Rating) {
+    task.answers = {"bad", "poor", "fair", "good", "excellent"};  // ITU-R BT.500
+  } else if (task.type == Task::Interval || (task.type == Task::Pairwise && !task.sideBySide)) {
+    task.answers.assign(kOrdinals, kOrdinals + count);
+  } else if (count == 2) {
+    task.answers = {"left", "right"};
+  } else {
+    for (size_t i = 0; i < count; ++i) task.answers.push_back(std::to_string(i + 1));
+  }
+  const YamlNode* node = map.find("answers");
+  if (!node) return;
+  const size_t expected = task.answers.size();
+  task.answers = reader_.texts(*node, "'answers'", "[yes, no]");
+  const bool rating = task.type == Task::Rating;
+  if (rating ? task.answers.size() < 2 || task.answers.size() > 11 : task.answers.size() != expected)
+    reader_.problems().add(
+        node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), toText(task.type)),
+        rating ? "a scale has two to eleven steps, the least first" : fmt::format("give {}", expected));
+}
+
+void PartReader::readTask(const YamlNode& map, Part& out) {
+  const std::string example = "{type: yes_no, question: ...}";
+  const YamlNode* node = map.find("task");
+  if (!node) {
+    reader_.problems().add(map.mark, "'task' is missing", "give it: " + example);
+    return;
+  }
+  if (!reader_.isMap(*node, "'task'", example)) return;
+  std::vector<std::string> keys = {"type", "question", "answers", "severity", "confidence"};
+  std::string type = "yes_no";
+  if (!node->find("type"))
+    reader_.problems().add(node->mark, "'type' of task is missing", "one of " + join(taskNames()));
+  reader_.takeChoice(*node, choiceParameter("type", type, taskNames(), ""), type);
+  TaskSetting& task = out.task;
+  task.type = taskNamed(type);
+  const bool several = task.type == Task::Interval || task.type == Task::Alternative;
+  if (several) keys.emplace_back("alternatives");
+  if (task.type == Task::Pairwise) keys.emplace_back("layout");
+  reader_.checkKeys(*node, "task '" + type + "'", keys);
+  if (several) reader_.take(*node, integerParameter("alternatives", 2, 2, 9, "", ""), task.alternatives);
+  if (task.type == Task::Pairwise) {
+    std::string layout = "side_by_side";
+    reader_.takeChoice(*node, choiceParameter("layout", layout, {"side_by_side", "one_after_the_other"}, ""),
+                       layout);
+    task.sideBySide = layout == "side_by_side";
+  }
+  reader_.takeText(*node, "question", true, task.question);
+  readAnswers(*node, out);
+  if (const YamlNode* severity = node->find("severity"))
+    task.severity = readScale(*severity, "severity", true, out);
+  if (const YamlNode* confidence = node->find("confidence"))
+    task.confidence = readScale(*confidence, "confidence", false, out);
+}
+
+void PartReader::readVariables(const YamlNode& node, const std::string& what, Variables& out) {
+  if (!reader_.isMap(node, what, "{speed: 1.5}")) return;
+  for (const auto& [key, value] : node.members) {
+    if (!isVariableName(key.text))
+      reader_.problems().add(key.mark, "'" + key.text + "' is no name of a variable",
+                             "a letter, then letters, digits and _");
+    else if (isExpression(value) || value.kind == Kind::Null)
+      reader_.problems().add(value.mark, "variable '" + key.text + "' is " + value.describe(),
+                             "give a value; expressions stand in 'stimulus'");
+    else
+      out[key.text] = toJson(value);
+  }
+}
+
+FactorLevel PartReader::readLevel(const std::string& factor, const YamlMember* named, const YamlNode& value) {
+  FactorLevel out;
+  if (named) {
+    out.name = named->key.text;
+    out.variables[factor] = toJson(named->key);
+    readVariables(value, "level '" + out.name + "' of factor '" + factor + "'", out.variables);
+  } else {
+    out.name = reader_.values().text(value, "a level of factor '" + factor + "'").value_or("");
+    if (isExpression(value))
+      reader_.problems().add(value.mark, "a level of factor '" + factor + "' is an expression",
+                             "give a value; expressions stand in 'stimulus'");
+    out.variables[factor] = toJson(value);
+  }
+  return out;
+}
+
+void PartReader::readFactors(const YamlNode& node, Part& out) {
+  Problems& problems = reader_.problems();
+  if (!reader_.isMap(node, "'factors'", "{distance: [4, 6, 9]}")) return;
+  for (const auto& [key, levels] : node.members) {
+    const std::string& name = key.text;
+    if (!isVariableName(name))
+      problems.add(key.mark, "'" + name + "' is no name of a factor", "a letter, then letters, digits and _");
+    for (const char* reserved : {"change", "item_a", "item_b"})
+      if (name == reserved) problems.add(key.mark, "a factor is called '" + name + "'", "take another name");
+    Factor factor{name, {}};
+    std::vector<Mark> marks;
+    if (levels.kind == Kind::Map) {
+      for (const YamlMember& level : levels.members) {
+        factor.levels.push_back(readLevel(name, &level, level.value));
+        marks.push_back(level.key.mark);
+      }
+      if (levels.members.empty())
+        problems.add(levels.mark, "factor '" + name + "' has no levels", "give two");
+    } else if (reader_.isFilledList(levels, "factor '" + name + "'", "[4, 6, 9]")) {
+      for (const YamlNode& level : levels.items) {
+        factor.levels.push_back(readLevel(name, nullptr, level));
+        marks.push_back(level.mark);
+      }
+    }
+    for (size_t i = 0; i < factor.levels.size(); ++i) {
+      const FactorLevel& level = factor.levels[i];
+      const bool twice = std::any_of(factor.levels.begin(), factor.levels.begin() + static_cast<long>(i),
+                                     [&](const FactorLevel& other) { return other.name == level.name; });
+      if (twice)
+        problems.add(marks[i], "factor '" + name + "' has level '" + level.name + "' twice", "keep one");
+      for (const auto& [variable, value] : factor.levels.front().variables)
+        if (!level.variables.count(variable))
+          problems.add(marks[i],
+                       fmt::format("level '{}' of factor '{}' sets no '{}'", level.name, name, variable),
+                       "all levels of a factor set the same variables");
+      for (const auto& [variable, value] : level.variables)
+        if (!factor.levels.front().variables.count(variable))
+          problems.add(marks[i],
+                       fmt::format("level '{}' of factor '{}' sets '{}', which '{}' does not", level.name,
+                                   name, variable, factor.levels.front().name),
+                       "all levels of a factor set the same variables");
+    }
+    if (!factor.levels.empty()) out.factors.push_back(std::move(factor));
+  }
+}
+
+void PartReader::readTrials(const YamlNode& map, Part& out) {
+  if (const YamlNode* node = map.find("trials"); node && reader_.isMap(*node, "'trials'", "{change: 3}")) {
+    reader_.checkKeys(
+        *node, "trials",
+        out.procedure ? std::vector<std::string>{"catch"} : std::vector<std::string>{"change", "catch"});
+    reader_.take(*node, integerParameter("change", 1, 1, 100000, "", ""), out.changeRepetitions);
+    reader_.take(*node, integerParameter("catch", 0, 0, 100000, "", ""), out.catchRepetitions);
+    if (out.catchRepetitions > 0 && out.task.type != Task::YesNo && out.task.type != Task::Rating)
+      reader_.problems().add(node->find("catch")->mark,
+                             "catch trials of a task '" + toText(out.task.type) + "'",
+                             "'yes_no' and 'rating' can have them; the others show what does not change in "
+                             "every trial");
+  }
+}
+
+void PartReader::readItems(const YamlNode& map, Part& out) {
+  Problems& problems = reader_.problems();
+  const YamlNode* node = map.find("items");
+  if (out.task.type != Task::Pairwise) {
+    if (node)
+      problems.add(node->mark, "'items' in a part with task '" + toText(out.task.type) + "'",
+                   "only 'pairwise' compares items");
+    return;
+  }
+  if (!node) {
+    problems.add(map.mark, "'items' is missing", "name the factor whose levels are compared");
+    return;
+  }
+  out.items = reader_.values().text(*node, "items").value_or("");
+  std::vector<std::string> names;
+  for (const Factor& factor : out.factors) names.push_back(factor.name);
+  const Factor* items = findFactor(out, out.items);
+  if (!items)
+    problems.add(node->mark, "no factor '" + out.items + "'", suggest(out.items, names));
+  else if (items->levels.size() < 2)
+    problems.add(node->mark, "factor '" + out.items + "' has one level", "two or more can be compared");
+}
+
+void PartReader::readProcedure(const YamlNode& node, Part& out) {
+  Problems& problems = reader_.problems();
+  out.procedure = ProcedureSetting{toJson(node), node.mark};
+  if (out.task.type == Task::Pairwise) {
+    problems.add(node.mark, "a 'procedure' in a part that compares pairs", "pairs are shown in full");
+    return;
+  }
+  try {
+    procedure_ = study::readProcedure(out.procedure->settings, "procedure");
+  } catch (const Error& error) {
+    // "procedure.parameters.threshold": as far as there are such keys.
+    Mark mark = node.mark;
+    const YamlNode* at = &node;
+    const std::string& path = error.where();
+    for (size_t begin = path.find('.'); begin != std::string::npos && at;) {
+      const size_t end = path.find('.', begin + 1);
+      at = at->find(path.substr(begin + 1, end == std::string::npos ? end : end - begin - 1));
+      if (at) mark = at->mark;
+      begin = end;
+    }
+    problems.add(mark, error.where() + ": " + error.message(), error.mend());
+    return;
+  }
+  const int outcomes = out.task.type == Task::Rating ? static_cast<int>(out.task.answers.size()) : 2;
+  if (procedure_->outcomes != outcomes)
+    problems.add(node.mark,
+                 fmt::format("the procedure has {} outcomes, the task {}", procedure_->outcomes, outcomes),
+                 "let them agree");
+  if (!procedure_->mostTrials)
+    problems.add(node.mark, "the procedure may go on for ever", "give 'stop: {trials: ...}'");
+  for (const StimulusDimension& dimension : procedure_->stimulus) {
+    if (!isVariableName(dimension.name))
+      problems.add(node.mark, "'" + dimension.name + "' is no name of a variable",
+                   "a letter, then letters, digits and _");
+    if (!std::isfinite(dimension.minimum) || !std::isfinite(dimension.maximum))
+      problems.add(node.mark, "the procedure may ask for any '" + dimension.name + "'",
+                   "give its stimulus a minimum and a maximum");
+  }
+}
+
+void PartReader::readBlocks(const YamlNode& node, Part& out) {
+  Problems& problems = reader_.problems();
+  out.blockOrder.kind = OrderKind::Fixed;
+  if (!reader_.isMap(node, "'blocks'", "{by: presentation, order: [dynamic, static]}")) return;
+  reader_.checkKeys(node, "blocks", {"by", "order"});
+  reader_.takeText(node, "by", true, out.blockBy);
+  std::vector<std::string> names;
+  for (const Factor& factor : out.factors)
+    if (factor.name != out.items) names.push_back(factor.name);
+  const bool known = std::find(names.begin(), names.end(), out.blockBy) != names.end();
+  if (!known && node.find("by"))
+    problems.add(node.find("by")->mark, "no factor '" + out.blockBy + "' to make blocks of",
+                 suggest(out.blockBy, names));
+  if (known)
+    for (const FactorLevel& level : findFactor(out, out.blockBy)->levels)
+      out.blockLevels.push_back(level.name);
+  else
+    out.blockBy.clear();
+  const YamlNode* order = node.find("order");
+  if (!order) return;
+  if (order->kind != Kind::List) {
+    out.blockOrder = readOrder(reader_, *order, "order", {});
+    return;
+  }
+  const std::vector<std::string> listed = reader_.texts(*order, "'order' of blocks", "[dynamic, static]");
+  if (!known) return;
+  for (size_t i = 0; i < listed.size(); ++i)
+    if (std::find(out.blockLevels.begin(), out.blockLevels.end(), listed[i]) == out.blockLevels.end())
+      problems.add(order->mark, "factor '" + out.blockBy + "' has no level '" + listed[i] + "'",
+                   suggest(listed[i], out.blockLevels));
+  for (const std::string& level : out.blockLevels)
+    if (std::find(listed.begin(), listed.end(), level) == listed.end())
+      problems.add(order->mark, "level '" + level + "' has no place in the order of blocks",
+                   "list all levels");
+  if (listed.size() == out.blockLevels.size()) out.blockLevels = listed;
+}
+
+void PartReader::readPractice(const YamlNode& node, Part& out) {
+  Problems& problems = reader_.problems();
+  Practice& practice = out.practice;
+  if (!reader_.isMap(node, "'practice'", "{trials: 8, feedback: true, correct: 6, rounds: 3}")) return;
+  reader_.checkKeys(node, "practice", {"trials", "feedback", "correct", "rounds", "on_failure", "stimuli"});
+  if (!node.find("trials"))
+    problems.add(node.mark, "'trials' of practice is missing", "give it: a whole number, 0 for none");
+  reader_.take(node, integerParameter("trials", 0, 0, 10000, "", ""), practice.trials);
+  reader_.take(node, booleanParameter("feedback", true, ""), practice.feedback);
+  reader_.take(node, integerParameter("correct", 0, 0, 10000, "trials", ""), practice.correct);
+  reader_.take(node, integerParameter("rounds", 3, 1, 100, "", ""), practice.rounds);
+  std::string failure = "continue";
+  reader_.takeChoice(node, choiceParameter("on_failure", failure, {"stop", "continue"}, ""), failure);
+  practice.stopOnFailure = failure == "stop";
+  if (practice.correct > practice.trials)
+    problems.add(node.mark, fmt::format("{} right answers in {} trials", practice.correct, practice.trials),
+                 "ask for as many as there are trials at most");
+  const bool right = out.task.type != Task::Rating && out.task.type != Task::Pairwise;
+  if (!right && (practice.correct > 0 || (node.find("feedback") && practice.feedback)))
+    problems.add(node.mark, "'correct' or 'feedback' in a part with task '" + toText(out.task.type) + "'",
+                 "its answers are neither right nor wrong: leave 'correct' out and set 'feedback: false'");
+  if (!right) practice.feedback = false;
+
+  const YamlNode* stimuli = node.find("stimuli");
+  if (!out.procedure) {
+    if (stimuli) problems.add(stimuli->mark, "'stimuli' of practice without a 'procedure'", "remove it");
+    return;
+  }
+  if (!procedure_ || practice.trials == 0) return;
+  std::vector<std::string> axes;
+  for (const StimulusDimension& dimension : procedure_->stimulus) axes.push_back(dimension.name);
+  const std::string example = "[{" + join(axes, ": ..., ") + ": ...}]";
+  if (!stimuli) {
+    problems.add(node.mark, "'stimuli' of practice is missing",
+                 "the procedure knows none before the first answer; give them: " + example);
+    return;
+  }
+  if (!reader_.isFilledList(*stimuli, "'stimuli' of practice", example)) return;
+  for (const YamlNode& item : stimuli->items) {
+    Variables variables;
+    readVariables(item, "an entry of 'stimuli'", variables);
+    if (item.kind == Kind::Map) reader_.checkKeys(item, "stimuli", axes);
+    for (const std::string& axis : axes)
+      if (item.kind == Kind::Map && !variables.count(axis))
+        problems.add(item.mark, "'" + axis + "' is missing", "give every axis of the procedure: " + example);
+    practice.stimuli.push_back(std::move(variables));
+  }
+}
+
+Part PartReader::read(const YamlNode& map, const std::string& defaultName,
+                      const std::vector<std::string>& otherKeys) {
+  Problems& problems = reader_.problems();
+  const size_t before = problems.size();
+  procedure_.reset();
+  Part out;
+  out.name = defaultName;
+  std::vector<std::string> keys = partKeys();
+  keys.insert(keys.end(), otherKeys.begin(), otherKeys.end());
+  reader_.checkKeys(map, otherKeys.size() > 1 ? "protocol" : "part", keys);
+  if (otherKeys.size() == 1) reader_.takeText(map, "name", true, out.name);
+  readTask(map, out);
+  if (const YamlNode* node = map.find("variables")) readVariables(*node, "'variables'", out.variables);
+  if (const YamlNode* node = map.find("factors")) readFactors(*node, out);
+  readItems(map, out);
+  if (const YamlNode* node = map.find("procedure")) readProcedure(*node, out);
+  readTrials(map, out);
+  if (const YamlNode* node = map.find("blocks")) readBlocks(*node, out);
+  std::vector<std::string> limits = {"change"};
+  for (const Factor& factor : out.factors)
+    if (factor.name != out.items && factor.name != out.blockBy) limits.push_back(factor.name);
+  if (const YamlNode* node = map.find("order")) out.trialOrder = readOrder(reader_, *node, "order", limits);
+  if (const YamlNode* node = map.find("breaks");
+      node && reader_.isMap(*node, "'breaks'", "{every_trials: 30}")) {
+    reader_.checkKeys(*node, "breaks", {"every_trials"});
+    reader_.take(*node, integerParameter("every_trials", 0, 0, 100000, "", ""), out.breakEveryTrials);
+  }
+  if (const YamlNode* node = map.find("practice")) readPractice(*node, out);
+  checkNames(out, map.mark);
+  out.variables["refresh_hz"] = refreshHz_;
+  if (const YamlNode* node = map.find("stimulus"))
+    out.stimulus.node = *node;
+  else
+    problems.add(map.mark, "'stimulus' is missing",
+                 "give it: {scene: {name: ...}, levels: {before: 1, after: 0}}");
+  if (problems.size() == before) checkStimuli(out);
+  if (problems.size() == before) {
+    const YamlNode* order = map.find("order");
+    checkOrders(out, order ? order->mark : map.mark);
+  }
+  return out;
+}
+
+}  // namespace limen::study

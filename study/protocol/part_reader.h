@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "study/procedures/procedure.h"
+#include "study/protocol/node_reader.h"
+
+namespace limen::study {
+
+/// Keys of a part.
+const std::vector<std::string>& partKeys();
+
+/// Reads one part of a protocol, and checks that all its conditions give stimuli and its orders exist.
+class PartReader {
+ public:
+  PartReader(NodeReader& reader, const Declarations& declarations, double refreshHz)
+      : reader_(reader), declarations_(declarations), refreshHz_(refreshHz) {}
+
+  /// `otherKeys`: keys of the map that are not the part's, where a single part stands at the top level.
+  Part read(const YamlNode& map, const std::string& defaultName, const std::vector<std::string>& otherKeys);
+
+ private:
+  void readTask(const YamlNode& map, Part& out);
+  std::optional<Scale> readScale(const YamlNode& node, const std::string& key, bool always, Part& out);
+  void readAnswers(const YamlNode& map, Part& out);
+  void readVariables(const YamlNode& node, const std::string& what, Variables& out);
+  void readFactors(const YamlNode& node, Part& out);
+  FactorLevel readLevel(const std::string& factor, const YamlMember* named, const YamlNode& value);
+  void readTrials(const YamlNode& map, Part& out);
+  void readProcedure(const YamlNode& node, Part& out);
+  void readBlocks(const YamlNode& node, Part& out);
+  void readPractice(const YamlNode& node, Part& out);
+  void readItems(const YamlNode& map, Part& out);
+  void checkNames(const Part& part, Mark mark);
+  void checkStimuli(const Part& part);
+  void checkOrders(const Part& part, Mark mark);
+
+  NodeReader& reader_;
+  const Declarations& declarations_;
+  double refreshHz_;
+  std::optional<ProcedureSettings> procedure_;
+};
+
+/// `shuffle`, or {kind: shuffle, at_most_in_a_row: {change: 4}} where `limits` are allowed.
+OrderSetting readOrder(NodeReader& reader, const YamlNode& node, const std::string& key,
+                       const std::vector<std::string>& limits);
+
+}  // namespace limen::study

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/protocol/stimulus_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "study/protocol/expression.h"
+
+namespace limen::study {
+namespace {
+
+using Kind = YamlNode::Kind;
+
+const char* const kEntryExample = "{name: ..., parameter: value}";
+
+/// "'= 2 * speed' with speed = 3"
+std::string origin(const Expression& expression, const Variables& variables) {
+  std::vector<std::string> used;
+  for (const std::string& name : namesIn(expression.text))
+    if (const auto found = variables.find(name); found != variables.end())
+      used.push_back(name + " = " + found->second.dump());
+  return "'=" + expression.text + "'" + (used.empty() ? "" : " with " + join(used));
+}
+
+const Parameter* findParameter(const std::vector<Parameter>& declared, const std::string& name) {
+  const auto found = std::find_if(declared.begin(), declared.end(),
+                                  [&](const Parameter& parameter) { return parameter.name == name; });
+  return found == declared.end() ? nullptr : &*found;
+}
+
+template <class Entries>
+std::vector<std::string> namesOf(const Entries& entries) {
+  std::vector<std::string> out;
+  for (const auto& [name, entry] : entries) out.push_back(name);
+  return out;
+}
+
+std::vector<std::string> namesOf(const std::vector<Parameter>& declared) {
+  std::vector<std::string> out;
+  for (const Parameter& parameter : declared) out.push_back(parameter.name);
+  return out;
+}
+
+}  // namespace
+
+std::optional<YamlNode> StimulusReader::resolved(const YamlNode& node) {
+  if (!isExpression(node)) return node;
+  try {
+    return toYaml(evaluate(expressionOf(node), *variables_, reader_.problems().file()), node.mark);
+  } catch (const Error& error) {
+    reader_.problems().add(node.mark, error.message(), error.mend());
+    return {};
+  }
+}
+
+std::optional<ParameterValue> StimulusReader::value(const YamlNode& node, const Parameter& parameter) {
+  std::optional<YamlNode> plain = resolved(node);
+  if (!plain) return {};
+  // A number that was calculated is one, whole or not; a text that a variable holds may be a number's.
+  if (isExpression(node)) {
+    plain->quoted =
+        plain->quoted && parameter.type != ParameterType::Real && parameter.type != ParameterType::Integer;
+    if (parameter.type != ParameterType::File && !ValueReader::fits(*plain, parameter)) {
+      reader_.problems().add(node.mark,
+                             fmt::format("'{}' becomes {} by {}", parameter.name, plain->describe(),
+                                         origin(expressionOf(node), *variables_)),
+                             "allowed: " + describeRange(parameter));
+      return {};
+    }
+  }
+  return reader_.values().value(*plain, parameter);
+}
+
+template <class Value>
+void StimulusReader::take(const YamlNode& map, const Parameter& parameter, Value& out) {
+  const YamlNode* node = map.find(parameter.name);
+  if (!node) return;
+  const auto found = value(*node, parameter);
+  if (!found) return;
+  if constexpr (std::is_same_v<Value, int>)
+    out = static_cast<int>(std::get<int64_t>(*found));
+  else
+    out = std::get<Value>(*found);
+}
+
+ParameterValues StimulusReader::readValues(const YamlNode& map, const std::string& what,
+                                           const std::vector<Parameter>& declared, bool named,
+                                           std::map<std::string, std::string>* fileHashes) {
+  Problems& problems = reader_.problems();
+  std::map<std::string, ParameterValue> given;
+  bool complete = true;
+  for (const auto& [key, node] : map.members) {
+    if (named && key.text == "name") continue;
+    const Parameter* parameter = findParameter(declared, key.text);
+    if (!parameter) {
+      problems.add(key.mark, what + " has no parameter '" + key.text + "'",
+                   declared.empty() ? "it has none" : suggest(key.text, namesOf(declared)));
+      continue;
+    }
+    if (node.kind == Kind::List) {
+      problems.add(node.mark, "'" + key.text + "' of " + what + " is a list",
+                   "a stimulus has one value; several are levels of a factor: '" + key.text +
+                       ": = " + key.text + "' and 'factors: {" + key.text + ": [...]}'");
+      continue;
+    }
+    const auto found = value(node, *parameter);
+    if (!found) continue;
+    given[key.text] = *found;
+    if (parameter->type == ParameterType::File && fileHashes)
+      (*fileHashes)[key.text] = reader_.files().hashes().at(std::get<std::string>(*found));
+  }
+  for (const Parameter& parameter : declared)
+    if (parameter.required && !map.find(parameter.name)) {
+      problems.add(map.mark, "'" + parameter.name + "' of " + what + " is missing",
+                   "give it: " + describeRange(parameter));
+      complete = false;
+    } else if (parameter.required && !given.count(parameter.name)) {
+      complete = false;
+    }
+  return complete ? ParameterValues(declared, given) : ParameterValues();
+}
+
+std::optional<NamedEntry> StimulusReader::readEntry(const YamlNode& node, const char* kind,
+                                                    const std::map<std::string, Declaration>& known) {
+  Problems& problems = reader_.problems();
+  const std::optional<YamlNode> map = resolved(node);
+  if (!map || !reader_.isMap(*map, std::string("a ") + kind, kEntryExample)) return {};
+  const YamlNode* nameNode = map->find("name");
+  if (!nameNode) {
+    problems.add(map->mark, fmt::format("a {} without a name", kind),
+                 "write " + std::string(kEntryExample) + "; known: " + join(namesOf(known)));
+    return {};
+  }
+  const std::optional<YamlNode> plain = resolved(*nameNode);
+  const auto name = plain ? reader_.values().text(*plain, "name") : std::nullopt;
+  if (!name) return {};
+  const auto declaration = known.find(*name);
+  if (declaration == known.end()) {
+    problems.add(nameNode->mark, fmt::format("no {} '{}'", kind, *name), suggest(*name, namesOf(known)));
+    return {};
+  }
+  NamedEntry out{*name, declaration->second.version, {}, {}};
+  out.values = readValues(*map, fmt::format("{} '{}'", kind, *name), declaration->second.parameters, true,
+                          &out.fileHashes);
+  return out;
+}
+
+void StimulusReader::readLevels(const YamlNode& node, Stimulus& out) {
+  const std::optional<YamlNode> map = resolved(node);
+  if (!map || !reader_.isMap(*map, "'levels'", "{before: 1, after: 0}")) return;
+  reader_.checkKeys(*map, "levels", {"object", "before", "after", "others"});
+  LevelChange change;
+  for (const char* key : {"before", "after"})
+    if (!map->find(key))
+      reader_.problems().add(map->mark, fmt::format("'{}' of levels is missing", key),
+                             "give it: number of a level, 0 the finest");
+  take(*map, integerParameter("object", 0, 0, 1000000, "", ""), change.object);
+  take(*map, integerParameter("before", 1, 0, 63, "", ""), change.before);
+  take(*map, integerParameter("after", 0, 0, 63, "", ""), change.after);
+  take(*map, choiceParameter("others", "finest", {"finest", "distance", "omitted"}, ""), change.others);
+  if (change.before == change.after && map->find("before") && map->find("after"))
+    reader_.problems().add(map->mark,
+                           fmt::format("level {} changes to level {}", change.before, change.after),
+                           "give two different levels; what changes nothing is a catch trial");
+  out.levels = change;
+}
+
+void StimulusReader::readChange(const YamlNode& map, Stimulus& out) {
+  Problems& problems = reader_.problems();
+  const YamlNode *levels = map.find("levels"), *before = map.find("before"), *after = map.find("after"),
+                 *shading = map.find("shading");
+  if (levels && (before || after))
+    problems.add(levels->mark, "a stimulus has 'levels' and a technique",
+                 "give levels {before, after} for a change of level of detail, or 'before' (and 'after') for "
+                 "a change of technique");
+  if (!levels && !before)
+    problems.add(after ? after->mark : map.mark, "nothing says what a stimulus shows",
+                 "give 'levels: {before: 1, after: 0}', or a technique 'before: {name: ...}'");
+  if (shading && !levels)
+    problems.add(shading->mark, "'shading' is without 'levels'", "a technique shades by itself");
+  if (levels) readLevels(*levels, out);
+  if (before) out.before = readEntry(*before, "technique", declarations_.techniques);
+  if (after) out.after = readEntry(*after, "technique", declarations_.techniques);
+  YamlNode none;
+  none.kind = Kind::Map;
+  none.mark = map.mark;
+  if (levels && (!shading || reader_.isMap(*shading, "'shading'", "{ambient: 0.2}")))
+    out.shading = readValues(shading ? *shading : none, "shading", declarations_.shading, false, nullptr);
+}
+
+void StimulusReader::readCue(const YamlNode& node, Stimulus& out) {
+  Problems& problems = reader_.problems();
+  const std::optional<YamlNode> map = resolved(node);
+  if (!map || !reader_.isMap(*map, "'cue'", "{kind: circle, x_px: 512, y_px: 384, duration_s: 2}")) return;
+  reader_.checkKeys(*map, "cue", {"kind", "x_px", "y_px", "radius_px", "duration_s"});
+  std::string kind = "none";
+  take(*map, choiceParameter("kind", "none", {"none", "arrow", "circle"}, ""), kind);
+  out.cue.kind = kind == "arrow" ? Cue::Kind::Arrow : kind == "circle" ? Cue::Kind::Circle : Cue::Kind::None;
+  take(*map, realParameter("x_px", 0, -16384, 16384, "px", ""), out.cue.xPx);
+  take(*map, realParameter("y_px", 0, -16384, 16384, "px", ""), out.cue.yPx);
+  take(*map, realParameter("radius_px", 50, 1, 16384, "px", ""), out.cue.radiusPx);
+  take(*map, realParameter("duration_s", 0, 0, 60, "s", ""), out.cue.durationS);
+  if (out.cue.kind == Cue::Kind::None) return;
+  for (const char* key : {"x_px", "y_px", "duration_s"})
+    if (!map->find(key))
+      problems.add(map->mark, fmt::format("'{}' of cue is missing", key), "say where and how long it shows");
+}
+
+std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, const Variables& variables) {
+  Problems& problems = reader_.problems();
+  const size_t before = problems.size();
+  variables_ = &variables;
+  const YamlNode& map = source.node;
+  Stimulus out;
+  if (!reader_.isMap(map, "'stimulus'", "{scene: {name: ...}, levels: {before: 1, after: 0}}")) return {};
+  reader_.checkKeys(map, "stimulus",
+                    {"scene", "levels", "before", "after", "shading", "presentation", "duration_s",
+                     "change_at_s", "start_s", "showings", "gap_s", "samples", "catch_shows", "cue"});
+  if (const YamlNode* scene = map.find("scene")) {
+    if (const auto entry = readEntry(*scene, "scene", declarations_.scenes)) out.scene = *entry;
+  } else {
+    problems.add(map.mark, "'scene' of a stimulus is missing", std::string("give it: ") + kEntryExample);
+  }
+  readChange(map, out);
+  std::string presentation = "dynamic", catchShows = "before";
+  take(map, choiceParameter("presentation", presentation, {"dynamic", "static"}, ""), presentation);
+  out.presentation = presentation == "static" ? Presentation::Static : Presentation::Dynamic;
+  take(map, choiceParameter("catch_shows", catchShows, {"before", "after"}, ""), catchShows);
+  out.catchShowsAfter = catchShows == "after";
+  take(map, realParameter("duration_s", 4, 0.02, 600, "s", ""), out.durationS);
+  out.changeAtS = 0.5 * out.durationS;
+  take(map, realParameter("change_at_s", 2, 0, 600, "s", ""), out.changeAtS);
+  take(map, realParameter("start_s", 0, -600, 3600, "s", ""), out.sceneStartS);
+  take(map, integerParameter("showings", 1, 1, 20, "", ""), out.showings);
+  take(map, realParameter("gap_s", 1, 0, 60, "s", ""), out.gapS);
+  take(map, integerParameter("samples", 2, 1, 16, "", ""), out.samples);
+  if (const YamlNode* cue = map.find("cue")) readCue(*cue, out);
+  out.changes = out.levels || out.after;
+  if (out.changes && !(out.changeAtS > 0.0 && out.changeAtS < out.durationS)) {
+    const YamlNode* at = map.find("change_at_s");
+    problems.add(at ? at->mark : map.mark,
+                 fmt::format("the change comes at {} s of {} s", shortestNumber(out.changeAtS),
+                             shortestNumber(out.durationS)),
+                 "let it come within the sequence");
+  }
+  if (problems.size() != before) return {};
+  return out;
+}
+
+}  // namespace limen::study

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "study/protocol/node_reader.h"
+#include "study/stimulus/stimulus.h"
+
+namespace limen::study {
+
+/// Makes stimuli of a template. What does not fit becomes a problem.
+class StimulusReader {
+ public:
+  StimulusReader(NodeReader& reader, const Declarations& declarations)
+      : reader_(reader), declarations_(declarations) {}
+
+  /// The stimulus with these variables; `changes` as if a change is due. Nothing after a problem.
+  std::optional<Stimulus> read(const StimulusTemplate& source, const Variables& variables);
+
+ private:
+  void readChange(const YamlNode& map, Stimulus& out);
+  void readLevels(const YamlNode& node, Stimulus& out);
+  void readCue(const YamlNode& node, Stimulus& out);
+  std::optional<NamedEntry> readEntry(const YamlNode& node, const char* kind,
+                                      const std::map<std::string, Declaration>& known);
+  ParameterValues readValues(const YamlNode& map, const std::string& what,
+                             const std::vector<Parameter>& declared, bool named,
+                             std::map<std::string, std::string>* fileHashes);
+
+  /// The node with expressions worked out at its top; nothing after a problem.
+  std::optional<YamlNode> resolved(const YamlNode& node);
+  std::optional<ParameterValue> value(const YamlNode& node, const Parameter& parameter);
+  template <class Value>
+  void take(const YamlNode& map, const Parameter& parameter, Value& out);
+
+  NodeReader& reader_;
+  const Declarations& declarations_;
+  const Variables* variables_ = nullptr;
+};
+
+}  // namespace limen::study

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/session/loop.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "study/session/clock.h"
+#include "study/session/privacy.h"
+#include "study/session/rows.h"
+
+namespace limen::study {
+namespace {
+
+constexpr double kClockJumpS = 2.0;  // clocks that are steered by a time server stay well below
+
+// A step that does not exist would be stored as an answer that nobody gave.
+void checkStep(const std::optional<int>& step, const std::optional<Scale>& scale, const std::string& what) {
+  if (!step) return;
+  if (!scale || *step < 1 || *step > static_cast<int>(scale->labels.size()))
+    throw Error("the front end gave step " + std::to_string(*step) + " as " + what +
+                ", which the protocol does not have");
+}
+
+nlohmann::json answerData(const Trial& trial, const Part& part, const TrialResult& result) {
+  if (!result.answer) throw Error("the front end ended a trial without an answer");
+  const Answer& answer = *result.answer;
+  checkStep(answer.severity, part.task.severity, "severity");
+  checkStep(answer.confidence, part.task.confidence, "confidence");
+  if (!std::isfinite(answer.reactionTimeS))
+    throw Error("the front end gave a reaction time that is no number");
+  const std::optional<bool> correct = Session::isCorrect(part, trial.plan, answer.answer);
+  nlohmann::json data = {{"trial", trial.number},
+                         {"attempt", trial.attempt},
+                         {"answer", answer.answer},
+                         {"outcome", Session::outcomeOf(part, trial.plan, answer.answer)},
+                         {"correct", nullptr},
+                         {"severity", nullptr},
+                         {"confidence", nullptr},
+                         {"reaction_time_s", answer.reactionTimeS},
+                         {"question_ns", answer.questionNs},
+                         {"answered_ns", answer.answeredNs},
+                         {"device", answer.device},
+                         {"extra", answer.extra}};
+  if (correct) data["correct"] = *correct;
+  if (answer.severity) data["severity"] = *answer.severity;
+  if (answer.confidence) data["confidence"] = *answer.confidence;
+  return data;
+}
+
+}  // namespace
+
+Loop::Loop(Session& session, FrontEnd& frontEnd, Clock& clock, Sink sink,
+           std::function<void(const std::string&)> warn, std::optional<LastInstant> last)
+    : session_(session),
+      frontEnd_(frontEnd),
+      clock_(clock),
+      sink_(std::move(sink)),
+      warn_(std::move(warn)),
+      last_(std::move(last)) {}
+
+void Loop::record(EventKind kind, nlohmann::json data, const std::vector<ShownFrame>& frames) {
+  now_ = {clock_.utc(), clock_.monotonicNs()};
+  addClockJump();
+  const Step before = session_.step();
+  if (!frames.empty()) data["frames"] = frameDigest(framesOf(frames));
+  add(kind, std::move(data), frames);
+  addWhatFollows(kind, before);
+  sink_.commit();
+  last_ = now_;
+}
+
+void Loop::add(EventKind kind, nlohmann::json data, const std::vector<ShownFrame>& frames) {
+  const Event event{session_.nextEvent(), kind, now_.utc, now_.monotonicNs, std::move(data)};
+  sink_.prepare(session_, event, frames);
+  session_.apply(event);
+}
+
+void Loop::addClockJump() {
+  if (!last_) return;
+  const std::optional<double> from = utcSeconds(last_->utc), to = utcSeconds(now_.utc);
+  if (!from || !to) return;
+  const double wallS = *to - *from;
+  const double steadyS = static_cast<double>(now_.monotonicNs - last_->monotonicNs) * 1e-9;
+  if (std::abs(wallS - steadyS) <= kClockJumpS) return;
+  add(EventKind::ClockJump, {{"wall_s", wallS}, {"monotonic_s", steadyS}}, {});
+  warn_(
+      fmt::format("the wall clock moved by {:.1f} s while {:.1f} s passed: it was set, or the machine slept; "
+                  "the session goes on, and its times of the day are to be read with care",
+                  wallS, steadyS));
+}
+
+// What an event brings about besides its rows stands in the log in the same transaction.
+void Loop::addWhatFollows(EventKind kind, const Step& before) {
+  const auto note = [&](const std::string& code, nlohmann::json detail) {
+    add(EventKind::Note, {{"by", "program"}, {"code", code}, {"detail", std::move(detail)}}, {});
+  };
+  const bool isScreen = kind == EventKind::ScreenDone && before.screen;
+  const Step::Kind now = session_.step().kind;
+  if (kind == EventKind::TrialInvalid) {
+    ++invalid_;
+    const int number = before.trial->number, times = session_.timesInvalid(number);
+    if (times > session_.protocol().session.repeatInvalidAtMost)
+      note("trial_lost", {{"trial", number}, {"times_invalid", times}});
+  }
+  if (isScreen && now == Step::Kind::Aborted) {
+    if (before.screen->kind == Screen::Kind::Consent)
+      add(EventKind::Aborted, {{"by", "participant"}, {"reason", "no consent"}}, {});
+    else
+      add(EventKind::Aborted, {{"by", "program"}, {"reason", "practice failed"}}, {});
+  } else if (isScreen && before.screen->kind == Screen::Kind::PracticeResult && !before.screen->passed) {
+    const Step& next = session_.step();
+    if (!next.screen || next.screen->kind != Screen::Kind::PracticeStart)
+      note("practice_failed", {{"part", before.screen->part}});
+  }
+  if (kind != EventKind::Finished && now == Step::Kind::Finished)
+    add(EventKind::Finished, nlohmann::json::object(), {});
+}
+
+bool Loop::run() {
+  while (true) {
+    const Step::Kind due = session_.step().kind;
+    if (due == Step::Kind::Finished || due == Step::Kind::Aborted) return true;
+    if (interruptSignal() != 0) {
+      record(EventKind::Paused, {{"by", "signal"}});
+      throwIfInterrupted();
+    }
+    if (!(due == Step::Kind::Screen ? showScreen() : presentTrial())) return false;
+  }
+}
+
+bool Loop::showScreen() {
+  const Screen screen = *session_.step().screen;
+  const ScreenResult result = frontEnd_.show(screen, session_);
+  switch (result.outcome) {
+    case Outcome::Done:
+      record(EventKind::ScreenDone, screenData(session_.protocol(), screen, result));
+      break;
+    case Outcome::Invalid:
+      break;  // shown again
+    case Outcome::Paused:
+      record(EventKind::Paused, nlohmann::json::object());
+      return false;
+    case Outcome::Aborted:
+      record(EventKind::Aborted, {{"by", "participant"}, {"reason", ""}});
+      break;
+  }
+  return true;
+}
+
+bool Loop::presentTrial() {
+  const Trial trial = *session_.step().trial;
+  const Part& part = session_.protocol().parts[static_cast<size_t>(trial.plan.part)];
+  std::vector<std::string> hashes;
+  for (const Stimulus& stimulus : trial.stimuli) hashes.push_back(stimulusHash(stimulus));
+  record(EventKind::TrialStarted, {{"trial", trial.number},
+                                   {"attempt", trial.attempt},
+                                   {"procedure_stimulus", trial.procedureStimulus},
+                                   {"stimulus_hashes", std::move(hashes)}});
+  const TrialResult result = frontEnd_.present(trial, session_);
+  const nlohmann::json which = {{"trial", trial.number}, {"attempt", trial.attempt}};
+  nlohmann::json data = which;
+  switch (result.outcome) {
+    case Outcome::Done: {
+      data = answerData(trial, part, result);
+      const nlohmann::json correct = data["correct"];
+      record(EventKind::Answered, std::move(data), result.frames);
+      if (trial.plan.practice && part.practice.feedback && correct.is_boolean())
+        frontEnd_.feedback(correct.get<bool>());
+      return true;
+    }
+    case Outcome::Invalid:
+      data["reason"] = result.reason;
+      record(EventKind::TrialInvalid, std::move(data), result.frames);
+      return true;
+    case Outcome::Paused:
+      record(EventKind::Paused, std::move(data), result.frames);
+      return false;
+    case Outcome::Aborted:
+      break;
+  }
+  data["by"] = "participant";
+  data["reason"] = result.reason;
+  record(EventKind::Aborted, std::move(data), result.frames);
+  return true;
+}
+
+}  // namespace limen::study

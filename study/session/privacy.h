@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "study/session/front_end.h"
+
+/// What may go into the store. No filter can tell every name or address from harmless text, so nothing that a
+/// person typed is stored at all: a form's answers come from the protocol's declared choices, of free text
+/// only its length is kept, and the experimenter's notes are codes of a closed list. What remains typed are
+/// the codes of participant and session, whose shape leaves no room for an address, an e-mail or a date; that
+/// a code is not somebody's name is the experimenter's business.
+namespace limen::study {
+
+/// Letters, digits, - and _, 16 at most, and nothing that looks like a date (six or eight digits in a row or
+/// set apart). `thing`: "participant", for the message. Throws Error, which does not repeat the text.
+void checkCode(const std::string& code, const std::string& thing);
+
+/// Data of the ScreenDone event: {screen, part, block, answers, note}. Fields that the form does not declare
+/// and choices that it does not offer are left out; `answers` of a field without choices and `note` become
+/// {"given": true, "length": characters}.
+nlohmann::json screenData(const Protocol& protocol, const Screen& screen, const ScreenResult& result);
+
+/// Codes of notes that an experimenter may add, each with what it means.
+const std::vector<std::pair<std::string, std::string>>& experimenterNotes();
+/// Throws Error for a code that is not in the list.
+void checkExperimenterNote(const std::string& code);
+
+}  // namespace limen::study

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/stimulus/prediction.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/hash.h"
+#include "perception/popping/comparator.h"
+#include "perception/popping/predictor.h"
+#include "perception/popping/weights.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/lod_pair.h"
+#include "renderer/scene/lod_set.h"
+#include "study/stimulus/state_view.h"
+#include "study/stimulus/stimulus_renderer.h"
+
+namespace limen::study {
+namespace {
+
+/// Raised when predictions of the same stimulus change.
+constexpr int kVersion = 1;
+
+/// Displacements and weights of a change in a moving view (Schwarz 2009, section 10.3.5).
+void addMotion(perception::PoppingInput& input, frame::Frame& parent,
+               const frame::LodPairSetting& pairSetting,
+               const std::pair<scene::LodSelection, scene::LodSelection>& levels,
+               const perception::PoppingSettings& settings) {
+  frame::LodPair pair(parent, pairSetting);
+  pair.setLevels(levels.first, levels.second);
+  pair.render();
+  const frame::LodPair::View &actual = pair.actual(), &predicted = pair.predicted();
+  input.actualDisplacement = actual.displacement->read();
+  input.predictedDisplacement = predicted.displacement->read();
+  if (settings.useDisocclusion) {
+    std::vector<perception::DisocclusionView> views;
+    for (const frame::LodPair::View* view : {&actual, &predicted})
+      views.push_back({view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
+    input.disocclusion = perception::disocclusionWeight(views, settings);
+  }
+  // Flicker is what the level before the change shows over time.
+  if (pairSetting.previousColour)
+    input.flicker = perception::flickerWeight(
+        {actual.colour->read(), predicted.colour->read(), predicted.shadedBefore->read(),
+         pair.previousColour()->read(), predicted.displacement->read(), predicted.previousDepth->read(),
+         predicted.depthBefore->read()},
+        settings);
+}
+
+/// 1 where the window shows the object before or after the change.
+Image objectMask(frame::Frame& frame, size_t object,
+                 const std::pair<scene::LodSelection, scene::LodSelection>& levels) {
+  Image mask(frame.sizePx().x, frame.sizePx().y, 1);
+  for (const scene::LodSelection* selection : {&levels.first, &levels.second}) {
+    const scene::TriangleRange range =
+        frame.scene().triangles(frame.scene().lodObjects[object], selection->levels[object]);
+    frame.setLevels(*selection);
+    frame.begin();
+    const std::vector<uint32_t> ids = frame.get<frame::TriangleIds>().texture().readUint();
+    frame.end();
+    for (size_t i = 0; i < ids.size(); ++i)
+      if (ids[i] >= range.first && ids[i] - range.first < range.count) mask.data[i] = 1.0F;
+  }
+  return mask;
+}
+
+double ratingWithoutRegion(const perception::PoppingSettings& settings) {
+  return perception::poppingRating(settings.regionThresholdJnd, settings) - 1.0;
+}
+
+nlohmann::json fileHashes(const NamedEntry& entry, const std::vector<Parameter>& declared) {
+  nlohmann::json out = nlohmann::json::object();
+  for (const Parameter& parameter : declared)
+    if (parameter.type == ParameterType::File && entry.values.has(parameter.name) &&
+        !entry.values.text(parameter.name).empty())
+      out[parameter.name] = sha256File(entry.values.text(parameter.name));
+  return out;
+}
+
+}  // namespace
+
+Predictor::Predictor(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display,
+                     const ParameterValues& popping, PredictionCache* cache)
+    : context_(context),
+      windowPx_(windowPx),
+      display_(display),
+      popping_(perception::poppingParameters(), popping.all(), "settings of the predictor"),
+      cache_(cache ? *cache : own_) {
+  perception::poppingModel(windowPx.x, windowPx.y, display_, perception::PoppingSettings::from(popping_));
+}
+
+std::string Predictor::key(const Stimulus& stimulus) const {
+  Stimulus decisive = stimulus;
+  decisive.showings = 1;
+  decisive.gapS = 0.0;
+  decisive.cue = {};
+  const scene::SceneInfo& info = scene::SceneRegistry::instance().get(stimulus.scene.name, "stimulus");
+  const nlohmann::json all = {{"prediction", kVersion},
+                              {"stimulus", toJson(decisive)},
+                              {"window_px", {windowPx_.x, windowPx_.y}},
+                              {"display", display_.hash()},
+                              {"popping", popping_.toJson()},
+                              {"files", fileHashes(stimulus.scene, info.allParameters())}};
+  return sha256(all.dump());
+}
+
+PredictedPopping Predictor::withoutChange() const {
+  const perception::PoppingSettings settings = perception::PoppingSettings::from(popping_);
+  PredictedPopping out;
+  out.rating = ratingWithoutRegion(settings);
+  out.detectionProbability = settings.detection.guessRate;
+  return out;
+}
+
+PredictedPopping Predictor::predict(const Stimulus& stimulus) {
+  const Timeline timeline = timelineOf(stimulus, display_.refreshHz);
+  if (timeline.changed == timeline.frames) return withoutChange();
+  const std::string known = key(stimulus);
+  if (const auto found = cache_.find(known)) return *found;
+  const PredictedPopping made = make(stimulus);
+  cache_.add(known, made);
+  return made;
+}
+
+PredictedPopping Predictor::make(const Stimulus& stimulus) {
+  const perception::PoppingSettings settings = perception::PoppingSettings::from(popping_);
+  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &stages_);
+  const double timeS = renderer.timeline().changeSceneTimeS;
+  perception::PoppingInput input;
+  input.actual = renderer.readBackState(timeS, true);
+  input.predicted = renderer.readBackState(timeS, false);
+
+  const scene::Scene& scene = renderer.stage().scene;
+  const scene::LodSelection finest = scene::finestLevels(scene);
+  const auto levels = stimulus.levels
+                          ? std::pair{levelsOf(scene, *stimulus.levels, true, timeS, windowPx_.y),
+                                      levelsOf(scene, *stimulus.levels, false, timeS, windowPx_.y)}
+                          : std::pair{finest, finest};
+  frame::Frame frame(context_, scene, renderer.stage().gpu, windowPx_, timeS);
+  if (stimulus.presentation == Presentation::Dynamic) {
+    frame::LodPairSetting pair;
+    pair.dtS = 1.0 / display_.refreshHz;
+    pair.shaded = shadingOf(stimulus);
+    pair.previousColour = settings.useFlicker && stimulus.levels.has_value();
+    frame.begin();
+    addMotion(input, frame, pair, levels, settings);
+    frame.end();
+  }
+  const perception::PoppingResult result = perception::predictPopping(input, display_, settings);
+
+  PredictedPopping out = withoutChange();
+  for (const perception::PoppingRegion& region : result.regions.regions) {
+    out.regions.push_back({region.sizePx, region.sigma, region.rating, region.largestJnd,
+                           region.detectionProbability, region.least, region.most});
+    out.poppingPx += region.sizePx;
+  }
+  std::stable_sort(out.regions.begin(), out.regions.end(),
+                   [](const auto& a, const auto& b) { return a.rating > b.rating; });
+  if (!out.regions.empty()) {
+    out.rating = out.regions.front().rating;
+    out.detectionProbability = settings.detection.probability(out.rating);
+  }
+  out.coverage = result.summary.coverage;
+  out.coverageOfObject =
+      stimulus.levels
+          ? result.regions.coverageOf(objectMask(frame, static_cast<size_t>(stimulus.levels->object), levels))
+          : out.coverage;
+  out.largestJnd = result.summary.largestJnd;
+  out.largestDe94 = perception::largestColourDifference(input, display_).value;
+  return out;
+}
+
+}  // namespace limen::study

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+
+#include "renderer/frame/gpu_scene.h"
+#include "renderer/scene/scene.h"
+#include "study/stimulus/stimulus.h"
+
+namespace limen::study {
+
+/// A built scene with its geometry on the GPU.
+struct Stage {
+  explicit Stage(scene::Scene built) : scene(std::move(built)), gpu(scene) {}
+  scene::Scene scene;
+  frame::GpuScene gpu;
+};
+
+/// Builds what a stimulus names. Throws Error: unknown name, bad value, and a version that this program does
+/// not have, whose pictures would not be those that the stimulus stands for.
+std::shared_ptr<const Stage> buildStage(const NamedEntry& scene);
+
+/// The stages used last: stimuli of a study mostly share theirs. Its OpenGL context is the current one.
+class StageCache {
+ public:
+  explicit StageCache(size_t most = 4) : most_(most) {}
+  std::shared_ptr<const Stage> get(const NamedEntry& scene);
+
+ private:
+  size_t most_;
+  std::list<std::pair<std::string, std::shared_ptr<const Stage>>> stages_;  // latest first
+};
+
+}  // namespace limen::study

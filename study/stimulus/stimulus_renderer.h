@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "base/image.h"
+#include "perception/vision/display.h"
+#include "renderer/gl/context.h"
+#include "renderer/gl/texture.h"
+#include "study/stimulus/stage.h"
+#include "study/stimulus/stimulus.h"
+#include "study/stimulus/timeline.h"
+
+namespace limen::study {
+
+class StateView;
+
+/// Renders a stimulus into the very bytes that a display of a profile is given: supersampled, coded by its
+/// transfer curve to the nearest of 256 codes, not dithered. What is brighter than the display's white is
+/// white. The same stimulus gives the same bytes on the same machine.
+///
+/// A dynamic sequence moves on the scene's path from frame to frame, a static one shows two pictures of one
+/// time. See Timeline for which frame shows what.
+class StimulusRenderer {
+ public:
+  /// Compiles and allocates all that render() needs. `stages`, if given, keeps scenes for other renderers.
+  /// Throws Error as timelineOf(), buildStage() and StateView.
+  StimulusRenderer(gl::Context& context, const Stimulus& stimulus, glm::ivec2 sizePx,
+                   const perception::DisplayProfile& display, StageCache* stages = nullptr);
+  ~StimulusRenderer();
+  StimulusRenderer(const StimulusRenderer&) = delete;
+  StimulusRenderer& operator=(const StimulusRenderer&) = delete;
+
+  const Stimulus& stimulus() const { return stimulus_; }
+  const Timeline& timeline() const { return timeline_; }
+  const Stage& stage() const { return *stage_; }
+  glm::ivec2 sizePx() const { return sizePx_; }
+  int frameCount() const { return timeline_.frames; }
+
+  /// Frames that look alike because nothing moves share a picture. Pictures are numbered in order of their
+  /// first frames.
+  int pictureCount() const { return static_cast<int>(firstFrames_.size()); }
+  int pictureOf(int frame) const { return pictureOf_[static_cast<size_t>(frame)]; }
+  int firstFrameOf(int picture) const { return firstFrames_[static_cast<size_t>(picture)]; }
+
+  /// RGBA8 of the window's size, row 0 at the top, values as the display takes them, alpha 1. Valid until the
+  /// next render.
+  const gl::Texture& render(int frame);
+  /// The state before or after the change at any time on the scene's path.
+  const gl::Texture& renderState(double sceneTimeS, bool after);
+  /// The same read back: 3 channels, codes over 255. Waits for the GPU.
+  Image readBack(int frame);
+  Image readBackState(double sceneTimeS, bool after);
+
+ private:
+  gl::Context& context_;
+  Stimulus stimulus_;
+  Timeline timeline_;
+  glm::ivec2 sizePx_;
+  std::shared_ptr<const Stage> stage_;
+  std::unique_ptr<StateView> views_[2];  // before, after; of a sequence without change only what it shows
+  std::vector<int> pictureOf_, firstFrames_;
+  gl::Texture thresholds_, coded_;
+};
+
+}  // namespace limen::study

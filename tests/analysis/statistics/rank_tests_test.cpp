@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "analysis/statistics/rank_tests.h"
+#include "tests/analysis/statistics/expect.h"
+
+namespace limen::analysis {
+namespace {
+
+// Data and expected values: reference/ranks.R.
+TEST(Friedman, IsThatOfRWithTies) {
+  const FriedmanTest t = friedmanTest(
+      {5, 3, 4, 1, 6, 2, 4, 4, 7, 5, 5, 2, 3, 3, 3, 1, 8, 4, 6, 5, 6, 6, 2, 3, 5, 1, 3, 3}, 7, 4);
+  expectRelative(*t.chiSquared, 11.95161290322580605, 1e-12);
+  expectRelative(*t.p, 0.00755076568476084, 1e-10);
+  expectRelative(*t.kendallW, 0.56912442396313367, 1e-12);
+  expectRelative(*t.f, 7.92513368983957101, 1e-12);
+  expectRelative(*t.fP, 0.00141070221747404, 1e-10);
+}
+
+TEST(Friedman, PerfectAgreementAndNoneAreBounded) {
+  const FriedmanTest same = friedmanTest({1, 2, 3, 4, 5, 6}, 2, 3);
+  EXPECT_NEAR(*same.kendallW, 1.0, 1e-15);
+  EXPECT_TRUE(std::isinf(*same.f));
+  EXPECT_EQ(*same.fP, 0.0);
+  const FriedmanTest tied = friedmanTest({1, 1, 2, 2}, 2, 2);
+  EXPECT_FALSE(tied.chiSquared || tied.p || tied.kendallW);
+  expectError([] { friedmanTest({1, 2, 3}, 2, 2); }, "values[3]");
+  expectError([] { friedmanTest({1, 2}, 1, 2); }, "subjects");
+}
+
+TEST(SignedRank, AreThoseOfR) {
+  const SignedRankTest exact =
+      signedRankTest({3.1, 0.2, 5.9, 4.4, 1.3, 2.8, 7.7, 6.1}, {2.2, 0.9, 4.1, 6.3, 0.5, 3.7, 5.2, 8.8});
+  // 3.1 - 2.2 and 2.8 - 3.7 are equal in size on paper but not in binary, for R as for us.
+  EXPECT_TRUE(exact.exact);
+  EXPECT_EQ(exact.positiveRanks, 17.0);
+  expectRelative(exact.p, 0.9453125, 1e-12);
+  const SignedRankTest ties =
+      signedRankTest({4, 6, 7, 3, 9, 5, 8, 6, 7, 2, 5}, {3, 6, 5, 4, 6, 5, 4, 7, 4, 1, 2});
+  EXPECT_FALSE(ties.exact);
+  EXPECT_EQ(ties.zeros, 2u);
+  EXPECT_EQ(ties.positiveRanks, 40.0);
+  expectRelative(ties.p, 0.0414316183366989, 1e-10);
+  EXPECT_NEAR(ties.rankBiserial, (40.0 - 5.0) / 45.0, 1e-15);
+}
+
+TEST(SignedRank, EdgesAreBounded) {
+  EXPECT_EQ(signedRankTest({1, 2}, {1, 2}).p, 1.0);
+  // All of n on one side: 2 of 2^n signs.
+  EXPECT_NEAR(signedRankTest({1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}).p, 2.0 / 64.0, 1e-15);
+  expectError([] { signedRankTest({1, 2}, {1}); }, "second[1]");
+  expectError([] { signedRankTest({}, {}); }, "first");
+  expectError([] { signedRankTest({1.0}, {std::numeric_limits<double>::infinity()}); }, "second[0]");
+}
+
+TEST(SignTest, AreThoseOfR) {
+  expectRelative(mcNemarTest(3, 12).p, 0.03515625, 1e-12);
+  expectRelative(*mcNemarTest(3, 12).chiSquared, 4.2666666666666666, 1e-12);
+  expectRelative(*mcNemarTest(3, 12).chiSquaredP, 0.0388671038124172, 1e-10);
+  expectRelative(mcNemarTest(499000, 501000).p, 0.0456082998653821, 1e-9);
+  EXPECT_EQ(mcNemarTest(0, 0).p, 1.0);
+  EXPECT_FALSE(mcNemarTest(0, 0).chiSquared);
+  expectError([] { mcNemarTest(-1, 2); }, "onlyFirst");
+  const SignTest t = signTest({1, 2, 3, 4}, {0, 2, 4, 1});
+  EXPECT_EQ(t.first, 2);
+  EXPECT_EQ(t.second, 1);
+  EXPECT_EQ(t.p, 1.0);
+}
+
+}  // namespace
+}  // namespace limen::analysis
