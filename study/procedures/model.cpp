@@ -331,9 +331,11 @@ std::string describeModels() {
   for (const SigmoidForm& form : sigmoidForms()) {
     out += std::string("    ") + form.name + ": " + form.formula + "\n" + describe(form.shape);
   }
-  out += "    sigmoid: F by threshold and width (psignifit 4); keys `family` (" +
-         join(psychometrics::sigmoidNames()) + ") and `axis` (linear, log)\n" +
-         describe(thresholdWidthForm(SigmoidFamily::Logistic, StimulusAxis::Linear).shape);
+  out +=
+      "    sigmoid: F by threshold and width (psignifit 4); keys `axis` (linear, log) and `family` (\n     "
+      " " +
+      join(psychometrics::sigmoidNames()) + ")\n" +
+      describe(thresholdWidthForm(SigmoidFamily::Logistic, StimulusAxis::Linear).shape);
   out += "      of all of these:\n" + describe({guessRate(), lapseRate()});
   out +=
       "    csf: stimulus contrast (dB) and spatial_frequency; a weibull_db whose threshold is\n"

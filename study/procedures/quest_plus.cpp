@@ -140,7 +140,7 @@ ProcedureSettings read(SettingsReader& reader, const char* type, const char* def
   detail->tieTolerance = reader.numberOr("tie_tolerance", kTieTolerance, 0.0, 0.1);
   detail->stop = readStop(reader, {"trials", "entropy"});
   reader.finish();
-  detail->search = std::make_shared<EntropySearch>(detail->model);
+  detail->search = std::make_shared<EntropySearch>(detail->model, reader.where());
   ProcedureSettings out;
   out.type = type;
   out.stimulus = dimensionsOf(detail->model.stimulus);
