@@ -57,8 +57,8 @@ std::vector<Mistake> mistakes() {
                 "0}}\nvariables: {speed: 2}\n",
        "2:37: 'tile' becomes '0.5' by '= speed / 4' with speed = 2; allowed: whole number from 0 to 63"},
       {kYesNo + "stimulus: {scene: {name: box, distance: = 1 / (speed - 2)}, levels: {before: 1, after: "
-                "0}}\nvariables: {speed: 2}\n"
-                "2:41: "},
+                "0}}\nvariables: {speed: 2}\n",
+       "2:41: "},
       {kYesNo + "stimulus: {scene: {name: box}}\n", "2:11: nothing says what a stimulus shows"},
       {kYesNo + "stimulus: {scene: {name: box}, before: {name: exact}}\n",
        "2:11: nothing changes in the stimuli of a task 'yes_no'"},

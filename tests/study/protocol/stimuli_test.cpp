@@ -77,7 +77,8 @@ TEST(Stimuli, WhatIsLeftOutHasItsDefault) {
 TEST(Stimuli, TheTargetAloneChanges) {
   const Protocol protocol = exampleProtocol(R"(task: {type: interval, alternatives: 3, question: "Which?"}
 )" + kBox + "trials: {change: 6}\n");
-  for (const PlannedTrial& trial : makeDesign(protocol, 1, 0).blocks[0].trials) {
+  const Design design = makeDesign(protocol, 1, 0);
+  for (const PlannedTrial& trial : design.blocks[0].trials) {
     const std::vector<Stimulus> stimuli = stimuliOf(protocol, trial);
     ASSERT_EQ(stimuli.size(), 3U);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(stimuli[static_cast<size_t>(i)].changes, i == trial.target);
