@@ -13,5 +13,6 @@ int main(int argc, char** argv) {
   study::addProtocolCommand(app, run);
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
+  study::addSessionsCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
 }
