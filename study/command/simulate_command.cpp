@@ -36,9 +36,10 @@ void listKinds(bool asJson) {
     text += fmt::format("{}: {}\n", kind->name, kind->summary);
     for (const Parameter& parameter : kind->parameters) {
       parameters.push_back(toJson(parameter));
-      text += fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", parameter.name,
-                          parameter.description, "", describeRange(parameter), toText(parameter.defaultValue),
-                          parameter.source.empty() ? "" : " [" + parameter.source + "]");
+      text +=
+          fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", parameter.name, parameter.description,
+                      "", describeRange(parameter), limen::toText(parameter.defaultValue),
+                      parameter.source.empty() ? "" : " [" + parameter.source + "]");
     }
     out.push_back({{"name", kind->name},
                    {"version", kind->version},
