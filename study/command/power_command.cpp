@@ -157,9 +157,10 @@ void print(const PowerOptions& options, const PowerResult& result) {
   }
   if (degenerate > 0.01)
     fmt::print(
-        "note: in some condition and design all observers agreed in {:.0f} % of the experiments; such an "
-        "interval has\n"
-        "width 0, tells nothing of the spread and is not counted as reached\n",
+        "note: in some condition and design all observers agreed in {:.0f} % of the experiments; for rates "
+        "of 0 and 1\n"
+        "the exact binomial interval of as many answers as observers then stands in, for others no width is "
+        "enough\n",
         100.0 * degenerate);
 }
 

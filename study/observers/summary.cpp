@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -99,6 +100,10 @@ class Summariser {
   }
 
   SimulationSummary finish() {
+    const auto inOrder = [this](auto& rows) {
+      std::stable_sort(rows.begin(), rows.end(),
+                       [this](const auto& a, const auto& b) { return rankOf(a) < rankOf(b); });
+    };
     for (const auto& [key, rates] : rates_) {
       const int part = key.first < 0 ? -1 - key.first : key.first;
       ConditionSummary summary{
@@ -125,10 +130,28 @@ class Summariser {
       summary.coverage = sums.held / n;
       out_.estimates.push_back(std::move(summary));
     }
+    inOrder(out_.parts);
+    inOrder(out_.conditions);
+    inOrder(out_.estimates);
     return std::move(out_);
   }
 
  private:
+  // Places of part and levels in the protocol.
+  template <class Row>
+  std::vector<size_t> rankOf(const Row& row) const {
+    const Part& part = protocol_.parts[static_cast<size_t>(partOf(row.part))];
+    std::vector<size_t> out = {static_cast<size_t>(partOf(row.part))};
+    for (const Factor& factor : part.factors)
+      for (const char* name : {factor.name.c_str(), "item_a", "item_b"}) {
+        const auto found = row.condition.find(name);
+        if (found == row.condition.end()) continue;
+        for (size_t i = 0; i < factor.levels.size(); ++i)
+          if (factor.levels[i].name == found->second) out.push_back(i);
+      }
+    return out;
+  }
+
   int partOf(const std::string& name) const {
     for (size_t i = 0; i < protocol_.parts.size(); ++i)
       if (protocol_.parts[i].name == name) return static_cast<int>(i);
