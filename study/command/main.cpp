@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
   study::addProtocolCommand(app, run);
   study::addCalibrateCommand(app, run);
   study::addTimingCommand(app, run);
+  study::addPowerCommand(app, run);
+  study::addSimulateCommand(app, run);
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
   study::addSessionsCommand(app, run);
