@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   study::Run run{{argv, argv + argc}};
   study::addProtocolCommand(app, run);
+  study::addRunCommand(app, run);
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
