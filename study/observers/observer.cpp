@@ -180,12 +180,12 @@ double SimulatedObserver::probability(const Trial& trial, const Variables& axes)
   return trial.plan.target == 1 ? second : 1.0 - second;
 }
 
-ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables& axes) {
+ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables& axes, uint64_t seed) {
   const Sight sight = look(trial, axes);
   const SimulationRules& rules = *sight.rules;
   const TaskSetting& task = simulation_.protocol().parts[static_cast<size_t>(trial.plan.part)].task;
   const bool yesNo = task.type == Task::YesNo;
-  Random random(childSeed(trial.seed, "answer"));
+  Random random(childSeed(seed, "answer"));
   Judgement judgement;
   if (yesNo || task.type == Task::Rating)
     judgement = decideYesNo(sight.setting, random);
@@ -215,7 +215,7 @@ ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables&
     out.confidence = stepOf(blank ? judgement.evidence : std::abs(judgement.evidence), rules.confidence);
   }
   out.reactionTimeS =
-      rules.reactionMedianS * std::exp(rules.reactionSdLog * normalOf(trial.seed, "reaction"));
+      rules.reactionMedianS * std::exp(rules.reactionSdLog * normalOf(seed, "reaction"));
   return out;
 }
 

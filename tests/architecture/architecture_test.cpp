@@ -56,7 +56,7 @@ TEST(Architecture, TargetsLinkInTheAllowedDirections) {
 }
 
 TEST(Architecture, AnalyseAsksForNoOpenGlLibrary) {
-  const std::string program = std::string(LIMEN_BIN_DIR) + "/limen-analyse";
+  const std::string program = LIMEN_BIN_DIR "/limen-analyse";
   if (!std::filesystem::exists(program)) GTEST_SKIP() << program << " is not built";
   const std::vector<std::string> libraries = neededLibraries(program);
   ASSERT_THAT(libraries, Not(IsEmpty()));
