@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   study::addTimingCommand(app, run);
   study::addPowerCommand(app, run);
   study::addSimulateCommand(app, run);
+  study::addRunCommand(app, run);
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
   study::addSessionsCommand(app, run);
