@@ -53,6 +53,7 @@ ButtonGrid gridFor(const std::vector<PageButton>& buttons, int columns, float av
                    const Lettering& body, float scale) {
   ButtonGrid grid;
   grid.gap = 20 * scale;
+  if (buttons.empty()) return grid;
   const int count = static_cast<int>(buttons.size());
   const float padding = 18 * scale;
   for (grid.columns = columns > 0 ? columns : count; grid.columns > 1; --grid.columns) {

@@ -13,7 +13,11 @@ int main(int argc, char** argv) {
   study::addProtocolCommand(app, run);
   study::addCalibrateCommand(app, run);
   study::addTimingCommand(app, run);
+  study::addPowerCommand(app, run);
+  study::addSimulateCommand(app, run);
+  study::addRunCommand(app, run);
   study::addTraceCommand(app, run);
   study::addExportCommand(app, run);
+  study::addSessionsCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
 }
