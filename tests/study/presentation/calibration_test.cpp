@@ -49,11 +49,13 @@ TEST(Calibration, ExactReadingsGiveTheirCurveBack) {
 }
 
 TEST(Calibration, NoiseOfAPhotometerMovesGammaByLittle) {
-  // 1 % on each of nine readings. At gamma 2.2 one reading in the middle, a fifth of the peak, off by 1 % is
-  // worth 0.01 / ln 2 = 0.014 in gamma; the brightest ones have more weight. Three times that.
+  // 1 % on each of nine readings. Two of them, at levels 1/8 and 1, alone give gamma with an error of
+  // sqrt(2) 0.01 / ln 8 = 0.007, black and white with 1 % each. All together do no worse; five times that.
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const TransferFit fit = fitGamma(readings(0.5, 250.0, 2.2, 0.01, seed));
-    EXPECT_NEAR(fit.gamma, 2.2, 0.12) << seed;
+    EXPECT_NEAR(fit.gamma, 2.2, 0.035) << seed;
+    EXPECT_NEAR(fit.blackCdM2, 0.5, 0.05 * 0.5);
+    EXPECT_NEAR(fit.peakCdM2, 250.0, 0.05 * 250.0);
     EXPECT_GT(fit.rmsCdM2, 0.0);
   }
 }
