@@ -57,6 +57,10 @@ class SimulatedObserver {
 
   /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the least.
   double probability(const Trial& trial, const Variables& axes = {});
+  /// F at a stimulus.
+  double detected(const Trial& trial, const Variables& axes = {});
+  /// Whether a trial's condition needs the popping predictor.
+  bool usesModel(const Trial& trial) const;
 
  private:
   struct Sight;  // what a trial is to this observer

@@ -61,10 +61,11 @@ void checkSame(const Protocol& protocol, const SimulationRequest& request, const
   if (!frontEnd.value("simulated", false))
     throw Error("participant " + session.participant + " is no simulated one", request.store, mend);
   if (session.seed != sessionSeed(request.seed, session.participant))
-    throw Error("participant " + session.participant + " was simulated with another --seed", request.store, mend);
+    throw Error("participant " + session.participant + " was simulated with another --seed", request.store,
+                mend);
   if (frontEnd["observer"] != toJson(request.observer) || frontEnd["invalid_rate"] != request.invalidRate)
-    throw Error("participant " + session.participant + " was simulated as another observer: " +
-                    frontEnd["observer"].dump(),
+    throw Error("participant " + session.participant +
+                    " was simulated as another observer: " + frontEnd["observer"].dump(),
                 request.store, mend);
 }
 
@@ -93,25 +94,14 @@ class Turns {
   bool stopped_ = false;
 };
 
-// One thread at a time.
-class GuardedModel : public StimulusModel {
- public:
-  explicit GuardedModel(StimulusModel& model) : model_(model) {}
-  StimulusPrediction predict(const Trial& trial, const Variables& axes, size_t which) override {
-    const std::scoped_lock lock(guard_);
-    return model_.predict(trial, axes, which);
-  }
-
- private:
-  StimulusModel& model_;
-  std::mutex guard_;
-};
-
 class Simulator {
  public:
   Simulator(const Protocol& protocol, const SimulationRequest& request, StimulusModel* model)
-      : protocol_(protocol), request_(request), simulation_(protocol), known_(knownSessions(request.store)) {
-    if (model) model_ = std::make_unique<GuardedModel>(*model);
+      : protocol_(protocol),
+        request_(request),
+        simulation_(protocol),
+        model_(model),
+        known_(knownSessions(request.store)) {
     if (!known_.empty()) {
       const store::SessionReader reader(request.store);
       for (int i = 0; i < request.observers; ++i) {
@@ -157,7 +147,7 @@ class Simulator {
       return;
     }
     const uint64_t seed = sessionSeed(request_.seed, participant);
-    SimulatedObserver observer(simulation_, request_.observer.behaviour, observerSeed(seed), model_.get());
+    SimulatedObserver observer(simulation_, request_.observer.behaviour, observerSeed(seed), model_);
     // Sittings one after the other, an hour each; a resumed one goes on where its clock stopped.
     SimulatedClock clock = known ? SimulatedClock(known->lastUtcMs, known->lastMonotonicNs)
                                  : SimulatedClock(SimulatedClock::kEpochMs + index * int64_t{3600000});
@@ -199,8 +189,8 @@ class Simulator {
   const Protocol& protocol_;
   const SimulationRequest& request_;
   Simulation simulation_;
+  StimulusModel* model_;
   std::map<std::string, Known> known_;
-  std::unique_ptr<GuardedModel> model_;
   Turns turns_;
   std::atomic<int> next_ = 0;
   std::atomic<bool> stopped_ = false;
@@ -213,11 +203,16 @@ class Simulator {
 
 }  // namespace
 
-SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest& request, StimulusModel* model) {
+SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest& request,
+                               StimulusModel* model) {
   if (request.observers < 1 || request.observers > 1000000)
     throw Error(std::to_string(request.observers) + " is not from 1 to 1000000", "--observers");
-  if (request.jobs < 1 || request.jobs > 256) throw Error(std::to_string(request.jobs) + " is not from 1 to 256", "--jobs");
-  if (!(request.invalidRate >= 0.0 && request.invalidRate < 1.0)) throw Error("is not from 0 to below 1", "--invalid-rate");
+  if (request.jobs < 1 || request.jobs > 256)
+    throw Error(std::to_string(request.jobs) + " is not from 1 to 256", "--jobs");
+  if (!(request.invalidRate >= 0.0 && request.invalidRate < 1.0))
+    throw Error("is not from 0 to below 1", "--invalid-rate");
+  if (model && request.jobs > 1)
+    throw Error("the popping predictor works for one thread", "--jobs", "give 1, or another --kind");
   const std::filesystem::path folder = std::filesystem::path(request.store).parent_path();
   std::error_code failed;
   if (!folder.empty()) std::filesystem::create_directories(folder, failed);
@@ -225,9 +220,13 @@ SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest
   return Simulator(protocol, request, model).run();
 }
 
-std::string participantCode(const std::string& prefix, int index) { return fmt::format("{}{:03}", prefix, index + 1); }
+std::string participantCode(const std::string& prefix, int index) {
+  return fmt::format("{}{:03}", prefix, index + 1);
+}
 
-uint64_t sessionSeed(uint64_t seed, const std::string& participant) { return childSeed(seed, "session " + participant); }
+uint64_t sessionSeed(uint64_t seed, const std::string& participant) {
+  return childSeed(seed, "session " + participant);
+}
 
 uint64_t observerSeed(uint64_t sessionSeed) { return childSeed(sessionSeed, "observer"); }
 

@@ -36,8 +36,9 @@ struct SimulationEnd {
 /// has number i of the counterbalancing in a fresh store, whatever `jobs` is, session seed childSeed(seed,
 /// code) and observer seed childSeed(session seed, "observer"). Answers are those of an uninterrupted run.
 /// Throws Error: a store whose sessions are not those of this protocol, seed and observer, and what
-/// runSession() refuses. `model`: needed where a condition is predicted; called from one thread at a time.
-SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest& request, StimulusModel* model = nullptr);
+/// runSession() refuses. `model`: needed where a condition is predicted; for one job only.
+SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest& request,
+                               StimulusModel* model = nullptr);
 
 std::string participantCode(const std::string& prefix, int index);  ///< index from 0: "S001"
 uint64_t sessionSeed(uint64_t seed, const std::string& participant);

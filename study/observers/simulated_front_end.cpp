@@ -119,8 +119,9 @@ TrialResult SimulatedFrontEnd::present(const Trial& trial, const Session& sessio
 void SimulatedFrontEnd::feedback(bool /*correct*/) { clock_.advance(kFeedbackS); }
 
 nlohmann::json SimulatedFrontEnd::environment() const {
-  nlohmann::json out = {
-      {"front_end", "simulated observer"}, {"simulated", true}, {"refresh_hz", setting_.refreshHz},
+  nlohmann::json out = {{"front_end", "simulated observer"},
+                        {"simulated", true},
+                        {"refresh_hz", setting_.refreshHz},
                         {"invalid_rate", setting_.invalidRate}};
   out["observer"] = setting_.description;
   return out;

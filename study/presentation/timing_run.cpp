@@ -75,8 +75,8 @@ TimingReport runTiming(ScreenDevice& screen, double seconds) {
     screen.poll();
     if (i == 0) first = now;
     const double passedS = 1e-9 * static_cast<double>(now - first);
-    if (passedS >= 0.5) times.push_back(now);
-    if (passedS >= seconds + 0.5 || screen.lost()) break;
+    if (passedS >= kTimingWarmUpS - 1e-6) times.push_back(now);
+    if (passedS >= seconds + kTimingWarmUpS || screen.lost()) break;
   }
   TimingReport out = reportTiming(times, screen.refreshHz());
   if (screen.lost()) out.objections.push_back("the window was lost");

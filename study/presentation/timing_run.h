@@ -32,7 +32,9 @@ std::string toText(const TimingReport& report);
 /// time.
 TimingReport reportTiming(const std::vector<int64_t>& returnedNs, double nominalHz);
 
-/// Flickers between two greys for some seconds, a warm-up of half a second not counted.
+inline constexpr double kTimingWarmUpS = 0.5;
+
+/// Flickers between two greys for some seconds after a warm-up that is not counted.
 TimingReport runTiming(ScreenDevice& screen, double seconds);
 
 }  // namespace limen::study

@@ -165,7 +165,7 @@ TEST_F(SessionStoreTest, AnotherProtocolOrDisplayIsRefusedWithBothNamed) {
   EXPECT_THROW(run(protocol, first), Killed);
   Protocol other = smallProtocol(5, 0);
   other.name = "other";
-  EXPECT_THAT(errorOf([&] { resume(other, second); }), AllOf(HasSubstr("'test', SHA-256 " + protocol.hash),
+  EXPECT_THAT(errorOf([&] { resume(other, second); }), AllOf(HasSubstr("'small', SHA-256 " + protocol.hash),
                                                              HasSubstr("'other', SHA-256 " + other.hash)));
   const perception::DisplayProfile display = request_.display;
   request_.display = perception::displayPreset("schwarz_2009");
