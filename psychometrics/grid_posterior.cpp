@@ -261,7 +261,7 @@ CredibleInterval GridPosterior::highestDensity(size_t dimension, double level) c
 }
 
 std::string GridPosterior::hash() const {
-  return Sha256().update(probability_.data(), probability_.size() * sizeof(double)).hex();
+  return Sha256().update(logWeight_.data(), logWeight_.size() * sizeof(double)).hex();
 }
 
 }  // namespace limen::psychometrics

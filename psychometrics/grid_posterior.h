@@ -62,7 +62,8 @@ class GridPosterior {
   /// The shortest interval with probability `level`: for a marginal with one peak that of highest density.
   CredibleInterval highestDensity(size_t dimension, double level) const;
 
-  /// SHA-256 of the bytes of probability(): equal for the same posterior, bit for bit.
+  /// SHA-256 of the bytes of logWeight(), from which all else follows: equal for the same posterior, bit for
+  /// bit.
   std::string hash() const;
 
  private:

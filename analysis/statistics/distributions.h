@@ -29,8 +29,7 @@ double betaQuantile(double p, double a, double b);  ///< lower tail p
 double fairCoinLower(double k, double trials);
 
 /// Noncentrality with which F of these degrees is at most `f` with probability `p`, 0 if even the central F
-/// falls short of `p`. Throws std::runtime_error where the distribution cannot be worked out (f above some
-/// 1e9).
+/// falls short of `p`. Throws std::runtime_error where its series is out of reach: degrees1 f > 1e8.
 double noncentralityOfF(double f, double degrees1, double degrees2, double p);
 
 }  // namespace limen::analysis

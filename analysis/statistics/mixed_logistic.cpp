@@ -167,9 +167,9 @@ Eigen::VectorXd fitPooled(const LaplaceModel& model) {
     }
     const Eigen::MatrixXd h = model.fixed.transpose() * weight.asDiagonal() * model.fixed;
     const Eigen::VectorXd direction = h.ldlt().solve(model.fixed.transpose() * residual);
-    if (direction.allFinite() && direction.cwiseAbs().maxCoeff() < 1e-8 && eta.cwiseAbs().maxCoeff() < 30.0)
-      return beta;
-    if (!direction.allFinite() || eta.cwiseAbs().maxCoeff() >= 30.0) break;
+    if (!direction.allFinite()) break;
+    // Along a direction that separates, Newton's steps stay about 1 long for ever.
+    if (direction.cwiseAbs().maxCoeff() < 1e-8) return beta;
     double length = 1.0, after = logLikelihood(beta + direction);
     while (!(after >= value) && length > 1e-6) {
       length *= 0.5;

@@ -46,8 +46,8 @@ struct GroupEffect {
 struct MixedLogistic {
   std::vector<FixedEffect> fixed;
   double interceptDeviation = 0.0;  ///< of b over groups
-  std::optional<double> slopeDeviation,
-      correlation;                  ///< with a random slope; correlation none if a deviation is 0
+  /// With a random slope; no correlation if a deviation is 0.
+  std::optional<double> slopeDeviation, correlation;
   double logLikelihood = 0.0;       ///< Laplace's approximation, binomial coefficients included
   double aic = 0.0;                 ///< 2 (fixed effects + entries of Sigma) - 2 logLikelihood
   std::vector<GroupEffect> groups;  ///< by growing group

@@ -14,10 +14,9 @@ namespace limen::analysis {
 /// Scales from "which of the two?" judgements.
 enum class PairwiseModel {
   /// P(i over j) = Phi(s_i - s_j) (Thurstone 1927, case V); the unit is the standard deviation of the
-  /// difference of two
-  /// impressions, so that 0.674 is preferred in 75 % of judgements. Unweighted least squares of Phi^-1 of the
-  /// observed
-  /// proportions (Mosteller 1951), over the pairs that were judged.
+  /// difference of two impressions, so that 0.674 is preferred in 75 % of judgements. Unweighted least
+  /// squares
+  /// of Phi^-1 of the observed proportions (Mosteller 1951), over the pairs that were judged.
   kThurstoneLeastSquares,
   kThurstoneMaximumLikelihood,  ///< the same model, by maximum likelihood
   kBradleyTerry  ///< P(i over j) = 1 / (1 + exp(s_j - s_i)) (Bradley and Terry 1952), maximum likelihood
@@ -43,8 +42,8 @@ struct PairwiseOptions {
 
 struct PairwiseScale {
   std::vector<double> values;  ///< sum to 0
-  std::vector<double>
-      standardErrors;  ///< from the inverse Hessian under that constraint; least squares: delta method
+  /// From the inverse Hessian under that constraint; of least squares by the delta method.
+  std::vector<double> standardErrors;
   std::vector<double> covariance;   ///< items x items, rows; for errors of differences
   std::vector<Interval> intervals;  ///< value +- z error
   /// Percentile intervals; each resample draws every pair's judgements anew from its observed proportion.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detail/ranks.h"
@@ -24,13 +25,31 @@ double tieSum(const Ranks& ranks) {
   return sum;
 }
 
+/// first - second, where those that differ by rounding only are made equal in size: 3.1 - 2.2 and 2.8 - 3.7
+/// tie on paper but not in binary.
 std::vector<double> differencesOf(const std::vector<double>& first, const std::vector<double>& second) {
   requireSameLength(first.size(), "first", second.size(), "second");
   requireAtLeast(first.size(), 1, "first");
   requireFinite(first, "first");
   requireFinite(second, "second");
   std::vector<double> differences;
-  for (size_t i = 0; i < first.size(); ++i) differences.push_back(first[i] - second[i]);
+  double largest = 0.0;
+  for (size_t i = 0; i < first.size(); ++i) {
+    differences.push_back(first[i] - second[i]);
+    largest = std::max({largest, std::abs(first[i]), std::abs(second[i])});
+  }
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
+  std::vector<size_t> order(differences.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return std::abs(differences[a]) < std::abs(differences[b]); });
+  double last = 0.0, previous = 0.0;  // size that the group has, size before rounding
+  for (const size_t i : order) {
+    const double size = std::abs(differences[i]);
+    if (size - previous > rounding) last = size;
+    previous = size;
+    differences[i] = std::copysign(last, differences[i]);
+  }
   return differences;
 }
 

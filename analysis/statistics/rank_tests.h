@@ -25,7 +25,8 @@ struct FriedmanTest {
 /// length that does not fit, values that are not finite.
 FriedmanTest friedmanTest(const std::vector<double>& values, size_t subjects, size_t treatments);
 
-/// Wilcoxon (1945) signed ranks of paired differences first - second.
+/// Wilcoxon (1945) signed ranks of paired differences first - second. Differences that agree but for rounding
+/// (some 1e-15 of the largest value) are ties; R would break those.
 struct SignedRankTest {
   size_t pairs = 0;                                 ///< that differ
   size_t zeros = 0;                                 ///< dropped pairs

@@ -41,8 +41,8 @@ RepeatedMeasures averageCells(const std::vector<WithinFactor>& factors, size_t s
 /// Whether differences between levels vary alike, and by how much degrees of freedom shrink if they do not.
 struct Sphericity {
   /// Mauchly (1940): W = det(S) / (tr(S)/d)^d of the covariance S of the d orthonormal contrasts; p from the
-  /// second-order expansion of Box (Anderson 2003, section 10.7), as R and SAS do. None with fewer subjects
-  /// than d + 1.
+  /// second-order expansion of Box (Anderson 2003, section 10.7). R 4.2 has a wrong number in the second
+  /// order if it makes the contrasts itself. None with fewer subjects than d + 1.
   std::optional<double> mauchlyW, mauchlyP;
   double greenhouseGeisser = 1.0;  ///< tr(S)^2 / (d tr(S^2)); between 1/d and 1
   double huynhFeldt = 1.0;  ///< (n d e - 2) / (d (n - 1 - d e)), cut to 1; e is Greenhouse and Geisser's

@@ -29,8 +29,8 @@ struct RocArea {
   /// DeLong, DeLong and Clarke-Pearson (1988), by midranks (Sun and Xu 2014); none with fewer than 2 of
   /// either outcome.
   std::optional<double> variance;
-  std::optional<Interval>
-      interval;  ///< area +- z error, cut to 0 .. 1; of no width for variance 0: no certainty
+  /// Area +- z error, cut to 0 .. 1; of no width for variance 0, which is no certainty.
+  std::optional<Interval> interval;
   /// On the scale ln(A / (1 - A)), better next to 1 (Pepe 2003); none for an area of 0 or 1.
   std::optional<Interval> logitInterval;
 };

@@ -3,9 +3,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 
-#include "base/text.h"
 #include "study/application/ui_window.h"
 
 namespace limen::study {
@@ -16,44 +16,34 @@ constexpr glm::ivec2 kSizePx{720, 640};
 
 }  // namespace
 
-const std::vector<std::string>& noteCodes() {
-  static const std::vector<std::string> kCodes = {
-      "noise in the room",          "light in the room changed",
-      "participant was distracted", "participant moved from the seat",
-      "instructions were repeated", "equipment trouble"};
-  return kCodes;
-}
-
-void NoteBox::add(const std::string& code, const std::string& where) {
-  notes_.push_back(where.empty() ? code : code + " (" + where + ")");
-}
-
-std::string NoteBox::take() { return join(std::exchange(notes_, {}), "; "); }
-
 struct ExperimenterWindow::State {
-  State(const UiWindowOptions& options) : window(options) {}
+  State(const UiWindowOptions& options, NoteCodes noteCodes) : window(options), codes(std::move(noteCodes)) {}
   UiWindow window;
+  NoteCodes codes;
+  std::vector<std::string> notes;
+  int noted = 0;
   int64_t drawnNs = 0;
   bool confirming = false, abort = false;
 
-  void build(const SessionWatch& watch, NoteBox& notes);
+  void build(const SessionWatch& watch);
 };
 
-ExperimenterWindow::ExperimenterWindow(int monitor, float scale) {
+ExperimenterWindow::ExperimenterWindow(int monitor, float scale, NoteCodes codes) {
   UiWindowOptions options;
   options.title = "Limen: experimenter";
-  options.sizePx = kSizePx;
+  options.sizePx = glm::ivec2(glm::vec2(kSizePx) * std::max(scale, 1.0F));
   options.monitor = monitor;
-  options.scale = scale > 0 ? 0.7F * scale : 0.0F;
+  options.scale = scale;
   options.resizable = true;
-  state_ = std::make_unique<State>(options);
+  state_ = std::make_unique<State>(options, std::move(codes));
 }
 
 ExperimenterWindow::~ExperimenterWindow() = default;
 
+std::vector<std::string> ExperimenterWindow::takeNotes() { return std::exchange(state_->notes, {}); }
 bool ExperimenterWindow::takeAbort() { return std::exchange(state_->abort, false); }
 
-void ExperimenterWindow::State::build(const SessionWatch& watch, NoteBox& notes) {
+void ExperimenterWindow::State::build(const SessionWatch& watch) {
   const ImGuiIO& io = ImGui::GetIO();
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize(io.DisplaySize);
@@ -64,11 +54,15 @@ void ExperimenterWindow::State::build(const SessionWatch& watch, NoteBox& notes)
   ImGui::Separator();
   for (const std::string& line : watch.lines()) ImGui::TextWrapped("%s", line.c_str());
   ImGui::Separator();
-  ImGui::TextWrapped("Note (goes into the log with the next screen; %d waiting)", notes.waiting());
+  ImGui::TextWrapped("Note for the log (%d so far)", noted);
   const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  for (size_t i = 0; i < noteCodes().size(); ++i) {
+  for (size_t i = 0; i < codes.size(); ++i) {
     if (i % 2 == 1) ImGui::SameLine();
-    if (ImGui::Button(noteCodes()[i].c_str(), {half, 0})) notes.add(noteCodes()[i], watch.screen());
+    if (ImGui::Button(codes[i].first.c_str(), {half, 0})) {
+      notes.push_back(codes[i].first);
+      ++noted;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", codes[i].second.c_str());
   }
   ImGui::Separator();
   if (!confirming) {
@@ -86,13 +80,13 @@ void ExperimenterWindow::State::build(const SessionWatch& watch, NoteBox& notes)
   ImGui::PopFont();
 }
 
-void ExperimenterWindow::tick(const SessionWatch& watch, NoteBox& notes) {
+void ExperimenterWindow::tick(const SessionWatch& watch) {
   const int64_t now = steadyNs();
   if (now - state_->drawnNs < kRedrawNs) return;
   state_->drawnNs = now;
   state_->window.takeInputs();
   if (state_->window.takeCloseRequest()) state_->confirming = true;
-  state_->window.draw({0.12F, 0.12F, 0.13F}, [&] { state_->build(watch, notes); });
+  state_->window.draw({0.12F, 0.12F, 0.13F}, [&] { state_->build(watch); });
   state_->window.show(0);
 }
 

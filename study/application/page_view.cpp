@@ -29,7 +29,7 @@ Palette paletteFor(glm::vec3 background) {
   const auto towards = [&](float share) {
     return colour(glm::mix(background, glm::vec3(dark ? 1.0F : 0.0F), share));
   };
-  return {towards(0.92F), towards(0.60F), towards(0.10F), towards(0.22F), towards(0.45F), towards(0.20F)};
+  return {towards(0.92F), towards(0.70F), towards(0.10F), towards(0.22F), towards(0.45F), towards(0.20F)};
 }
 
 // Sizes of the buttons' grid, alike for all of them.
@@ -53,6 +53,7 @@ ButtonGrid gridFor(const std::vector<PageButton>& buttons, int columns, float av
                    const Lettering& body, float scale) {
   ButtonGrid grid;
   grid.gap = 20 * scale;
+  if (buttons.empty()) return grid;
   const int count = static_cast<int>(buttons.size());
   const float padding = 18 * scale;
   for (grid.columns = columns > 0 ? columns : count; grid.columns > 1; --grid.columns) {
@@ -94,7 +95,7 @@ void drawButton(const PageButton& button, const TargetRect& rect, bool focused, 
   const float padding = 18 * style.scale, width = rect.x1 - rect.x0;
   const std::vector<std::string> lines = wrapped(body, button.label, width - 2 * padding);
   const std::string hint = hintOf(button, style);
-  const Lettering small{body.font, std::round(body.px * 0.8F)};
+  const Lettering small{body.font, std::round(body.px * 0.85F)};
   const float height =
       body.lineHeight() * static_cast<float>(lines.size()) + (hint.empty() ? 0 : small.lineHeight());
   const float y = (rect.y0 + rect.y1 - height) / 2;
@@ -231,15 +232,6 @@ PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, cons
     drawButton(page.buttons[i], rect, page.focus == static_cast<int>(i), lit, at.body, style, palette);
   }
   return layout;
-}
-
-void drawFixation(glm::vec2 sizePx, const PageStyle& style) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImU32 value = paletteFor(style.background).dim;
-  const glm::vec2 middle = glm::round(sizePx / 2.0F);
-  const float arm = std::round(14 * style.scale), half = std::max(std::round(1.5F * style.scale), 1.0F);
-  list.AddRectFilled({middle.x - arm, middle.y - half}, {middle.x + arm, middle.y + half}, value);
-  list.AddRectFilled({middle.x - half, middle.y - arm}, {middle.x + half, middle.y + arm}, value);
 }
 
 }  // namespace limen::study

@@ -28,7 +28,4 @@ struct PageLayout {
 /// target under `cursorPx` is lit.
 PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, const PageStyle& style);
 
-/// A cross in the middle, for eyes to rest on.
-void drawFixation(glm::vec2 sizePx, const PageStyle& style);
-
 }  // namespace limen::study

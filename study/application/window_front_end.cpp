@@ -121,8 +121,8 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
   bool draw = true;
   while (!screen.done()) {
     if (stopAsked()) return Left::StopForNow;
-    if (experimenter_) experimenter_->tick(watch_, notes_);
-    if (experimenter_ && experimenter_->takeAbort()) return Left::End;
+    if (experimenter_) experimenter_->tick(watch_);
+    if (experimenter_ && experimenter_->takeAbort()) return Left::EndedByExperimenter;
     if (timedOut && timedOut()) return Left::TimedOut;
     // Nothing is drawn while nothing changes, so that no input waits for a frame before it gets its time.
     const Page page = screen.page(steadyNs());
@@ -181,25 +181,24 @@ ScreenResult WindowFrontEnd::show(const Screen& screen, const Session& session) 
   Left left = run(*page);
   while (left == Left::Paused && (left = pause({})) == Left::Done) left = run(*page);
   ScreenResult result;
-  result.note = notes_.take();
-  if (left == Left::End) result.outcome = Outcome::Aborted;
-  if (left == Left::StopForNow) result.outcome = Outcome::Paused;
-  if (left != Left::Done) return result;
+  if (left != Left::Done) {
+    result.outcome = left == Left::StopForNow ? Outcome::Paused : Outcome::Aborted;
+    result.by = stoppedBy(left);
+    result.reason = stopReason_;
+    return result;
+  }
   if (const auto* consent = dynamic_cast<const ConsentScreen*>(page.get())) {
     result.answers = {{"consent", consent->agreed()}};
-    if (!consent->agreed()) result.outcome = Outcome::Aborted;
   }
   if (const auto* form = dynamic_cast<const FormScreen*>(page.get())) result.answers = form->answers();
   return result;
 }
 
-void WindowFrontEnd::drawNeutral(bool fixation, const std::string& status) {
+void WindowFrontEnd::drawNeutral(const std::string& status) {
   window_.draw(setting_.background, [&] {
-    const glm::vec2 size(window_.sizePx());
-    if (fixation) drawFixation(size, style());
     Page page;
     page.status = status;
-    if (!status.empty()) drawPage(page, size, {-1, -1}, style());
+    if (!status.empty()) drawPage(page, glm::vec2(window_.sizePx()), {-1, -1}, style());
   });
 }
 
@@ -216,36 +215,20 @@ bool WindowFrontEnd::watchWindow() {
   return !pauseAsked_ && loss_.empty() && !stopAsked();
 }
 
-bool WindowFrontEnd::neutral(double seconds, bool fixation) {
-  if (seconds <= 0) return true;
-  drawNeutral(fixation, {});
-  if (fixation) screenshot("fixation");
-  const int64_t end = window_.show() + static_cast<int64_t>(seconds * 1e9);
-  if (fixation) announce("fixation");
-  while (steadyNs() < end) {
-    window_.poll(std::min(static_cast<double>(end - steadyNs()) * 1e-9, kPollS));
-    if (!watchWindow()) return false;
-  }
-  return true;
-}
-
-bool WindowFrontEnd::lead(const Trial& trial, const Session& session) {
-  const Timing& timing = session.protocol().timing;
+bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
   const int64_t start = steadyNs();
-  drawNeutral(false, {});
+  drawNeutral({});
   window_.show();
   bool told = false;
   player_.prepare(trial, session, [&] {
     watchWindow();
     if (told || steadyNs() - start < kPatienceNs) return;
-    drawNeutral(false, "One moment, please");
+    drawNeutral("One moment, please");
     screenshot("wait");
     window_.show(0);
     told = true;
   });
-  const double rest = timing.betweenTrialsS - static_cast<double>(steadyNs() - start) * 1e-9;
-  return watchWindow() && neutral(rest, false) && neutral(timing.fixationS, true) &&
-         neutral(timing.afterFixationS, false);
+  return watchWindow();
 }
 
 TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) {
@@ -258,18 +241,25 @@ TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) 
 }
 
 TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) {
-  window_.hideCursor(true);
-  // Until the stimulus begins nothing is lost by a pause: the way to it is gone again.
-  for (forget(); !lead(trial, session); forget()) {
-    if (const Left left = afterStop(); left != Left::Done) return stopped(left);
+  PlayResult played;
+  while (true) {
+    forget();
     window_.hideCursor(true);
+    if (prepare(trial, session)) {
+      early_.clear();
+      announce("stimulus");
+      played = player_.play([this] { return watchWindow(); });
+    } else {
+      played = {};
+      played.stopped = true;
+    }
+    // Until the stimulus has begun nothing is lost by a pause: the way to it is gone again.
+    if (!played.stopped || !played.frames.empty()) break;
+    if (const Left left = afterStop(); left != Left::Done) return stopped(left);
   }
-  early_.clear();
-  announce("stimulus");
-  const PlayResult played = player_.play([this] { return watchWindow(); });
   TrialResult result;
   result.frames = played.frames;
-  if (played.stopped || !loss_.empty() || pauseAsked_ || stopAsked()) {
+  if (played.stopped || !loss_.empty()) {
     result.outcome = Outcome::Invalid;
     result.reason = loss_.empty() ? "paused in the middle" : "window lost: " + loss_;
     const Left left = afterStop();
@@ -308,9 +298,19 @@ WindowFrontEnd::Left WindowFrontEnd::afterStop() {
 }
 
 TrialResult WindowFrontEnd::stopped(Left left, TrialResult result) const {
-  result.outcome = left == Left::End ? Outcome::Aborted : Outcome::Paused;
+  result.outcome = left == Left::StopForNow ? Outcome::Paused : Outcome::Aborted;
+  result.by = stoppedBy(left);
   if (result.reason.empty()) result.reason = stopReason_;
   return result;
+}
+
+std::string WindowFrontEnd::stoppedBy(Left left) const {
+  if (left == Left::EndedByExperimenter) return "experimenter";
+  return stopReason_.empty() ? "participant" : "system";
+}
+
+std::vector<std::string> WindowFrontEnd::takeNotes() {
+  return experimenter_ ? experimenter_->takeNotes() : std::vector<std::string>();
 }
 
 void WindowFrontEnd::feedback(bool correct) {

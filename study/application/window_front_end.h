@@ -37,12 +37,13 @@ class WindowFrontEnd : public FrontEnd {
   ScreenResult show(const Screen& screen, const Session& session) override;
   TrialResult present(const Trial& trial, const Session& session) override;
   void feedback(bool correct) override;
+  std::vector<std::string> takeNotes() override;
   nlohmann::json environment() const override;
   /// Why the session stopped although nobody on the screen asked for it; "" otherwise.
   const std::string& stopReason() const { return stopReason_; }
 
  private:
-  enum class Left { Done, TimedOut, Paused, StopForNow, End };
+  enum class Left { Done, TimedOut, Paused, StopForNow, End, EndedByExperimenter };
   Left run(PageScreen& screen, const std::function<bool()>& timedOut = {});
   Left pause(const std::string& reason);
   bool stopAsked();
@@ -50,11 +51,10 @@ class WindowFrontEnd : public FrontEnd {
   bool watchWindow();
   void forget();
   Left afterStop();
+  std::string stoppedBy(Left left) const;
   TrialResult stopped(Left left, TrialResult result = {}) const;
-  void drawNeutral(bool fixation, const std::string& status);
-  bool neutral(double seconds, bool fixation);
-  /// All that comes before the stimulus.
-  bool lead(const Trial& trial, const Session& session);
+  void drawNeutral(const std::string& status);
+  bool prepare(const Trial& trial, const Session& session);
   TrialResult attempt(const Trial& trial, const Session& session);
   PageStyle style() const;
   void announce(const std::string& name);
@@ -65,7 +65,6 @@ class WindowFrontEnd : public FrontEnd {
   SessionWatch& watch_;
   ExperimenterWindow* experimenter_;
   Setting setting_;
-  NoteBox notes_;
   std::string stopReason_, pauseText_;
   // Since the present trial began.
   std::string loss_;

@@ -111,7 +111,7 @@ double SimulatedObserver::detectedOf(const SimulationRules& rules, const Trial& 
 double SimulatedObserver::valueOf(const SimulationRules& rules, const Trial& trial, const Variables& axes,
                                   const std::string& item, size_t which) {
   double value = 0.0;
-  if (rules.source == SimulationRules::Source::Model || behaviour_.fromModel) {
+  if (usesModel(trial)) {
     if (!model_) throw Error("the trial needs the popping predictor", rules.where, "declare items");
     value = behaviour_.valuePerRating * model_->predict(trial, axes, which).rating;
   } else {
@@ -132,7 +132,7 @@ SimulatedObserver::Sight SimulatedObserver::look(const Trial& trial, const Varia
   const SimulationRules& rules = *out.rules;
   const Variables variables = allVariables(plan, axes);
   const std::string& file = simulation_.protocol().path;
-  const bool fromModel = rules.source == SimulationRules::Source::Model || behaviour_.fromModel;
+  const bool fromModel = usesModel(trial);
   const bool yesNo = task.type == Task::YesNo || task.type == Task::Rating;
 
   DecisionSetting& setting = out.setting;
@@ -180,12 +180,21 @@ double SimulatedObserver::probability(const Trial& trial, const Variables& axes)
   return trial.plan.target == 1 ? second : 1.0 - second;
 }
 
-ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables& axes) {
+double SimulatedObserver::detected(const Trial& trial, const Variables& axes) {
+  return look(trial, axes).setting.detected;
+}
+
+bool SimulatedObserver::usesModel(const Trial& trial) const {
+  return behaviour_.fromModel ||
+         simulation_.rules(trial.plan.part, trial.plan.condition).source == SimulationRules::Source::Model;
+}
+
+ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables& axes, uint64_t seed) {
   const Sight sight = look(trial, axes);
   const SimulationRules& rules = *sight.rules;
   const TaskSetting& task = simulation_.protocol().parts[static_cast<size_t>(trial.plan.part)].task;
   const bool yesNo = task.type == Task::YesNo;
-  Random random(childSeed(trial.seed, "answer"));
+  Random random(childSeed(seed, "answer"));
   Judgement judgement;
   if (yesNo || task.type == Task::Rating)
     judgement = decideYesNo(sight.setting, random);
@@ -214,8 +223,7 @@ ObserverResponse SimulatedObserver::respond(const Trial& trial, const Variables&
     const bool blank = std::isinf(judgement.evidence);
     out.confidence = stepOf(blank ? judgement.evidence : std::abs(judgement.evidence), rules.confidence);
   }
-  out.reactionTimeS =
-      rules.reactionMedianS * std::exp(rules.reactionSdLog * normalOf(trial.seed, "reaction"));
+  out.reactionTimeS = rules.reactionMedianS * std::exp(rules.reactionSdLog * normalOf(seed, "reaction"));
   return out;
 }
 

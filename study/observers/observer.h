@@ -50,10 +50,17 @@ class SimulatedObserver {
 
   /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only where the model does. Throws Error
   /// naming file and key if an expression cannot be evaluated or gives what is out of range.
-  ObserverResponse respond(const Trial& trial, const Variables& axes = {});
+  ObserverResponse respond(const Trial& trial, const Variables& axes = {}) {
+    return respond(trial, axes, trial.seed);
+  }
+  ObserverResponse respond(const Trial& trial, const Variables& axes, uint64_t seed);
 
   /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the least.
   double probability(const Trial& trial, const Variables& axes = {});
+  /// F at a stimulus.
+  double detected(const Trial& trial, const Variables& axes = {});
+  /// Whether a trial's condition needs the popping predictor.
+  bool usesModel(const Trial& trial) const;
 
  private:
   struct Sight;  // what a trial is to this observer

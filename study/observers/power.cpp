@@ -17,6 +17,8 @@ namespace {
 
 using psychometrics::childSeed;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 struct CellKey {
   int part = 0;
   std::map<std::string, std::string> condition;
@@ -155,8 +157,16 @@ class Experimenter {
   std::map<std::string, ProcedureSettings> settings_;
 };
 
+// Width where all observers have the same value, which tells nothing of their spread.
+double agreedWidth(double value, int n, double confidence, bool isRate) {
+  const bool extreme = isRate && (value < 1e-9 || value > 1.0 - 1e-9);
+  return extreme ? 1.0 - std::pow((1.0 - confidence) / 2.0, 1.0 / n) : kInfinity;
+}
+
 // The t interval over the first n of the observers' values.
-void addExperiment(Tally& tally, const std::vector<double>& values, int n, double t, double asked) {
+void addExperiment(Tally& tally, const std::vector<double>& values, int n, double confidence, bool isRate,
+                   double asked) {
+  const double t = studentQuantile(confidence, n - 1);
   double mean = 0.0, squares = 0.0;
   for (int i = 0; i < n; ++i) mean += values[static_cast<size_t>(i)] / n;
   for (int i = 0; i < n; ++i) {
@@ -164,17 +174,18 @@ void addExperiment(Tally& tally, const std::vector<double>& values, int n, doubl
     squares += d * d;
   }
   const double variance = squares / (n - 1);
+  // A variance that is 0 but for rounding.
+  const bool degenerate = variance < 1e-24;
   double width = 2.0 * t * std::sqrt(variance / n);
-  if (std::isnan(width)) width = std::numeric_limits<double>::infinity();
+  if (degenerate) width = agreedWidth(mean, n, confidence, isRate);
+  if (std::isnan(width)) width = kInfinity;
   ++tally.experiments;
   tally.mean += mean;
   tally.variance += variance;
   tally.width += width;
   tally.widthSquares += width * width;
-  // A variance that is 0 but for rounding.
-  const bool degenerate = variance < 1e-24;
   tally.degenerate += degenerate ? 1 : 0;
-  tally.reached += !degenerate && width <= asked ? 1 : 0;
+  tally.reached += width <= asked ? 1 : 0;
 }
 
 PowerCell cellOf(const Protocol& protocol, const CellKey& key, const Tally& tally, const std::string& unit) {
@@ -198,7 +209,10 @@ PowerCell cellOf(const Protocol& protocol, const CellKey& key, const Tally& tall
 void judge(PowerDesign& design, const PowerRequest& request) {
   for (size_t i = 0; i < design.cells.size(); ++i) {
     if (design.cells[i].threshold && !request.thresholdWidth) continue;
-    if (!design.judged || design.cells[i].reached < design.cells[design.worst].reached) design.worst = i;
+    const PowerCell &cell = design.cells[i], &worst = design.cells[design.worst];
+    if (!design.judged || cell.reached < worst.reached ||
+        (cell.reached == worst.reached && cell.meanWidth > worst.meanWidth))
+      design.worst = i;
     design.judged = true;
   }
   if (!design.judged) return;
@@ -259,6 +273,9 @@ PowerResult simulatePower(const Protocol& protocol, const ObserverBehaviour& beh
         }
       }
       for (const auto& [key, list] : values) {
+        if (static_cast<int>(list.size()) != most)
+          throw Error("not every participant answers every condition", protocol.path,
+                      "there are no widths then");
         std::vector<Tally>& ofCell = tallies[key];
         ofCell.resize(observers.size());
         const double asked = !key.threshold ? request.width : request.thresholdWidth.value_or(0.0);

@@ -37,7 +37,7 @@ struct PowerCell {
   double meanWidthError = 0.0;  ///< Monte Carlo standard error
   double reached = 0.0;         ///< share of experiments with a width up to the asked one
   double reachedError = 0.0;    ///< Monte Carlo standard error, binomial
-  double degenerate = 0.0;      ///< share in which all observers agreed: width 0, which says nothing
+  double degenerate = 0.0;      ///< share in which all observers agreed
 };
 
 struct PowerDesign {
@@ -59,8 +59,9 @@ struct PowerResult {
 /// and answer the protocol's trials with `repetitions` in place of its own (a procedure is run so often, its
 /// estimates averaged; constant stimuli count each stimulus as a condition). Designs share their observers
 /// and seeds, so that their differences are less noisy than their values. Catch trials and practice are left
-/// out. An experiment in which all observers gave the same rate has an interval of width 0: it counts as
-/// not reaching, since it knows nothing of the spread.
+/// out. Where all n observers agree the t interval would have no width and tell nothing of the spread: for
+/// rates of 0 and 1 the exact binomial interval of n agreeing answers stands in (Clopper and Pearson 1934),
+/// 1 - ((1 - confidence)/2)^(1/n) wide; for other values the width is infinite.
 /// `progress`: share done; returns true to stop (the result then has no designs).
 PowerResult simulatePower(const Protocol& protocol, const ObserverBehaviour& behaviour,
                           const PowerRequest& request, StimulusModel* model = nullptr,

@@ -90,7 +90,9 @@ TrialResult SimulatedFrontEnd::present(const Trial& trial, const Session& sessio
     }
     axes = axesOf(names, trial.procedureStimulus);
   }
-  ObserverResponse response = observer_.respond(trial, axes);
+  // Of the trial, not of the attempt: one that a kill broke off is answered as it would have been.
+  const uint64_t seed = childSeed(session.seed(), "answer to trial " + std::to_string(trial.number));
+  ObserverResponse response = observer_.respond(trial, axes, seed);
   // Whoever is simulated answers in time.
   if (protocol.timing.answerTimeoutS > 0.0)
     response.reactionTimeS = std::min(response.reactionTimeS, 0.95 * protocol.timing.answerTimeoutS);
@@ -117,8 +119,10 @@ TrialResult SimulatedFrontEnd::present(const Trial& trial, const Session& sessio
 void SimulatedFrontEnd::feedback(bool /*correct*/) { clock_.advance(kFeedbackS); }
 
 nlohmann::json SimulatedFrontEnd::environment() const {
-  nlohmann::json out = {
-      {"front_end", "simulated observer"}, {"simulated", true}, {"refresh_hz", setting_.refreshHz}};
+  nlohmann::json out = {{"front_end", "simulated observer"},
+                        {"simulated", true},
+                        {"refresh_hz", setting_.refreshHz},
+                        {"invalid_rate", setting_.invalidRate}};
   out["observer"] = setting_.description;
   return out;
 }

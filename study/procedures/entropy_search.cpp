@@ -28,7 +28,7 @@ double dot(const double* a, const double* b, size_t n) {
 
 }  // namespace
 
-EntropySearch::EntropySearch(const ModelSettings& settings)
+EntropySearch::EntropySearch(const ModelSettings& settings, const std::string& where)
     : grid_(settings.stimulus), outcomes_(static_cast<size_t>(settings.model->outcomes())) {
   const psychometrics::ProductGrid parameters(settings.parameters);
   points_ = parameters.size();
@@ -41,7 +41,7 @@ EntropySearch::EntropySearch(const ModelSettings& settings)
     throw Error("the table of " + std::to_string(grid_.size()) + " stimuli, " + std::to_string(points_) +
                     " parameter points and " + std::to_string(outcomes_) + " outcomes needs " +
                     std::to_string(static_cast<long long>(bytes / 1048576.0)) + " MiB",
-                {}, "take coarser grids: at most 1024 MiB");
+                where, "take coarser grids: at most 1024 MiB");
   }
   likelihood_.resize(grid_.size() * outcomes_ * points_);
   if (!nuisance) answerEntropy_.resize(grid_.size() * points_);

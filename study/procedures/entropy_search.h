@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "psychometrics/grid_posterior.h"
@@ -21,7 +22,7 @@ namespace limen::study {
 class EntropySearch {
  public:
   /// Takes time and memory in proportion to stimuli, points and outcomes. Throws Error if that is over 1 GiB.
-  explicit EntropySearch(const ModelSettings& settings);
+  explicit EntropySearch(const ModelSettings& settings, const std::string& where = {});
 
   size_t stimuli() const { return grid_.size(); }
   const psychometrics::ProductGrid& stimulusGrid() const { return grid_; }

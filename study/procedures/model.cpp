@@ -22,12 +22,14 @@ using psychometrics::SigmoidFamily;
 using psychometrics::StimulusAxis;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = 1e100;        // of a parameter: its products and inverses are numbers
+constexpr double kMostEqualLapse = 0.49;  // at 0.5 on either side nothing would be left to rise
 
 ModelParameter anyNumber(const char* name, const char* description) {
-  return {name, description, std::nullopt, -kInfinity, kInfinity, true, true};
+  return {name, description, std::nullopt, -kLargest, kLargest, true, true};
 }
 ModelParameter positive(const char* name, const char* description, bool ofStimulus = false) {
-  return {name, description, std::nullopt, 0.0, kInfinity, true, ofStimulus};
+  return {name, description, std::nullopt, 0.0, kLargest, true, ofStimulus};
 }
 ModelParameter guessRate() {
   return {"guess", "P where nothing is seen: false alarms, or 1/m of m alternatives", 0.5, 0.0, 1.0};
@@ -45,6 +47,7 @@ struct SigmoidForm {
   const char* formula;
   std::vector<ModelParameter> shape;
   std::function<Sigmoid(const double*)> make;
+  bool logarithmic = false;  // knows no stimuli below 0
 };
 
 class SigmoidModel : public Model {
@@ -56,10 +59,11 @@ class SigmoidModel : public Model {
         parameters_(form_.shape) {
     if (!equal_) parameters_.push_back(guessRate());
     parameters_.push_back(lapseRate());
-    if (equal_) parameters_.back().maximum = 0.5;
+    if (equal_) parameters_.back().maximum = kMostEqualLapse;
   }
   int outcomes() const override { return 2; }
   const std::vector<ModelParameter>& parameters() const override { return parameters_; }
+  bool knows(const double* stimulus) const override { return !form_.logarithmic || stimulus[0] >= 0.0; }
   void logProbabilities(const double* stimulus, const double* s, double* out) const override {
     writeBoth(PsychometricFunction(form_.make(s), s[2], equal_ ? s[2] : s[3]), stimulus[0], out);
   }
@@ -76,26 +80,37 @@ class SigmoidModel : public Model {
   std::vector<ModelParameter> parameters_;
 };
 
-/// Contrast sensitivity of Watson (2017), example 4.
+/// Contrast sensitivity of Watson (2017), equation 8 and example 4; the temporal half can be left out.
 class ContrastSensitivityModel : public Model {
  public:
+  explicit ContrastSensitivityModel(bool temporal) : temporal_(temporal) {
+    parameters_ = {anyNumber("minimum_threshold", "lowest threshold, dB"),
+                   anyNumber("c0", "threshold extrapolated to 0, dB"),
+                   anyNumber("cf", "rise of the threshold, dB per unit of spatial frequency")};
+    if (temporal) {
+      parameters_.push_back(anyNumber("cw", "rise of the threshold, dB per unit of temporal frequency"));
+    }
+    parameters_.push_back(positive("slope", "of the Weibull"));
+    parameters_.push_back(guessRate());
+    parameters_.push_back(lapseRate());
+  }
   int outcomes() const override { return 2; }
-  std::vector<std::string> stimulusNames() const override { return {"contrast", "spatial_frequency"}; }
-  const std::vector<ModelParameter>& parameters() const override {
-    static const std::vector<ModelParameter> kParameters = {
-        anyNumber("minimum_threshold", "lowest threshold, dB"),
-        anyNumber("c0", "threshold extrapolated to 0, dB"),
-        anyNumber("cf", "rise of the threshold, dB per unit of spatial frequency"),
-        positive("slope", "of the Weibull"),
-        guessRate(),
-        lapseRate()};
-    return kParameters;
+  std::vector<std::string> stimulusNames() const override {
+    std::vector<std::string> names = {"contrast", "spatial_frequency"};
+    if (temporal_) names.emplace_back("temporal_frequency");
+    return names;
   }
+  const std::vector<ModelParameter>& parameters() const override { return parameters_; }
   void logProbabilities(const double* x, const double* s, double* out) const override {
-    const double threshold = std::max(s[0], s[1] + s[2] * x[1]);
-    writeBoth(PsychometricFunction::watson(threshold, s[3], s[4], s[5]), x[0], out);
+    const double rising = s[1] + s[2] * x[1] + (temporal_ ? s[3] * x[2] : 0.0);
+    const double* rest = s + (temporal_ ? 4 : 3);
+    writeBoth(PsychometricFunction::watson(std::max(s[0], rising), rest[0], rest[1], rest[2]), x[0], out);
   }
-  void writeKeys(json& out) const override { out["model"] = "csf"; }
+  void writeKeys(json& out) const override { out["model"] = temporal_ ? "csf_spatiotemporal" : "csf"; }
+
+ private:
+  bool temporal_;
+  std::vector<ModelParameter> parameters_;
 };
 
 /// Thurstone scale from pair comparisons (Watson 2017, "Thurstone scaling"): stimuli from 0 to 1.
@@ -108,8 +123,11 @@ class ThurstoneModel : public Model {
         positive("maximum", "scale value of 1, in standard deviations of a judgement"),
         {"threshold", "below it the scale is 0", 0.0, 0.0, 1.0 - 1e-9},
         positive("power", "exponent of the scale"),
-        {"lapse", "probability of either answer whatever is shown", 0.0, 0.0, 0.5}};
+        {"lapse", "probability of either answer whatever is shown", 0.0, 0.0, kMostEqualLapse}};
     return kParameters;
+  }
+  bool knows(const double* x) const override {
+    return x[0] >= 0.0 && x[0] <= 1.0 && x[1] >= 0.0 && x[1] <= 1.0;
   }
   void logProbabilities(const double* x, const double* s, double* out) const override {
     const auto scale = [s](double value) {
@@ -130,7 +148,7 @@ class RatingModel : public Model {
     for (int k = 2; k < categories; ++k) {
       parameters_.push_back({"step_" + std::to_string(k),
                              "from criterion " + std::to_string(k - 1) + " to criterion " + std::to_string(k),
-                             std::nullopt, 0.0, kInfinity, true, true});
+                             std::nullopt, 0.0, kLargest, true, true});
     }
   }
   int outcomes() const override { return categories_; }
@@ -226,7 +244,8 @@ std::vector<SigmoidForm> sigmoidForms() {
       {"weibull",
        "F = 1 - exp(-(x/threshold)^slope), x >= 0 on a linear axis",
        {positive("threshold", "x with F = 1 - 1/e", true), positive("slope", "exponent")},
-       [](const double* s) { return Sigmoid::weibull(s[0], s[1]); }},
+       [](const double* s) { return Sigmoid::weibull(s[0], s[1]); },
+       true},
       {"weibull_log10",
        "F = 1 - exp(-10^(slope (x - threshold))), x in log10 units",
        {anyNumber("threshold", "x with F = 1 - 1/e"), positive("slope", "per log10 unit")},
@@ -254,13 +273,15 @@ SigmoidForm thresholdWidthForm(SigmoidFamily family, StimulusAxis axis) {
       "F of `family` by threshold and width",
       {logarithmic ? positive("threshold", "x with F = 0.5", true) : anyNumber("threshold", "x with F = 0.5"),
        positive("width", "from F = 0.05 to 0.95; of ln x on a logarithmic axis", !logarithmic)},
-      [family, axis](const double* s) { return Sigmoid::fromThresholdWidth(family, axis, s[0], s[1]); }};
+      [family, axis](const double* s) { return Sigmoid::fromThresholdWidth(family, axis, s[0], s[1]); },
+      logarithmic};
 }
 
 std::vector<std::string> modelNames() {
   std::vector<std::string> names;
   for (const SigmoidForm& form : sigmoidForms()) names.emplace_back(form.name);
-  for (const char* name : {"sigmoid", "csf", "thurstone", "rating", "table"}) names.emplace_back(name);
+  for (const char* name : {"sigmoid", "csf", "csf_spatiotemporal", "thurstone", "rating", "table"})
+    names.emplace_back(name);
   return names;
 }
 
@@ -268,7 +289,8 @@ std::vector<std::string> modelNames() {
 
 std::shared_ptr<const Model> readModel(SettingsReader& reader, const std::string& otherwise) {
   const std::string name = reader.choiceOr("model", otherwise, modelNames());
-  if (name == "csf") return std::make_shared<ContrastSensitivityModel>();
+  if (name == "csf") return std::make_shared<ContrastSensitivityModel>(false);
+  if (name == "csf_spatiotemporal") return std::make_shared<ContrastSensitivityModel>(true);
   if (name == "thurstone") return std::make_shared<ThurstoneModel>();
   if (name == "rating") return std::make_shared<RatingModel>(reader.integer("categories", 2, 20));
   if (name == "table") return readTable(reader);
@@ -309,14 +331,18 @@ std::string describeModels() {
   for (const SigmoidForm& form : sigmoidForms()) {
     out += std::string("    ") + form.name + ": " + form.formula + "\n" + describe(form.shape);
   }
-  out += "    sigmoid: F by threshold and width (psignifit 4); keys `family` (" +
-         join(psychometrics::sigmoidNames()) + ") and `axis` (linear, log)\n" +
-         describe(thresholdWidthForm(SigmoidFamily::Logistic, StimulusAxis::Linear).shape);
+  out +=
+      "    sigmoid: F by threshold and width (psignifit 4); keys `axis` (linear, log) and `family` (\n     "
+      " " +
+      join(psychometrics::sigmoidNames()) + ")\n" +
+      describe(thresholdWidthForm(SigmoidFamily::Logistic, StimulusAxis::Linear).shape);
   out += "      of all of these:\n" + describe({guessRate(), lapseRate()});
   out +=
       "    csf: stimulus contrast (dB) and spatial_frequency; a weibull_db whose threshold is\n"
       "      max(minimum_threshold, c0 + cf spatial_frequency) (Watson 2017, example 4)\n" +
-      describe(ContrastSensitivityModel().parameters());
+      describe(ContrastSensitivityModel(false).parameters()) +
+      "    csf_spatiotemporal: the same with a stimulus dimension temporal_frequency: + cw "
+      "temporal_frequency (eq. 8)\n";
   out +=
       "    thurstone: stimulus first and second, from 0 to 1; outcome 1: the first is judged greater, with\n"
       "      Phi((S(first) - S(second))/sqrt 2), S(x) = maximum (max(0, x - threshold)/(1 - "

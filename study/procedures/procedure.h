@@ -80,7 +80,8 @@ class ProcedureDetail {
 /// Parsed and checked settings; cheap to copy.
 struct ProcedureSettings {
   std::string type;  ///< "constant", "staircase", "quest", "psi", "quest_plus", "interleaved"
-  std::vector<StimulusDimension> stimulus;  ///< what next() gives, in this order
+  std::vector<StimulusDimension> stimulus;  ///< what next() gives, in this order; of interleaved ones the
+                                            ///< first is "procedure", the number of the one that asked
   int outcomes = 2;
   std::optional<int> mostTrials;  ///< the procedure ends after these at the latest, where that is known
   std::shared_ptr<const ProcedureDetail> detail;

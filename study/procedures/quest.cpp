@@ -185,9 +185,9 @@ ProcedureSettings readQuest(SettingsReader& reader) {
   auto detail = std::make_shared<QuestDetail>();
   QuestDetail& d = *detail;
   readStimulus(reader, d);
-  d.guess = reader.number("threshold_guess");
-  d.guessSd = reader.number("threshold_guess_sd", 0.0, SettingsReader::kNoLimit, true);
-  d.beta = reader.numberOr("beta", d.beta, 0.0, SettingsReader::kNoLimit, true);
+  d.guess = reader.number("threshold_guess", -1e6, 1e6);
+  d.guessSd = reader.number("threshold_guess_sd", 0.0, 1e6, true);
+  d.beta = reader.numberOr("beta", d.beta, 0.0, 1e6, true);
   d.gamma = reader.numberOr("gamma", d.gamma, 0.0, 0.999);
   d.delta = reader.numberOr("delta", d.delta, 0.0, 0.999);
   d.level = reader.numberOr("threshold_probability", d.level);
@@ -197,8 +197,8 @@ ProcedureSettings readQuest(SettingsReader& reader) {
                 reader.at("threshold_probability"),
                 "give a number above " + shortestNumber(d.gamma) + " and below " + shortestNumber(highest));
   }
-  d.grain = reader.numberOr("grain", d.grain, 0.0, SettingsReader::kNoLimit, true);
-  d.range = reader.numberOr("range", d.range, 0.0, SettingsReader::kNoLimit, true);
+  d.grain = reader.numberOr("grain", d.grain, 1e-6, 1e6);
+  d.range = reader.numberOr("range", d.range, 1e-6, 1e6);
   if (!(d.range / d.grain >= 2.0 && d.range / d.grain <= 1e6)) {
     throw Error("the range has " + shortestNumber(d.range / d.grain) + " grains", reader.at("range"),
                 "make it 2 to a million of them");

@@ -128,13 +128,19 @@ ProcedureSettings read(SettingsReader& reader, const char* type, const char* def
   const std::string select = reader.choiceOr("select", "min_entropy", {"min_entropy", "min_n_entropy"});
   if (select == "min_n_entropy") {
     detail->candidates = static_cast<size_t>(reader.integerOr("candidates", 4, 2, 1'000'000));
+    const size_t stimuli = psychometrics::ProductGrid(detail->model.stimulus).size();
+    if (detail->candidates > stimuli) {
+      throw Error(
+          std::to_string(detail->candidates) + " candidates of " + std::to_string(stimuli) + " stimuli",
+          reader.at("candidates"), "give fewer candidates or more stimuli");
+    }
   }
   detail->highestDensity =
       reader.choiceOr("interval", "equal_tailed", {"equal_tailed", "highest_density"}) == "highest_density";
   detail->tieTolerance = reader.numberOr("tie_tolerance", kTieTolerance, 0.0, 0.1);
   detail->stop = readStop(reader, {"trials", "entropy"});
   reader.finish();
-  detail->search = std::make_shared<EntropySearch>(detail->model);
+  detail->search = std::make_shared<EntropySearch>(detail->model, reader.where());
   ProcedureSettings out;
   out.type = type;
   out.stimulus = dimensionsOf(detail->model.stimulus);

@@ -58,7 +58,9 @@ struct StaircaseDetail : ProcedureDetail, std::enable_shared_from_this<Staircase
     if (scale == StepScale::Linear) out = level + step;
     if (scale == StepScale::Log10) out = level * std::pow(10.0, step);
     if (scale == StepScale::Decibel) out = level * std::pow(10.0, step / 20.0);
-    return std::clamp(out, minimum, maximum);
+    // Without limits of its own it still stays a number, and above 0 where steps multiply.
+    const double lowest = scale == StepScale::Linear ? -1e300 : 1e-300;
+    return std::clamp(out, std::max(minimum, lowest), std::min(maximum, 1e300));
   }
 };
 
@@ -168,11 +170,14 @@ void readStimulus(SettingsReader& reader, StaircaseDetail& detail) {
   detail.minimum = stimulus.numberOr("minimum", -kInfinity);
   detail.maximum = stimulus.numberOr("maximum", kInfinity);
   stimulus.finish();
+  if (!(std::abs(detail.start) <= 1e300)) {
+    throw Error("the start is too large", stimulus.at("start"), "keep it within 1e300");
+  }
   if (!(detail.minimum <= detail.start && detail.start <= detail.maximum)) {
     throw Error("the start does not lie between minimum and maximum", stimulus.at("start"));
   }
   const double lowest = std::isfinite(detail.minimum) ? detail.minimum : detail.start;
-  if (detail.scale != StepScale::Linear && !(lowest > 0.0)) {
+  if (detail.scale != StepScale::Linear && !(lowest >= 1e-300)) {
     throw Error("steps in ratios need a stimulus above 0", stimulus.where(),
                 "raise start and minimum, or take scale: linear");
   }

@@ -51,8 +51,11 @@ void Session::makeStretches() {
     };
     add(planned);
     if (!planned.practice) continue;
-    for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round)
-      add(rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round)));
+    for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round) {
+      PlannedBlock& again = rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round));
+      for (PlannedTrial& trial : again.trials) trial.block = static_cast<int>(block);
+      add(again);
+    }
   }
 }
 

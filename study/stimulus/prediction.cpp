@@ -67,15 +67,6 @@ double ratingWithoutRegion(const perception::PoppingSettings& settings) {
   return perception::poppingRating(settings.regionThresholdJnd, settings) - 1.0;
 }
 
-nlohmann::json fileHashes(const NamedEntry& entry, const std::vector<Parameter>& declared) {
-  nlohmann::json out = nlohmann::json::object();
-  for (const Parameter& parameter : declared)
-    if (parameter.type == ParameterType::File && entry.values.has(parameter.name) &&
-        !entry.values.text(parameter.name).empty())
-      out[parameter.name] = sha256File(entry.values.text(parameter.name));
-  return out;
-}
-
 }  // namespace
 
 Predictor::Predictor(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display,
@@ -93,13 +84,11 @@ std::string Predictor::key(const Stimulus& stimulus) const {
   decisive.showings = 1;
   decisive.gapS = 0.0;
   decisive.cue = {};
-  const scene::SceneInfo& info = scene::SceneRegistry::instance().get(stimulus.scene.name, "stimulus");
   const nlohmann::json all = {{"prediction", kVersion},
-                              {"stimulus", toJson(decisive)},
+                              {"stimulus", stimulusHash(decisive)},
                               {"window_px", {windowPx_.x, windowPx_.y}},
                               {"display", display_.hash()},
-                              {"popping", popping_.toJson()},
-                              {"files", fileHashes(stimulus.scene, info.allParameters())}};
+                              {"popping", popping_.toJson()}};
   return sha256(all.dump());
 }
 

@@ -68,8 +68,7 @@ class Predictor {
 
   /// A sequence without change has no region. Throws Error as StimulusRenderer.
   PredictedPopping predict(const Stimulus& stimulus);
-  /// SHA-256 over all that decides the prediction: what changes and when, window, display, settings, the
-  /// content of files that the scene reads.
+  /// SHA-256 over all that decides the prediction: what changes and when, window, display, settings.
   std::string key(const Stimulus& stimulus) const;
 
  private:

@@ -4,8 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash.h"
 
 namespace limen::study {
+
+void checkFiles(const NamedEntry& entry, const std::string& where) {
+  for (const auto& [parameter, hash] : entry.fileHashes)
+    if (entry.values.has(parameter) && sha256File(entry.values.text(parameter)) != hash)
+      throw Error("'" + entry.values.text(parameter) + "' has changed since the stimulus was made", where,
+                  "put the file back, or read the protocol anew");
+}
 
 std::shared_ptr<const Stage> buildStage(const NamedEntry& scene) {
   const std::string where = "scene '" + scene.name + "'";
@@ -13,6 +21,7 @@ std::shared_ptr<const Stage> buildStage(const NamedEntry& scene) {
   if (info.version != scene.version)
     throw Error("version " + std::to_string(scene.version) + " is asked for", where,
                 "this program builds version " + std::to_string(info.version));
+  checkFiles(scene, where);
   return std::make_shared<const Stage>(
       scene::buildScene(scene.name, ParameterValues(info.allParameters(), scene.values.all(), where)));
 }

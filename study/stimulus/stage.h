@@ -18,8 +18,11 @@ struct Stage {
   frame::GpuScene gpu;
 };
 
+/// Throws Error if a file that the entry names no longer has the content that it was hashed with.
+void checkFiles(const NamedEntry& entry, const std::string& where);
+
 /// Builds what a stimulus names. Throws Error: unknown name, bad value, and a version that this program does
-/// not have, whose pictures would not be those that the stimulus stands for.
+/// not have or a file that has changed, whose pictures would not be those that the stimulus stands for.
 std::shared_ptr<const Stage> buildStage(const NamedEntry& scene);
 
 /// The stages used last: stimuli of a study mostly share theirs. Its OpenGL context is the current one.

@@ -24,6 +24,7 @@ const techniques::TechniqueInfo& techniqueOf(const NamedEntry& entry, const scen
   if (info.product != techniques::ProductKind::Colour && info.product != techniques::ProductKind::Visibility)
     throw Error("its product '" + toText(info.product) + "' is no picture", where,
                 "a stimulus takes techniques that make colour or visibility");
+  checkFiles(entry, where);
   const std::set<std::string> traits = scene.traits();
   for (const std::string& need : info.needs)
     if (!traits.count(need))

@@ -149,6 +149,24 @@ TEST(MixedLogistic, GroupsThatDoNotDifferGiveThePlainRegressionAndSaySo) {
   EXPECT_NEAR(m.fixed[1].standardError, 0.5 * std::sqrt((1.0 / 21.0 + 1.0 / 24.0) / 4.0), 1e-5);
 }
 
+TEST(MixedLogistic, SteepCurvesOverAWideRangeAreNotTakenForSeparatedOnes) {
+  // All groups alike; answers at +-10 are certain whatever the slope, so that those at +-1 fix it at their
+  // log odds.
+  MixedLogisticData data;
+  data.columns = {"intercept", "x"};
+  const double x[] = {-10.0, -1.0, 0.0, 1.0, 10.0};
+  const int64_t k[] = {0, 7, 500, 993, 1000};
+  for (size_t i = 0; i < 20; ++i) {
+    data.groups.push_back(i / 5);
+    data.trials.push_back(1000);
+    data.successes.push_back(k[i % 5]);
+    data.design.insert(data.design.end(), {1.0, x[i % 5]});
+  }
+  const MixedLogistic m = fitMixedLogistic(data);
+  EXPECT_NEAR(m.fixed[0].estimate, 0.0, 1e-8);
+  expectRelative(m.fixed[1].estimate, std::log(993.0 / 7.0), 1e-8);
+}
+
 TEST(MixedLogistic, LargeCountsKeepTheirDigits) {
   MixedLogisticData data = detections();
   for (size_t i = 0; i < 40; ++i) {

@@ -34,11 +34,10 @@ TEST(Friedman, PerfectAgreementAndNoneAreBounded) {
 
 TEST(SignedRank, AreThoseOfR) {
   const SignedRankTest exact =
-      signedRankTest({3.1, 0.2, 5.9, 4.4, 1.3, 2.8, 7.7, 6.1}, {2.2, 0.9, 4.1, 6.3, 0.5, 3.7, 5.2, 8.8});
-  // 3.1 - 2.2 and 2.8 - 3.7 are equal in size on paper but not in binary, for R as for us.
+      signedRankTest({3.1, 0.2, 5.9, 4.4, 1.3, 2.8, 7.7, 6.1}, {2.2, 0.9, 4.1, 6.3, 0.5, 1.7, 5.2, 3.0});
   EXPECT_TRUE(exact.exact);
-  EXPECT_EQ(exact.positiveRanks, 17.0);
-  expectRelative(exact.p, 0.9453125, 1e-12);
+  EXPECT_EQ(exact.positiveRanks, 29.0);
+  expectRelative(exact.p, 0.1484375, 1e-12);
   const SignedRankTest ties =
       signedRankTest({4, 6, 7, 3, 9, 5, 8, 6, 7, 2, 5}, {3, 6, 5, 4, 6, 5, 4, 7, 4, 1, 2});
   EXPECT_FALSE(ties.exact);
@@ -46,6 +45,18 @@ TEST(SignedRank, AreThoseOfR) {
   EXPECT_EQ(ties.positiveRanks, 40.0);
   expectRelative(ties.p, 0.0414316183366989, 1e-10);
   EXPECT_NEAR(ties.rankBiserial, (40.0 - 5.0) / 45.0, 1e-15);
+}
+
+TEST(SignedRank, DifferencesThatRoundingTellsApartAreTies) {
+  // 3.1 - 2.2 and 2.8 - 3.7; R's value is that of rounded differences.
+  const SignedRankTest t =
+      signedRankTest({3.1, 0.2, 5.9, 4.4, 1.3, 2.8, 7.7, 6.1}, {2.2, 0.9, 4.1, 6.3, 0.5, 3.7, 5.2, 8.8});
+  EXPECT_FALSE(t.exact);
+  EXPECT_EQ(t.positiveRanks, 17.5);
+  EXPECT_EQ(t.p, 1.0);
+  // 0.1 + 0.2 is not 0.3 in binary, but no difference either.
+  EXPECT_EQ(signedRankTest({0.1 + 0.2, 5.0}, {0.3, 4.0}).zeros, 1u);
+  EXPECT_EQ(signTest({0.1 + 0.2, 5.0}, {0.3, 4.0}).first, 1);
 }
 
 TEST(SignedRank, EdgesAreBounded) {

@@ -74,9 +74,14 @@ TEST(ProcedureSettings, SlipsNameTheKeyAndTheMend) {
   EXPECT_THAT(
       refusal("quest_plus", R"({"parameters": {"threshold": {"step": 0.0001}, "lapse": {"from": 0, "to": 0.1,
                                         "step": 0.001}}})"),
-      HasSubstr("1024 MiB"));
+      AllOf(StartsWith("protocol.yaml: procedure: "), HasSubstr("1024 MiB")));
   EXPECT_THAT(refusal("interleaved", R"({"procedures": [{"type": "constant"}]})"),
               HasSubstr("procedure.procedures[0]: 'stimulus' is missing"));
+  EXPECT_THAT(refusal("quest_plus", R"({"asymptotes": "equal", "parameters": {"lapse": 0.5}})"),
+              HasSubstr("0.5 is no value of 'lapse'"));
+  EXPECT_THAT(refusal("quest_plus", R"({"candidates": 22})"), HasSubstr("22 candidates of 21 stimuli"));
+  EXPECT_THAT(refusal("psi", R"({"stimulus": {"from": -1, "spacing": "linear"}})"),
+              HasSubstr("knows no stimulus -1"));
   EXPECT_THAT(refusal("interleaved", R"({"procedures": []})"), HasSubstr("at least one"));
 }
 

@@ -4,6 +4,7 @@
 // gives; public implementations of QUEST+ keep them as their tests too.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "study/procedures/procedure.h"
@@ -125,31 +126,41 @@ TEST(PublishedRuns, MeanStandardDeviationAndLapse) {
   EXPECT_NEAR(modes.at("lapse"), 0.01, 1e-15);
 }
 
-TEST(PublishedRuns, ContrastSensitivityOverSpatialFrequency) {
+void expectContrastSensitivityRun(const json& patch) {
   const std::string answers = "10111101111101111100111111100111";
-  const json settings = {
-      {"type", "quest_plus"},
-      {"model", "csf"},
-      {"stimulus",
-       {decibels(-50, 0, 2),
-        {{"name", "spatial_frequency"}, {"from", 0}, {"to", 40}, {"step", 2}, {"unit", "cpd"}}}},
-      {"parameters",
-       {{"minimum_threshold", {{"from", -50}, {"to", -30}, {"step", 2}}},
-        {"c0", {{"from", -60}, {"to", -40}, {"step", 2}}},
-        {"cf", {{"from", 0.8}, {"to", 1.6}, {"step", 0.2}}},
-        {"slope", 3},
-        {"guess", 0.5},
-        {"lapse", 0.01}}},
-      {"stop", {{"trials", answers.size()}}}};
-  const auto modes =
-      expectRun(settings, answers,
-                {{0, 40},   {-4, 40},  {0, 34},  {0, 36},   {-38, 0}, {0, 38},   {-40, 0},  {0, 38},
-                 {-26, 18}, {-26, 18}, {0, 40},  {-36, 0},  {-36, 0}, {0, 40},   {-26, 20}, {-26, 20},
-                 {-2, 40},  {-26, 22}, {-6, 40}, {-26, 20}, {0, 40},  {-26, 18}, {0, 40},   {-26, 18},
-                 {-32, 0},  {-32, 0},  {-34, 0}, {-34, 0},  {0, 40},  {-26, 18}, {0, 38},   {-26, 18}});
+  json settings = {{"type", "quest_plus"},
+                   {"model", "csf"},
+                   {"stimulus",
+                    {decibels(-50, 0, 2),
+                     {{"name", "spatial_frequency"}, {"from", 0}, {"to", 40}, {"step", 2}, {"unit", "cpd"}}}},
+                   {"parameters",
+                    {{"minimum_threshold", {{"from", -50}, {"to", -30}, {"step", 2}}},
+                     {"c0", {{"from", -60}, {"to", -40}, {"step", 2}}},
+                     {"cf", {{"from", 0.8}, {"to", 1.6}, {"step", 0.2}}},
+                     {"slope", 3},
+                     {"guess", 0.5},
+                     {"lapse", 0.01}}},
+                   {"stop", {{"trials", answers.size()}}}};
+  settings.merge_patch(patch);
+  Stimuli stimuli = {{0, 40},   {-4, 40},  {0, 34},  {0, 36},   {-38, 0}, {0, 38},   {-40, 0},  {0, 38},
+                     {-26, 18}, {-26, 18}, {0, 40},  {-36, 0},  {-36, 0}, {0, 40},   {-26, 20}, {-26, 20},
+                     {-2, 40},  {-26, 22}, {-6, 40}, {-26, 20}, {0, 40},  {-26, 18}, {0, 40},   {-26, 18},
+                     {-32, 0},  {-32, 0},  {-34, 0}, {-34, 0},  {0, 40},  {-26, 18}, {0, 38},   {-26, 18}};
+  if (settings["model"] == "csf_spatiotemporal") {
+    settings["stimulus"].push_back({{"name", "temporal_frequency"}, {"values", 0}, {"unit", "Hz"}});
+    for (std::vector<double>& stimulus : stimuli) stimulus.push_back(0);
+  }
+  const auto modes = expectRun(settings, answers, stimuli);
   EXPECT_EQ(modes.at("minimum_threshold"), -32);
   EXPECT_EQ(modes.at("c0"), -56);
   EXPECT_NEAR(modes.at("cf"), 1.4, 1e-12);
+}
+
+TEST(PublishedRuns, ContrastSensitivityOverSpatialFrequency) { expectContrastSensitivityRun(json::object()); }
+
+// The example has a temporal frequency of 0 throughout, so that any one value of its slope gives the same.
+TEST(PublishedRuns, ContrastSensitivityWithTemporalFrequency) {
+  expectContrastSensitivityRun({{"model", "csf_spatiotemporal"}, {"parameters", {{"cw", 0.5}}}});
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(Quest, ReproducesAPublishedRun) {
   const auto procedure = makeProcedure(readProcedure(settings, ""), 1);
   for (int answer : {1, 1, 0, 0, 1, 1, 0, 0, 1, 1}) procedure->update(*procedure->next(), answer);
   EXPECT_FALSE(procedure->next());
-  EXPECT_NEAR(threshold(*procedure).mean, 79.073768, 0.01);
+  EXPECT_NEAR(threshold(*procedure).mean, 79.073768, 1e-4);
 }
 
 // The demonstration run of the VisionEgg's port of Pelli's programs: stimuli, answers and the mean at the

@@ -90,6 +90,17 @@ TEST(Staircase, RatiosMultiply) {
               ElementsAre(1, DoubleEq(100), DoubleEq(1)));
 }
 
+TEST(Staircase, ALongRunOfOneAnswerStaysANumber) {
+  json settings = base();
+  settings["scale"] = "log10";
+  settings["steps"] = 50;
+  const auto procedure = makeProcedure(readProcedure(settings, ""), 1);
+  for (int i = 0; i < 20; ++i) procedure->update(*procedure->next(), 1);
+  EXPECT_EQ((*procedure->next())[0], 1e-300);
+  for (int i = 0; i < 40; ++i) procedure->update(*procedure->next(), 0);
+  EXPECT_EQ((*procedure->next())[0], 1e300);
+}
+
 TEST(Staircase, EndsAfterReversalsAndAveragesTheLast) {
   json settings = base();
   settings["stop"] = {{"reversals", 5}};

@@ -15,12 +15,12 @@ using Given = std::map<std::string, ParameterValue>;
 
 inline NamedEntry sceneEntry(const std::string& name, const Given& given) {
   const scene::SceneInfo& info = scene::SceneRegistry::instance().get(name);
-  return {name, info.version, ParameterValues(info.allParameters(), given)};
+  return {name, info.version, ParameterValues(info.allParameters(), given), {}};
 }
 
 inline NamedEntry techniqueEntry(const std::string& name, const Given& given = {}) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(name);
-  return {name, info.version, ParameterValues(info.parameters, given)};
+  return {name, info.version, ParameterValues(info.parameters, given), {}};
 }
 
 /// The patch of Schwarz 2009, section 10.4.1, a short approach with its change in the middle: 12 frames at 60

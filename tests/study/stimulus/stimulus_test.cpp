@@ -52,6 +52,19 @@ TEST(StimulusForm, HashTellsEveryFieldApart) {
   EXPECT_EQ(hashes.size(), others.size() + 1);
 }
 
+TEST(StimulusForm, HashGoesByTheContentOfFilesAndNotTheirPlace) {
+  Stimulus here = patchStimulus();
+  here.scene.values = ParameterValues({fileParameter("file", "")}, {{"file", std::string("/here/mesh.obj")}});
+  here.scene.fileHashes = {{"file", std::string(64, 'a')}};
+  Stimulus there = here, edited = here;
+  there.scene.values = ParameterValues({fileParameter("file", "")}, {{"file", std::string("/there/m.obj")}});
+  edited.scene.fileHashes["file"][0] = 'b';
+  EXPECT_EQ(stimulusHash(there), stimulusHash(here));
+  EXPECT_NE(toJson(there), toJson(here));
+  EXPECT_NE(stimulusHash(edited), stimulusHash(here));
+  EXPECT_EQ(stimulusFromJson(toJson(here)).scene.fileHashes, here.scene.fileHashes);
+}
+
 TEST(StimulusForm, DamagedTextIsRefused) {
   nlohmann::json form = toJson(patchStimulus());
   form.erase("gap_s");

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/presentation/calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "base/error.h"
+#include "perception/vision/colour.h"
+
+namespace limen::study {
+namespace {
+
+constexpr double kLeastGamma = 0.4, kMostGamma = 6.0;  ///< of photometer readings
+constexpr double kLargestFall = 0.02;                  ///< of luminance with rising level, share of the range
+const char* const kPhotometer = "photometer readings";
+
+void check(const std::vector<Reading>& readings) {
+  std::set<double> levels;
+  for (const Reading& reading : readings) {
+    if (!(reading.level >= 0.0 && reading.level <= 1.0))
+      throw Error(fmt::format("level {}", reading.level), kPhotometer,
+                  "levels are pixel values from 0 to 1; divide codes by 255");
+    if (!(reading.cdM2 >= 0.0 && std::isfinite(reading.cdM2)))
+      throw Error(fmt::format("{} cd/m2 at level {}", reading.cdM2, reading.level), kPhotometer,
+                  "luminances are not negative");
+    levels.insert(reading.level);
+  }
+  if (levels.size() < 4)
+    throw Error(fmt::format("{} levels", levels.size()), kPhotometer,
+                "measure four at least, better nine or more");
+  if (*levels.begin() > 0.1 || *levels.rbegin() < 0.9)
+    throw Error(fmt::format("levels from {} to {}", *levels.begin(), *levels.rbegin()), kPhotometer,
+                "measure black and white too");
+  std::vector<Reading> rising = readings;
+  std::stable_sort(rising.begin(), rising.end(),
+                   [](const Reading& a, const Reading& b) { return a.level < b.level; });
+  const auto [least, most] = std::minmax_element(
+      rising.begin(), rising.end(), [](const Reading& a, const Reading& b) { return a.cdM2 < b.cdM2; });
+  const double range = most->cdM2 - least->cdM2;
+  if (!(range > 0.0))
+    throw Error("all levels have the same luminance", kPhotometer, "measure a display that is on");
+  for (size_t i = 1; i < rising.size(); ++i)
+    if (rising[i].cdM2 < rising[i - 1].cdM2 - kLargestFall * range)
+      throw Error(fmt::format("luminance falls from {} cd/m2 at level {} to {} at {}", rising[i - 1].cdM2,
+                              rising[i - 1].level, rising[i].cdM2, rising[i].level),
+                  kPhotometer, "measure these two again");
+}
+
+/// Black and peak by linear least squares for a curve that is given.
+TransferFit fitEnds(const std::vector<Reading>& readings, const std::function<double(double)>& curve) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const Reading& reading : readings) {
+    const double x = curve(reading.level);
+    n += 1, sx += x, sy += reading.cdM2, sxx += x * x, sxy += x * reading.cdM2;
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  TransferFit out;
+  out.blackCdM2 = (sy - slope * sx) / n;
+  if (out.blackCdM2 < 0.0) {  // no display is darker than dark
+    out.blackCdM2 = 0.0;
+    out.peakCdM2 = sxy / sxx;
+  } else {
+    out.peakCdM2 = out.blackCdM2 + slope;
+  }
+  double sum = 0.0;
+  for (const Reading& reading : readings) {
+    const double residual =
+        reading.cdM2 - (out.blackCdM2 + (out.peakCdM2 - out.blackCdM2) * curve(reading.level));
+    out.residualCdM2.push_back(residual);
+    sum += residual * residual;
+    out.largestShare = std::max(out.largestShare, std::abs(residual) / (out.peakCdM2 - out.blackCdM2));
+  }
+  out.rmsCdM2 = std::sqrt(sum / n);
+  return out;
+}
+
+TransferFit bestGamma(const std::vector<Reading>& readings) {
+  const auto fit = [&](double gamma) {
+    TransferFit out = fitEnds(readings, [gamma](double level) { return std::pow(level, gamma); });
+    out.gamma = gamma;
+    return out;
+  };
+  // The residual has one minimum over gamma near the curve; a coarse look keeps the search away from others.
+  double best = kLeastGamma, least = 1e300;
+  constexpr double kStep = 0.1;
+  for (double gamma = kLeastGamma; gamma <= kMostGamma; gamma += kStep)
+    if (const double rms = fit(gamma).rmsCdM2; rms < least) least = rms, best = gamma;
+  double low = best - kStep, high = best + kStep;
+  for (int i = 0; i < 80; ++i) {
+    const double third = (high - low) / 3.0;
+    if (fit(low + third).rmsCdM2 < fit(high - third).rmsCdM2)
+      high -= third;
+    else
+      low += third;
+  }
+  return fit(0.5 * (low + high));
+}
+
+TransferFit bestSrgb(const std::vector<Reading>& readings) {
+  TransferFit out = fitEnds(readings, perception::decodeSrgb);
+  out.curve = perception::TransferCurve::Srgb;
+  return out;
+}
+
+TransferFit accepted(TransferFit fit, const std::vector<Reading>& readings) {
+  if (fit.largestShare <= kLargestResidual) return fit;
+  const auto worst = std::max_element(fit.residualCdM2.begin(), fit.residualCdM2.end(),
+                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  throw Error(
+      fmt::format("no curve fits: at level {} it is {:+.3g} cd/m2 off, {:.1f} % of the range",
+                  readings[static_cast<size_t>(worst - fit.residualCdM2.begin())].level, *worst,
+                  100.0 * fit.largestShare),
+      kPhotometer,
+      "switch dynamic contrast, night light and colour profiles off, let the display warm up, measure again");
+}
+
+}  // namespace
+
+double pitchFromCard(double cardWidthPx) {
+  const double pitchM = kCardWidthM / cardWidthPx;
+  if (!(pitchM >= 2e-5 && pitchM <= 2e-3))
+    throw Error(
+        fmt::format("a card {} px wide", cardWidthPx), {},
+        fmt::format("a card of 85.60 mm is {:.0f} to {:.0f} px wide on displays with pixels of 2 to 0.02 mm",
+                    kCardWidthM / 2e-3, kCardWidthM / 2e-5));
+  return pitchM;
+}
+
+TransferFit fitGamma(const std::vector<Reading>& readings) {
+  check(readings);
+  return accepted(bestGamma(readings), readings);
+}
+
+TransferFit fitSrgb(const std::vector<Reading>& readings) {
+  check(readings);
+  return accepted(bestSrgb(readings), readings);
+}
+
+TransferFit fitTransfer(const std::vector<Reading>& readings) {
+  check(readings);
+  const TransferFit gamma = bestGamma(readings), srgb = bestSrgb(readings);
+  return accepted(gamma.rmsCdM2 < srgb.rmsCdM2 ? gamma : srgb, readings);
+}
+
+MatchFit fitMatches(const std::vector<Match>& matches) {
+  const char* const where = "visual matches";
+  if (matches.empty()) throw Error("none", where, "give one at least, as 0.25=0.53");
+  double products = 0.0, squares = 0.0;
+  for (const Match& match : matches) {
+    if (!(match.proportion > 0.0 && match.proportion < 1.0 && match.level > 0.0 && match.level < 1.0))
+      throw Error(fmt::format("{}={}", match.proportion, match.level), where, "both lie between 0 and 1");
+    products += std::log(match.proportion) * std::log(match.level);
+    squares += std::log(match.level) * std::log(match.level);
+  }
+  MatchFit out;
+  out.gamma = products / squares;
+  if (!(out.gamma >= 1.0 && out.gamma <= 4.0))
+    throw Error(fmt::format("a gamma of {:.3g}", out.gamma), where,
+                "displays have 1 to 4: is each match PROPORTION=LEVEL, the proportion of white first?");
+  for (const Match& match : matches) {
+    out.residual.push_back(match.proportion - std::pow(match.level, out.gamma));
+    out.largestResidual = std::max(out.largestResidual, std::abs(out.residual.back()));
+  }
+  if (out.largestResidual > kLargestMatchResidual)
+    throw Error(fmt::format("the matches do not agree: one is {:.3f} off a gamma of {:.3g}",
+                            out.largestResidual, out.gamma),
+                where,
+                "make them again, from farther away; a display that is no power law needs a photometer");
+  return out;
+}
+
+}  // namespace limen::study

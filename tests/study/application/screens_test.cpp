@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/application/screens.h"
+
+#include <gtest/gtest.h>
+
+namespace limen::study {
+namespace {
+
+constexpr int64_t kS = 1'000'000'000;
+
+Input key(int code, int64_t timeNs) { return {Device::Keyboard, code, 0, 0, timeNs}; }
+
+TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
+  TextScreen::Setting setting;
+  setting.atLeastS = 5.0;
+  TextScreen screen(setting);
+  screen.shown(10 * kS);
+  EXPECT_EQ(screen.page(12 * kS).status, "You can go on in 3 s");
+  screen.take(key(kKeySpace, 15 * kS - 1), {});
+  EXPECT_FALSE(screen.done());
+  screen.take(key(kKeySpace, 15 * kS), {});
+  EXPECT_TRUE(screen.done());
+}
+
+TEST(Screens, BreakGoesOnCountingBehindAPause) {
+  TextScreen::Setting setting;
+  setting.atLeastS = 5.0;
+  TextScreen screen(setting);
+  screen.shown(0);
+  screen.hidden();
+  screen.shown(20 * kS);
+  screen.take(key(kKeyEnter, 21 * kS), {});
+  EXPECT_TRUE(screen.done());
+}
+
+TEST(Screens, ConsentIsGivenOnTheLastPageOnly) {
+  ConsentScreen screen("text");
+  screen.setTextPages(2);
+  screen.shown(0);
+  screen.take(key('y', 1), {});
+  EXPECT_FALSE(screen.done());
+  screen.take(key(kKeySpace, 2), {});
+  EXPECT_EQ(screen.page(3).textPages.index, 1);
+  screen.shown(4);
+  screen.take(key(kKeySpace, 5), {});
+  EXPECT_FALSE(screen.done()) << "going on is not agreeing";
+  screen.take(key('y', 6), {});
+  EXPECT_TRUE(screen.done());
+  EXPECT_TRUE(screen.agreed());
+}
+
+TEST(Screens, DecliningIsAskedBack) {
+  ConsentScreen screen("text");
+  screen.shown(0);
+  screen.take(key('n', 1), {});
+  EXPECT_EQ(screen.name(), "consent_declined");
+  EXPECT_FALSE(screen.done());
+  screen.shown(2);
+  screen.take(key(kKeyBackspace, 3), {});
+  EXPECT_EQ(screen.name(), "consent");
+  screen.shown(4);
+  screen.take(key('n', 5), {});
+  screen.shown(6);
+  screen.take(key('e', 7), {});
+  EXPECT_TRUE(screen.done());
+  EXPECT_FALSE(screen.agreed());
+}
+
+TEST(Screens, FormTakesChoicesAndAsksWhetherTheyAreRight) {
+  FormScreen screen(
+      {{"age", "Age", {"18 to 25", "26 to 35"}}, {"vision", "Vision", {"normal", "corrected"}}});
+  int64_t now = 0;
+  const auto press = [&](int code) {
+    screen.shown(++now);
+    screen.take(key(code, ++now), {});
+  };
+  press('1');
+  press('2');
+  EXPECT_EQ(screen.name(), "form_review");
+  press(kKeyBackspace);
+  EXPECT_EQ(screen.name(), "form");
+  press('2');
+  press('1');
+  press(kKeyEnter);
+  EXPECT_TRUE(screen.done());
+  EXPECT_EQ(screen.answers(), (nlohmann::json{{"age", "26 to 35"}, {"vision", "normal"}}));
+}
+
+TEST(Screens, StoppingIsAskedTwice) {
+  for (const auto& [code, choice] :
+       {std::pair{int{'l'}, PauseScreen::Choice::StopForNow}, std::pair{int{'e'}, PauseScreen::Choice::End},
+        std::pair{int{kKeySpace}, PauseScreen::Choice::Continue}}) {
+    PauseScreen screen("");
+    screen.shown(0);
+    screen.take(key(code == kKeySpace ? 's' : code, 1), {});
+    EXPECT_FALSE(screen.done());
+    if (code != kKeySpace) screen.take(key('s', 2), {});
+    screen.shown(3);
+    screen.take(key(code, 4), {});
+    EXPECT_TRUE(screen.done());
+    EXPECT_EQ(screen.choice(), choice);
+  }
+}
+
+TEST(Screens, OneKeyTurnsOnePageHoweverOftenItIsHit) {
+  TextScreen screen({});
+  screen.setTextPages(3);
+  screen.shown(0);
+  screen.take(key(kKeySpace, 1), {});
+  screen.take(key(kKeySpace, 2), {});
+  EXPECT_EQ(screen.page(3).textPages.index, 1);
+}
+
+}  // namespace
+}  // namespace limen::study
