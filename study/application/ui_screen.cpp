@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include "renderer/gl/window_context.h"
 #include "study/application/ui_window.h"
@@ -97,6 +98,7 @@ void UiScreen::arrow(glm::dvec2 tipPx, double lengthPx, double light) {
 }
 
 int64_t UiScreen::swap() {
+  if (capture_) std::exchange(capture_, {})();
   if (paced_) {
     const auto period = static_cast<int64_t>(std::llround(1e9 / display_.refreshHz));
     const int64_t now = steadyNs();

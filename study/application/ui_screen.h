@@ -24,6 +24,8 @@ class UiScreen : public ScreenDevice {
   bool pacedByTimer() const { return paced_; }
   /// Asked between frames; as it says no, poll() gives one ScreenEvent::Close.
   void setWatch(std::function<bool()> goOn) { goOn_ = std::move(goOn); }
+  /// Called at the next swap, before it.
+  void captureNext(std::function<void()> capture) { capture_ = std::move(capture); }
 
   double refreshHz() const override;
   glm::ivec2 sizePx() const override;
@@ -41,6 +43,7 @@ class UiScreen : public ScreenDevice {
   UiWindow& window_;
   perception::DisplayProfile display_;
   std::function<bool()> goOn_;
+  std::function<void()> capture_;
   uint32_t layerFramebuffer_ = 0;
   bool paced_ = false;
   int64_t dueNs_ = 0;

@@ -73,7 +73,9 @@ std::vector<std::string> doubts(UiWindow& window, const perception::DisplayProfi
     all.push_back("the window does not fill the screen, so that the desktop decides when it is shown");
   const UiMonitor monitor = window.monitor();
   // Window systems round rates: 59.94 Hz is called 59 or 60.
-  if (std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
+  if (monitor.refreshHz <= 0)
+    all.push_back("the window system does not say at which rate the monitor runs");
+  else if (std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
     all.push_back(fmt::format("the monitor runs at {:g} Hz, the display profile {} at {:g} Hz",
                               monitor.refreshHz, display.name, display.refreshHz));
   if (monitor.sizePx != display.resolutionPx)
@@ -149,6 +151,7 @@ void runStudy(const Options& options, Run& run) {
   std::vector<std::string> why = doubts(*window, request.display, fullScreen);
   if (player.pacedByTimer())
     why.push_back("a timer paces the frames, for nothing here waits for the display");
+  if (!options.screenshots.empty()) why.push_back("pictures of the screen are taken (--screenshots)");
   if (options.anyTiming) why.push_back("frames' times are not checked (--any-timing)");
   for (const std::string& doubt : why)
     std::fprintf(stderr, "limen-study: timing is not ready for a laboratory: %s\n", doubt.c_str());
@@ -194,7 +197,7 @@ void addRunCommand(CLI::App& app, Run& run) {
                    "Size of letters and buttons (default: as the monitor asks for)")
       ->check(CLI::Range(0.5, 8.0));
   command->add_option("--screenshots", options->screenshots,
-                      "Folder for a PNG of every screen that asks something");
+                      "Folder for a PNG of every screen and of a frame of every stimulus");
   command->add_flag("--announce", options->announce, "Prints the name of every screen when it is shown");
   command->add_flag("--any-timing", options->anyTiming,
                     "Trials count even if frames were late: for trying things out, not for data");

@@ -280,8 +280,7 @@ PowerResult simulatePower(const Protocol& protocol, const ObserverBehaviour& beh
         ofCell.resize(observers.size());
         const double asked = !key.threshold ? request.width : request.thresholdWidth.value_or(0.0);
         for (size_t o = 0; o < observers.size(); ++o)
-          addExperiment(ofCell[o], list, observers[o], studentQuantile(request.confidence, observers[o] - 1),
-                        asked);
+          addExperiment(ofCell[o], list, observers[o], request.confidence, !key.threshold, asked);
       }
       done += r;
       if (progress && progress(done / work)) return {};

@@ -407,6 +407,7 @@ Part PartReader::read(const YamlNode& map, const std::string& defaultName,
   else
     problems.add(map.mark, "'stimulus' is missing",
                  "give it: {scene: {name: ...}, levels: {before: 1, after: 0}}");
+  if (problems.size() == before) checkSize(out, map.mark);
   if (problems.size() == before) checkStimuli(out);
   if (problems.size() == before) {
     const YamlNode* order = map.find("order");
