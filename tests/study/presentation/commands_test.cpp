@@ -109,5 +109,27 @@ TEST_F(CalibrateCommand, AsksForWhatItCannotKnow) {
   EXPECT_NEAR(perception::readDisplay(path("lab.yaml")).gamma, 2.0, 1e-9);
 }
 
+TEST_F(CalibrateCommand, TakesWhatIsSetByEye) {
+  const test::XServer server(800, 600);
+  // The server states no size: the frame begins at a card on pixels of 0.25 mm or what the server makes up;
+  // it is narrowed to the least, 20 px, and widened by 300. Then three squares are taken as they are.
+  std::string keys = "DISPLAY=" + server.display() + " xdotool search --sync --name 'Limen calibration' ";
+  for (int i = 0; i < 60; ++i) keys += "key Down ";
+  for (int i = 0; i < 30; ++i) keys += "key Up ";
+  keys += "key Return key Return key Return key Return";
+  std::ofstream(path("keys.sh")) << keys << "\n";
+  const Called made =
+      call("-u WAYLAND_DISPLAY DISPLAY=" + server.display() + " sh -c 'sh " + path("keys.sh") +
+               " > /dev/null & exec \"$0\" \"$@\"'",
+           "calibrate -o " + path("eye.yaml") +
+               " --interactive --distance-cm 60 --refresh-hz 60 --black-cd-m2 0.3 --peak-cd-m2 200");
+  ASSERT_EQ(made.code, 0) << made.output;
+  const perception::DisplayProfile profile = perception::readDisplay(path("eye.yaml"));
+  EXPECT_EQ(profile.resolutionPx, glm::ivec2(800, 600));
+  EXPECT_NEAR(profile.widthM, 0.0856 / 320.0 * 800.0, 1e-9);
+  // The squares begin at a gamma of 2.2, to the nearest code.
+  EXPECT_NEAR(profile.gamma, 2.2, 0.02);
+}
+
 }  // namespace
 }  // namespace limen::study
