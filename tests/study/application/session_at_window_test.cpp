@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <map>
 
 #include "base/image.h"
 #include "tests/study/application/study_run.h"
@@ -94,7 +95,7 @@ TEST_F(SessionAtWindow, StoresTheAnswersThatWereGivenInTheirOrder) {
   EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"finished"});
   // 30 frames of half a second at 60 Hz in each of the 8 trials.
   EXPECT_EQ(column("SELECT count(*) FROM frame_log"), std::vector<std::string>{"240"});
-  EXPECT_THAT(run.messages(), HasSubstr("not ready for a laboratory"));
+  EXPECT_THAT(run.messages(), HasSubstr("timing is not fit for a lab"));
   EXPECT_EQ(column("SELECT json_extract(facts, '$.front_end.lab_ready') FROM environment"),
             std::vector<std::string>{"0"});
 
@@ -108,7 +109,7 @@ TEST_F(SessionAtWindow, StoresTheAnswersThatWereGivenInTheirOrder) {
   }
   for (const char* name :
        {"consent", "instructions", "practice_start", "practice_result", "block_start", "debrief"})
-    EXPECT_EQ(shots[name], 1) << name;
+    EXPECT_GE(shots[name], 1) << name;
   EXPECT_EQ(shots["question"], 8);
   EXPECT_EQ(shots["stimulus"], 8);
   EXPECT_EQ(shots["feedback"], 2) << "in practice only";
@@ -210,9 +211,12 @@ TEST_F(SessionAtWindow, DisplayTakenAwayLosesNothing) {
   EXPECT_EQ(column("SELECT answer FROM response"), std::vector<std::string>{"yes"});
   const test::XServer other(640, 480);
   test::StudyRun run(other.display(), arguments({"--resume"}), path("messages"));
-  const std::vector<std::string> later = answerAll(run);
-  EXPECT_EQ(run.finish(), 0) << run.messages();
-  EXPECT_EQ(later.size(), 7u);
+  ASSERT_TRUE(run.reaches("question")) << run.messages();
+  run.key("n");
+  ASSERT_TRUE(run.reaches("practice_result")) << "the second round of practice, not the first one again";
+  run.signal(SIGTERM);
+  run.finish();
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), (std::vector<std::string>{"yes", "no"}));
 }
 
 TEST_F(SessionAtWindow, SaysWhatItNeedsWithoutAWindowSystem) {
