@@ -112,6 +112,16 @@ std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
 
 int64_t Store::merge(const Store& other) {
   if (fs::equivalent(path_, other.path_)) throw Error("is merged into itself", path_, "name another store");
+  // Sessions are joined where they are exported: their numbers of participants would clash here.
+  Statement tables(other.database_, "SELECT 1 FROM sqlite_schema WHERE name = 'session'");
+  if (tables.step()) {
+    Statement sessions(other.database_, "SELECT count(*) FROM session");
+    sessions.step();
+    if (sessions.integer(0) > 0)
+      throw Error(
+          "holds " + std::to_string(sessions.integer(0)) + " session(s) of studies, which are not merged",
+          other.path_, "keep the store, and give it to the analysis beside the other");
+  }
 
   const std::vector<Experiment> known = experiments();
   for (const Experiment& experiment : other.experiments()) {

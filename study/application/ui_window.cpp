@@ -252,15 +252,22 @@ void UiWindow::hideCursor(bool hide) {
 
 void UiWindow::draw(glm::vec3 background, const std::function<void()>& build) {
   state_->context->makeCurrent();
-  const ImGuiScope scope(state_->imgui);
-  const glm::ivec2 size = sizePx();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, size.x, size.y);
   glDisable(GL_SCISSOR_TEST);
   // Colours of the interface are values for the screen already.
   glDisable(GL_FRAMEBUFFER_SRGB);
   glClearColor(background.x, background.y, background.z, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT);
+  overlay(build);
+}
+
+void UiWindow::overlay(const std::function<void()>& build) {
+  state_->context->makeCurrent();
+  const ImGuiScope scope(state_->imgui);
+  const glm::ivec2 size = sizePx();
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, size.x, size.y);
+  glDisable(GL_FRAMEBUFFER_SRGB);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   // Everything in framebuffer pixels, so that lettering is as sharp as the screen allows.

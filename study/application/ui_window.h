@@ -68,6 +68,8 @@ class UiWindow {
   /// Draws an interface over `background` (values as they go to the screen) into the back buffer: `build`
   /// makes its calls to ImGui.
   void draw(glm::vec3 background, const std::function<void()>& build);
+  /// The same over what is in the back buffer already.
+  void overlay(const std::function<void()>& build);
   /// What was drawn and not yet shown.
   Image readBack() const;
   /// Shows what was drawn and waits until the driver has done so; steady time of that.

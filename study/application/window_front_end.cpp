@@ -86,7 +86,9 @@ WindowFrontEnd::WindowFrontEnd(UiWindow& window, StimulusPlayer& player, Session
       watch_(watch),
       experimenter_(experimenter),
       setting_(std::move(setting)) {
-  if (!setting_.screenshots.empty()) std::filesystem::create_directories(setting_.screenshots);
+  if (setting_.screenshots.empty()) return;
+  std::filesystem::create_directories(setting_.screenshots);
+  player_.setCapture([this] { screenshot("stimulus"); });
 }
 
 PageStyle WindowFrontEnd::style() const {

@@ -11,9 +11,13 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   study::Run run{{argv, argv + argc}};
   study::addProtocolCommand(app, run);
-  study::addPowerCommand(app, run);
-  study::addSimulateCommand(app, run);
-  study::addTraceCommand(app, run);
+  study::addRunCommand(app, run);
+  study::addSessionsCommand(app, run);
   study::addExportCommand(app, run);
+  study::addSimulateCommand(app, run);
+  study::addPowerCommand(app, run);
+  study::addTraceCommand(app, run);
+  study::addTimingCommand(app, run);
+  study::addCalibrateCommand(app, run);
   return runProgram(app, argc, argv, run.exitCode);
 }

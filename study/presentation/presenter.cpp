@@ -38,7 +38,7 @@ void drawPatch(ScreenDevice& screen, const PhotodiodePatch& patch, const DueFram
 class Performance {
  public:
   Performance(const Schedule& schedule, PictureSource& pictures, ScreenDevice& screen,
-               const PresenterSetting& setting)
+              const PresenterSetting& setting)
       : schedule_(schedule), pictures_(pictures), screen_(screen), setting_(setting) {
     times_.reserve(schedule.due.size());
     out_.frames.reserve(schedule.due.size());

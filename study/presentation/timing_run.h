@@ -32,7 +32,9 @@ std::string toText(const TimingReport& report);
 /// time.
 TimingReport reportTiming(const std::vector<int64_t>& returnedNs, double nominalHz);
 
-/// Flickers between two greys for some seconds, a warm-up of half a second not counted.
+/// Frames of half a second, which runTiming() shows first and does not count.
+int timingWarmUpSwaps(double refreshHz);
+/// Flickers between two greys for some seconds after a warm-up.
 TimingReport runTiming(ScreenDevice& screen, double seconds);
 
 }  // namespace limen::study

@@ -119,21 +119,30 @@ void Loop::addWhatFollows(EventKind kind, const Step& before) {
     add(EventKind::Finished, nlohmann::json::object(), {});
 }
 
+void Loop::recordNotes() {
+  for (const std::string& note : frontEnd_.takeNotes())
+    record(EventKind::Note,
+           {{"by", "experimenter"}, {"code", noteCode(note)}, {"detail", nlohmann::json::object()}});
+}
+
 bool Loop::run() {
   while (true) {
     const Step::Kind due = session_.step().kind;
     if (due == Step::Kind::Finished || due == Step::Kind::Aborted) return true;
     if (interruptSignal() != 0) {
-      record(EventKind::Paused, {{"by", "signal"}});
+      record(EventKind::Paused, {{"by", "system"}, {"reason", "asked to stop by a signal"}});
       throwIfInterrupted();
     }
-    if (!(due == Step::Kind::Screen ? showScreen() : presentTrial())) return false;
+    const bool goesOn = due == Step::Kind::Screen ? showScreen() : presentTrial();
+    recordNotes();
+    if (!goesOn) return false;
   }
 }
 
 bool Loop::showScreen() {
   const Screen screen = *session_.step().screen;
   const ScreenResult result = frontEnd_.show(screen, session_);
+  const nlohmann::json why = {{"by", stopper(result.by)}, {"reason", result.reason}};
   switch (result.outcome) {
     case Outcome::Done:
       record(EventKind::ScreenDone, screenData(session_.protocol(), screen, result));
@@ -141,10 +150,10 @@ bool Loop::showScreen() {
     case Outcome::Invalid:
       break;  // shown again
     case Outcome::Paused:
-      record(EventKind::Paused, nlohmann::json::object());
+      record(EventKind::Paused, why);
       return false;
     case Outcome::Aborted:
-      record(EventKind::Aborted, {{"by", "participant"}, {"reason", ""}});
+      record(EventKind::Aborted, why);
       break;
   }
   return true;
@@ -160,31 +169,23 @@ bool Loop::presentTrial() {
                                    {"procedure_stimulus", trial.procedureStimulus},
                                    {"stimulus_hashes", std::move(hashes)}});
   const TrialResult result = frontEnd_.present(trial, session_);
-  const nlohmann::json which = {{"trial", trial.number}, {"attempt", trial.attempt}};
-  nlohmann::json data = which;
-  switch (result.outcome) {
-    case Outcome::Done: {
-      data = answerData(trial, part, result);
-      const nlohmann::json correct = data["correct"];
-      record(EventKind::Answered, std::move(data), result.frames);
-      if (trial.plan.practice && part.practice.feedback && correct.is_boolean())
-        frontEnd_.feedback(correct.get<bool>());
-      return true;
-    }
-    case Outcome::Invalid:
-      data["reason"] = result.reason;
-      record(EventKind::TrialInvalid, std::move(data), result.frames);
-      return true;
-    case Outcome::Paused:
-      record(EventKind::Paused, std::move(data), result.frames);
-      return false;
-    case Outcome::Aborted:
-      break;
+  if (result.outcome == Outcome::Done) {
+    nlohmann::json data = answerData(trial, part, result);
+    const nlohmann::json correct = data["correct"];
+    record(EventKind::Answered, std::move(data), result.frames);
+    if (trial.plan.practice && part.practice.feedback && correct.is_boolean())
+      frontEnd_.feedback(correct.get<bool>());
+    return true;
   }
-  data["by"] = "participant";
-  data["reason"] = result.reason;
-  record(EventKind::Aborted, std::move(data), result.frames);
-  return true;
+  nlohmann::json data = {{"trial", trial.number}, {"attempt", trial.attempt}, {"reason", result.reason}};
+  if (result.outcome == Outcome::Invalid) {
+    record(EventKind::TrialInvalid, std::move(data), result.frames);
+    return true;
+  }
+  data["by"] = stopper(result.by);
+  const bool paused = result.outcome == Outcome::Paused;
+  record(paused ? EventKind::Paused : EventKind::Aborted, std::move(data), result.frames);
+  return !paused;
 }
 
 }  // namespace limen::study

@@ -47,6 +47,7 @@ class Loop {
   void addWhatFollows(EventKind kind, const Step& before);
   bool showScreen();
   bool presentTrial();
+  void recordNotes();
 
   Session& session_;
   FrontEnd& frontEnd_;

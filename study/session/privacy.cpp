@@ -114,10 +114,20 @@ const std::vector<std::pair<std::string, std::string>>& experimenterNotes() {
   return kNotes;
 }
 
+std::string noteCode(const std::string& text) {
+  for (const auto& [code, meaning] : experimenterNotes())
+    if (code == text) return text;
+  return "other";
+}
+
+std::string stopper(const std::string& by) {
+  return by == "experimenter" || by == "system" ? by : "participant";
+}
+
 void checkExperimenterNote(const std::string& code) {
   std::vector<std::string> known;
   for (const auto& [name, meaning] : experimenterNotes()) known.push_back(name);
-  if (std::find(known.begin(), known.end(), code) == known.end())
+  if (noteCode(code) != code)
     throw Error("no such note", "note",
                 "notes are picked from a list, so that no name gets in: " + join(known));
 }

@@ -27,5 +27,9 @@ nlohmann::json screenData(const Protocol& protocol, const Screen& screen, const 
 const std::vector<std::pair<std::string, std::string>>& experimenterNotes();
 /// Throws Error for a code that is not in the list.
 void checkExperimenterNote(const std::string& code);
+/// The code itself, or "other" for what is not in the list.
+std::string noteCode(const std::string& text);
+/// Who stopped a session, as the log names them: "experimenter", "system" or "participant".
+std::string stopper(const std::string& by);
 
 }  // namespace limen::study

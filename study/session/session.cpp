@@ -51,8 +51,11 @@ void Session::makeStretches() {
     };
     add(planned);
     if (!planned.practice) continue;
-    for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round)
-      add(rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round)));
+    for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round) {
+      PlannedBlock& again = rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round));
+      for (PlannedTrial& trial : again.trials) trial.block = static_cast<int>(block);
+      add(again);
+    }
   }
 }
 
@@ -109,6 +112,7 @@ void Session::settle() {
     dropFinished();
     if (queue_.empty()) endStretch();
   }
+  if (stage_ == Stage::Trials && inProgress_) return;  // still the trial that was due
   step_ = Step();
   if (stage_ == Stage::Finished) return;
   if (stage_ == Stage::Aborted) {
@@ -164,7 +168,7 @@ void Session::settleTrial() {
   trial.plan = *due.slot.trial;
   trial.number = trial.plan.number;
   const auto begun = attempts_.find(trial.number);
-  trial.attempt = (begun == attempts_.end() ? 0 : begun->second) - (inProgress_ ? 1 : 0);
+  trial.attempt = begun == attempts_.end() ? 0 : begun->second;
   Variables axes;
   if (trial.plan.procedure >= 0) {
     const size_t procedure = static_cast<size_t>(trial.plan.procedure);

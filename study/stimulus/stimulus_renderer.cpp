@@ -72,8 +72,8 @@ const gl::Texture& StimulusRenderer::render(int frame) {
 const gl::Texture& StimulusRenderer::renderState(double sceneTimeS, bool after) {
   assert(views_[after] && "a state that the sequence does not show");
   const StateView::Picture picture = views_[after]->render(sceneTimeS);
-  gl::ShaderDefines defines;
-  if (picture.visibility) defines["VISIBILITY"] = "1";
+  const gl::ShaderDefines defines =
+      picture.visibility ? gl::ShaderDefines{{"VISIBILITY", "1"}} : gl::ShaderDefines{};
   const gl::Program& encode = context_.programs().compute("study/stimulus/encode.comp.glsl", defines);
   encode.set("samples", stimulus_.samples);
   encode.set("sizePx", sizePx_);

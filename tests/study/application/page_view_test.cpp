@@ -31,6 +31,9 @@ std::vector<std::pair<std::string, Page>> pages() {
   const auto add = [&](const std::string& name, const PageScreen& screen) {
     all.emplace_back(name, screen.page(0));
   };
+  Page wait;
+  wait.status = "One moment, please";
+  all.emplace_back("wait", wait);
   TextScreen::Setting text;
   text.title = "What to do";
   text.text = kLongText;

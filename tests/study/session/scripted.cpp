@@ -5,28 +5,31 @@
 
 #include <chrono>
 
-#include "base/hash.h"
 #include "psychometrics/random.h"
+#include "study/protocol/declarations.h"
 
 namespace limen::study {
 namespace {
 
-nlohmann::json staircase() {
-  return {{"type", "staircase"},
-          {"stimulus", {{"name", "contrast"}, {"start", 8.0}, {"minimum", 1.0}, {"maximum", 16.0}}},
-          {"down", 2},
-          {"steps", {2.0, 1.0}},
-          {"estimate_reversals", 2},
-          {"stop", {{"reversals", 4}, {"trials", 12}}}};
+/// What the tests' stimuli may name: one scene, whose every parameter is a number.
+std::shared_ptr<const Declarations> testDeclarations() {
+  auto out = std::make_shared<Declarations>();
+  Declaration scene;
+  for (const char* name : {"distance", "motion", "sun", "contrast"})
+    scene.parameters.push_back(realParameter(name, 0.0, 0.0, 100.0, "", "a number"));
+  out->scenes["test/scene"] = scene;
+  return out;
 }
+
+const std::string kHead = R"(title: For tests
+question: Does a session run?
+source: bench
+display: desktop_24
+window: {width_px: 64, height_px: 48}
+texts: {consent: "May we?", instructions: "Look."}
+)";
 
 }  // namespace
-
-void seal(Protocol& protocol) {
-  protocol.path = "test.yaml";
-  protocol.name = "test";
-  protocol.hash = sha256(protocol.text);
-}
 
 std::string TestClock::utc() {
   ++wallMs_, ++monotonicMs_;
@@ -82,53 +85,55 @@ int answerIndex(const Part& part, const PlannedTrial& trial, bool right) {
 }
 
 Protocol smallProtocol(int changes, int catches) {
-  Protocol protocol;
-  Part part;
-  part.name = "only";
-  part.task.answers = {"yes", "no"};
-  part.changeRepetitions = changes;
-  part.catchRepetitions = catches;
-  protocol.parts = {part};
-  protocol.text = fmt::format("small {} {}", changes, catches);
-  seal(protocol);
+  Protocol protocol = parseProtocol(kHead + fmt::format(R"(task: {{type: yes_no, question: "Seen?"}}
+stimulus: {{scene: {{name: test/scene}}, levels: {{before: 1, after: 0}}}}
+trials: {{change: {}, catch: {}}}
+)",
+                                                        changes, catches),
+                                    "small.yaml", testDeclarations());
+  protocol.texts.consent.clear();
   return protocol;
 }
 
 Protocol largeProtocol() {
-  Protocol protocol;
-  protocol.texts.consent = "May we?";
-  protocol.form = {{"age", "Age", {"18-29", "30-49", "50+"}}, {"remarks", "Remarks", {}}};
-
-  Part direct;
-  direct.name = "direct";
-  direct.task.answers = {"yes", "no"};
-  direct.task.severity = Scale{"How strong?", {"hardly", "clearly", "very"}};
-  direct.factors = {{"distance", {{"near", {{"distance", 1}}}, {"far", {{"distance", 2}}}}},
-                    {"motion", {{"still", {{"motion", 0}}}, {"moving", {{"motion", 1}}}}}};
-  direct.changeRepetitions = 3;
-  direct.catchRepetitions = 1;
-  direct.blockBy = "motion";
-  direct.breakEveryTrials = 5;
-  direct.practice.trials = 3;
-  direct.practice.correct = 0;
-
-  Part adaptive;
-  adaptive.name = "adaptive";
-  adaptive.task.type = Task::Interval;
-  adaptive.task.answers = {"first", "second"};
-  adaptive.factors = {{"sun", {{"low", {{"sun", 1}}}, {"high", {{"sun", 2}}}}}};
-  adaptive.catchRepetitions = 0;
-  adaptive.procedure = ProcedureSetting{staircase(), {}};
-
-  Part rating;
-  rating.name = "rating";
-  rating.task.type = Task::Rating;
-  rating.task.answers = {"bad", "fair", "good"};
-  rating.changeRepetitions = 4;
-
-  protocol.parts = {direct, adaptive, rating};
-  protocol.text = "large";
-  seal(protocol);
+  Protocol protocol = parseProtocol(kHead + R"(form:
+  - {name: age, label: Age, choices: [18-29, 30-49, 50+]}
+part_order: fixed
+parts:
+  - name: direct
+    task:
+      type: yes_no
+      question: "Seen?"
+      severity: {question: "How strong?", labels: [hardly, clearly, very]}
+    factors: {distance: [1, 2], motion: [0, 1]}
+    stimulus:
+      scene: {name: test/scene, distance: = distance, motion: = motion}
+      levels: {before: 1, after: 0}
+    trials: {change: 3, catch: 1}
+    blocks: {by: motion}
+    breaks: {every_trials: 5}
+    practice: {trials: 3}
+  - name: adaptive
+    task: {type: interval, question: "Which one?"}
+    factors: {sun: [1, 2]}
+    procedure:
+      type: staircase
+      stimulus: {name: contrast, start: 8, minimum: 1, maximum: 16}
+      down: 2
+      steps: [2, 1]
+      estimate_reversals: 2
+      stop: {reversals: 4, trials: 12}
+    stimulus:
+      scene: {name: test/scene, sun: = sun, contrast: = contrast}
+      levels: {before: 1, after: 0}
+  - name: rating
+    task: {type: rating, question: "How good?", answers: [bad, fair, good]}
+    stimulus: {scene: {name: test/scene}, levels: {before: 1, after: 0}}
+    trials: {change: 4}
+)",
+                                    "large.yaml", testDeclarations());
+  // A field without choices, which a front end could offer.
+  protocol.form.push_back({"remarks", "Remarks", {}});
   return protocol;
 }
 

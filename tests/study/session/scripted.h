@@ -51,9 +51,6 @@ class ScriptedFrontEnd : public FrontEnd {
 /// Index of the answer that makes a trial right or wrong.
 int answerIndex(const Part& part, const PlannedTrial& trial, bool right);
 
-/// Gives a protocol whose text was set the hash that belongs to it.
-void seal(Protocol& protocol);
-
 /// One part without factors: yes or no, a change `changes` times and a catch trial `catches` times.
 Protocol smallProtocol(int changes = 6, int catches = 2);
 /// Three parts: yes/no in two blocks with severity, practice and breaks; a staircase in two intervals for two

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen study run: a person takes part.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/build_facts.h"
+#include "base/hash.h"
+#include "base/interrupt.h"
+#include "renderer/gl/window_context.h"
+#include "renderer/gl/window_system.h"
+#include "study/application/presented_player.h"
+#include "study/application/window_front_end.h"
+#include "study/command/commands.h"
+#include "study/session/privacy.h"
+#include "study/session/run.h"
+#include "study/stimulus/display_coding.h"
+
+namespace limen::study {
+namespace {
+
+struct Options {
+  std::string protocol, participant, session = "1", store, display, screenshots;
+  std::optional<uint64_t> seed;
+  std::string window;
+  int monitor = 0;
+  double scale = 0.0;
+  bool resume = false, fullScreen = false, announce = false, anyTiming = false, experimenter = false;
+  int experimenterMonitor = 0;
+};
+
+// A session's orders differ between participants and can be told again without having been written down.
+uint64_t seedOf(const Protocol& protocol, const Options& options) {
+  if (options.seed) return *options.seed;
+  const std::string hash = sha256(protocol.hash + "/" + options.participant + "/" + options.session);
+  // 15 digits: below 2^60, which every reader of JSON keeps.
+  return std::stoull(hash.substr(0, 15), nullptr, 16);
+}
+
+glm::ivec2 sizeOf(const std::string& text) {
+  int width = 0, height = 0, used = 0;
+  const int read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used);
+  if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1)
+    throw Error("'" + text + "' is no size", "--window", "write WIDTHxHEIGHT in pixels, such as 1280x1024");
+  return {width, height};
+}
+
+void checkMonitor(const std::string& option, int number) {
+  std::vector<gl::Monitor> all;
+  try {
+    all = gl::monitors();
+  } catch (const Error& error) {
+    throw Error(error.message(), error.where(), error.mend() + "; limen study simulate needs no window");
+  }
+  if (number < 0 || number >= static_cast<int>(all.size()))
+    throw Error(fmt::format("there is no monitor {}", number), option,
+                all.empty() ? "none is connected" : fmt::format("connected are 0 to {}", all.size() - 1));
+}
+
+std::unique_ptr<UiWindow> openWindow(const Options& options, const std::string& title) {
+  checkMonitor("--monitor", options.monitor);
+  if (options.experimenter) checkMonitor("--experimenter-monitor", options.experimenterMonitor);
+  UiWindowOptions wanted;
+  wanted.title = title;
+  wanted.fullScreen = options.window.empty();
+  if (!wanted.fullScreen) wanted.sizePx = sizeOf(options.window);
+  wanted.monitor = options.monitor;
+  wanted.scale = static_cast<float>(options.scale);
+  return std::make_unique<UiWindow>(wanted);
+}
+
+// Why times measured here are not those of a laboratory.
+std::vector<std::string> doubts(UiWindow& window, const perception::DisplayProfile& display) {
+  std::vector<std::string> all = objectionsTo(window.context());
+  const UiMonitor monitor = window.monitor();
+  // Window systems round rates: 59.94 Hz is called 59 or 60.
+  if (monitor.refreshHz > 0 && std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
+    all.push_back(fmt::format("the monitor runs at {:g} Hz, the display profile {} at {:g} Hz",
+                              monitor.refreshHz, display.name, display.refreshHz));
+  if (monitor.sizePx != display.resolutionPx)
+    all.push_back(fmt::format("the monitor has {} x {} px, the display profile {} {} x {} px",
+                              monitor.sizePx.x, monitor.sizePx.y, display.name, display.resolutionPx.x,
+                              display.resolutionPx.y));
+  return all;
+}
+
+SessionRequest requestOf(const Options& options, const Protocol& protocol) {
+  SessionRequest request;
+  request.store = options.store.empty() ? "results/" + protocol.name + ".sqlite" : options.store;
+  request.participant = options.participant;
+  request.session = options.session;
+  request.seed = seedOf(protocol, options);
+  request.resume = options.resume;
+  request.display = perception::readDisplay(options.display.empty() ? protocol.display : options.display);
+  const std::filesystem::path folder = std::filesystem::path(request.store).parent_path();
+  std::error_code failed;
+  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
+  return request;
+}
+
+void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const SessionWatch& watch,
+            const SessionRequest& request, const Options& options) {
+  switch (end.kind) {
+    case Step::Kind::Finished:
+      std::puts("The session is complete.");
+      break;
+    case Step::Kind::Aborted:
+      std::puts("The session was ended before its end.");
+      break;
+    case Step::Kind::Screen:
+    case Step::Kind::Trial:
+      if (!frontEnd.stopReason().empty()) std::printf("Stopped: %s.\n", frontEnd.stopReason().c_str());
+      std::printf(
+          "The session can be taken up again: limen study run %s --participant %s --session %s --store %s "
+          "--resume\n",
+          options.protocol.c_str(), request.participant.c_str(), request.session.c_str(),
+          request.store.c_str());
+      break;
+  }
+  for (const std::string& line : watch.lines()) std::printf("  %s\n", line.c_str());
+  std::printf("  store: %s\n", request.store.c_str());
+}
+
+void runStudy(const Options& options, Run& run) {
+  const Protocol protocol = readProtocol(options.protocol, declarationsFromRegistries());
+  checkCode(options.participant, "participant");
+  checkCode(options.session, "session");
+  const SessionRequest request = requestOf(options, protocol);
+  const bool fullScreen = options.window.empty();
+
+  installInterruptHandlers();
+  const std::unique_ptr<UiWindow> window = openWindow(options, protocol.title);
+  std::unique_ptr<ExperimenterWindow> experimenter;
+  if (options.experimenter)
+    experimenter = std::make_unique<ExperimenterWindow>(options.experimenterMonitor, window->scale(),
+                                                        experimenterNotes());
+  PresentedPlayer player(*window, protocol, request.display, options.anyTiming);
+  player.checkFit();
+
+  WindowFrontEnd::Setting setting;
+  setting.background =
+      glm::vec3(static_cast<float>(displayCode(request.display, protocol.window.background)) / 255.0F);
+  setting.fullScreen = fullScreen;
+  setting.screenshots = options.screenshots;
+  if (options.announce)
+    setting.announce = [](const std::string& line) {
+      std::puts(line.c_str());
+      std::fflush(stdout);
+    };
+  std::vector<std::string> why = doubts(*window, request.display);
+  if (player.pacedByTimer())
+    why.push_back("a timer paces the frames, for nothing here waits for the display");
+  if (!options.screenshots.empty()) why.push_back("pictures of the screen are taken (--screenshots)");
+  if (options.anyTiming) why.push_back("frames' times are not checked (--any-timing)");
+  for (const std::string& doubt : why)
+    std::fprintf(stderr, "warning: timing is not fit for a lab: %s\n", doubt.c_str());
+  setting.facts = {{"lab_ready", why.empty()}, {"lab_doubts", why}};
+
+  SessionWatch watch;
+  WindowFrontEnd frontEnd(*window, player, watch, experimenter.get(), setting);
+  try {
+    const SessionEnd end = runSession(protocol, request, frontEnd);
+    if (end.kind != Step::Kind::Finished) run.exitCode = kExitFailedRuns;
+    report(end, frontEnd, watch, request, options);
+  } catch (const Interrupted&) {
+    run.exitCode = kExitFailedRuns;
+    SessionEnd end;
+    end.kind = Step::Kind::Screen;
+    report(end, frontEnd, watch, request, options);
+  }
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("run", "Runs a session with a person at a window");
+  auto options = std::make_shared<Options>();
+  command->add_option("protocol", options->protocol, "Name of a shipped protocol, or a file")
+      ->type_name("NAME|FILE")
+      ->required();
+  command->add_option("--participant", options->participant, "Code of the participant, not a name: p01")
+      ->required();
+  command->add_option("--session", options->session, "Number or name of the sitting")->capture_default_str();
+  command->add_option("--seed", options->seed,
+                      "Seed of all orders (default: told from protocol, participant and session)");
+  command->add_option("--store", options->store, "Result store (default: results/PROTOCOL.sqlite)");
+  command->add_option("--display", options->display,
+                      "Display profile, preset or file (default: the protocol's)");
+  command->add_flag("--resume", options->resume, "Takes up a session that was stopped");
+  auto* window =
+      command->add_option("--window", options->window, "A window of WIDTHxHEIGHT px, to try things out");
+  command->add_flag("--full-screen", options->fullScreen, "Fills the monitor (default)")->excludes(window);
+  command->add_option("--monitor", options->monitor, "Number of the monitor, from 0")->capture_default_str();
+  command
+      ->add_option("--scale", options->scale,
+                   "Size of letters and buttons (default: as the monitor asks for)")
+      ->check(CLI::Range(0.5, 8.0));
+  command->add_option("--screenshots", options->screenshots,
+                      "Folder for a PNG of every screen and of a frame of every stimulus");
+  command->add_flag("--announce", options->announce, "Prints the name of every screen when it is shown");
+  command->add_flag("--any-timing", options->anyTiming,
+                    "Trials count even if frames were late: for trying things out, not for data");
+  command->add_flag("--experimenter-window", options->experimenter,
+                    "A second window: progress, timing, notes");
+  command->add_option("--experimenter-monitor", options->experimenterMonitor, "Monitor of that window")
+      ->capture_default_str();
+  command->callback([options, &run] { runStudy(*options, run); });
+}
+
+}  // namespace limen::study

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/export/export.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "study/export/pseudonyms.h"
+
+namespace limen::study {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int64_t kSecond = 1'000'000'000;
+
+class Export : public testing::Test {
+ protected:
+  Export() : folder_(fs::temp_directory_path() / ("limen_export_" + std::to_string(getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    store_ = folder_ / "study.sqlite";
+  }
+  ~Export() override { fs::remove_all(folder_); }
+
+  /// A session of three trials: practice, one whose frames came late, its repetition.
+  void addSession(const std::string& participant, const std::string& name) {
+    store::SessionLog log(store_);
+    store::StudySession session;
+    session.participant = participant;
+    session.participantNumber = log.participantNumber(participant, "2026-03-01T12:00:00.000Z");
+    session.name = name;
+    session.protocol = "p0";
+    session.display = "d0";
+    session.seed = 18446744073709551615U;
+    session.programVersion = "limen-study 0.1";
+    session.started = "2026-03-01T12:00:00.000Z";
+    const store::StudyBlock practice{0, "main", "main: practice", true, 1},
+        block{1, "main", "main", false, 1};
+    store::StudyEntry started;
+    started.event = {0, "started", "2026-03-01T12:00:00.000Z", 10 * kSecond, json::object()};
+    started.form = json{{"age", "34"}, {"vision", "normal"}};
+    const int64_t id = log.start(session, {"p0", "quick", "quick.yaml", "A title", "title: A title"},
+                                 {"d0", "desk", "name: desk", json::object()},
+                                 {"llvmpipe", true, json::object()}, {practice, block}, {started});
+    ASSERT_TRUE(log.claim(id));
+    int number = 0;
+    const auto show = [&](int trial, int attempt, bool isPractice, int startS, int endS, bool valid) {
+      store::StudyEntry begun, ended;
+      begun.event = {++number, "trial_started", "2026-03-01T12:00:01.000Z", startS * kSecond, json::object()};
+      store::StudyTrial row;
+      row.number = trial;
+      row.attempt = attempt;
+      row.event = number;
+      row.part = "main";
+      row.block = isPractice ? 0 : 1;
+      row.condition = {{"distance", "4"}};
+      row.stimuli = json::array({json::object()});
+      row.stimulusHashes = {"abc"};
+      row.practice = isPractice;
+      row.seed = 7;
+      row.startedUtc = begun.event.utc;
+      begun.begun = row;
+      ended.event = {++number, valid ? "answered" : "trial_invalid", "2026-03-01T12:00:02.000Z",
+                     endS * kSecond, json::object()};
+      store::StudyTrialEnd end{trial, attempt, valid, valid ? "" : "2 missed frames", {}, {}};
+      if (valid) {
+        store::StudyResponse response;
+        response.event = number;
+        response.answer = "yes";
+        response.outcome = 1;
+        response.correct = true;
+        response.severity = 3;
+        response.reactionTimeS = 0.25;
+        response.device = "keyboard";
+        end.response = response;
+      }
+      end.frames = {{0, 0, 0, 100 * kSecond, 0}, {0, 0, 1, 100 * kSecond + kSecond / 4, valid ? 0 : 2}};
+      ended.ended = end;
+      log.append(id, {begun, ended});
+    };
+    show(0, 0, true, 11, 13, true);
+    show(1, 0, false, 14, 15, false);
+    show(1, 1, false, 16, 19, true);
+    log.release(id);
+  }
+
+  static std::string read(const fs::path& file) {
+    std::ifstream in(file);
+    EXPECT_TRUE(in) << file;
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Cells of a table without quotes in it, by column.
+  static std::vector<std::map<std::string, std::string>> parse(const std::string& text, char separator) {
+    std::istringstream lines(text);
+    std::string line;
+    std::vector<std::string> names;
+    std::vector<std::map<std::string, std::string>> rows;
+    const auto split = [&](const std::string& in) {
+      std::vector<std::string> out(1);
+      for (const char c : in) c == separator ? out.emplace_back() : out.back() += std::string(1, c);
+      return out;
+    };
+    while (std::getline(lines, line)) {
+      const std::vector<std::string> cells = split(line);
+      if (names.empty()) {
+        names = cells;
+        continue;
+      }
+      EXPECT_EQ(cells.size(), names.size()) << line;
+      rows.emplace_back();
+      for (size_t i = 0; i < cells.size(); ++i) rows.back()[names[i]] = cells[i];
+    }
+    return rows;
+  }
+
+  ExportRequest request(const std::string& name, std::vector<ExportFormat> formats) {
+    ExportRequest out;
+    out.store = store_;
+    out.folder = folder_ / name;
+    out.formats = std::move(formats);
+    out.frames = true;
+    return out;
+  }
+  std::string subjectOf(const std::string& code) {
+    Pseudonyms pseudonyms(keyFileOf(store_));
+    return pseudonyms.of(code);
+  }
+
+  fs::path folder_;
+  std::string store_;
+};
+
+TEST_F(Export, CsvHasARowForEveryShowing) {
+  addSession("anna", "1");
+  writeExport(request("out", {ExportFormat::Csv}));
+  const auto rows = parse(read(folder_ / "out/trials.csv"), ',');
+  ASSERT_EQ(rows.size(), 3u);
+  const auto cells = [&](const std::string& column) {
+    std::vector<std::string> out;
+    for (const auto& row : rows) out.push_back(row.at(column));
+    return out;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(cells("onset_s"), ElementsAre("1", "4", "6"));
+  EXPECT_THAT(cells("duration_s"), ElementsAre("2", "1", "3"));
+  EXPECT_THAT(cells("practice"), ElementsAre("1", "0", "0"));
+  EXPECT_THAT(cells("valid"), ElementsAre("1", "0", "1"));
+  EXPECT_THAT(cells("counts"), ElementsAre("1", "0", "1"));
+  EXPECT_THAT(cells("invalid_reason"), ElementsAre("", "2 missed frames", ""));
+  EXPECT_THAT(cells("attempt"), ElementsAre("0", "0", "1"));
+  EXPECT_THAT(cells("answer"), ElementsAre("yes", "", "yes"));
+  EXPECT_THAT(cells("severity"), ElementsAre("3", "", "3"));
+  EXPECT_THAT(cells("reaction_time_s"), ElementsAre("0.25", "", "0.25"));
+  EXPECT_THAT(cells("missed_blanks"), ElementsAre("0", "2", "0"));
+  EXPECT_THAT(cells("condition_distance"), ElementsAre("4", "4", "4"));
+  const auto frames = parse(read(folder_ / "out/frames.csv"), ',');
+  ASSERT_EQ(frames.size(), 6u);
+  EXPECT_EQ(frames[3].at("swap_s"), "0.25");
+  EXPECT_EQ(frames[3].at("missed_blanks"), "2");
+  const auto people = parse(read(folder_ / "out/participants.csv"), ',');
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_EQ(people[0].at("age"), "30-39");
+  EXPECT_EQ(people[0].at("vision"), "normal");
+}
+
+TEST_F(Export, EveryColumnIsInTheDictionaries) {
+  addSession("anna", "1");
+  addSession("bert", "1");
+  writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
+  const auto firstLine = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  const json csv = json::parse(read(folder_ / "out/csv/dictionary.json"));
+  const json psychDs = json::parse(read(folder_ / "out/psych_ds/dataset_description.json"));
+  std::set<std::string> described;
+  for (const json& variable : psychDs["variableMeasured"]) described.insert(variable["name"]);
+  int checked = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out")) {
+    const std::string path = entry.path().string(), extension = entry.path().extension();
+    if (extension != ".csv" && extension != ".tsv") continue;
+    std::istringstream names(firstLine(read(path)));
+    std::string name;
+    const bool bids = path.find("/bids/") != std::string::npos;
+    if (bids && path.find("sourcedata") != std::string::npos) continue;
+    json sidecar;
+    if (bids) sidecar = json::parse(read(fs::path(path).replace_extension(".json")));
+    while (std::getline(names, name, extension == ".csv" ? ',' : '\t')) {
+      ++checked;
+      if (bids) {
+        EXPECT_TRUE(sidecar.contains(name)) << path << " " << name;
+      } else if (path.find("/psych_ds/") != std::string::npos) {
+        EXPECT_TRUE(described.count(name)) << path << " " << name;
+      } else {
+        EXPECT_TRUE(csv[entry.path().filename()].contains(name)) << path << " " << name;
+      }
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST_F(Export, BidsHasWhatTheStandardRequires) {
+  addSession("anna", "first_1");
+  writeExport(request("out", {ExportFormat::Bids}));
+  const std::string sub = "sub-" + subjectOf("anna");
+  const json description = json::parse(read(folder_ / "out/dataset_description.json"));
+  EXPECT_EQ(description["Name"], "A title");
+  EXPECT_TRUE(description["BIDSVersion"].is_string());
+  const std::string stem = sub + "/ses-first1/beh/" + sub + "_ses-first1_task-quick_events";
+  const std::string events = read(folder_ / "out" / (stem + ".tsv"));
+  EXPECT_EQ(events.rfind("onset\tduration\t", 0), 0u) << events;
+  const auto rows = parse(events, '\t');
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].at("answer"), "n/a");
+  EXPECT_EQ(json::parse(read(folder_ / "out" / (stem + ".json")))["TaskName"], "quick");
+  EXPECT_EQ(parse(read(folder_ / "out/participants.tsv"), '\t')[0].at("participant_id"), sub);
+}
+
+TEST_F(Export, NoFileTellsCodesOrTimesOfDay) {
+  addSession("annalena", "1");
+  writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out")) {
+    EXPECT_THAT(entry.path().string(), testing::Not(HasSubstr("annalena")));
+    EXPECT_THAT(entry.path().string(), testing::Not(HasSubstr(".key.")));
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    EXPECT_THAT(read(entry.path()), testing::Not(HasSubstr("annalena"))) << entry.path();
+    EXPECT_THAT(read(entry.path()), testing::Not(HasSubstr("2026"))) << entry.path();
+  }
+  EXPECT_GT(files, 10);
+  struct stat status {};
+  ASSERT_EQ(stat(keyFileOf(store_).c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+  EXPECT_THAT(read(keyFileOf(store_)), HasSubstr("annalena,P001"));
+}
+
+TEST_F(Export, PseudonymsStayAndNewOnesAreAdded) {
+  addSession("anna", "1");
+  addSession("bert", "1");
+  writeExport(request("one", {ExportFormat::Csv}));
+  const std::string anna = subjectOf("anna"), bert = subjectOf("bert");
+  EXPECT_NE(anna, bert);
+  addSession("aaron", "1");
+  writeExport(request("two", {ExportFormat::Csv}));
+  EXPECT_EQ(subjectOf("anna"), anna);
+  EXPECT_EQ(subjectOf("bert"), bert);
+  EXPECT_EQ(subjectOf("aaron"), "P003");
+}
+
+TEST_F(Export, RefusesWhatItCannotDoAndOverwritesNothing) {
+  const auto message = [this](const ExportRequest& request) {
+    try {
+      writeExport(request);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  { const store::SessionLog log(store_); }
+  EXPECT_THAT(message(request("out", {ExportFormat::Csv})), HasSubstr("holds no sessions"));
+  addSession("anna", "a_b");
+  addSession("anna", "ab");
+  EXPECT_THAT(message(request("out", {ExportFormat::Bids})), HasSubstr("the same letters and digits"));
+  ExportRequest other = request("out", {ExportFormat::Csv});
+  other.protocol = "quik";
+  EXPECT_THAT(message(other), HasSubstr("did you mean 'quick'"));
+  EXPECT_EQ(message(request("out", {ExportFormat::Csv})), "no error");
+  const std::string before = read(folder_ / "out/trials.csv");
+  EXPECT_THAT(message(request("out", {ExportFormat::Csv})), HasSubstr("is not an empty folder"));
+  EXPECT_EQ(read(folder_ / "out/trials.csv"), before);
+  std::ofstream(keyFileOf(store_)) << "something else\n";
+  EXPECT_THAT(message(request("new", {ExportFormat::Csv})), HasSubstr("not a line of a key table"));
+  other = request("codes", {ExportFormat::Csv});
+  other.codes = true;
+  EXPECT_EQ(message(other), "no error");
+  EXPECT_THAT(read(folder_ / "codes/trials.csv"), HasSubstr("anna,a_b"));
+}
+
+}  // namespace
+}  // namespace limen::study
