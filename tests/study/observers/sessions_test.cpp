@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -165,10 +166,10 @@ stimulus:
   levels: {before: 1, after: 0}
 procedure:
   type: quest
-  stimulus: {name: size}
+  stimulus: {name: size, minimum: -2.5, maximum: 2.5}
   threshold_guess: 0
   threshold_guess_sd: 0.5
-  threshold_probability: 0.816060279 # F = 1 - 1/e: 1 - lapse - (0.5 - lapse)/e with a lapse of 0.005
+  threshold_probability: 0.812899697 # F = 1 - 1/e: 1 - lapse - (0.5 - lapse)/e with a lapse of 0.005
   beta: 3.5
   delta: 0.01
   gamma: 0.5

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -106,7 +107,9 @@ TEST(ShippedProtocols, SecondExperimentHas64TrialsAndItsPartsTakeTurns) {
     for (const auto& [condition, count] : counts) EXPECT_EQ(count, std::make_pair(1, 1)) << condition;
     // One part is over before the other begins.
     for (size_t i = 1; i < 64; ++i)
-      if (i != 32) EXPECT_EQ(sitting.trials[i].part, sitting.trials[i - 1].part);
+      if (i != 32) {
+        EXPECT_EQ(sitting.trials[i].part, sitting.trials[i - 1].part);
+      }
     EXPECT_NE(sitting.trials[31].part, sitting.trials[32].part);
     objectFirst += sitting.trials[0].part == "object";
     for (const StudyTrial& trial : sitting.trials) {
