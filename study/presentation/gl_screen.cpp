@@ -53,7 +53,8 @@ std::vector<ScreenEvent>& queueOf(GLFWwindow* window) {
 }
 
 void onKey(GLFWwindow* window, int key, int scancode, int action, int) {
-  if (action == GLFW_PRESS)
+  // Held keys repeat where a value is set; an answer is over with its first press.
+  if (action != GLFW_RELEASE)
     queueOf(window).push_back({ScreenEvent::Kind::Key, keyName(key, scancode), {}, nowNs()});
 }
 
