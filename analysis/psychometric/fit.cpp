@@ -130,14 +130,21 @@ ConditionFit describe(const Condition& condition, const Objective& objective, si
     fit.trials += blocks.trials[i];
   }
   fit.blocks = blocks.u.size();
+  if (objective.settings().method == FitMethod::MaximumPosterior) {
+    for (size_t i = 0; i < kFitParameters; ++i) {
+      const FitParameter parameter = static_cast<FitParameter>(i);
+      if (const int place = objective.place(c, parameter); place >= 0)
+        fit.logPrior +=
+            logPrior(parameter, values[i], objective.free()[static_cast<size_t>(place)].spread).value;
+    }
+  }
   return fit;
 }
 
 /// What the reader has to know about a condition's numbers.
-void warn(const Condition& condition, const Objective& objective, size_t c, const ConditionFit& fit,
-          std::vector<std::string>& warnings) {
+void warn(const Condition& condition, const Objective& objective, size_t c, ConditionFit& fit) {
+  std::vector<std::string>& warnings = fit.warnings;
   const PreparedBlocks& blocks = objective.blocks(c);
-  const std::string of = condition.name.empty() ? "" : condition.name + ": ";
   int64_t correct = 0, trials = 0;
   double meanU = 0.0, meanP = 0.0, covariance = 0.0, n = 0.0;
   for (size_t i = 0; i < blocks.u.size(); ++i) {
@@ -154,28 +161,27 @@ void warn(const Condition& condition, const Objective& objective, size_t c, cons
                                                  static_cast<double>(blocks.trials[i]) * meanP / n);
   if (blocks.u.size() < condition.blocks.size())
     warnings.push_back(
-        fmt::format("{}{} block(s) without trials left out", of, condition.blocks.size() - blocks.u.size()));
-  if (correct == trials) warnings.push_back(of + "every answer is correct");
-  if (correct == 0) warnings.push_back(of + "no answer is correct");
+        fmt::format("{} block(s) without trials left out", condition.blocks.size() - blocks.u.size()));
+  if (correct == trials) warnings.push_back("every answer is correct");
+  if (correct == 0) warnings.push_back("no answer is correct");
   if (covariance < 0.0)
-    warnings.push_back(of +
-                       "answers get worse with the level; sigmoids rise, so turn the axis (its negative)");
+    warnings.push_back("answers get worse with the level; sigmoids rise, so turn the axis (its negative)");
   const auto at = [&](FitParameter parameter) { return fit.atBound[indexOf(parameter)]; };
   if (at(FitParameter::Threshold) != 0)
-    warnings.push_back(fmt::format("{}the threshold is at the {} bound of the fit; the data do not tell it",
-                                   of, at(FitParameter::Threshold) < 0 ? "lower" : "upper"));
+    warnings.push_back(fmt::format("the threshold is at the {} bound of the fit; the data do not tell it",
+                                   at(FitParameter::Threshold) < 0 ? "lower" : "upper"));
   if (at(FitParameter::Width) < 0)
-    warnings.push_back(of +
-                       "the width is at its lower bound: the answers change within one step of the levels, "
-                       "and tell neither how steeply nor where in between");
+    warnings.push_back(
+        "the width is at its lower bound: the answers change within one step of the levels, "
+        "and tell neither how steeply nor where in between");
   if (at(FitParameter::Width) > 0)
-    warnings.push_back(of + "the width is at its upper bound: the levels are too close together to tell it");
+    warnings.push_back("the width is at its upper bound: the levels are too close together to tell it");
   if (at(FitParameter::Lapse) > 0)
     warnings.push_back(
-        fmt::format("{}the lapse rate is at its upper bound of {}", of, objective.settings().lapseMost));
+        fmt::format("the lapse rate is at its upper bound of {}", objective.settings().lapseMost));
   if (objective.settings().task.kind == FitTask::Kind::YesNo && at(FitParameter::Guess) > 0)
     warnings.push_back(
-        fmt::format("{}the guess rate is at its upper bound of {}", of, objective.settings().guessMost));
+        fmt::format("the guess rate is at its upper bound of {}", objective.settings().guessMost));
   std::vector<double> levels = blocks.u;
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
@@ -183,7 +189,7 @@ void warn(const Condition& condition, const Objective& objective, size_t c, cons
   for (size_t i = 0; i < kFitParameters; ++i)
     if (objective.place(c, static_cast<FitParameter>(i)) >= 0 && !objective.settings().shared[i]) ++own;
   if (own > levels.size())
-    warnings.push_back(fmt::format("{}{} parameters are fitted to {} level(s)", of, own, levels.size()));
+    warnings.push_back(fmt::format("{} parameters are fitted to {} level(s)", own, levels.size()));
 }
 
 }  // namespace
@@ -236,7 +242,7 @@ Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings&
     fit.deviance += fit.conditions.back().deviance;
     fit.logLikelihood += fit.conditions.back().logLikelihood;
     trials += fit.conditions.back().trials;
-    warn(conditions[c], objective, c, fit.conditions.back(), fit.warnings);
+    warn(conditions[c], objective, c, fit.conditions.back());
   }
   if (settings.method == FitMethod::MaximumPosterior) fit.logPrior = objective.logPriorAt(fit.x.data());
   const double k = static_cast<double>(fit.freeParameters);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,10 @@ struct ConditionFit {
   double slope = 0.0;                           ///< dF/dx at the threshold
   double deviance = 0.0;       ///< binomial: twice the log-likelihood missing to P = k/n in every block
   double logLikelihood = 0.0;  ///< binomial coefficients included; beta-binomial where eta > 0
+  double logPrior = 0.0;       ///< of its priors, shared ones too; 0 for MaximumLikelihood
   int64_t trials = 0;
-  size_t blocks = 0;  ///< those with trials
+  size_t blocks = 0;                  ///< those with trials
+  std::vector<std::string> warnings;  ///< what whoever reads the numbers has to know
 
   double value(FitParameter parameter) const { return values[indexOf(parameter)]; }
   psychometrics::Sigmoid sigmoid(const FitSettings& settings) const;
@@ -30,10 +33,9 @@ struct Fit {
   std::vector<ConditionFit> conditions;
   std::vector<double> x;  ///< what was varied, on the axis; widths as logarithms
   double deviance = 0.0, logLikelihood = 0.0;
-  double logPrior = 0.0;  ///< of the priors' density, up to a constant; 0 for MaximumLikelihood
+  double logPrior = 0.0;  ///< ln of the priors' density, up to a constant; 0 for MaximumLikelihood
   size_t freeParameters = 0;
   double aic = 0.0, bic = 0.0;  ///< by the log-likelihood; BIC counts trials
-  std::vector<std::string> warnings;
 
   double logPosterior() const { return logLikelihood + logPrior; }
 };
@@ -51,5 +53,8 @@ struct LikelihoodRatio {
   double p = 1.0;
 };
 LikelihoodRatio likelihoodRatio(const Fit& restricted, const Fit& full);
+
+/// Names and versions of the libraries that fit.
+std::vector<std::array<std::string, 2>> fitLibraries();
 
 }  // namespace limen::analysis

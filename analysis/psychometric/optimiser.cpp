@@ -4,11 +4,15 @@
 #include <ceres/first_order_function.h>
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
+#include <ceres/version.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/version.hpp>
 #include <cmath>
+
+#include "analysis/psychometric/fit.h"
 
 namespace limen::analysis {
 namespace {
@@ -171,6 +175,13 @@ std::vector<double> secondDerivatives(const Objective& objective, const std::vec
   for (size_t j = 0; j < all.size(); ++j) all[j] = j;
   const Eigen::MatrixXd h = curvature(objective, x, all);
   return {h.data(), h.data() + h.size()};
+}
+
+std::vector<std::array<std::string, 2>> fitLibraries() {
+  return {{"ceres", CERES_VERSION_STRING},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)},
+          {"boost", BOOST_LIB_VERSION}};
 }
 
 }  // namespace limen::analysis
