@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/report.h"
+#include "analysis/study_commands.h"
 #include "analysis/switch_distances.h"
 #include "analysis/text_output.h"
 #include "base/error.h"
@@ -91,6 +92,8 @@ int main(int argc, char** argv) {
   distances->add_flag("--force", switches.force, "go on although runs are missing or failed");
   distances->add_flag("--json", json, "print one JSON line for each experiment");
 
+  const limen::analysis::StudyCommands studies = limen::analysis::addStudyCommands(app);
+
   // CLI11 would only say that a subcommand is missing.
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
@@ -106,9 +109,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? limen::kExitSuccess : limen::kExitBadInput;
   }
   try {
+    for (const auto& [command, runCommand] : studies)
+      if (command->parsed()) runCommand();
     if (distances->parsed())
       runSwitchDistances(switches, json);
-    else
+    else if (report->parsed())
       for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
   } catch (const limen::Error& error) {
     std::fprintf(stderr, "limen-analyse: %s\n", error.what());
