@@ -8,6 +8,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/report.h"
+#include "analysis/study_commands.h"
 #include "analysis/switch_distances.h"
 #include "analysis/text_output.h"
 #include "base/build_facts.h"
@@ -96,5 +97,7 @@ int main(int argc, char** argv) {
   distances->callback([&] { runSwitchDistances(switches, json); });
 
   limen::analysis::addFitCommand(app);
+  for (const auto& [command, runCommand] : limen::analysis::addStudyCommands(app))
+    command->callback(runCommand);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

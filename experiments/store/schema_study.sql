@@ -124,6 +124,23 @@ CREATE TABLE note (
   FOREIGN KEY (session, event) REFERENCES event(session, number)
 ) WITHOUT ROWID;
 
+-- What a predictor says of a stimulus with a change, on one display in a window of one size: what the answers are
+-- compared with.
+CREATE TABLE prediction (
+  id INTEGER PRIMARY KEY,
+  stimulus_hash TEXT NOT NULL,        -- as in trial.stimulus_hashes
+  display_hash TEXT NOT NULL REFERENCES display(hash),
+  width_px INTEGER NOT NULL,          -- of the window
+  height_px INTEGER NOT NULL,
+  predictor TEXT NOT NULL,
+  settings_hash TEXT NOT NULL,        -- SHA-256 of `settings`
+  settings TEXT NOT NULL,             -- JSON: every value that the predictor and the metrics were given
+  program_version TEXT NOT NULL,
+  created TEXT NOT NULL,
+  figures TEXT NOT NULL,              -- JSON: figure -> value
+  UNIQUE (stimulus_hash, display_hash, width_px, height_px, predictor, settings_hash, program_version)
+);
+
 -- Nothing is ever overwritten, by whatever program. Triggers on INSERT stand where REPLACE would get past the others.
 CREATE TRIGGER event_follows BEFORE INSERT ON event
   WHEN NEW.number <> (SELECT coalesce(max(number), -1) + 1 FROM event WHERE session = NEW.session)
@@ -193,3 +210,13 @@ CREATE TRIGGER protocol_once BEFORE INSERT ON protocol WHEN EXISTS (SELECT 1 FRO
   BEGIN SELECT RAISE(ABORT, 'protocols are never overwritten'); END;
 CREATE TRIGGER display_once BEFORE INSERT ON display WHEN EXISTS (SELECT 1 FROM display WHERE hash = NEW.hash)
   BEGIN SELECT RAISE(ABORT, 'displays are never overwritten'); END;
+CREATE TRIGGER prediction_once BEFORE INSERT ON prediction
+  WHEN EXISTS (SELECT 1 FROM prediction WHERE id = NEW.id
+               OR (stimulus_hash = NEW.stimulus_hash AND display_hash = NEW.display_hash AND width_px = NEW.width_px
+                   AND height_px = NEW.height_px AND predictor = NEW.predictor AND settings_hash = NEW.settings_hash
+                   AND program_version = NEW.program_version))
+  BEGIN SELECT RAISE(ABORT, 'predictions are never overwritten'); END;
+CREATE TRIGGER prediction_update BEFORE UPDATE ON prediction
+  BEGIN SELECT RAISE(ABORT, 'predictions are never overwritten'); END;
+CREATE TRIGGER prediction_delete BEFORE DELETE ON prediction
+  BEGIN SELECT RAISE(ABORT, 'predictions are never overwritten'); END;

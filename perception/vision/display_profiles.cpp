@@ -25,6 +25,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "perception/vision/display.h"
+#include "perception/vision/display_yaml.h"
 
 namespace limen::perception {
 namespace {
@@ -249,8 +250,8 @@ class Reader {
   YAML::Node root_;
 };
 
-DisplayProfile readFile(const std::string& path) {
-  const Reader file(readWhole(path), path);
+DisplayProfile profileOf(const std::string& text, const std::string& path) {
+  const Reader file(text, path);
   DisplayProfile out;
   out.name = file.has("name") ? file.text("name") : fs::path(path).stem().string();
   const glm::dvec2 resolution = file.pair("resolution_px");
@@ -348,7 +349,11 @@ DisplayProfile readDisplay(const std::string& nameOrFile) {
   if (!fs::exists(nameOrFile, error) && nameOrFile.find_first_of("/.") == std::string::npos)
     throw Error("no display '" + nameOrFile + "', nor a file of that name", "",
                 suggest(nameOrFile, displayPresets()));
-  return readFile(nameOrFile);
+  return profileOf(readWhole(nameOrFile), nameOrFile);
+}
+
+DisplayProfile displayFromYaml(const std::string& text, const std::string& where) {
+  return profileOf(text, where);
 }
 
 std::string toYaml(const DisplayProfile& profile) {

@@ -19,6 +19,7 @@ struct Run {
 void addCalibrateCommand(CLI::App& app, Run& run);
 void addExportCommand(CLI::App& app, Run& run);
 void addPowerCommand(CLI::App& app, Run& run);
+void addPredictCommand(CLI::App& app, Run& run);
 void addProtocolCommand(CLI::App& app, Run& run);
 void addRunCommand(CLI::App& app, Run& run);
 void addSessionsCommand(CLI::App& app, Run& run);  ///< sessions, replay

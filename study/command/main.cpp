@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   study::addExportCommand(app, run);
   study::addSimulateCommand(app, run);
   study::addPowerCommand(app, run);
+  study::addPredictCommand(app, run);
   study::addTraceCommand(app, run);
   study::addTimingCommand(app, run);
   study::addCalibrateCommand(app, run);

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/study/anova.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+
+namespace limen::analysis {
+namespace {
+
+struct Published {
+  const char *protocol, *part;
+  std::vector<std::string> factors;
+  PublishedEffect effect;
+};
+
+const std::vector<Published>& publishedEffects() {
+  const std::string first = "Schwarz 2009, section 10.4.1", second = "Schwarz 2009, section 10.4.2";
+  static const std::vector<Published> kAll = {
+      {"experiment_1", "main", {"lod_change"}, {98.926, 1, 7, "< 0.0001", false, "", first}},
+      {"experiment_1", "main", {"switch_distance"}, {30.226, 6, 42, "< 0.0001", false, "", first}},
+      {"experiment_1", "main", {"lod_change", "switch_distance"}, {3.139, 6, 42, "0.012", false, "", first}},
+      {"experiment_1", "main", {"presentation"}, {29.377, 1, 7, "< 0.001", false, "", first}},
+      {"experiment_2", "object", {"presentation"}, {5.337, 1, 11, "0.041", false, "", second}},
+      {"experiment_2", "object", {"scenario"}, {18.222, 7, 77, "< 0.0001", false, "", second}},
+      {"experiment_2",
+       "terrain",
+       {"presentation"},
+       {5.337, 1, 11, "0.004", false, "F and p as printed do not fit: this F has p = 0.041", second}},
+      {"experiment_2",
+       "terrain",
+       {"scenario"},
+       {1.53, 7, 77, "0.170", true, "F was not printed; derived from p", second}}};
+  return kAll;
+}
+
+/// Factors that vary, by their levels that were shown.
+std::vector<StudyFactor> varyingFactors(const StudyPart& part,
+                                        const std::vector<const StudyAnswer*>& answers) {
+  std::vector<StudyFactor> out;
+  for (const StudyFactor& factor : part.factors) {
+    std::set<std::string> shown;
+    for (const StudyAnswer* answer : answers)
+      if (const auto own = answer->condition.find(factor.name); own != answer->condition.end())
+        shown.insert(own->second);
+    StudyFactor varying{factor.name, {}};
+    for (const std::string& level : factor.levels)
+      if (shown.erase(level) > 0) varying.levels.push_back(level);
+    varying.levels.insert(varying.levels.end(), shown.begin(), shown.end());
+    if (varying.levels.size() > 1) out.push_back(std::move(varying));
+  }
+  return out;
+}
+
+std::optional<std::vector<size_t>> cellOf(const std::vector<StudyFactor>& factors,
+                                          const StudyAnswer& answer) {
+  std::vector<size_t> out;
+  for (const StudyFactor& factor : factors) {
+    const auto own = answer.condition.find(factor.name);
+    if (own == answer.condition.end()) return {};
+    const auto level = std::find(factor.levels.begin(), factor.levels.end(), own->second);
+    out.push_back(static_cast<size_t>(level - factor.levels.begin()));
+  }
+  return out;
+}
+
+PartAnova anovaOf(const StudyAnswers& study, size_t index, const std::vector<const StudyAnswer*>& answers) {
+  const StudyPart& part = study.plan.parts[index];
+  PartAnova out;
+  out.part = part.name;
+  out.of = part.asksYesNo() ? "yes" : "right";
+  if (!part.isBinary()) {
+    out.note = "answers are not one of two";
+    return out;
+  }
+  if (part.adaptive) {
+    out.note = "a procedure chose the stimuli: rates say more of it than of observers";
+    return out;
+  }
+  out.factors = varyingFactors(part, answers);
+  if (out.factors.empty()) {
+    out.note = "no factor has two levels";
+    return out;
+  }
+  size_t cells = 1;
+  for (const StudyFactor& factor : out.factors) cells *= factor.levels.size();
+  std::vector<std::set<std::vector<size_t>>> seen(study.observers.size());
+  for (const StudyAnswer* answer : answers)
+    if (const auto cell = cellOf(out.factors, *answer)) seen[answer->observer].insert(*cell);
+  std::map<size_t, size_t> subjects;
+  for (size_t observer = 0; observer < seen.size(); ++observer) {
+    if (seen[observer].size() == cells)
+      subjects.emplace(observer, subjects.size());
+    else
+      out.incomplete.push_back(study.observers[observer]);
+  }
+  if (subjects.size() < 2) {
+    out.note = "fewer than two observers answered in every condition";
+    return out;
+  }
+  std::vector<WithinFactor> factors;
+  for (const StudyFactor& factor : out.factors) factors.push_back({factor.name, factor.levels.size()});
+  std::vector<CellObservation> observations;
+  for (const StudyAnswer* answer : answers) {
+    const auto subject = subjects.find(answer->observer);
+    const auto cell = cellOf(out.factors, *answer);
+    if (subject == subjects.end() || !cell) continue;
+    observations.push_back({subject->second, *cell, answer->outcome == 1 ? 1.0 : 0.0});
+  }
+  const RepeatedMeasures data = averageCells(factors, subjects.size(), observations);
+  out.unequalReplicates = data.unequalReplicates;
+  out.result = analyseRepeatedMeasures(data);
+  for (const AnovaEffect& effect : out.result->effects) {
+    std::vector<std::string> names;
+    for (const size_t factor : effect.factors) names.push_back(out.factors[factor].name);
+    out.published.push_back(publishedEffect(study.plan.name, part.name, names));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<PublishedEffect> publishedEffect(const std::string& protocol, const std::string& part,
+                                               const std::vector<std::string>& factors) {
+  for (const Published& one : publishedEffects())
+    if (protocol == one.protocol && part == one.part &&
+        std::is_permutation(factors.begin(), factors.end(), one.factors.begin(), one.factors.end()))
+      return one.effect;
+  return {};
+}
+
+std::vector<PartAnova> studyAnova(const StudyAnswers& study) {
+  std::vector<PartAnova> out;
+  for (size_t part = 0; part < study.plan.parts.size(); ++part) {
+    std::vector<const StudyAnswer*> answers;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part && answer.change) answers.push_back(&answer);
+    if (!answers.empty()) out.push_back(anovaOf(study, part, answers));
+  }
+  return out;
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/study/rates.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace limen::analysis {
+namespace {
+
+struct Count {
+  int64_t positive = 0, trials = 0;
+};
+
+/// Groups of answers in the order of the part's factors and levels.
+struct Group {
+  RateScope scope;
+  std::map<std::string, std::string> condition;
+  std::map<size_t, Count> observers;
+};
+
+using GroupKey = std::pair<int, std::vector<size_t>>;
+
+class PartRates {
+ public:
+  PartRates(const StudyAnswers& study, size_t part) : study_(study), part_(study.plan.parts[part]) {
+    std::set<std::string> presentations;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part) presentations.insert(answer.presentation);
+    const bool named = std::any_of(part_.factors.begin(), part_.factors.end(),
+                                   [](const StudyFactor& f) { return f.name == "presentation"; });
+    byStimulus_ = !named && presentations.size() > 1;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part) add(answer);
+  }
+
+  void rows(double level, StudyRates& out) const {
+    for (const auto& [key, group] : groups_[1]) {
+      const bool change = true;
+      out.rows.push_back(row(group, change, level));
+      const auto catches = groups_[0].find(key);
+      if (catches != groups_[0].end()) out.rows.push_back(row(catches->second, false, level));
+    }
+    for (const auto& [key, group] : groups_[0])
+      if (!groups_[1].count(key)) out.rows.push_back(row(group, false, level));
+  }
+
+  void observers(double level, StudyRates& out) const {
+    const GroupKey whole{0, {}};
+    const auto change = groups_[1].find(whole), catches = groups_[0].find(whole);
+    if (change == groups_[1].end()) return;
+    for (const auto& [observer, count] : change->second.observers) {
+      ObserverRate one{part_.name, study_.observers[observer], of(), {}, {}};
+      one.change = detectionRate(count.positive, count.trials, level);
+      if (catches != groups_[0].end())
+        if (const auto own = catches->second.observers.find(observer); own != catches->second.observers.end())
+          one.catches = detectionRate(own->second.positive, own->second.trials, level);
+      out.observers.push_back(one);
+    }
+  }
+
+ private:
+  std::string of() const { return part_.asksYesNo() ? "yes" : "right"; }
+
+  void count(const GroupKey& key, RateScope scope, const std::map<std::string, std::string>& condition,
+             const StudyAnswer& answer) {
+    Group& group = groups_[answer.change ? 1 : 0].try_emplace(key, Group{scope, condition, {}}).first->second;
+    Count& own = group.observers[answer.observer];
+    ++own.trials;
+    own.positive += answer.outcome == 1 ? 1 : 0;
+  }
+
+  void add(const StudyAnswer& answer) {
+    count({0, {}}, RateScope::Part, {}, answer);
+    const std::vector<size_t> levels = levelsOf(part_, answer.condition);
+    for (size_t factor = 0; factor < levels.size(); ++factor) {
+      const std::string& name = part_.factors[factor].name;
+      const auto own = answer.condition.find(name);
+      if (own != answer.condition.end())
+        count({1, {factor, levels[factor]}}, RateScope::Level, {{name, own->second}}, answer);
+    }
+    if (byStimulus_)
+      count({1, {part_.factors.size(), answer.presentation == "static" ? 1U : 0U}}, RateScope::Level,
+            {{"presentation", answer.presentation}}, answer);
+    // With one factor its levels are the conditions.
+    if (levels.size() > 1) count({2, levels}, RateScope::Condition, answer.condition, answer);
+  }
+
+  RateRow row(const Group& group, bool change, double level) const {
+    RateRow out;
+    out.part = part_.name;
+    out.scope = group.scope;
+    out.condition = group.condition;
+    out.change = change;
+    out.of = of();
+    Count all;
+    std::vector<double> rates;
+    for (const auto& [observer, count] : group.observers) {
+      all.positive += count.positive;
+      all.trials += count.trials;
+      rates.push_back(static_cast<double>(count.positive) / static_cast<double>(count.trials));
+    }
+    out.pooled = detectionRate(all.positive, all.trials, level);
+    out.overObservers = meanOverSubjects(rates, level);
+    out.text = group.condition.empty() ? "all" : conditionText(part_, group.condition);
+    return out;
+  }
+
+  const StudyAnswers& study_;
+  const StudyPart& part_;
+  bool byStimulus_ = false;
+  std::map<GroupKey, Group> groups_[2];  // catch trials, trials with a change
+};
+
+}  // namespace
+
+StudyRates studyRates(const StudyAnswers& study, double level) {
+  StudyRates out;
+  for (size_t part = 0; part < study.plan.parts.size(); ++part) {
+    const StudyPart& plan = study.plan.parts[part];
+    if (std::none_of(study.answers.begin(), study.answers.end(),
+                     [&](const StudyAnswer& answer) { return answer.part == part; }))
+      continue;
+    if (!plan.isBinary()) {
+      out.notes.push_back("part '" + plan.name + "' asks for more than one of two answers: no rates");
+      continue;
+    }
+    if (plan.adaptive)
+      out.notes.push_back("part '" + plan.name +
+                          "': a procedure chose the stimuli, so that rates say more of it than of observers");
+    const PartRates rates(study, part);
+    rates.rows(level, out);
+    rates.observers(level, out);
+  }
+  return out;
+}
+
+}  // namespace limen::analysis

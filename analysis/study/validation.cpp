@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/study/validation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+/// Stimulus and display.
+using Key = std::pair<std::string, std::string>;
+using Values = std::map<std::string, double>;
+
+/// The display that a prediction must be for, given the one that was used.
+std::string wantedDisplay(const std::string& used, const std::map<std::string, std::string>& names,
+                          const ValidationSetting& setting) {
+  if (setting.display.empty()) return used;
+  std::vector<std::string> fitting, known;
+  for (const auto& [hash, name] : names) {
+    known.push_back(name);
+    if (name == setting.display || (setting.display.size() >= 8 && hash.rfind(setting.display, 0) == 0))
+      fitting.push_back(hash);
+  }
+  if (fitting.empty())
+    throw Error("no display '" + setting.display + "' in the store", "--display",
+                suggest(setting.display, known));
+  if (fitting.size() > 1)
+    throw Error("several displays are named '" + setting.display + "'", "--display",
+                "give the first digits of a SHA-256: " + join(fitting));
+  return fitting.front();
+}
+
+struct Chosen {
+  std::string settingsHash, programVersion;
+  std::map<Key, Values> values;
+};
+
+/// Predictions of one program with one set of settings: figures of different ones are not comparable.
+Chosen choosePredictions(const std::vector<store::StudyPrediction>& predictions, const StudyPlan& plan,
+                         const std::set<Key>& wanted, const ValidationSetting& setting) {
+  Chosen out;
+  std::set<std::string> settings;
+  for (auto one = predictions.rbegin(); one != predictions.rend() && out.settingsHash.empty(); ++one) {
+    const std::string hash = store::settingsHash(one->settings);
+    settings.insert(hash.substr(0, 12));
+    if (!wanted.count({one->stimulusHash, one->displayHash})) continue;
+    if (!setting.settings.empty() && hash.rfind(setting.settings, 0) != 0) continue;
+    out.settingsHash = hash;
+    out.programVersion = one->programVersion;
+  }
+  if (!setting.settings.empty() && out.settingsHash.empty())
+    throw Error("no prediction with settings '" + setting.settings + "'", "--settings",
+                "known: " + join({settings.begin(), settings.end()}));
+  for (const store::StudyPrediction& one : predictions)
+    if (one.programVersion == out.programVersion && one.widthPx == plan.widthPx &&
+        one.heightPx == plan.heightPx && store::settingsHash(one.settings) == out.settingsHash)
+      out.values[{one.stimulusHash, one.displayHash}] = predictorValues(one.figures, setting.bins);
+  const auto missing =
+      std::count_if(wanted.begin(), wanted.end(), [&](const Key& key) { return out.values.count(key) == 0; });
+  if (missing > 0)
+    throw Error(fmt::format("{} of {} stimuli have no prediction", missing, wanted.size()), plan.name,
+                "make them with limen study predict, for the display that is asked for");
+  return out;
+}
+
+/// Rates are means of quotients: equal ones must stay equal, or ties would be lost to rounding.
+double rounded(double value) { return std::round(value * 1e12) / 1e12; }
+
+std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const Chosen& chosen,
+                                  const std::map<std::string, std::string>& displays) {
+  struct Sums {
+    Scenario scenario;
+    std::map<size_t, std::pair<int64_t, int64_t>> observers;
+    double severity = 0.0;
+    int64_t severities = 0;
+  };
+  std::map<std::pair<std::vector<size_t>, Key>, Sums> all;
+  for (const StudyAnswer& answer : study.answers) {
+    if (answer.part != part || !answer.change) continue;
+    const Key key{answer.stimulusHash, displays.at(answer.displayHash)};
+    Sums& sums = all[{levelsOf(study.plan.parts[part], answer.condition), key}];
+    Scenario& scenario = sums.scenario;
+    scenario.condition = conditionText(study.plan.parts[part], answer.condition);
+    scenario.presentation = answer.presentation;
+    scenario.stimulusHash = key.first;
+    scenario.displayHash = key.second;
+    const int64_t yes = answer.outcome == 1 ? 1 : 0;
+    scenario.yes += yes;
+    ++scenario.trials;
+    sums.observers[answer.observer].first += yes;
+    ++sums.observers[answer.observer].second;
+    if (yes && answer.severity) sums.severity += *answer.severity, ++sums.severities;
+  }
+  std::vector<Scenario> out;
+  for (auto& [key, sums] : all) {
+    double rates = 0.0;
+    for (const auto& [observer, count] : sums.observers)
+      rates += static_cast<double>(count.first) / static_cast<double>(count.second);
+    sums.scenario.rate = rounded(rates / static_cast<double>(sums.observers.size()));
+    if (sums.severities > 0)
+      sums.scenario.meanSeverity = rounded(sums.severity / static_cast<double>(sums.severities));
+    sums.scenario.predictors = chosen.values.at(key.second);
+    out.push_back(std::move(sums.scenario));
+  }
+  return out;
+}
+
+/// Names of the sets of scenarios: static and dynamic apart and together, if there are both.
+std::vector<std::string> setsOf(const std::vector<Scenario>& scenarios) {
+  std::set<std::string> kinds;
+  for (const Scenario& scenario : scenarios) kinds.insert(scenario.presentation);
+  if (kinds.size() < 2) return {"all"};
+  return {"static", "dynamic", "both"};
+}
+
+bool isIn(const Scenario& scenario, const std::string& set) {
+  return set == "all" || set == "both" || set == scenario.presentation;
+}
+
+void compareRates(PartValidation& out) {
+  for (const std::string& set : setsOf(out.scenarios))
+    for (const PredictorName& predictor : studyPredictors()) {
+      std::vector<double> predictions, rates;
+      for (const Scenario& scenario : out.scenarios) {
+        const auto value = scenario.predictors.find(predictor.name);
+        if (!isIn(scenario, set) || value == scenario.predictors.end()) continue;
+        predictions.push_back(value->second);
+        rates.push_back(scenario.rate);
+      }
+      if (predictions.size() < 2) continue;
+      out.agreements.push_back({set, predictor.name, predictions.size(), kendall(predictions, rates),
+                                pearson(predictions, rates), clampedPearson(predictions, rates)});
+    }
+}
+
+void compareSeverities(PartValidation& out) {
+  for (const std::string& set : setsOf(out.scenarios)) {
+    std::vector<double> predictions, severities;
+    for (const Scenario& scenario : out.scenarios) {
+      const auto value = scenario.predictors.find("rating_score");
+      if (!isIn(scenario, set) || value == scenario.predictors.end() || !scenario.meanSeverity) continue;
+      predictions.push_back(value->second);
+      severities.push_back(*scenario.meanSeverity);
+    }
+    if (predictions.size() < 2) continue;
+    out.severity.push_back({set,
+                            "rating_score",
+                            predictions.size(),
+                            kendall(predictions, severities),
+                            pearson(predictions, severities),
+                            {}});
+  }
+}
+
+void compareTrials(PartValidation& out) {
+  std::vector<int> outcomes;
+  std::map<std::string, std::vector<double>> scores;
+  for (const Scenario& scenario : out.scenarios)
+    for (int64_t i = 0; i < scenario.trials; ++i) {
+      outcomes.push_back(i < scenario.yes ? 1 : 0);
+      for (const auto& [name, value] : scenario.predictors) scores[name].push_back(value);
+    }
+  const auto full = [&](const std::string& name) { return scores[name].size() == outcomes.size(); };
+  if (full("detection_probability")) out.calibration = calibrate(scores["detection_probability"], outcomes);
+  const auto yes = std::count(outcomes.begin(), outcomes.end(), 1);
+  if (yes == 0 || yes == static_cast<std::ptrdiff_t>(outcomes.size())) {
+    out.notes.push_back("all trials with a change were answered alike: no area under a curve");
+    return;
+  }
+  for (const PredictorName& predictor : studyPredictors()) {
+    if (!full(predictor.name)) continue;
+    TrialArea area{predictor.name, rocArea(scores[predictor.name], outcomes), {}};
+    if (predictor.name != "rating" && full("rating"))
+      area.againstRating = compareRocAreas(scores[predictor.name], scores["rating"], outcomes);
+    out.areas.push_back(std::move(area));
+  }
+}
+
+void fitLinks(PartValidation& out, const LinkPoint& catches, const ValidationSetting& setting) {
+  LinkReport& report = out.link;
+  report.catchTrials = catches.trials;
+  if (catches.trials > 0)
+    report.guessFromCatch = static_cast<double>(catches.yes) / static_cast<double>(catches.trials);
+  std::vector<LinkPoint> points;
+  std::vector<double> predicted, constant;
+  int64_t yes = 0, trials = 0;
+  for (const Scenario& scenario : out.scenarios) yes += scenario.yes, trials += scenario.trials;
+  for (const Scenario& scenario : out.scenarios) {
+    const auto rating = scenario.predictors.find("rating");
+    const auto probability = scenario.predictors.find("detection_probability");
+    if (rating == scenario.predictors.end() || probability == scenario.predictors.end()) return;
+    points.push_back({rating->second, scenario.yes, scenario.trials});
+    predicted.push_back(probability->second);
+    if (trials > scenario.trials)
+      constant.push_back(static_cast<double>(yes - scenario.yes) /
+                         static_cast<double>(trials - scenario.trials));
+  }
+  report.asPredicted = linkError(points, predicted);
+  if (constant.size() == points.size()) report.constant = linkError(points, constant);
+  LinkSetting fit{setting.guess, setting.lapse};
+  std::vector<LinkPoint> all = points;
+  if (setting.fitGuess) {
+    if (catches.trials > 0)
+      all.push_back({-std::numeric_limits<double>::infinity(), catches.yes, catches.trials});
+  } else if (!setting.guess) {
+    if (catches.trials == 0) {
+      out.notes.push_back("no catch trials: the link is fitted with a guess rate of 0");
+      report.guessFromCatch = 0.0;
+    }
+    fit.guess = report.guessFromCatch;
+  }
+  report.refit = fitLink(all, fit);
+  if (!report.refit) {
+    out.notes.push_back("the link cannot be fitted: ratings or answers do not vary");
+    return;
+  }
+  if (const auto left = leaveOneOut(all, fit)) report.refitError = linkError(points, *left);
+}
+
+}  // namespace
+
+StudyValidation validateStudy(const StudyAnswers& study,
+                              const std::vector<store::StudyPrediction>& predictions,
+                              const std::map<std::string, std::string>& displayNames,
+                              const ValidationSetting& setting) {
+  checkScoreBins(setting.bins);
+  std::map<std::string, std::string> displays;  // used -> predicted for
+  std::set<Key> wanted;
+  StudyValidation out;
+  for (const StudyAnswer& answer : study.answers) {
+    if (!displays.count(answer.displayHash))
+      displays[answer.displayHash] = wantedDisplay(answer.displayHash, displayNames, setting);
+    if (answer.change && study.plan.parts[answer.part].asksYesNo())
+      wanted.insert({answer.stimulusHash, displays[answer.displayHash]});
+  }
+  for (size_t part = 0; part < study.plan.parts.size(); ++part)
+    if (!study.plan.parts[part].asksYesNo())
+      out.notes.push_back("part '" + study.plan.parts[part].name +
+                          "' does not ask for yes or no: not compared");
+  if (wanted.empty())
+    throw Error("no trial with a change asks for yes or no", study.plan.name,
+                "name another protocol with --protocol");
+  const Chosen chosen = choosePredictions(predictions, study.plan, wanted, setting);
+  out.settingsHash = chosen.settingsHash;
+  out.programVersion = chosen.programVersion;
+  std::set<std::string> names;
+  for (const auto& [used, predicted] : displays) {
+    const auto name = displayNames.find(predicted);
+    names.insert(name == displayNames.end() ? predicted.substr(0, 12) : name->second);
+  }
+  out.displays.assign(names.begin(), names.end());
+  for (size_t part = 0; part < study.plan.parts.size(); ++part) {
+    if (!study.plan.parts[part].asksYesNo()) continue;
+    PartValidation one;
+    one.part = study.plan.parts[part].name;
+    one.scenarios = scenariosOf(study, part, chosen, displays);
+    if (one.scenarios.empty()) continue;
+    LinkPoint catches;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part && !answer.change) {
+        ++catches.trials;
+        catches.yes += answer.outcome == 1 ? 1 : 0;
+      }
+    compareRates(one);
+    compareSeverities(one);
+    compareTrials(one);
+    fitLinks(one, catches, setting);
+    out.parts.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace limen::analysis

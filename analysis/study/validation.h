@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics/rank_correlation.h"
+#include "analysis/statistics/roc.h"
+#include "analysis/study/answers.h"
+#include "analysis/study/link.h"
+#include "analysis/study/scores.h"
+#include "experiments/store/predictions.h"
+
+namespace limen::analysis {
+
+/// One stimulus with a change on one display: what was predicted and what was answered.
+struct Scenario {
+  std::string condition, presentation, stimulusHash, displayHash;
+  int64_t yes = 0, trials = 0;
+  double rate = 0.0;                   ///< mean over observers of their own rates
+  std::optional<double> meanSeverity;  ///< of those who said yes and were asked
+  std::map<std::string, double> predictors;
+};
+
+/// How a predictor goes with the detection rates of a set of scenarios.
+struct Agreement {
+  std::string set, predictor;  ///< set: "static", "dynamic", "both", or "all" if stimuli are of one kind
+  size_t scenarios = 0;
+  Kendall kendall;
+  std::optional<Correlation> pearson;  ///< none if predictor or rates do not vary
+  ClampedPearson clamped;
+};
+
+/// Single trials with a change: does the predictor tell those noticed from those not?
+struct TrialArea {
+  std::string predictor;
+  RocArea area;
+  std::optional<RocComparison> againstRating;  ///< this predictor minus `rating`; none for that itself
+};
+
+struct LinkReport {
+  double guessFromCatch = 0.0;  ///< rate of reports in catch trials
+  int64_t catchTrials = 0;
+  std::optional<Link> refit;
+  /// Of scenarios, each predicted without its own answers; none if there is no fit.
+  std::optional<LinkError> refitError;
+  std::optional<LinkError> asPredicted;  ///< of the probabilities that the prediction gave
+  std::optional<LinkError> constant;     ///< of the mean rate of the other scenarios
+};
+
+struct PartValidation {
+  std::string part;
+  std::vector<Scenario> scenarios;
+  std::vector<Agreement> agreements;
+  std::vector<Agreement> severity;  ///< rating_score with mean severity; no clamp
+  std::vector<TrialArea> areas;     ///< empty if all trials were answered alike
+  std::optional<Calibration> calibration;
+  LinkReport link;
+  std::vector<std::string> notes;
+};
+
+struct ValidationSetting {
+  ScoreBins bins;
+  std::string display;          ///< name or hash of the predictions' display; "": the sessions'
+  std::string settings;         ///< first digits of the SHA-256 of the predictor's settings; "": newest
+  std::optional<double> guess;  ///< of the link; none: from catch trials
+  bool fitGuess = false;        ///< fitted together with the catch trials
+  std::optional<double> lapse;  ///< none: fitted
+};
+
+struct StudyValidation {
+  std::string settingsHash, programVersion;  ///< of the predictions
+  std::vector<std::string> displays;         ///< that were predicted for
+  std::vector<PartValidation> parts;         ///< those that ask for yes or no
+  std::vector<std::string> notes;
+};
+
+/// Compares answers with predictions, part by part. Schwarz 2009, section 10.4. Rates are means over
+/// observers; trials of one observer are taken as independent where single trials count (areas, calibration,
+/// link), so that intervals there are too narrow.
+///
+/// Throws Error if a stimulus has no prediction, or if the display or the settings asked for are unknown.
+StudyValidation validateStudy(const StudyAnswers& study,
+                              const std::vector<store::StudyPrediction>& predictions,
+                              const std::map<std::string, std::string>& displayNames,
+                              const ValidationSetting& setting = {});
+
+std::string toText(const StudyValidation& validation);
+nlohmann::json toJson(const StudyValidation& validation);
+/// One row a scenario: rates and predictors, for other programs.
+std::string toCsv(const StudyValidation& validation);
+
+}  // namespace limen::analysis

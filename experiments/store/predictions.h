@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/store/sessions.h"
+
+namespace limen::store {
+
+/// What a predictor says of a stimulus with a change (table `prediction`). All but `id`, `created` and
+/// `figures` is its key.
+struct StudyPrediction {
+  int64_t id = 0;
+  std::string stimulusHash, displayHash;
+  int widthPx = 0, heightPx = 0;  ///< of the window
+  std::string predictor;
+  nlohmann::json settings = nlohmann::json::object();  ///< all values that decide the figures
+  std::string programVersion, created;
+  nlohmann::json figures = nlohmann::json::object();
+};
+
+/// SHA-256 of settings as the store holds them.
+std::string settingsHash(const nlohmann::json& settings);
+
+/// Writes predictions. Every member throws Error, as SessionLog.
+class PredictionLog {
+ public:
+  explicit PredictionLog(const std::string& path);
+  ~PredictionLog();
+  PredictionLog(const PredictionLog&) = delete;
+  PredictionLog& operator=(const PredictionLog&) = delete;
+
+  /// Whether there is one with this key.
+  bool has(const StudyPrediction& key) const;
+  /// False, and nothing is written, if there is one with this key (another process may have been quicker).
+  bool add(const StudyPrediction& prediction, const StudyDisplay& display);
+
+ private:
+  sqlite3* database_ = nullptr;
+};
+
+/// Every prediction of a store, oldest first. Throws Error: no store, or none that may hold studies.
+std::vector<StudyPrediction> readPredictions(const std::string& path);
+
+}  // namespace limen::store

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "perception/vision/display.h"
+#include "renderer/gl/context.h"
+#include "study/stimulus/stage.h"
+#include "study/stimulus/stimulus.h"
+
+namespace limen::perception {
+class MetricGpu;
+}
+
+namespace limen::study {
+
+/// What image metrics say of the two pictures that Predictor compares: the first frame after the change, and
+/// as reference the same frame with what was before it. They know nothing of motion. Light is relative to
+/// the display's white, codes are over 255.
+struct FrameDifference {
+  double meanDe94 = 0.0;   ///< CIE94, mean over the window
+  double flip = 0.0;       ///< mean LDR-FLIP at the display's pixels per degree
+  double ssim = 1.0;       ///< 1 for equal pictures
+  double rmse = 0.0;       ///< of light
+  double rmseCoded = 0.0;  ///< of codes
+};
+nlohmann::json toJson(const FrameDifference& difference);
+
+/// Measures stimuli in one window of one display.
+class FrameComparer {
+ public:
+  FrameComparer(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display);
+  ~FrameComparer();
+  FrameComparer(const FrameComparer&) = delete;
+  FrameComparer& operator=(const FrameComparer&) = delete;
+
+  /// Throws Error as StimulusRenderer; the stimulus has a change.
+  FrameDifference compare(const Stimulus& stimulus);
+  /// Versions and parameters of the metrics: what decides the figures beside stimulus, window and display.
+  nlohmann::json settings() const;
+
+ private:
+  double flipPixelsPerDegree() const;
+
+  gl::Context& context_;
+  glm::ivec2 windowPx_;
+  perception::DisplayProfile display_;
+  StageCache stages_;
+  std::unique_ptr<perception::MetricGpu> gpu_;
+};
+
+}  // namespace limen::study
