@@ -75,12 +75,17 @@ Values climb(Values start, const Box& box, const std::vector<LinkPoint>& points)
   return start;
 }
 
-std::string edges(const Values& at, const Box& box, const LinkSetting& setting) {
+/// What of the best values the answers do not tell.
+std::string doubts(const Values& at, const Box& box, const LinkSetting& setting,
+                   const std::vector<LinkPoint>& points) {
   std::string out;
   const auto say = [&](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
   if (at[0] == box.low[0] || at[0] == box.high[0]) say("the midpoint lies far beyond the ratings");
-  if (at[1] == box.low[1])
-    say("the ratings part yes from no without overlap: the scale is too small to tell");
+  Values steeper = at;
+  steeper[1] -= std::log(2.0);
+  const double best = logLikelihood(linkOf(at), points);
+  if (at[1] == box.low[1] || logLikelihood(linkOf(steeper), points) > best - 1e-6 * (1.0 + std::abs(best)))
+    say("ratings part yes from no without overlap: a smaller scale fits as well");
   if (at[1] == box.high[1]) say("answers hardly depend on the rating");
   if (!setting.guess && (at[2] == box.low[2] || at[2] == box.high[2])) say("the guess rate is at its edge");
   if (!setting.lapse && (at[3] == box.low[3] || at[3] == box.high[3])) say("the lapse rate is at its edge");
@@ -124,7 +129,7 @@ std::optional<Link> fitLink(const std::vector<LinkPoint>& points, const LinkSett
       if (best && link.logLikelihood <= best->logLikelihood) continue;
       link.guessFitted = !setting.guess;
       link.lapseFitted = !setting.lapse;
-      link.note = edges(end, box, setting);
+      link.note = doubts(end, box, setting, points);
       best = link;
     }
   return best;
@@ -134,10 +139,12 @@ LinkError linkError(const std::vector<LinkPoint>& points, const std::vector<doub
   assert(points.size() == probabilities.size());
   LinkError out;
   double trials = 0.0;
+  // What was never answered costs nothing, even where it had a probability of 0.
+  const auto cost = [](double count, double p) { return count > 0.0 ? -count * std::log(p) : 0.0; };
   for (size_t i = 0; i < points.size(); ++i) {
     const auto yes = static_cast<double>(points[i].yes), all = static_cast<double>(points[i].trials);
-    const double p = probabilities[i], safe = clipped(p);
-    out.logLoss -= yes * std::log(safe) + (all - yes) * std::log1p(-safe);
+    const double p = probabilities[i];
+    out.logLoss += cost(yes, p) + cost(all - yes, 1.0 - p);
     out.brier += yes * (1.0 - p) * (1.0 - p) + (all - yes) * p * p;
     out.rmsRate += (p - yes / all) * (p - yes / all);
     trials += all;

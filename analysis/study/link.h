@@ -37,7 +37,8 @@ std::optional<Link> fitLink(const std::vector<LinkPoint>& points, const LinkSett
 
 /// How well scenarios are told that a prediction has not seen.
 struct LinkError {
-  double logLoss = 0.0;  ///< mean over trials of -ln of the probability of what was answered
+  /// Mean over trials of -ln of the probability of what was answered; infinite if that was 0 once.
+  double logLoss = 0.0;
   double brier = 0.0;    ///< mean over trials of the squared difference from the answer
   double rmsRate = 0.0;  ///< root of the mean square over scenarios of prediction minus rate
 };

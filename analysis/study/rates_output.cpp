@@ -79,6 +79,10 @@ std::string toText(const StudyRates& rates) {
   }
   if (!table.empty()) out += "\nobservers, part " + part + "\n" + alignedText(table, {0});
   for (const std::string& note : rates.notes) out += note + "\n";
+  out +=
+      "\nOver observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials "
+      "of one "
+      "observer\nare not independent: their interval is too narrow.\n";
   return out;
 }
 

@@ -45,7 +45,7 @@ std::string alignedText(const std::vector<std::vector<std::string>>& rows, const
 std::string percentText(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 std::string intervalText(const std::optional<Interval>& interval, bool percent) {
-  if (!interval) return "-";
+  if (!interval || interval->low == interval->high) return "-";
   return percent ? fmt::format("{:.1f} to {:.1f} %", 100.0 * interval->low, 100.0 * interval->high)
                  : fmt::format("{:.3f} to {:.3f}", interval->low, interval->high);
 }

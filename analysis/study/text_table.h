@@ -16,9 +16,11 @@ namespace limen::analysis {
 std::string alignedText(const std::vector<std::vector<std::string>>& rows, const std::vector<size_t>& left,
                         const std::string& indent = "  ");
 
-std::string percentText(double share);                                                    ///< "67.7 %"
-std::string intervalText(const std::optional<Interval>& interval, bool percent = false);  ///< "0.1 to 0.3"
-std::string fixedText(const std::optional<double>& value, int digits = 3);                ///< "-" for none
+std::string percentText(double share);  ///< "67.7 %"
+/// "0.100 to 0.300"; "-" for none, and for one of no width, which comes of data without spread and is no
+/// certainty.
+std::string intervalText(const std::optional<Interval>& interval, bool percent = false);
+std::string fixedText(const std::optional<double>& value, int digits = 3);  ///< "-" for none
 /// "0.012", "< 0.0001"; "-" for none.
 std::string pText(const std::optional<double>& p);
 

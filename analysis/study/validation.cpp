@@ -125,7 +125,7 @@ bool isIn(const Scenario& scenario, const std::string& set) {
   return set == "all" || set == "both" || set == scenario.presentation;
 }
 
-void compareRates(PartValidation& out) {
+void compareRates(PartValidation& out, const std::string& protocol) {
   for (const std::string& set : setsOf(out.scenarios))
     for (const PredictorName& predictor : studyPredictors()) {
       std::vector<double> predictions, rates;
@@ -137,11 +137,12 @@ void compareRates(PartValidation& out) {
       }
       if (predictions.size() < 2) continue;
       out.agreements.push_back({set, predictor.name, predictions.size(), kendall(predictions, rates),
-                                pearson(predictions, rates), clampedPearson(predictions, rates)});
+                                pearson(predictions, rates), clampedPearson(predictions, rates),
+                                publishedAgreement(protocol, out.part, set, predictor.name, false)});
     }
 }
 
-void compareSeverities(PartValidation& out) {
+void compareSeverities(PartValidation& out, const std::string& protocol) {
   for (const std::string& set : setsOf(out.scenarios)) {
     std::vector<double> predictions, severities;
     for (const Scenario& scenario : out.scenarios) {
@@ -156,7 +157,8 @@ void compareSeverities(PartValidation& out) {
                             predictions.size(),
                             kendall(predictions, severities),
                             pearson(predictions, severities),
-                            {}});
+                            {},
+                            publishedAgreement(protocol, out.part, set, "rating_score", true)});
   }
 }
 
@@ -269,8 +271,8 @@ StudyValidation validateStudy(const StudyAnswers& study,
         ++catches.trials;
         catches.yes += answer.outcome == 1 ? 1 : 0;
       }
-    compareRates(one);
-    compareSeverities(one);
+    compareRates(one, study.plan.name);
+    compareSeverities(one, study.plan.name);
     compareTrials(one);
     fitLinks(one, catches, setting);
     out.parts.push_back(std::move(one));

@@ -25,6 +25,17 @@ struct Scenario {
   std::map<std::string, double> predictors;
 };
 
+/// What the thesis printed for a predictor and a set of scenarios.
+struct PublishedAgreement {
+  double tauC = 0.0, r = 0.0;
+  bool clamped = false;  ///< r is that of clamped predictions
+  const char* source = "";
+};
+/// By names of protocol and part; `severity`: with mean severity, else with detection rates.
+std::optional<PublishedAgreement> publishedAgreement(const std::string& protocol, const std::string& part,
+                                                     const std::string& set, const std::string& predictor,
+                                                     bool severity);
+
 /// How a predictor goes with the detection rates of a set of scenarios.
 struct Agreement {
   std::string set, predictor;  ///< set: "static", "dynamic", "both", or "all" if stimuli are of one kind
@@ -32,6 +43,7 @@ struct Agreement {
   Kendall kendall;
   std::optional<Correlation> pearson;  ///< none if predictor or rates do not vary
   ClampedPearson clamped;
+  std::optional<PublishedAgreement> published;
 };
 
 /// Single trials with a change: does the predictor tell those noticed from those not?

@@ -43,13 +43,16 @@ std::vector<std::string> agreementLine(const Agreement& one, bool clamp) {
     out.push_back(one.clamped.clamp ? fmt::format("{} at {:.3g}", one.clamped.clamped, *one.clamped.clamp)
                                     : "-");
   }
+  out.push_back(one.published ? fmt::format("tau_c {:.3f}, r {:.3f}{}", one.published->tauC, one.published->r,
+                                            one.published->clamped ? " clamped" : "")
+                              : "");
   return out;
 }
 
 std::string errorText(const std::optional<LinkError>& error, const std::string& name) {
-  if (!error) return "    " + name + ": -\n";
-  return fmt::format("    {:<38} log loss {:.4f}, Brier {:.4f} a trial; RMS of rates {:.4f}\n", name,
-                     error->logLoss, error->brier, error->rmsRate);
+  if (!error) return fmt::format("    {:<38} -\n", name);
+  return fmt::format("    {:<38} log loss {}, Brier {:.4f} a trial; RMS of rates {:.4f}\n", name,
+                     fixedText(error->logLoss, 4), error->brier, error->rmsRate);
 }
 
 std::string linkText(const LinkReport& link) {
@@ -119,12 +122,17 @@ nlohmann::json agreementJson(const Agreement& one, bool clamp) {
     out["clamp"] = numberJson(one.clamped.clamp);
     out["clamped"] = one.clamped.clamped;
   }
+  if (one.published)
+    out["published"] = {{"tau_c", one.published->tauC},
+                        {"r", one.published->r},
+                        {"r_clamped", one.published->clamped},
+                        {"source", one.published->source}};
   return out;
 }
 
 nlohmann::json linkErrorJson(const std::optional<LinkError>& error) {
   if (!error) return {};
-  return {{"log_loss", error->logLoss}, {"brier", error->brier}, {"rms_rate", error->rmsRate}};
+  return {{"log_loss", numberJson(error->logLoss)}, {"brier", error->brier}, {"rms_rate", error->rmsRate}};
 }
 
 nlohmann::json linkJson(const LinkReport& link) {
@@ -175,19 +183,24 @@ std::string toText(const StudyValidation& validation) {
   for (const PartValidation& part : validation.parts) {
     out += fmt::format("\npart {}: {} scenarios with a change\n", part.part, part.scenarios.size());
     for (const std::string& note : part.notes) out += "  " + note + "\n";
-    std::vector<std::vector<std::string>> table = {
-        {"set", "predictor", "n", "tau_c", "95 %", "p", "r", "95 %", "p", "r clamped", "clamped"}};
+    std::vector<std::vector<std::string>> table = {{"set", "predictor", "n", "tau_c", "95 %", "p", "r",
+                                                    "95 %", "p", "r clamped", "clamped", "published"}};
     for (const Agreement& one : part.agreements) table.push_back(agreementLine(one, true));
-    out += "  with detection rates\n" + alignedText(table, {0, 1}, "    ");
+    out += "  with detection rates\n" + alignedText(table, {0, 1, 11}, "    ");
     if (!part.severity.empty()) {
-      table = {{"set", "predictor", "n", "tau_c", "95 %", "p", "r", "95 %", "p"}};
+      table = {{"set", "predictor", "n", "tau_c", "95 %", "p", "r", "95 %", "p", "published"}};
       for (const Agreement& one : part.severity) table.push_back(agreementLine(one, false));
-      out += "\n  with mean severity of what was noticed\n" + alignedText(table, {0, 1}, "    ");
+      out += "\n  with mean severity of what was noticed\n" + alignedText(table, {0, 1, 9}, "    ");
     }
     if (!part.areas.empty()) out += areaText(part.areas);
     if (part.calibration) out += calibrationText(*part.calibration);
     out += linkText(part.link);
   }
+  out +=
+      "\nClamped: predictions above the least that everybody noticed are lowered to it (Schwarz 2009, "
+      "section "
+      "10.4.1).\nAreas, calibration and link take trials of one observer as independent: their intervals are "
+      "too narrow.\n-: cannot be told, or of no width, which is no certainty.\n";
   return out;
 }
 

@@ -148,8 +148,8 @@ void sayProgress(int done, int all, bool quiet) {
   if (quiet) return;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!terminal && done % 10 != 0 && done != all) return;
-  fmt::print(stderr, terminal ? "\r{} of {} stimuli " : "{} of {} stimuli\n", done, all);
-  if (terminal && done == all) fmt::print(stderr, "\n");
+  fmt::print(stderr, "{}{} of {} stimuli{}", terminal ? "\r" : "", done, all,
+             terminal && done != all ? " " : "\n");
   std::fflush(stderr);
 }
 

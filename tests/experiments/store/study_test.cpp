@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/store/sessions.h"
+#include "experiments/store/predictions.h"
 
 #include "tests/experiments/store/store_fixture.h"
 
@@ -260,6 +260,50 @@ TEST_F(StoreTest, AFullDiskLosesTheEntryAndNothingBefore) {
   log.append(id, {again});
   EXPECT_EQ(SessionReader(store).events(id).size(), static_cast<size_t>(number) + 1);
   EXPECT_EQ(rawSql(store, "PRAGMA integrity_check"), "ok");
+}
+
+TEST_F(StoreTest, PredictionsComeBackAndAreNeverOverwritten) {
+  const std::string store = path("s.sqlite");
+  StudyPrediction first;
+  first.stimulusHash = "aa";
+  first.displayHash = "display";
+  first.widthPx = 640;
+  first.heightPx = 480;
+  first.predictor = "popping";
+  first.settings = {{"threshold", 0.005}};
+  first.programVersion = "0.1.0";
+  first.created = kUtc;
+  first.figures = {{"rating", 1.0 / 3.0}, {"regions", {{{"size_px", 12}}}}};
+  const StudyDisplay display{"display", "desk", "name: desk", nlohmann::json::object()};
+  PredictionLog log(store);
+  EXPECT_FALSE(log.has(first));
+  EXPECT_TRUE(log.add(first, display));
+  EXPECT_TRUE(log.has(first));
+  StudyPrediction again = first;
+  again.figures = {{"rating", 9.0}};
+  EXPECT_FALSE(log.add(again, display));
+  // Each part of the key tells predictions apart.
+  again.widthPx = 641;
+  EXPECT_TRUE(log.add(again, display));
+  again = first, again.programVersion = "0.2.0";
+  EXPECT_TRUE(log.add(again, display));
+  again = first, again.settings = {{"threshold", 0.006}};
+  EXPECT_TRUE(log.add(again, display));
+  again = first, again.displayHash = "other";
+  EXPECT_TRUE(log.add(again, {"other", "beamer", "name: beamer", nlohmann::json::object()}));
+
+  const std::vector<StudyPrediction> read = readPredictions(store);
+  ASSERT_EQ(read.size(), 5U);
+  EXPECT_EQ(read[0].stimulusHash, "aa");
+  EXPECT_EQ(read[0].widthPx, 640);
+  EXPECT_EQ(read[0].heightPx, 480);
+  EXPECT_EQ(read[0].settings, first.settings);
+  EXPECT_EQ(read[0].figures, first.figures);
+  EXPECT_EQ(read[0].created, kUtc);
+  EXPECT_EQ(read[4].displayHash, "other");
+  for (const std::string sql : {"UPDATE prediction SET figures = '{}'", "DELETE FROM prediction",
+                                "INSERT OR REPLACE INTO prediction SELECT * FROM prediction LIMIT 1"})
+    EXPECT_THAT(attempt(store, sql), HasSubstr("never overwritten")) << sql;
 }
 
 TEST_F(StoreTest, AStoreWithSessionsIsNotMergedIntoOneThatWouldLoseThem) {
