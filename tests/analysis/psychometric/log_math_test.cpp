@@ -38,17 +38,30 @@ TEST(LogMath, HalfDevianceKeepsItsDigits) {
   EXPECT_DOUBLE_EQ(halfDeviance(2.0, 0.0, -800.0), 2.0 * (std::log(2.0) + 800.0) - 2.0);
 }
 
+/// Kahan's and Neumaier's sum, in extended precision.
+class Sum {
+ public:
+  void add(long double value) {
+    const long double next = sum_ + value;
+    lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
+    sum_ = next;
+  }
+  double value() const { return static_cast<double>(sum_ + lost_); }
+
+ private:
+  long double sum_ = 0.0, lost_ = 0.0;
+};
+
 TEST(LogMath, SaturatedChancesAreThoseOfTheBinomial) {
   for (const int64_t n : {1, 2, 15, 16, 17, 90, 1000, 1000000}) {
     for (const int64_t k : {int64_t{0}, int64_t{1}, n / 3, n / 2, n - 1, n}) {
       // The coefficient as a sum of logarithms, term by term.
-      long double expected = 0.0;
-      for (int64_t i = 1; i <= k; ++i) expected += std::log(static_cast<long double>(n - k + i) / i);
-      if (k > 0) expected += k * std::log(static_cast<long double>(k) / n);
-      if (k < n) expected += (n - k) * std::log1p(-static_cast<long double>(k) / n);
-      EXPECT_NEAR(logSaturatedChance(k, n), static_cast<double>(expected),
-                  1e-12 * std::abs(static_cast<double>(expected)) + 1e-13)
-          << k << " of " << n;
+      // Single terms are off by half a unit in their last place, so that the largest sums keep 13 digits.
+      Sum sum;
+      for (int64_t i = 1; i <= k; ++i) sum.add(std::log(static_cast<long double>(n - k + i) / i));
+      if (k > 0) sum.add(k * std::log(static_cast<long double>(k) / n));
+      if (k < n) sum.add((n - k) * std::log1p(-static_cast<long double>(k) / n));
+      EXPECT_NEAR(logSaturatedChance(k, n), sum.value(), 1e-12 * std::abs(sum.value())) << k << " of " << n;
     }
   }
 }
@@ -56,12 +69,11 @@ TEST(LogMath, SaturatedChancesAreThoseOfTheBinomial) {
 TEST(LogMath, RisingSumsAreSumsOfLogarithms) {
   for (const double p : {1e-12, 1e-3, 0.3, 1.0}) {
     for (const double r : {1e-14, 1e-9, 1e-6, 1e-3, 0.1, 5.0}) {
-      for (const int64_t k : {0, 1, 30, 49, 200, 30000, 1000000}) {
+      for (const int64_t k : {0, 1, 30, 49, 200, 5000, 200000}) {
         long double value = 0.0, size = 0.0, byP = 0.0, byR = 0.0;
         for (int64_t i = 0; i < k; ++i) {
           const long double term = static_cast<long double>(p) + static_cast<long double>(i) * r;
-          // Near 1 the logarithm of the distance from 1.
-          const long double log = std::log(term);
+          const long double log = p == 1.0 ? std::log1p(static_cast<long double>(i) * r) : std::log(term);
           value += log;
           size += std::abs(log);
           byP += 1.0L / term;
