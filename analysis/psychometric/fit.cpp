@@ -26,9 +26,11 @@ void settle(const Objective& objective, Optimum& optimum) {
   if (!std::isfinite(optimum.value)) return;
   for (size_t j = 0; j < objective.size(); ++j) {
     const FreeParameter& free = objective.free()[j];
-    const bool width = free.parameter == FitParameter::Width;
-    if ((!width && free.parameter != FitParameter::Threshold) || optimum.atBound[j] != 0) continue;
+    if (optimum.atBound[j] != 0) continue;
+    // Rates that tell nothing are 0, never as large as they may be.
+    const bool rate = free.parameter != FitParameter::Threshold && free.parameter != FitParameter::Width;
     for (const int side : {-1, 1}) {
+      if (rate && side > 0) continue;
       std::vector<double> x = optimum.x;
       x[j] = side < 0 ? free.low : free.high;
       const double value = objective.evaluate(x.data(), nullptr);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "analysis/psychometric/objective.h"
 #include "analysis/psychometric/optimiser.h"
@@ -253,9 +254,9 @@ TEST(PsychometricFit, PosteriorModeIsHighestAmongItsNeighbours) {
     // Levels 0.001 to 0.0045, spacing 0.0005.
     const double range = 0.0035, spacing = 0.0005;
     double prior = 9.0 * std::log1p(-l);
-    if (t > 0.0045) prior += std::log(0.5 + 0.5 * std::cos(M_PI * (t - 0.0045) / (0.5 * range)));
-    if (w < 2 * spacing) prior += std::log(0.5 - 0.5 * std::cos(M_PI * (w - spacing) / spacing));
-    if (w > range) prior += std::log(0.5 + 0.5 * std::cos(M_PI / 2 * (w - range) / range));
+    if (t > 0.0045) prior += std::log(0.5 + 0.5 * std::cos(std::numbers::pi * (t - 0.0045) / (0.5 * range)));
+    if (w < 2 * spacing) prior += std::log(0.5 - 0.5 * std::cos(std::numbers::pi * (w - spacing) / spacing));
+    if (w > range) prior += std::log(0.5 + 0.5 * std::cos(std::numbers::pi / 2 * (w - range) / range));
     return plainLogLikelihood(steep, settings, at) + prior;
   };
   const double best = posterior(threshold(fit), width(fit), lapse(fit));
