@@ -36,8 +36,8 @@ std::string heading(const FitAnswer& answer) {
 }
 
 std::string rangeText(const FitInterval& interval) {
-  return fmt::format("{}{:.7g} to {}{:.7g}", interval.lowOpen ? "<= " : "", interval.low,
-                     interval.highOpen ? ">= " : "", interval.high);
+  return fmt::format("{:.7g}{} to {:.7g}{}", interval.low, interval.lowOpen ? " (bound)" : "", interval.high,
+                     interval.highOpen ? " (bound)" : "");
 }
 
 std::string parameterLines(const FitAnswer& answer, size_t c) {
@@ -92,11 +92,13 @@ std::string priorLines(const FitAnswer& answer, size_t c) {
   std::string out = "  priors\n";
   const Objective objective(answer.data, answer.fit.settings);
   for (size_t i = 0; i < kFitParameters; ++i) {
-    const int place = objective.place(c, static_cast<FitParameter>(i));
-    if (place >= 0)
-      out += fmt::format(
-          "    {:<11}{}\n", fitParameterNames()[i],
-          priorText(static_cast<FitParameter>(i), objective.free()[static_cast<size_t>(place)].spread));
+    const FitParameter parameter = static_cast<FitParameter>(i);
+    const int place = objective.place(c, parameter);
+    if (place < 0) continue;
+    const FreeParameter& free = objective.free()[static_cast<size_t>(place)];
+    const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+    out += fmt::format("    {:<11}{}{}\n", fitParameterNames()[i], priorText(parameter, free.spread),
+                       rate ? " up to " + shortestNumber(free.high) : "");
   }
   return out;
 }

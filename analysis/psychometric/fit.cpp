@@ -19,6 +19,30 @@ namespace {
 
 constexpr size_t kStarts = 6;
 
+/// Where the objective is flat up to a bound (every answer correct, answers that change within one step), the
+/// bound is the answer, so that it does not depend on where the search ended, and is known for what it is.
+void settle(const Objective& objective, Optimum& optimum) {
+  constexpr double kFlat = 1e-7;
+  if (!std::isfinite(optimum.value)) return;
+  for (size_t j = 0; j < objective.size(); ++j) {
+    const FreeParameter& free = objective.free()[j];
+    if (optimum.atBound[j] != 0) continue;
+    // Rates that tell nothing are 0, never as large as they may be.
+    const bool rate = free.parameter != FitParameter::Threshold && free.parameter != FitParameter::Width;
+    for (const int side : {-1, 1}) {
+      if (rate && side > 0) continue;
+      std::vector<double> x = optimum.x;
+      x[j] = side < 0 ? free.low : free.high;
+      const double value = objective.evaluate(x.data(), nullptr);
+      if (!(value <= optimum.value + kFlat)) continue;
+      optimum.x = x;
+      optimum.value = value;
+      optimum.atBound[j] = side;
+      break;
+    }
+  }
+}
+
 Optimum best(const Objective& objective, const std::vector<std::vector<double>>& starts) {
   Optimum found;
   found.value = std::numeric_limits<double>::infinity();
@@ -26,6 +50,7 @@ Optimum best(const Objective& objective, const std::vector<std::vector<double>>&
     Optimum optimum = minimise(objective, start);
     if (found.x.empty() || optimum.value < found.value) found = std::move(optimum);
   }
+  settle(objective, found);
   return found;
 }
 
@@ -56,6 +81,7 @@ std::vector<std::vector<double>> startsOfDesign(const std::vector<Condition>& co
     const Objective objective({condition}, alone);
     if (objective.spread(0).range() <= 0.0) continue;  // one level: the others tell
     const Optimum optimum = best(objective, startsOf(objective, kStarts));
+    if (!std::isfinite(optimum.value)) continue;
     std::vector<double> proposal;
     for (const size_t j : shared) {
       const int place = objective.place(0, joint.free()[j].parameter);
@@ -218,6 +244,8 @@ Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings&
     optimum.atBound.resize(objective.size());
     for (size_t c = 0; c < conditions.size(); ++c) {
       const Optimum one = optimumOfOne(conditions[c], settings);
+      optimum.value = one.value;
+      if (!std::isfinite(one.value)) break;
       const Objective own({conditions[c]}, settings);
       for (size_t i = 0; i < kFitParameters; ++i) {
         const int from = own.place(0, static_cast<FitParameter>(i));
@@ -227,7 +255,7 @@ Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings&
         optimum.atBound[static_cast<size_t>(to)] = one.atBound[static_cast<size_t>(from)];
       }
     }
-    optimum.value = objective.evaluate(optimum.x.data(), nullptr);
+    if (std::isfinite(optimum.value)) optimum.value = objective.evaluate(optimum.x.data(), nullptr);
   }
   if (!std::isfinite(optimum.value) || optimum.x.size() != objective.size())
     throw Error("no parameters within the bounds make these answers possible", where,

@@ -32,6 +32,17 @@ double harmonicSum(double x, double n) {
   return std::log1p(n / x) - tail(x + n) + tail(x);
 }
 
+/// (1 + t) ln(1 + t) - t >= 0, t >= 0.
+double excess(double t) {
+  if (t > 0.1) return (1.0 + t) * std::log1p(t) - t;
+  double sum = 0.0, power = t;
+  for (int m = 2; m < 20; ++m) {
+    power *= t;
+    sum += (m % 2 ? -power : power) / (m * (m - 1.0));
+  }
+  return sum;
+}
+
 }  // namespace
 
 double logAddExp(double a, double b) {
@@ -91,7 +102,10 @@ RisingSum logRisingSum(double p, double r, int64_t k) {
   for (int64_t i = 0; i < direct; ++i) {
     const double di = static_cast<double>(i);
     const double term = p + di * r;
-    if (i == 0) {
+    if (p > 0.5 && term < 1.5) {
+      // p - 1 is exact: near 1 the logarithm keeps the digits of what is left.
+      sum.value += std::log1p((p - 1.0) + di * r);
+    } else if (i == 0) {
       // p may be too small for products.
       sum.value += std::log(term);
     } else {
@@ -120,8 +134,8 @@ RisingSum logRisingSum(double p, double r, int64_t k) {
     return sum;
   }
   const double x = start / r;
-  sum.value +=
-      n * std::log(start) + (x + n - 0.5) * std::log1p(n / x) - n + stirlingSeries(x + n) - stirlingSeries(x);
+  sum.value += n * std::log(start) + x * excess(n / x) - 0.5 * std::log1p(n / x) + stirlingSeries(x + n) -
+               stirlingSeries(x);
   const double inverse = harmonicSum(x, n) / r;
   sum.byP += inverse;
   // Sum of (offset + i)/(start + i r), with i r = (start + i r) - start.

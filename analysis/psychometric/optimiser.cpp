@@ -6,6 +6,8 @@
 #include <ceres/gradient_problem_solver.h>
 #include <ceres/version.h>
 
+#include <glog/logging.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
@@ -119,9 +121,15 @@ void newton(const Objective& objective, const std::vector<bool>& held, Optimum& 
     }
     if (next == optimum.x) return;
     std::vector<double> after(gradient.size());
-    const double value = objective.evaluate(next.data(), after.data());
     // Near the minimum values differ by rounding alone.
-    if (!(value <= optimum.value + 4e-15 * std::max(1.0, std::abs(optimum.value)))) return;
+    const double most = optimum.value + 4e-15 * std::max(1.0, std::abs(optimum.value));
+    const std::vector<double> full = next;
+    double value = objective.evaluate(next.data(), after.data());
+    for (double part = 0.25; !(value <= most) && part > 1e-3; part *= 0.25) {
+      for (size_t j = 0; j < next.size(); ++j) next[j] = optimum.x[j] + part * (full[j] - optimum.x[j]);
+      value = objective.evaluate(next.data(), after.data());
+    }
+    if (!(value <= most)) return;
     double change = 0.0;
     for (size_t j = 0; j < next.size(); ++j)
       change = std::max(change, std::abs(next[j] - optimum.x[j]) / objective.free()[j].scale);
@@ -130,6 +138,16 @@ void newton(const Objective& objective, const std::vector<bool>& held, Optimum& 
     gradient = after;
     if (change < 1e-12) return;
   }
+}
+
+/// Ceres reports a line search that ended early through glog on stderr, whatever its own options say. What
+/// such a search has reached is checked and refined here.
+void silenceCeres() {
+  static const bool done = [] {
+    FLAGS_minloglevel = google::GLOG_ERROR;
+    return true;
+  }();
+  (void)done;
 }
 
 }  // namespace
@@ -157,6 +175,7 @@ Optimum minimise(const Objective& objective, const std::vector<double>& start,
   options.function_tolerance = 1e-12;
   options.gradient_tolerance = 1e-8;
   options.parameter_tolerance = 1e-10;
+  silenceCeres();
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(options, problem, at.data(), &summary);
   const std::vector<double> found = angles.x(at.data());

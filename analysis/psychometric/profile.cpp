@@ -67,7 +67,10 @@ Limit profileLimit(const Objective& objective, const std::vector<double>& optimu
   double step = 0.5 * free.scale;
   double outside = inside, above = below;
   while (above < 0.0) {
-    if (outside == bound) return {bound, true};
+    // That rates end at 0 is no limit of the fit.
+    if (outside == bound)
+      return {bound,
+              side > 0 || free.parameter == FitParameter::Threshold || free.parameter == FitParameter::Width};
     inside = outside;
     below = above;
     outside = side < 0 ? std::max(bound, outside - step) : std::min(bound, outside + step);

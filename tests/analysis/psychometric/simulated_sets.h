@@ -30,7 +30,7 @@ struct CoverageCount {
   std::array<int, kFitQuantities> held{}, given{};
 };
 /// `method`: a name of intervalMethodNames() or "nonparametric" (percentiles).
-CoverageCount countCoverage(const CoverageExperiment& experiment, const std::string& method, int first, int sets,
-                            size_t samples);
+CoverageCount countCoverage(const CoverageExperiment& experiment, const std::string& method, int first,
+                            int sets, size_t samples);
 
 }  // namespace limen::analysis
