@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "analysis/commands.h"
 #include "analysis/report.h"
 #include "analysis/study_commands.h"
 #include "analysis/switch_distances.h"
 #include "analysis/text_output.h"
+#include "base/build_facts.h"
 #include "base/error.h"
-#include "base/text.h"
+#include "base/program.h"
 
 namespace {
 
@@ -55,7 +55,7 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
 
 int main(int argc, char** argv) {
   CLI::App app("Says what sweeps and studies found. Needs no GPU.", "limen-analyse");
-  app.set_version_flag("--version", "limen-analyse " LIMEN_VERSION);
+  app.set_version_flag("--version", limen::versionText("limen-analyse"));
   app.require_subcommand(1);
 
   ReportOptions options;
@@ -70,6 +70,9 @@ int main(int argc, char** argv) {
       "of its own if there are several");
   report->add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
   report->add_flag("--json", json, "print one JSON line for each page");
+  report->callback([&] {
+    for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
+  });
 
   SwitchOptions switches;
   CLI::App* distances = app.add_subcommand(
@@ -91,36 +94,10 @@ int main(int argc, char** argv) {
   distances->add_option("-o,--output", switches.folder, "folder for JSON, CSV and chart");
   distances->add_flag("--force", switches.force, "go on although runs are missing or failed");
   distances->add_flag("--json", json, "print one JSON line for each experiment");
+  distances->callback([&] { runSwitchDistances(switches, json); });
 
-  const limen::analysis::StudyCommands studies = limen::analysis::addStudyCommands(app);
-
-  // CLI11 would only say that a subcommand is missing.
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' &&
-      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    std::fprintf(stderr, "limen-analyse: no command '%s'; %s\n", argv[1],
-                 limen::suggest(argv[1], commands).c_str());
-    return limen::kExitBadInput;
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? limen::kExitSuccess : limen::kExitBadInput;
-  }
-  try {
-    for (const auto& [command, runCommand] : studies)
-      if (command->parsed()) runCommand();
-    if (distances->parsed())
-      runSwitchDistances(switches, json);
-    else if (report->parsed())
-      for (const ReportResult& result : limen::analysis::writeReports(options)) print(result, json);
-  } catch (const limen::Error& error) {
-    std::fprintf(stderr, "limen-analyse: %s\n", error.what());
-    return limen::kExitBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "limen-analyse: %s\n", error.what());
-    return limen::kExitFailedRuns;
-  }
-  return limen::kExitSuccess;
+  limen::analysis::addFitCommand(app);
+  for (const auto& [command, runCommand] : limen::analysis::addStudyCommands(app))
+    command->callback(runCommand);
+  return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

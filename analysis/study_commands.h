@@ -12,7 +12,7 @@ class App;
 namespace limen::analysis {
 
 /// Subcommands about studies, each with what runs it once it was parsed; that throws Error.
-using StudyCommands = std::vector<std::pair<const CLI::App*, std::function<void()>>>;
+using StudyCommands = std::vector<std::pair<CLI::App*, std::function<void()>>>;
 StudyCommands addStudyCommands(CLI::App& app);
 
 }  // namespace limen::analysis

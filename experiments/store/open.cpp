@@ -65,7 +65,7 @@ bool isEmpty(sqlite3* database) {
 void requireStore(sqlite3* database, const std::string& path) {
   if (pragma(database, "PRAGMA application_id") != kApplicationId)
     throw Error("is an SQLite file but not a result store", path,
-                "give a file that limen-sweep wrote, or a new name");
+                "give a store that Limen wrote, or a new name");
   const int64_t version = pragma(database, "PRAGMA user_version");
   if (version > kSchemaVersion)
     throw Error("the store has schema version " + std::to_string(version) + ", this program knows " +
@@ -118,7 +118,7 @@ void prepareFolder(const std::string& path) {
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
   if (readOnly && !fs::exists(path))
-    throw Error("no such result store", path, "check the path, or make the store with limen-sweep");
+    throw Error("no such result store", path, "check the path; limen sweep and limen study make stores");
   if (!readOnly) prepareFolder(path);
 
   const std::string name = readOnly ? readOnlyUri(path) : path;

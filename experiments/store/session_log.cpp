@@ -186,7 +186,7 @@ bool SessionLog::claim(int64_t session) {
   const std::string owner = find.text(0);
   if (!owner.empty() && owner != self && !isOwnerDead(owner).value_or(find.real(1) > kStaleSeconds))
     return false;
-  execute(database_, "UPDATE session SET owner = ?, state = 'running' WHERE id = ?", self, session);
+  execute(database_, "UPDATE session SET owner = ? WHERE id = ?", self, session);
   transaction.commit();
   return true;
 }

@@ -35,12 +35,20 @@ ExperimenterWindow::ExperimenterWindow(int monitor, float scale, NoteCodes codes
   options.monitor = monitor;
   options.scale = scale;
   options.resizable = true;
+  options.takesFocus = false;
   state_ = std::make_unique<State>(options, std::move(codes));
 }
 
 ExperimenterWindow::~ExperimenterWindow() = default;
 
 std::vector<std::string> ExperimenterWindow::takeNotes() { return std::exchange(state_->notes, {}); }
+std::vector<Input> ExperimenterWindow::takeKeys() {
+  std::vector<Input> inputs = state_->window.takeInputs();
+  inputs.erase(std::remove_if(inputs.begin(), inputs.end(),
+                              [](const Input& input) { return input.device != Device::Keyboard; }),
+               inputs.end());
+  return inputs;
+}
 bool ExperimenterWindow::takeAbort() { return std::exchange(state_->abort, false); }
 
 void ExperimenterWindow::State::build(const SessionWatch& watch) {
@@ -84,7 +92,6 @@ void ExperimenterWindow::tick(const SessionWatch& watch) {
   const int64_t now = steadyNs();
   if (now - state_->drawnNs < kRedrawNs) return;
   state_->drawnNs = now;
-  state_->window.takeInputs();
   if (state_->window.takeCloseRequest()) state_->confirming = true;
   state_->window.draw({0.12F, 0.12F, 0.13F}, [&] { state_->build(watch); });
   state_->window.show(0);

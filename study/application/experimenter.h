@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "study/application/input.h"
 #include "study/application/session_watch.h"
 
 namespace limen::study {
@@ -24,6 +25,9 @@ class ExperimenterWindow {
   void tick(const SessionWatch& watch);
   /// Codes that were clicked since the last call.
   std::vector<std::string> takeNotes();
+  /// Keys that came to it since the last call: it has no use for keys, and a window manager gives them to the
+  /// window that was clicked last, whoever sits at the keyboard.
+  std::vector<Input> takeKeys();
   /// True once after the experimenter has ended the session and confirmed it.
   bool takeAbort();
 

@@ -135,9 +135,11 @@ float drawFooter(const Page& page, glm::vec2 sizePx, const PageStyle& style, con
     y -= height + 8 * style.scale;
     const float x = (sizePx.x - width) / 2;
     list.AddRectFilled({x, y}, {x + width, y + height}, palette.button, height / 2);
-    list.AddRectFilled(
-        {x, y}, {x + std::max(width * static_cast<float>(std::min(page.progress, 1.0)), height), y + height},
-        palette.dim, height / 2);
+    if (page.progress > 0)
+      list.AddRectFilled(
+          {x, y},
+          {x + std::max(width * static_cast<float>(std::min(page.progress, 1.0)), height), y + height},
+          palette.dim, height / 2);
   }
   return sizePx.y - y;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/application/presented_player.h"
 
-#include <climits>
+#include <utility>
 
 #include "renderer/gl/window_context.h"
 #include "study/application/ui_window.h"
@@ -13,8 +13,11 @@ namespace limen::study {
 struct PresentedPlayer::Prepared : PictureSource {
   std::vector<std::unique_ptr<PreparedStimulus>> stimuli;
   Schedule schedule;
+  std::function<void()> captureNext;  ///< for the frame in the middle of the first stimulus
 
   Picture picture(int stimulus, int frame) override {
+    if (captureNext && stimulus == 0 && frame == schedule.timelines[0].frames / 2)
+      std::exchange(captureNext, {})();
     PreparedStimulus& prepared = *stimuli[static_cast<size_t>(stimulus)];
     const int layer = prepared.picture(frame);
     return {prepared.layers().id(), layer};
@@ -75,6 +78,7 @@ PlayResult PresentedPlayer::play(const std::function<bool()>& goOn) {
     return event.kind == ScreenEvent::Kind::Close ? std::string("stopped") : std::string();
   };
   screen_.setWatch(goOn);
+  if (capture_) prepared_->captureNext = [this] { screen_.captureNext(capture_); };
   Shown shown = present(prepared_->schedule, *prepared_, screen_, setting);
   screen_.setWatch({});
   PlayResult result;

@@ -51,11 +51,11 @@ std::vector<PageButton> answerButtons(const TaskSetting& task) {
   if (task.type == Task::YesNo && first != kKeyNone && second != kKeyNone && first != second) {
     buttons[0].keys.push_back(first);
     buttons[1].keys.push_back(second);
-    buttons[0].hint = upper(first) + " or \u2190";
-    buttons[1].hint = upper(second) + " or \u2192";
+    buttons[0].hint = upper(first) + "\u00A0or\u00A0\u2190";
+    buttons[1].hint = upper(second) + "\u00A0or\u00A0\u2192";
   } else if (!isLeftRight(task)) {
-    buttons[0].hint += " or \u2190";
-    buttons[1].hint += " or \u2192";
+    buttons[0].hint += "\u00A0or\u00A0\u2190";
+    buttons[1].hint += "\u00A0or\u00A0\u2192";
   }
   return buttons;
 }

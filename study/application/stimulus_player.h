@@ -25,8 +25,14 @@ class StimulusPlayer {
   /// Shows the prepared stimuli with the gaps between them, from background to background. Asks `goOn`
   /// between frames, a few microseconds each, and ends at once if it says no.
   virtual PlayResult play(const std::function<bool()>& goOn) = 0;
+  /// Called once in each trial with a frame of its first stimulus in the window's back buffer, for a picture
+  /// of it; costs that frame its time.
+  void setCapture(std::function<void()> capture) { capture_ = std::move(capture); }
   /// For FrontEnd::environment().
   virtual nlohmann::json environment() const { return nlohmann::json::object(); }
+
+ protected:
+  std::function<void()> capture_;
 };
 
 }  // namespace limen::study

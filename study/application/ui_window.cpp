@@ -103,8 +103,9 @@ struct UiWindow::State {
     glfwSetWindowAttrib(window(), GLFW_RESIZABLE, options.resizable ? GLFW_TRUE : GLFW_FALSE);
     // A click into the experimenter's window must not put the participant's away.
     glfwSetWindowAttrib(window(), GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    glfwSetWindowAttrib(window(), GLFW_FOCUS_ON_SHOW, options.takesFocus ? GLFW_TRUE : GLFW_FALSE);
     glfwShowWindow(window());
-    glfwFocusWindow(window());
+    if (options.takesFocus) glfwFocusWindow(window());
     const char* name = glfwGetMonitorName(monitor);
     glm::vec2 contentScale(1.0F);
     glfwGetWindowContentScale(window(), &contentScale.x, &contentScale.y);

@@ -25,6 +25,7 @@ struct UiWindowOptions {
   int monitor = 0;               ///< index among those connected
   float scale = 0.0F;            ///< of fonts and targets; 0: as the monitor asks for
   bool resizable = false;
+  bool takesFocus = true;  ///< when it opens
 };
 
 /// Where a window is and what shows it.

@@ -86,7 +86,9 @@ WindowFrontEnd::WindowFrontEnd(UiWindow& window, StimulusPlayer& player, Session
       watch_(watch),
       experimenter_(experimenter),
       setting_(std::move(setting)) {
-  if (!setting_.screenshots.empty()) std::filesystem::create_directories(setting_.screenshots);
+  if (setting_.screenshots.empty()) return;
+  std::filesystem::create_directories(setting_.screenshots);
+  player_.setCapture([this] { screenshot("stimulus"); });
 }
 
 PageStyle WindowFrontEnd::style() const {
@@ -144,7 +146,7 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     }
     window_.poll(kPollS);
     window_.takeLoss();  // nothing is missed by seeing a page later
-    const std::vector<Input> inputs = window_.takeInputs();
+    const std::vector<Input> inputs = takeInputs();
     draw = !inputs.empty();
     const int turns = screen.turns();
     for (const Input& input : inputs) {
@@ -202,9 +204,17 @@ void WindowFrontEnd::drawNeutral(const std::string& status) {
   });
 }
 
+std::vector<Input> WindowFrontEnd::takeInputs() {
+  std::vector<Input> inputs = window_.takeInputs();
+  if (!experimenter_) return inputs;
+  const std::vector<Input> keys = experimenter_->takeKeys();
+  inputs.insert(inputs.end(), keys.begin(), keys.end());
+  return inputs;
+}
+
 bool WindowFrontEnd::watchWindow() {
   window_.poll();
-  for (const Input& input : window_.takeInputs()) {
+  for (const Input& input : takeInputs()) {
     if (input.key == kKeyEscape)
       pauseAsked_ = true;
     else

@@ -47,6 +47,7 @@ class WindowFrontEnd : public FrontEnd {
   Left run(PageScreen& screen, const std::function<bool()>& timedOut = {});
   Left pause(const std::string& reason);
   bool stopAsked();
+  std::vector<Input> takeInputs();
   /// Takes what happened to the window while nobody is asked; false: stop what is shown.
   bool watchWindow();
   void forget();

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/text.h"
+#include "renderer/gl/window_system.h"
 #include "study/command/commands.h"
 #include "study/presentation/calibration.h"
+#include "study/presentation/calibration_screens.h"
+#include "study/presentation/gl_screen.h"
 
 namespace limen::study {
 namespace {
@@ -18,8 +24,67 @@ struct Options {
   double cardWidthPx = 0.0, distanceCm = 0.0, refreshHz = 0.0;
   std::optional<double> blackCdM2, peakCdM2;
   double ambientLux = 0.0, reflectance = 0.005;
-  bool force = false, json = false;
+  int monitor = 0;
+  bool interactive = false, force = false, json = false;
 };
+
+double guessCardPx(const gl::Monitor& monitor) {
+  constexpr double kUsualPitchM = 0.25e-3;
+  const double pitchM = monitor.sizeMm.x > 0 ? 1e-3 * monitor.sizeMm.x / monitor.sizePx.x : kUsualPitchM;
+  return kCardWidthM / pitchM;
+}
+
+/// What is not given is set by eye on the screen itself.
+void ask(Options& options) {
+  const std::vector<gl::Monitor> all = gl::monitors();
+  if (options.monitor < 0 || options.monitor >= static_cast<int>(all.size()))
+    throw Error(fmt::format("no monitor {}", options.monitor), "--monitor",
+                fmt::format("{} are connected", all.size()));
+  const gl::Monitor& monitor = all[static_cast<size_t>(options.monitor)];
+  if (options.resolutionPx.empty()) options.resolutionPx = {monitor.sizePx.x, monitor.sizePx.y};
+  if (!(options.refreshHz > 0.0)) options.refreshHz = monitor.refreshHz;
+  const bool matches = options.readings.empty() && options.matches.empty() && options.transfer != "srgb";
+  std::fprintf(
+      stderr,
+      "Left and right change by one, up and down by ten, enter takes it, escape gives up.\n"
+      "First a frame: make it as large as a bank card that is held against the screen.\n%s",
+      matches ? "Then three squares in fields of lines: step back until the lines are gone, make each as "
+                "bright as its field.\n"
+              : "");
+  gl::WindowSetting setting;
+  setting.title = "Limen calibration";
+  setting.fullScreen = true;
+  setting.monitor = options.monitor;
+  gl::WindowContext context(setting);
+  if (context.framebufferSizePx() != glm::ivec2(options.resolutionPx[0], options.resolutionPx[1]))
+    throw Error("the monitor shows another number of pixels", "--resolution-px", "leave it out");
+  perception::DisplayProfile raw;
+  raw.transfer = perception::TransferCurve::Linear;
+  GlScreen screen(context, raw);
+  const auto taken = [](std::optional<double> value) {
+    if (!value) throw Error("given up before the last value was taken", "calibration", "start it again");
+    return *value;
+  };
+  if (!(options.cardWidthPx > 0.0))
+    options.cardWidthPx = taken(adjustCardWidth(screen, guessCardPx(monitor)));
+  if (!matches) return;
+  for (const double proportion : kMatchProportions) {
+    const double level = taken(adjustMatch(screen, proportion, std::pow(proportion, 1.0 / 2.2)));
+    options.matches +=
+        fmt::format("{}{}={}", options.matches.empty() ? "" : ",", proportion, shortestNumber(level));
+  }
+}
+
+void checkComplete(const Options& options) {
+  std::vector<std::string> missing;
+  if (options.resolutionPx.empty()) missing.push_back("--resolution-px");
+  if (!(options.cardWidthPx > 0.0)) missing.push_back("--card-width-px");
+  if (!(options.refreshHz > 0.0)) missing.push_back("--refresh-hz");
+  if (missing.empty()) return;
+  throw Error("not known: " + join(missing), {},
+              options.interactive ? "the monitor does not say, give it"
+                                  : "give them, or --interactive to set them by eye");
+}
 
 struct Result {
   perception::DisplayProfile profile;
@@ -103,7 +168,11 @@ Result calibrate(const Options& options) {
   return out;
 }
 
-void run(const Options& options) {
+void run(Options options) {
+  if (!options.force && std::filesystem::exists(options.out))
+    throw Error("is there already", options.out, "name another file, or give --force to overwrite it");
+  if (options.interactive) ask(options);
+  checkComplete(options);
   const Result result = calibrate(options);
   writeProfile(options.out, result.profile, result.notes, options.force);
   if (options.json) {
@@ -133,14 +202,17 @@ void addCalibrateCommand(CLI::App& app, Run&) {
   command->add_option("--resolution-px", options->resolutionPx, "Of the screen, as 1920,1080")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::PositiveNumber)
-      ->required();
+      ->check(CLI::PositiveNumber);
   command->add_option("--card-width-px", options->cardWidthPx, "A bank card's long side on the screen [px]")
-      ->required();
+      ->check(CLI::PositiveNumber);
   command->add_option("--distance-cm", options->distanceCm, "From the viewer's eye to the screen's middle")
       ->required();
   command->add_option("--refresh-hz", options->refreshHz, "As limen study timing-test measures it")
-      ->required();
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--interactive", options->interactive,
+                    "Sets card and matches by eye on the screen, where they are not given");
+  command->add_option("--monitor", options->monitor, "Of --interactive; the primary one is 0")
+      ->capture_default_str();
   command->add_option("--readings", options->readings, "CSV file of level (0 to 1) and luminance [cd/m2]");
   command->add_option(
       "--match", options->matches,

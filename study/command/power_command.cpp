@@ -157,10 +157,9 @@ void print(const PowerOptions& options, const PowerResult& result) {
   }
   if (degenerate > 0.01)
     fmt::print(
-        "note: in some condition and design all observers agreed in {:.0f} % of the experiments; for rates "
-        "of 0 and 1\n"
-        "the exact binomial interval of as many answers as observers then stands in, for others no width is "
-        "enough\n",
+        "note: in some condition and design all observers agreed in {:.0f} % of the experiments; there the "
+        "exact binomial\n"
+        "interval of as many answers as observers stands in for the t interval, which would have no width\n",
         100.0 * degenerate);
 }
 

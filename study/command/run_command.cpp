@@ -12,6 +12,7 @@
 #include "base/hash.h"
 #include "base/interrupt.h"
 #include "renderer/gl/window_context.h"
+#include "renderer/gl/window_system.h"
 #include "study/application/presented_player.h"
 #include "study/application/window_front_end.h"
 #include "study/command/commands.h"
@@ -48,32 +49,36 @@ glm::ivec2 sizeOf(const std::string& text) {
   return {width, height};
 }
 
+void checkMonitor(const std::string& option, int number) {
+  std::vector<gl::Monitor> all;
+  try {
+    all = gl::monitors();
+  } catch (const Error& error) {
+    throw Error(error.message(), error.where(), error.mend() + "; limen study simulate needs no window");
+  }
+  if (number < 0 || number >= static_cast<int>(all.size()))
+    throw Error(fmt::format("there is no monitor {}", number), option,
+                all.empty() ? "none is connected" : fmt::format("connected are 0 to {}", all.size() - 1));
+}
+
 std::unique_ptr<UiWindow> openWindow(const Options& options, const std::string& title) {
+  checkMonitor("--monitor", options.monitor);
+  if (options.experimenter) checkMonitor("--experimenter-monitor", options.experimenterMonitor);
   UiWindowOptions wanted;
   wanted.title = title;
   wanted.fullScreen = options.window.empty();
   if (!wanted.fullScreen) wanted.sizePx = sizeOf(options.window);
   wanted.monitor = options.monitor;
   wanted.scale = static_cast<float>(options.scale);
-  try {
-    return std::make_unique<UiWindow>(wanted);
-  } catch (const Error& error) {
-    if (error.where() == "--monitor") throw;
-    throw Error(error.message(), error.where(), error.mend() + "; limen study simulate needs no window");
-  }
+  return std::make_unique<UiWindow>(wanted);
 }
 
 // Why times measured here are not those of a laboratory.
-std::vector<std::string> doubts(UiWindow& window, const perception::DisplayProfile& display,
-                                bool fullScreen) {
-  std::vector<std::string> all;
-  const gl::DeviceInfo& device = window.context().device();
-  if (device.software) all.push_back("a software renderer draws (" + device.renderer + ")");
-  if (!fullScreen)
-    all.push_back("the window does not fill the screen, so that the desktop decides when it is shown");
+std::vector<std::string> doubts(UiWindow& window, const perception::DisplayProfile& display) {
+  std::vector<std::string> all = objectionsTo(window.context());
   const UiMonitor monitor = window.monitor();
   // Window systems round rates: 59.94 Hz is called 59 or 60.
-  if (std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
+  if (monitor.refreshHz > 0 && std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
     all.push_back(fmt::format("the monitor runs at {:g} Hz, the display profile {} at {:g} Hz",
                               monitor.refreshHz, display.name, display.refreshHz));
   if (monitor.sizePx != display.resolutionPx)
@@ -146,12 +151,13 @@ void runStudy(const Options& options, Run& run) {
       std::puts(line.c_str());
       std::fflush(stdout);
     };
-  std::vector<std::string> why = doubts(*window, request.display, fullScreen);
+  std::vector<std::string> why = doubts(*window, request.display);
   if (player.pacedByTimer())
     why.push_back("a timer paces the frames, for nothing here waits for the display");
+  if (!options.screenshots.empty()) why.push_back("pictures of the screen are taken (--screenshots)");
   if (options.anyTiming) why.push_back("frames' times are not checked (--any-timing)");
   for (const std::string& doubt : why)
-    std::fprintf(stderr, "limen-study: timing is not ready for a laboratory: %s\n", doubt.c_str());
+    std::fprintf(stderr, "warning: timing is not fit for a lab: %s\n", doubt.c_str());
   setting.facts = {{"lab_ready", why.empty()}, {"lab_doubts", why}};
 
   SessionWatch watch;
@@ -194,7 +200,7 @@ void addRunCommand(CLI::App& app, Run& run) {
                    "Size of letters and buttons (default: as the monitor asks for)")
       ->check(CLI::Range(0.5, 8.0));
   command->add_option("--screenshots", options->screenshots,
-                      "Folder for a PNG of every screen that asks something");
+                      "Folder for a PNG of every screen and of a frame of every stimulus");
   command->add_flag("--announce", options->announce, "Prints the name of every screen when it is shown");
   command->add_flag("--any-timing", options->anyTiming,
                     "Trials count even if frames were late: for trying things out, not for data");

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -28,7 +27,7 @@ TimingReport runVirtual(const Options& options) {
   VirtualDisplay display;
   display.refreshHz = options.virtualHz;
   display.jitterMs = options.jitterMs;
-  const int warmUp = static_cast<int>(std::ceil(kTimingWarmUpS * options.virtualHz));
+  const int warmUp = timingWarmUpSwaps(options.virtualHz);
   for (const int drop : options.drops) ++display.drops[warmUp + drop];
   VirtualScreen screen(display);
   TimingReport report = runTiming(screen, options.seconds);

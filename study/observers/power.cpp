@@ -2,6 +2,7 @@
 #include "study/observers/power.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -159,8 +160,11 @@ class Experimenter {
 
 // Width where all observers have the same value, which tells nothing of their spread.
 double agreedWidth(double value, int n, double confidence, bool isRate) {
-  const bool extreme = isRate && (value < 1e-9 || value > 1.0 - 1e-9);
-  return extreme ? 1.0 - std::pow((1.0 - confidence) / 2.0, 1.0 / n) : kInfinity;
+  if (!isRate) return kInfinity;
+  const double k = std::clamp(value, 0.0, 1.0) * n, tail = (1.0 - confidence) / 2.0;
+  const double low = k < 1e-9 ? 0.0 : boost::math::ibeta_inv(k, n - k + 1.0, tail);
+  const double high = k > n - 1e-9 ? 1.0 : boost::math::ibetac_inv(k + 1.0, n - k, tail);
+  return high - low;
 }
 
 // The t interval over the first n of the observers' values.

@@ -33,7 +33,7 @@ struct PowerCell {
   std::string unit;
   double mean = 0.0;            ///< of the estimates over all simulated observers
   double sdBetween = 0.0;       ///< root of the mean sample variance of the observers' values
-  double meanWidth = 0.0;       ///< expected width; infinite if an estimate was missing
+  double meanWidth = 0.0;       ///< expected width; infinite if a threshold's estimate was missing
   double meanWidthError = 0.0;  ///< Monte Carlo standard error
   double reached = 0.0;         ///< share of experiments with a width up to the asked one
   double reachedError = 0.0;    ///< Monte Carlo standard error, binomial
@@ -60,8 +60,8 @@ struct PowerResult {
 /// estimates averaged; constant stimuli count each stimulus as a condition). Designs share their observers
 /// and seeds, so that their differences are less noisy than their values. Catch trials and practice are left
 /// out. Where all n observers agree the t interval would have no width and tell nothing of the spread: for
-/// rates of 0 and 1 the exact binomial interval of n agreeing answers stands in (Clopper and Pearson 1934),
-/// 1 - ((1 - confidence)/2)^(1/n) wide; for other values the width is infinite.
+/// rates the exact binomial interval of n answers stands in (Clopper and Pearson 1934, Biometrika 26), for
+/// thresholds the width is infinite.
 /// `progress`: share done; returns true to stop (the result then has no designs).
 PowerResult simulatePower(const Protocol& protocol, const ObserverBehaviour& behaviour,
                           const PowerRequest& request, StimulusModel* model = nullptr,

@@ -15,7 +15,8 @@ namespace limen::study {
 namespace {
 
 constexpr double kLeastGamma = 0.4, kMostGamma = 6.0;  ///< of photometer readings
-constexpr double kLargestFall = 0.02;                  ///< of luminance with rising level, share of the range
+constexpr double kDarkestShare = 1e-4;  ///< of the brightest reading, that still says something
+constexpr double kLargestFall = 0.02;   ///< of luminance with rising level, share of the range
 const char* const kPhotometer = "photometer readings";
 
 void check(const std::vector<Reading>& readings) {
@@ -50,49 +51,64 @@ void check(const std::vector<Reading>& readings) {
                   kPhotometer, "measure these two again");
 }
 
+/// A photometer's error is a share of what it reads, down to its last digits.
+double errorOf(const Reading& reading, double brightestCdM2) {
+  return reading.cdM2 + kDarkestShare * brightestCdM2;
+}
+
+struct Candidate {
+  TransferFit fit;
+  double sum = 0.0;  ///< of squared residuals over errors: what is least
+};
+
 /// Black and peak by linear least squares for a curve that is given.
-TransferFit fitEnds(const std::vector<Reading>& readings, const std::function<double(double)>& curve) {
+Candidate fitEnds(const std::vector<Reading>& readings, const std::function<double(double)>& curve) {
+  double brightest = 0.0;
+  for (const Reading& reading : readings) brightest = std::max(brightest, reading.cdM2);
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const Reading& reading : readings) {
-    const double x = curve(reading.level);
-    n += 1, sx += x, sy += reading.cdM2, sxx += x * x, sxy += x * reading.cdM2;
+    const double x = curve(reading.level), weight = std::pow(errorOf(reading, brightest), -2);
+    n += weight, sx += weight * x, sy += weight * reading.cdM2;
+    sxx += weight * x * x, sxy += weight * x * reading.cdM2;
   }
   const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  TransferFit out;
-  out.blackCdM2 = (sy - slope * sx) / n;
-  if (out.blackCdM2 < 0.0) {  // no display is darker than dark
-    out.blackCdM2 = 0.0;
-    out.peakCdM2 = sxy / sxx;
+  Candidate out;
+  TransferFit& fit = out.fit;
+  fit.blackCdM2 = (sy - slope * sx) / n;
+  if (fit.blackCdM2 < 0.0) {  // no display is darker than dark
+    fit.blackCdM2 = 0.0;
+    fit.peakCdM2 = sxy / sxx;
   } else {
-    out.peakCdM2 = out.blackCdM2 + slope;
+    fit.peakCdM2 = fit.blackCdM2 + slope;
   }
-  double sum = 0.0;
+  double squares = 0.0;
   for (const Reading& reading : readings) {
     const double residual =
-        reading.cdM2 - (out.blackCdM2 + (out.peakCdM2 - out.blackCdM2) * curve(reading.level));
-    out.residualCdM2.push_back(residual);
-    sum += residual * residual;
-    out.largestShare = std::max(out.largestShare, std::abs(residual) / (out.peakCdM2 - out.blackCdM2));
+        reading.cdM2 - (fit.blackCdM2 + (fit.peakCdM2 - fit.blackCdM2) * curve(reading.level));
+    fit.residualCdM2.push_back(residual);
+    squares += residual * residual;
+    out.sum += std::pow(residual / errorOf(reading, brightest), 2);
+    fit.largestShare = std::max(fit.largestShare, std::abs(residual) / (fit.peakCdM2 - fit.blackCdM2));
   }
-  out.rmsCdM2 = std::sqrt(sum / n);
+  fit.rmsCdM2 = std::sqrt(squares / static_cast<double>(readings.size()));
   return out;
 }
 
-TransferFit bestGamma(const std::vector<Reading>& readings) {
+Candidate bestGamma(const std::vector<Reading>& readings) {
   const auto fit = [&](double gamma) {
-    TransferFit out = fitEnds(readings, [gamma](double level) { return std::pow(level, gamma); });
-    out.gamma = gamma;
+    Candidate out = fitEnds(readings, [gamma](double level) { return std::pow(level, gamma); });
+    out.fit.gamma = gamma;
     return out;
   };
   // The residual has one minimum over gamma near the curve; a coarse look keeps the search away from others.
   double best = kLeastGamma, least = 1e300;
   constexpr double kStep = 0.1;
   for (double gamma = kLeastGamma; gamma <= kMostGamma; gamma += kStep)
-    if (const double rms = fit(gamma).rmsCdM2; rms < least) least = rms, best = gamma;
+    if (const double sum = fit(gamma).sum; sum < least) least = sum, best = gamma;
   double low = best - kStep, high = best + kStep;
   for (int i = 0; i < 80; ++i) {
     const double third = (high - low) / 3.0;
-    if (fit(low + third).rmsCdM2 < fit(high - third).rmsCdM2)
+    if (fit(low + third).sum < fit(high - third).sum)
       high -= third;
     else
       low += third;
@@ -100,9 +116,9 @@ TransferFit bestGamma(const std::vector<Reading>& readings) {
   return fit(0.5 * (low + high));
 }
 
-TransferFit bestSrgb(const std::vector<Reading>& readings) {
-  TransferFit out = fitEnds(readings, perception::decodeSrgb);
-  out.curve = perception::TransferCurve::Srgb;
+Candidate bestSrgb(const std::vector<Reading>& readings) {
+  Candidate out = fitEnds(readings, perception::decodeSrgb);
+  out.fit.curve = perception::TransferCurve::Srgb;
   return out;
 }
 
@@ -132,18 +148,18 @@ double pitchFromCard(double cardWidthPx) {
 
 TransferFit fitGamma(const std::vector<Reading>& readings) {
   check(readings);
-  return accepted(bestGamma(readings), readings);
+  return accepted(bestGamma(readings).fit, readings);
 }
 
 TransferFit fitSrgb(const std::vector<Reading>& readings) {
   check(readings);
-  return accepted(bestSrgb(readings), readings);
+  return accepted(bestSrgb(readings).fit, readings);
 }
 
 TransferFit fitTransfer(const std::vector<Reading>& readings) {
   check(readings);
-  const TransferFit gamma = bestGamma(readings), srgb = bestSrgb(readings);
-  return accepted(gamma.rmsCdM2 < srgb.rmsCdM2 ? gamma : srgb, readings);
+  const Candidate gamma = bestGamma(readings), srgb = bestSrgb(readings);
+  return accepted(gamma.sum < srgb.sum ? gamma.fit : srgb.fit, readings);
 }
 
 MatchFit fitMatches(const std::vector<Match>& matches) {

@@ -31,11 +31,12 @@ struct TransferFit {
   double rmsCdM2 = 0.0, largestShare = 0.0;  ///< the largest residual as a share of peak minus black
 };
 
-/// L = black + (peak - black) u^gamma by least squares on luminance, all three free.
+/// L = black + (peak - black) u^gamma by least squares, all three free. Readings count by their relative
+/// error (with 1e-4 of the brightest one added to each), so that black is what was read there.
 TransferFit fitGamma(const std::vector<Reading>& readings);
 /// The same with the curve of sRGB in the place of the power, black and peak free.
 TransferFit fitSrgb(const std::vector<Reading>& readings);
-/// Whichever of both leaves the smaller residuals.
+/// Whichever of both leaves the smaller residuals, so weighted.
 TransferFit fitTransfer(const std::vector<Reading>& readings);
 // All throw Error on readings that no calibration may rest on: fewer than four levels, none near black or
 // near white, values outside of their range, luminance that falls by more than 2 % of its range while the

@@ -53,7 +53,8 @@ std::vector<ScreenEvent>& queueOf(GLFWwindow* window) {
 }
 
 void onKey(GLFWwindow* window, int key, int scancode, int action, int) {
-  if (action == GLFW_PRESS)
+  // Held keys repeat where a value is set; an answer is over with its first press.
+  if (action != GLFW_RELEASE)
     queueOf(window).push_back({ScreenEvent::Kind::Key, keyName(key, scancode), {}, nowNs()});
 }
 
@@ -146,7 +147,14 @@ void GlScreen::arrow(glm::dvec2 tipPx, double lengthPx, double light) {
 
 int64_t GlScreen::swap() {
   context_.swap(1);
-  // The call may return with the swap still queued; this waits for it.
+  // The call may return with the swap still queued, and drivers that hold several back buffers let glFinish()
+  // pass it by. A pixel drawn into the next back buffer cannot be finished before there is one.
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 1, 1);
+  const float black[4] = {0.0F, 0.0F, 0.0F, 1.0F};
+  glClearBufferfv(GL_COLOR, 0, black);
+  glDisable(GL_SCISSOR_TEST);
   glFinish();
   return nowNs();
 }

@@ -40,15 +40,18 @@ class Builder {
   Schedule& schedule_;
 };
 
+bool areAlike(const Stimulus& a, const Stimulus& b) {
+  const bool cued = a.cue.kind != Cue::Kind::None && b.cue.kind != Cue::Kind::None;
+  return a.showings == b.showings && (a.showings == 1 || a.gapS == b.gapS) &&
+         (!cued || a.cue.durationS == b.cue.durationS);
+}
+
 void checkAlike(const std::vector<Stimulus>& stimuli) {
-  for (const Stimulus& other : stimuli) {
-    const Stimulus& first = stimuli.front();
-    if (other.showings == first.showings && (first.showings == 1 || other.gapS == first.gapS) &&
-        other.cue.durationS == first.cue.durationS)
-      continue;
-    throw Error("stimuli side by side differ in their showings, gaps or the time of their cues", "stimulus",
-                "give them the same 'showings', 'gap_s' and 'duration_s' of the cue");
-  }
+  for (const Stimulus& one : stimuli)
+    for (const Stimulus& other : stimuli)
+      if (!areAlike(one, other))
+        throw Error("stimuli side by side differ in their showings, gaps or the time of their cues",
+                    "stimulus", "give them the same 'showings', 'gap_s' and 'duration_s' of the cue");
 }
 
 bool isSideBySide(const TaskSetting& task) {
@@ -143,10 +146,14 @@ Schedule makeSchedule(const std::vector<Stimulus>& stimuli, const ScheduleSettin
   for (size_t i = 0; i < turns; ++i) {
     const int number = static_cast<int>(i);
     if (i > 0) pause(PhaseKind::IntervalGap, setting.timing.intervalGapS, number);
-    builder.add(PhaseKind::Cue, blanksFor(cueS(stimuli[i]), setting.refreshHz), number, 0, 0);
+    // Side by side one of them may have no cue, or be shorter.
+    double cue = cueS(stimuli[i]);
     int frames = out.timelines[i].frames;
-    if (out.sideBySide)
-      for (const Timeline& line : out.timelines) frames = std::max(frames, line.frames);
+    for (size_t other = 0; out.sideBySide && other < stimuli.size(); ++other) {
+      cue = std::max(cue, cueS(stimuli[other]));
+      frames = std::max(frames, out.timelines[other].frames);
+    }
+    builder.add(PhaseKind::Cue, blanksFor(cue, setting.refreshHz), number, 0, 0);
     for (int showing = 0; showing < stimuli[i].showings; ++showing) {
       if (showing > 0) pause(PhaseKind::ShowingGap, stimuli[i].gapS, number, showing);
       builder.add(PhaseKind::Stimulus, frames, number, showing, 0, true);

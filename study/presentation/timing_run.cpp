@@ -66,17 +66,18 @@ TimingReport reportTiming(const std::vector<int64_t>& returnedNs, double nominal
   return out;
 }
 
+int timingWarmUpSwaps(double refreshHz) { return static_cast<int>(std::ceil(0.5 * refreshHz)); }
+
 TimingReport runTiming(ScreenDevice& screen, double seconds) {
+  const double hz = screen.refreshHz() > 0.0 ? screen.refreshHz() : kUnknownHz;
+  const int warmUp = timingWarmUpSwaps(hz);
   std::vector<int64_t> times;
-  int64_t first = 0;
-  for (int i = 0;; ++i) {
+  for (int i = 0; !screen.lost(); ++i) {
     screen.clear(i % 2 == 0 ? 0.2 : 0.25);
     const int64_t now = screen.swap();
     screen.poll();
-    if (i == 0) first = now;
-    const double passedS = 1e-9 * static_cast<double>(now - first);
-    if (passedS >= kTimingWarmUpS - 1e-6) times.push_back(now);
-    if (passedS >= seconds + kTimingWarmUpS || screen.lost()) break;
+    if (i >= warmUp) times.push_back(now);
+    if (i > warmUp && 1e-9 * static_cast<double>(now - times.front()) >= seconds) break;
   }
   TimingReport out = reportTiming(times, screen.refreshHz());
   if (screen.lost()) out.objections.push_back("the window was lost");

@@ -32,9 +32,9 @@ std::string toText(const TimingReport& report);
 /// time.
 TimingReport reportTiming(const std::vector<int64_t>& returnedNs, double nominalHz);
 
-inline constexpr double kTimingWarmUpS = 0.5;
-
-/// Flickers between two greys for some seconds after a warm-up that is not counted.
+/// Frames of half a second, which runTiming() shows first and does not count.
+int timingWarmUpSwaps(double refreshHz);
+/// Flickers between two greys for some seconds after a warm-up.
 TimingReport runTiming(ScreenDevice& screen, double seconds);
 
 }  // namespace limen::study

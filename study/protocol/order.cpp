@@ -12,7 +12,8 @@ namespace {
 using psychometrics::Random;
 
 constexpr int kShuffles = 300;
-constexpr long kSearchSteps = 200000;
+constexpr size_t kRepairSteps = 20'000'000;
+constexpr long kSearchSteps = 200'000;
 constexpr uint64_t kPlainSeed = 0;
 
 /// Places of an order that continue a run beyond its limit.
@@ -31,7 +32,9 @@ size_t violations(const std::vector<size_t>& order, const std::vector<RunLimit>&
 /// Swaps that do not make an order worse, a bounded number of them.
 bool repair(std::vector<size_t>& order, const std::vector<RunLimit>& limits, Random& random) {
   size_t worst = violations(order, limits);
-  for (size_t attempt = 0; worst > 0 && attempt < 30 * order.size(); ++attempt) {
+  // Each attempt takes time in proportion to the order's length.
+  const size_t attempts = std::min(30 * order.size(), kRepairSteps / (order.size() + 1));
+  for (size_t attempt = 0; worst > 0 && attempt < attempts; ++attempt) {
     const size_t i = random.below(order.size()), j = random.below(order.size());
     std::swap(order[i], order[j]);
     const size_t now = violations(order, limits);
@@ -65,7 +68,7 @@ class Search {
   /// Nothing if there is no order, or `exhausted` is false and the search was given up.
   std::optional<std::vector<size_t>> run(Random& way, Random& items, bool& exhausted) {
     steps_ = kSearchSteps + 50 * static_cast<long>(items_);
-    const bool found = completable() && place(0, way);
+    const bool found = completable() && fill(way);
     exhausted = steps_ > 0;
     if (!found) return std::nullopt;
     // Items of a kind are interchangeable.
@@ -106,34 +109,62 @@ class Search {
     return true;
   }
 
-  bool place(size_t depth, Random& random) {
-    if (depth == items_) return true;
+  /// One place of the order: kinds not tried there yet, the one that stands there, the runs before it.
+  struct Place {
     std::vector<size_t> open;
-    for (size_t kind = 0; kind < kinds_.size(); ++kind)
-      if (mayFollow(kinds_[kind])) open.push_back(kind);
-    while (!open.empty()) {
-      if (--steps_ <= 0) return false;
-      // As likely as if one of the items left were drawn.
-      size_t sum = 0;
-      for (const size_t kind : open) sum += kinds_[kind].left();
-      size_t draw = random.below(sum), choice = 0;
-      while (draw >= kinds_[open[choice]].left()) draw -= kinds_[open[choice++]].left();
-      const size_t kind = open[choice];
-      open.erase(open.begin() + static_cast<std::ptrdiff_t>(choice));
+    std::vector<Run> before;
+  };
 
-      const std::vector<Run> before = last_;
-      put(kind, 1);
-      for (size_t k = 0; k < limits_.size(); ++k) {
-        const int value = kinds_[kind].values[k];
-        last_[k] = {value, last_[k].length > 0 && last_[k].value == value ? last_[k].length + 1 : 1};
+  Place nextPlace() const {
+    Place out{{}, last_};
+    for (size_t kind = 0; kind < kinds_.size(); ++kind)
+      if (mayFollow(kinds_[kind])) out.open.push_back(kind);
+    return out;
+  }
+
+  bool fill(Random& random) {
+    if (items_ == 0) return true;
+    std::vector<Place> places = {nextPlace()};
+    while (!places.empty()) {
+      if (sequence_.size() == places.size()) takeBack(places.back());  // what follows it has failed
+      Place& place = places.back();
+      if (place.open.empty()) {
+        places.pop_back();
+        continue;
       }
-      sequence_.push_back(kind);
-      if (completable() && place(depth + 1, random)) return true;
-      sequence_.pop_back();
-      last_ = before;
-      put(kind, -1);
+      if (--steps_ <= 0) return false;
+      add(drawn(place.open, random));
+      if (!completable()) continue;
+      if (sequence_.size() == items_) return true;
+      places.push_back(nextPlace());
     }
     return false;
+  }
+
+  /// Takes one out of `open`, as likely as if one of the items left were drawn.
+  size_t drawn(std::vector<size_t>& open, Random& random) const {
+    size_t sum = 0;
+    for (const size_t kind : open) sum += kinds_[kind].left();
+    size_t draw = random.below(sum), choice = 0;
+    while (draw >= kinds_[open[choice]].left()) draw -= kinds_[open[choice++]].left();
+    const size_t kind = open[choice];
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(choice));
+    return kind;
+  }
+
+  void add(size_t kind) {
+    put(kind, 1);
+    for (size_t k = 0; k < limits_.size(); ++k) {
+      const int value = kinds_[kind].values[k];
+      last_[k] = {value, last_[k].length > 0 && last_[k].value == value ? last_[k].length + 1 : 1};
+    }
+    sequence_.push_back(kind);
+  }
+
+  void takeBack(const Place& place) {
+    put(sequence_.back(), -1);
+    sequence_.pop_back();
+    last_ = place.before;
   }
 
   void put(size_t kind, int sign) {

@@ -48,6 +48,26 @@ void PartReader::checkNames(const Part& part, Mark mark) {
     for (const StimulusDimension& dimension : procedure_->stimulus) note(dimension.name, "the procedure");
 }
 
+void PartReader::checkSize(const Part& part, Mark mark) {
+  constexpr double kMostTrials = 20000.0;  // more than a day without a break
+  double conditions = 1.0, pairs = 1.0;
+  for (const Factor& factor : part.factors) {
+    const auto levels = static_cast<double>(factor.levels.size());
+    if (&factor == itemsOf(part))
+      pairs = levels * (levels - 1.0);
+    else
+      conditions *= levels;
+  }
+  const double each = procedure_ ? static_cast<double>(procedure_->mostTrials.value_or(0))
+                                 : pairs * part.changeRepetitions + part.catchRepetitions;
+  const double trials = conditions * each + (procedure_ ? part.catchRepetitions : 0.0);
+  if (trials > kMostTrials)
+    reader_.problems().add(mark,
+                           fmt::format("part '{}' has {} conditions and {} trials", part.name,
+                                       shortestNumber(conditions), shortestNumber(trials)),
+                           "keep to " + shortestNumber(kMostTrials) + " trials");
+}
+
 void PartReader::checkStimuli(const Part& part) {
   StimulusReader stimuli(reader_, declarations_);
   std::vector<Variables> sets = {{}};

@@ -52,86 +52,6 @@ OrderSetting readOrder(NodeReader& reader, const YamlNode& node, const std::stri
   return out;
 }
 
-std::optional<Scale> PartReader::readScale(const YamlNode& node, const std::string& key, bool always,
-                                           Part& out) {
-  if (!reader_.isMap(node, "'" + key + "'", "{question: ..., labels: [hardly, clearly]}")) return {};
-  std::vector<std::string> keys = {"question", "labels"};
-  if (always) keys.emplace_back("always");
-  reader_.checkKeys(node, key, keys);
-  Scale scale;
-  reader_.takeText(node, "question", true, scale.question);
-  if (const YamlNode* labels = node.find("labels")) {
-    scale.labels = reader_.texts(*labels, "'labels' of " + key, "[hardly, clearly]");
-    if (scale.labels.size() == 1)
-      reader_.problems().add(labels->mark, "a scale of one step", "give two to eleven labels");
-  } else {
-    reader_.problems().add(node.mark, "'labels' of " + key + " is missing", "give it: [hardly, clearly]");
-  }
-  if (always) reader_.take(node, booleanParameter("always", false, ""), out.task.severityAlways);
-  return scale;
-}
-
-void PartReader::readAnswers(const YamlNode& map, Part& out) {
-  TaskSetting& task = out.task;
-  static const char* const kOrdinals[] = {"first", "second",  "third",  "fourth", "fifth",
-                                          "sixth", "seventh", "eighth", "ninth"};
-  const auto count = static_cast<size_t>(task.alternatives);
-  if (task.type == Task::YesNo) {
-    task.answers = {"yes", "no"};
-  } else if (task.type == Task::Rating) {
-    task.answers = {"bad", "poor", "fair", "good", "excellent"};  // ITU-R BT.500
-  } else if (task.type == Task::Interval || (task.type == Task::Pairwise && !task.sideBySide)) {
-    task.answers.assign(kOrdinals, kOrdinals + count);
-  } else if (count == 2) {
-    task.answers = {"left", "right"};
-  } else {
-    for (size_t i = 0; i < count; ++i) task.answers.push_back(std::to_string(i + 1));
-  }
-  const YamlNode* node = map.find("answers");
-  if (!node) return;
-  const size_t expected = task.answers.size();
-  task.answers = reader_.texts(*node, "'answers'", "[yes, no]");
-  const bool rating = task.type == Task::Rating;
-  if (rating ? task.answers.size() < 2 || task.answers.size() > 11 : task.answers.size() != expected)
-    reader_.problems().add(
-        node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), toText(task.type)),
-        rating ? "a scale has two to eleven steps, the least first" : fmt::format("give {}", expected));
-}
-
-void PartReader::readTask(const YamlNode& map, Part& out) {
-  const std::string example = "{type: yes_no, question: ...}";
-  const YamlNode* node = map.find("task");
-  if (!node) {
-    reader_.problems().add(map.mark, "'task' is missing", "give it: " + example);
-    return;
-  }
-  if (!reader_.isMap(*node, "'task'", example)) return;
-  std::vector<std::string> keys = {"type", "question", "answers", "severity", "confidence"};
-  std::string type = "yes_no";
-  if (!node->find("type"))
-    reader_.problems().add(node->mark, "'type' of task is missing", "one of " + join(taskNames()));
-  reader_.takeChoice(*node, choiceParameter("type", type, taskNames(), ""), type);
-  TaskSetting& task = out.task;
-  task.type = taskNamed(type);
-  const bool several = task.type == Task::Interval || task.type == Task::Alternative;
-  if (several) keys.emplace_back("alternatives");
-  if (task.type == Task::Pairwise) keys.emplace_back("layout");
-  reader_.checkKeys(*node, "task '" + type + "'", keys);
-  if (several) reader_.take(*node, integerParameter("alternatives", 2, 2, 9, "", ""), task.alternatives);
-  if (task.type == Task::Pairwise) {
-    std::string layout = "side_by_side";
-    reader_.takeChoice(*node, choiceParameter("layout", layout, {"side_by_side", "one_after_the_other"}, ""),
-                       layout);
-    task.sideBySide = layout == "side_by_side";
-  }
-  reader_.takeText(*node, "question", true, task.question);
-  readAnswers(*node, out);
-  if (const YamlNode* severity = node->find("severity"))
-    task.severity = readScale(*severity, "severity", true, out);
-  if (const YamlNode* confidence = node->find("confidence"))
-    task.confidence = readScale(*confidence, "confidence", false, out);
-}
-
 void PartReader::readVariables(const YamlNode& node, const std::string& what, Variables& out) {
   if (!reader_.isMap(node, what, "{speed: 1.5}")) return;
   for (const auto& [key, value] : node.members) {
@@ -407,6 +327,7 @@ Part PartReader::read(const YamlNode& map, const std::string& defaultName,
   else
     problems.add(map.mark, "'stimulus' is missing",
                  "give it: {scene: {name: ...}, levels: {before: 1, after: 0}}");
+  if (problems.size() == before) checkSize(out, map.mark);
   if (problems.size() == before) checkStimuli(out);
   if (problems.size() == before) {
     const YamlNode* order = map.find("order");

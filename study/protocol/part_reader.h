@@ -31,6 +31,7 @@ class PartReader {
   void readPractice(const YamlNode& node, Part& out);
   void readItems(const YamlNode& map, Part& out);
   void checkNames(const Part& part, Mark mark);
+  void checkSize(const Part& part, Mark mark);
   void checkStimuli(const Part& part);
   void checkOrders(const Part& part, Mark mark);
 

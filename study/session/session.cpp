@@ -112,6 +112,7 @@ void Session::settle() {
     dropFinished();
     if (queue_.empty()) endStretch();
   }
+  if (stage_ == Stage::Trials && inProgress_) return;  // still the trial that was due
   step_ = Step();
   if (stage_ == Stage::Finished) return;
   if (stage_ == Stage::Aborted) {
@@ -167,7 +168,7 @@ void Session::settleTrial() {
   trial.plan = *due.slot.trial;
   trial.number = trial.plan.number;
   const auto begun = attempts_.find(trial.number);
-  trial.attempt = (begun == attempts_.end() ? 0 : begun->second) - (inProgress_ ? 1 : 0);
+  trial.attempt = begun == attempts_.end() ? 0 : begun->second;
   Variables axes;
   if (trial.plan.procedure >= 0) {
     const size_t procedure = static_cast<size_t>(trial.plan.procedure);

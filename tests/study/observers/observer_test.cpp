@@ -153,7 +153,7 @@ simulation: {theory: signal_detection, detected: 0.7, guess: 0.05, severity: [0.
 
 TEST(Observer, RatesAboveTheLeastAsOftenAsItWouldSayYes) {
   const Protocol protocol = boxProtocol(R"(
-task: {type: rating, question: "How much?", labels: [none, little, more, much]}
+task: {type: rating, question: "How much?", answers: [none, little, more, much]}
 factors: {distance: [4, 10]}
 stimulus:
   scene: {name: box, distance: = distance}
@@ -257,9 +257,9 @@ std::string refusal(const std::string& block, const std::string& kind = "lapsing
 }
 
 TEST(Observer, BadBlocksAreRefusedWithTheirLine) {
-  // kYesNo has eight lines, the first one empty.
+  // kYesNo has seven lines, the first one empty.
   EXPECT_THAT(refusal("simulation:\n  treshold: 3"),
-              AllOf(HasSubstr("test.yaml:10:"), HasSubstr("'threshold'")));
+              AllOf(HasSubstr("test.yaml:9:"), HasSubstr("'threshold'")));
   EXPECT_THAT(refusal("simulation: {variable: distance, threshold: 3}"),
               HasSubstr("neither width nor slope"));
   EXPECT_THAT(refusal("simulation: {threshold: 3}"), HasSubstr("variable"));

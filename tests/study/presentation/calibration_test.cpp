@@ -11,6 +11,8 @@
 
 #include "base/error.h"
 #include "psychometrics/random.h"
+#include "study/presentation/calibration_screens.h"
+#include "study/presentation/virtual_screen.h"
 
 namespace limen::study {
 namespace {
@@ -49,11 +51,13 @@ TEST(Calibration, ExactReadingsGiveTheirCurveBack) {
 }
 
 TEST(Calibration, NoiseOfAPhotometerMovesGammaByLittle) {
-  // 1 % on each of nine readings. At gamma 2.2 one reading in the middle, a fifth of the peak, off by 1 % is
-  // worth 0.01 / ln 2 = 0.014 in gamma; the brightest ones have more weight. Three times that.
+  // 1 % on each of nine readings. Two of them, at levels 1/8 and 1, alone give gamma with an error of
+  // sqrt(2) 0.01 / ln 8 = 0.007, black and white with 1 % each. All together do no worse; five times that.
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const TransferFit fit = fitGamma(readings(0.5, 250.0, 2.2, 0.01, seed));
-    EXPECT_NEAR(fit.gamma, 2.2, 0.12) << seed;
+    EXPECT_NEAR(fit.gamma, 2.2, 0.035) << seed;
+    EXPECT_NEAR(fit.blackCdM2, 0.5, 0.05 * 0.5);
+    EXPECT_NEAR(fit.peakCdM2, 250.0, 0.05 * 250.0);
     EXPECT_GT(fit.rmsCdM2, 0.0);
   }
 }
@@ -116,6 +120,50 @@ TEST(Calibration, MatchesGiveGamma) {
   EXPECT_THROW(fitMatches({{0.5, 1.0}}), Error);
   EXPECT_THROW(fitMatches({{0.53, 0.25}}), Error);               // the wrong way round
   EXPECT_THROW(fitMatches({{0.25, 0.40}, {0.5, 0.85}}), Error);  // gammas 1.5 and 4.3
+}
+
+ScreenEvent key(const char* name) { return {ScreenEvent::Kind::Key, name, {}, 0}; }
+
+TEST(CalibrationScreens, TheFrameEnclosesACardOfTheWidthThatIsTaken) {
+  VirtualDisplay display;
+  display.events = {{1, key("up")}, {2, key("up")}, {3, key("left")}, {5, key("enter")}};
+  VirtualScreen screen(display);
+  EXPECT_EQ(adjustCardWidth(screen, 320.4), 339.0);  // 320 + 10 + 10 - 1
+  // Inner edges of the last frame's lines: 339 wide, 339 * 53.98 / 85.60 = 213.8 high.
+  const auto& lines = screen.shown().back().items;
+  ASSERT_EQ(lines.size(), 4U);
+  const auto &top = lines[0], &bottom = lines[1], &left = lines[2], &right = lines[3];
+  EXPECT_EQ(right.atPx.x - (left.atPx.x + left.sizePx.x), 339.0);
+  EXPECT_EQ(bottom.atPx.y - (top.atPx.y + top.sizePx.y), 214.0);
+  EXPECT_EQ(top.sizePx.x, 339.0 + left.sizePx.x + right.sizePx.x);
+}
+
+TEST(CalibrationScreens, TheFieldHasTheShareOfWhiteRowsAndTheLevelIsTaken) {
+  for (const double proportion : kMatchProportions) {
+    VirtualDisplay display;
+    display.events = {{1, key("right")}, {2, key("right")}, {3, key("down")}, {4, key("enter")}};
+    VirtualScreen screen(display);
+    const std::optional<double> level = adjustMatch(screen, proportion, 0.6);  // code 153
+    ASSERT_TRUE(level.has_value());
+    EXPECT_NEAR(*level, 145.0 / 255.0, 1e-9);
+    const auto& items = screen.shown().back().items;
+    EXPECT_NEAR(items.back().light, 145.0 / 255.0, 1e-9);
+    // All but the square are white rows of one pixel in a field as high as wide.
+    const double field = items[0].sizePx.x;
+    EXPECT_EQ(static_cast<double>(items.size() - 1), proportion * field);
+    for (size_t i = 0; i + 1 < items.size(); ++i) EXPECT_EQ(items[i].sizePx, glm::dvec2(field, 1.0));
+  }
+}
+
+TEST(CalibrationScreens, EscapeAndALostWindowGiveUp) {
+  VirtualDisplay display;
+  display.events = {{2, key("escape")}};
+  VirtualScreen screen(display);
+  EXPECT_FALSE(adjustCardWidth(screen, 300.0).has_value());
+  VirtualDisplay losing;
+  losing.lostAt = 3;
+  VirtualScreen gone(losing);
+  EXPECT_FALSE(adjustMatch(gone, 0.5, 0.5).has_value());
 }
 
 class CalibrationFile : public testing::Test {

@@ -103,6 +103,10 @@ TEST(Schedule, SideBySideAllAreShownAtOnce) {
   Sequence odd = stimulus();
   odd.showings = 2;
   EXPECT_THROW(makeSchedule({stimulus(), odd}, setting(Task::Alternative)), Error);
+  // A cue of one of them is a cue of the trial: 0.1 s are 6 blanks.
+  Sequence cued = stimulus();
+  cued.cue = {Cue::Kind::Arrow, 10.0, 10.0, 50.0, 0.1};
+  EXPECT_EQ(phases(makeSchedule({stimulus(), cued}, setting(Task::Alternative))).at(3), (std::pair{Cue, 6}));
   // One after the other for the same task if so asked.
   ScheduleSetting turns = setting(Task::Pairwise);
   turns.task.sideBySide = false;

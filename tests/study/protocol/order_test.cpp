@@ -100,6 +100,14 @@ TEST(Order, ReachesNarrowLimits) {
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(allowed(limitedShuffle(96, limits, random), limits));
 }
 
+TEST(Order, LongOnesEndSoon) {
+  // 20,000 items in strict turns: shuffles and swaps have no chance, and the search goes 20,000 deep.
+  std::vector<int> halves(20000);
+  for (size_t i = 0; i < 10000; ++i) halves[i] = 1;
+  Random random(4);
+  EXPECT_EQ(longestRun(limitedShuffle(20000, {{halves, 1}}, random), halves), 1);
+}
+
 TEST(Order, TellsWhatIsImpossible) {
   std::vector<int> uneven(10);
   for (size_t i = 0; i < 7; ++i) uneven[i] = 1;

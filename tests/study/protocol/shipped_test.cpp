@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "base/yaml_tree.h"
 #include "renderer/scene/scene.h"
@@ -62,6 +63,17 @@ TEST(ShippedProtocols, AllReadAndGiveStimuli) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"experiment_1", "experiment_2", "quality_pairs", "quick",
                                           "threshold_2ifc"}));
+}
+
+TEST(ShippedProtocols, TheReadmesExampleReads) {
+  const std::string readme = readTextFile(LIMEN_SOURCE_DIR "/study/protocols/README.md");
+  const size_t begin = readme.find("    title:"), end = readme.find("\n## ", begin);
+  ASSERT_NE(begin, std::string::npos);
+  std::string text;
+  std::istringstream lines(readme.substr(begin, end - begin));
+  for (std::string line; std::getline(lines, line);) text += (line.empty() ? line : line.substr(4)) + "\n";
+  // 4 speeds x 2 presentations x 2 changes, 3 + 1 trials of each.
+  EXPECT_EQ(plannedTrials(parseProtocol(text, "example.yaml", declarations())).size(), 64U);
 }
 
 TEST(ShippedProtocols, ExperimentOneHasTheThesisDesign) {

@@ -119,6 +119,26 @@ TEST_F(SessionStoreTest, ABrokenBlockStartsOverAndItsAnswersCountNoMore) {
   EXPECT_THAT(verify(protocol), IsEmpty());
 }
 
+TEST_F(SessionStoreTest, ABrokenRoundOfPracticeStartsOver) {
+  Protocol protocol = smallProtocol(2, 0);
+  protocol.session.resume = ResumePolicy::RestartBlock;
+  protocol.parts[0].practice = {3, true, 2, 2, true, {}};
+  ScriptedFrontEnd first(protocol), second(protocol);
+  const auto right = [&](const Trial& trial) { return answerIndex(protocol.parts[0], trial.plan, true); };
+  first.answer = second.answer = right;
+  dieAt(first, 2);
+  EXPECT_THROW(run(protocol, first), Killed);
+  second.answer = [&](const Trial& trial) {  // one right answer: the two before the break no longer help
+    return answerIndex(protocol.parts[0], trial.plan, trial.number == 0 || trial.number > 2);
+  };
+  EXPECT_EQ(resume(protocol, second).kind, Step::Kind::Finished);
+  EXPECT_THAT(second.log,
+              ElementsAre("practice_start", "0.1", "right", "1.1", "wrong", "2.1", "wrong", "practice_result",
+                          "practice_start", "5.0", "right", "6.0", "right", "7.0", "right", "practice_result",
+                          "block_start", "3.0", "4.0", "debrief"));
+  EXPECT_THAT(verify(protocol), IsEmpty());
+}
+
 TEST_F(SessionStoreTest, BetweenBlocksNothingStartsOver) {
   Protocol protocol = largeProtocol();
   protocol.session.resume = ResumePolicy::RestartBlock;

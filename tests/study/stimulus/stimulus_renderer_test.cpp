@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of stimuli against the renderer used by itself, coded by hand.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "perception/vision/colour.h"
+#include "renderer/scene/shapes.h"
+#include "study/stimulus/state_view.h"
 #include "study/stimulus/stimulus_renderer.h"
 #include "tests/study/stimulus/stimulus_fixture.h"
 
@@ -186,6 +193,47 @@ TEST_F(StimulusRendererTest, AColourTechniqueIsShownAsItIs) {
   StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
   EXPECT_EQ(renderer.pictureCount(), 12);
   EXPECT_LE(largestError(renderer.readBack(4), light(stimulus, 4 / 60.0, 0)), kRounding);
+}
+
+TEST(StimulusLevels, OtherObjectsStandAsTheyAreAskedFor) {
+  // Three objects of three levels at 4, 6 and 12 from an eye that comes nearer by 1 a second; they switch at
+  // 5 and 10. Two seconds on they are at 2, 4 and 10.
+  scene::Scene scene;
+  scene::LodSet set;
+  for (int i = 0; i < 3; ++i) set.levels.push_back({scene::sphere(glm::dvec3(0.0), 0.5, 2), 0.0, 0.0});
+  for (const double z : {-4.0, -6.0, -12.0})
+    scene::addLodObject(scene, set, {.position = {0.0, 0.0, z}}, {"ball", glm::vec3(0.5F)}, {5.0, 10.0});
+  scene::Camera from, to;
+  from.eye = {0.0, 0.0, 0.0};
+  from.target = {0.0, 0.0, -100.0};
+  to = from;
+  to.eye.z = -10.0;
+  scene.camera.keys = {{0.0, from}, {10.0, to}};
+  const auto levels = [&](const char* others, bool after, double timeS) {
+    return levelsOf(scene, {1, 2, 0, others}, after, timeS, 100).levels;
+  };
+  EXPECT_EQ(levels("finest", false, 0.0), (std::vector<int>{0, 2, 0}));
+  EXPECT_EQ(levels("finest", true, 0.0), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(levels("distance", false, 0.0), (std::vector<int>{0, 2, 2}));
+  EXPECT_EQ(levels("distance", true, 0.0), (std::vector<int>{0, 0, 2}));
+  EXPECT_EQ(levels("distance", true, 3.0), (std::vector<int>{0, 0, 1}));  // the last one at 9
+  EXPECT_EQ(levels("omitted", true, 0.0), (std::vector<int>{-1, 0, -1}));
+  EXPECT_THROW(levelsOf(scene, {3, 1, 0, "finest"}, true, 0.0, 100), Error);
+  EXPECT_THROW(levelsOf(scene, {0, 1, 3, "finest"}, false, 0.0, 100), Error);
+}
+
+TEST(StimulusFiles, AFileThatChangedSinceIsRefused) {
+  const std::string path =
+      (std::filesystem::path(testing::TempDir()) / ("limen_mesh_" + std::to_string(getpid()) + ".obj"))
+          .string();
+  std::ofstream(path) << "v 0 0 0\n";
+  NamedEntry entry;
+  entry.values = ParameterValues({fileParameter("file", "")}, {{"file", path}});
+  entry.fileHashes = {{"file", sha256("v 0 0 0\n")}};
+  EXPECT_NO_THROW(checkFiles(entry, "scene"));
+  std::ofstream(path) << "v 0 0 1\n";
+  EXPECT_THROW(checkFiles(entry, "scene"), Error);
+  std::filesystem::remove(path);
 }
 
 TEST_F(StimulusRendererTest, WhatCannotBeShownIsRefused) {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/psychometric/fit.h"
+
+namespace limen::psychometrics {
+class Random;
+}
+
+namespace limen::analysis {
+
+/// Successes in n trials by inversion that begins at the most likely number: exact, in about sqrt(n) steps
+/// and one number of the generator. `q` is 1 - p.
+int64_t drawBinomial(psychometrics::Random& random, int64_t n, double p, double q);
+
+/// What intervals are asked of: the parameters and the slope.
+inline constexpr size_t kFitQuantities = kFitParameters + 1;
+using FitQuantities = std::array<double, kFitQuantities>;
+FitQuantities quantitiesOf(const ConditionFit& fit);
+
+/// Deviance residuals of a condition's blocks with trials, sqrt of each block's deviance with the sign of
+/// k/n - P, and their correlations (Pearson) with the predicted P and with the blocks' order; 0 where either
+/// does not vary. (Wichmann and Hill 2001, Perception and Psychophysics 63, 1293-1313.)
+struct Residuals {
+  std::vector<double> levels, predicted, values;
+  double withPrediction = 0.0, withOrder = 0.0;
+};
+Residuals residualsOf(const Condition& condition, const ConditionFit& fit, const FitSettings& settings);
+
+struct BootstrapOptions {
+  size_t samples = 2000;
+  uint64_t seed = 1;
+  /// Answers drawn from the fitted function (beta-binomial where eta > 0); otherwise each block's trials are
+  /// drawn anew from its own answers.
+  bool parametric = true;
+  unsigned threads = 2;  ///< changes nothing but the time
+};
+
+/// One data set drawn and fitted as the data were.
+struct Replicate {
+  bool fitted = false;  ///< false where a fixed function cannot have given the answers
+  struct OfCondition {
+    FitQuantities quantities{};
+    double deviance = 0.0, withPrediction = 0.0, withOrder = 0.0;
+  };
+  std::vector<OfCondition> conditions;
+};
+
+/// Replicate i takes its numbers from childSeed(seed, "replicate i").
+std::vector<Replicate> bootstrap(const std::vector<Condition>& conditions, const Fit& fit,
+                                 const BootstrapOptions& options);
+
+/// Quantity of a condition in every fitted replicate, ascending.
+std::vector<double> sortedQuantity(const std::vector<Replicate>& replicates, size_t condition,
+                                   size_t quantity);
+/// The value below which a part p of sorted values lies, between neighbours linearly (Hyndman and Fan's type
+/// 7).
+double sortedQuantile(const std::vector<double>& sorted, double p);
+
+}  // namespace limen::analysis

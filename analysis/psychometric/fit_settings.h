@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psychometrics/sigmoid.h"
+
+namespace limen::analysis {
+
+/// Answers to `trials` presentations of one stimulus level.
+struct Block {
+  double level = 0.0;
+  int64_t correct = 0, trials = 0;
+  double order = 0.0;  ///< when it was shown, in any unit; blocks of one time share it
+};
+
+/// Blocks that one psychometric function describes.
+struct Condition {
+  std::string name;
+  std::vector<Block> blocks;
+};
+
+/// What describes one condition. Threshold is the level x at which F = FitSettings::thresholdLevel; width is
+/// the distance on the axis from F = 0.05 to 0.95, in units of ln x on a logarithmic axis.
+enum class FitParameter { Threshold, Width, Guess, Lapse, Eta };
+inline constexpr size_t kFitParameters = 5;
+const std::array<std::string, kFitParameters>& fitParameterNames();  ///< "threshold", ...
+inline size_t indexOf(FitParameter parameter) { return static_cast<size_t>(parameter); }
+
+/// What a guess is: a rate of its own (yes/no), 1/M of a forced choice, or as large as the lapse rate.
+struct FitTask {
+  enum class Kind { YesNo, ForcedChoice, EqualAsymptotes };
+  Kind kind = Kind::ForcedChoice;
+  int alternatives = 2;  ///< of a forced choice
+};
+/// "yesno", "2afc", "mafc:M", "equal". Throws Error that names `where`.
+FitTask readFitTask(const std::string& text, const std::string& where);
+std::string nameOf(const FitTask& task);
+
+enum class FitMethod {
+  MaximumLikelihood,
+  MaximumPosterior  ///< the mode of likelihood times priors (prior.h)
+};
+
+struct FitSettings {
+  psychometrics::SigmoidFamily sigmoid = psychometrics::SigmoidFamily::Normal;
+  psychometrics::StimulusAxis axis = psychometrics::StimulusAxis::Linear;
+  FitTask task;
+  FitMethod method = FitMethod::MaximumLikelihood;
+  double thresholdLevel = 0.5;  ///< the F that defines the threshold
+  /// Parameters that are not fitted, and their values. A threshold is one of x, a width one of the axis.
+  std::array<std::optional<double>, kFitParameters> fixed;
+  /// Parameters that all conditions have in common.
+  std::array<bool, kFitParameters> shared{};
+  double lapseMost = 0.1;  ///< upper bound of a fitted lapse rate
+  double guessMost = 0.5;  ///< upper bound of a fitted guess rate
+  /// Fit eta: answers are beta-binomial with nu = 1/eta^2 - 1 in place of binomial (Schuett et al. 2016).
+  bool overdispersion = false;
+  /// Levels between which the threshold is thought to lie, for bounds and priors; those of the data unless
+  /// set.
+  std::optional<std::array<double, 2>> range;
+
+  bool logarithmic() const {
+    return axis == psychometrics::StimulusAxis::Logarithmic ||
+           sigmoid == psychometrics::SigmoidFamily::Weibull;
+  }
+};
+
+/// Throws Error for settings or data that have no fit: no trials, counts out of range, levels that are not
+/// finite or negative on a logarithmic axis, one level where threshold and width are both free, fixed values
+/// out of range. `where` names the data.
+void checkFit(const std::vector<Condition>& conditions, const FitSettings& settings,
+              const std::string& where = {});
+
+}  // namespace limen::analysis

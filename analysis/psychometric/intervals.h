@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/psychometric/bootstrap.h"
+#include "analysis/psychometric/fit.h"
+
+namespace limen::analysis {
+
+enum class IntervalMethod {
+  Bootstrap,  ///< percentiles of the replicates
+  Bca,        ///< bias-corrected and accelerated percentiles (Efron 1987, JASA 82)
+  Profile,    ///< where the maximum over all others has fallen by half the chi-squared quantile
+  Laplace,    ///< normal by the curvature at the optimum, on the scales of t, ln w and the rates
+  Posterior   ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
+};
+const std::vector<std::string>& intervalMethodNames();  ///< "bootstrap", "bca", ...
+IntervalMethod readIntervalMethod(const std::string& name, const std::string& where);  ///< throws Error
+const std::string& nameOf(IntervalMethod method);
+
+struct FitInterval {
+  double low = 0.0, high = 0.0;
+  bool lowOpen = false, highOpen = false;  ///< ends at a bound of the fit: the data set no limit on that side
+};
+
+/// Of each parameter and of the slope; nothing for those that are fixed, and where a method says nothing: a
+/// parameter at its bound (Laplace), the slope on a logarithmic axis (profile, posterior).
+using ConditionIntervals = std::array<std::optional<FitInterval>, kFitQuantities>;
+
+struct FitIntervals {
+  IntervalMethod method = IntervalMethod::Bootstrap;
+  double confidence = 0.95;
+  std::vector<ConditionIntervals> conditions;
+  std::vector<std::string> warnings;
+};
+
+/// From replicates of bootstrap(). Bca fits twice for each block more, for the acceleration: by how much the
+/// estimates change with one answer less (jackknife over trials).
+FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const Fit& fit,
+                                const std::vector<Replicate>& replicates, bool accelerated,
+                                double confidence);
+FitIntervals profileIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence);
+FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence);
+/// Throws Error if conditions share parameters: the grid would have too many dimensions.
+FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence);
+
+}  // namespace limen::analysis

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "analysis/psychometric/fit_settings.h"
+
+namespace limen::analysis {
+
+/// Parameters of one condition in the order of FitParameter. The threshold stands on the axis: ln x where
+/// that is logarithmic.
+using AxisValues = std::array<double, kFitParameters>;
+
+/// What of a sigmoid does not change during a fit.
+struct SigmoidShape {
+  explicit SigmoidShape(const FitSettings& settings);
+
+  psychometrics::SigmoidFamily family;
+  bool logarithmic;
+  double level;         ///< F at the threshold
+  double zAtThreshold;  ///< standard form's argument there
+  double zWidth;        ///< from F = 0.05 to 0.95
+
+  double onAxis(double x) const;  ///< x or ln x; -infinity for x = 0 on a logarithmic axis
+  double offAxis(double u) const;
+  double z(double u, const AxisValues& values) const;
+};
+
+/// P, 1 - P and their logarithms at one level, without cancellation in either tail.
+struct Chance {
+  double p, q, logP, logQ;
+};
+Chance chanceAt(const SigmoidShape& shape, double u, const AxisValues& values);
+inline double rho(double eta) { return eta * eta / (1.0 - eta * eta); }
+
+/// A condition's blocks made ready: levels on the axis, constants of the likelihood.
+struct PreparedBlocks {
+  PreparedBlocks(const Condition& condition, const SigmoidShape& shape);
+
+  std::vector<double> u;  ///< of each block with trials
+  std::vector<int64_t> correct, trials;
+  std::vector<double> order;
+  double logSaturated = 0.0;  ///< binomial log-likelihood where every P is k/n
+};
+
+/// Half the binomial deviance of one block.
+double halfBlockDeviance(const Chance& chance, int64_t correct, int64_t trials);
+
+/// logSaturated minus the log-likelihood of `values`: half the deviance for a binomial (eta 0). Infinite
+/// where the data are impossible. With `gradient`, its derivatives are added there, in the order of
+/// FitParameter.
+double negativeLogLikelihood(const SigmoidShape& shape, const PreparedBlocks& blocks,
+                             const AxisValues& values, AxisValues* gradient);
+
+}  // namespace limen::analysis

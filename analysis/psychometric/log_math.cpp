@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/psychometric/log_math.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+
+namespace limen::analysis {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHalfLogTwoPi = 0.91893853320467274178;
+
+/// Stirling's series of ln Gamma(x) - (x - 1/2) ln x + x - ln(2 pi)/2 (Abramowitz and Stegun 6.1.41); at
+/// x >= 15 the first term left out is below 1e-17.
+double stirlingSeries(double x) {
+  const double s = 1.0 / (x * x);
+  return (1.0 / 12.0 -
+          s * (1.0 / 360.0 -
+               s * (1.0 / 1260.0 - s * (1.0 / 1680.0 - s * (1.0 / 1188.0 - s * (691.0 / 360360.0)))))) /
+         x;
+}
+
+/// Sum over i < n of 1/(x + i) = psi(x + n) - psi(x) by the asymptotic series of psi (6.3.18), x >= 15.
+double harmonicSum(double x, double n) {
+  const auto tail = [](double y) {
+    const double s = 1.0 / (y * y);
+    return 0.5 / y + s * (1.0 / 12.0 - s * (1.0 / 120.0 - s * (1.0 / 252.0 - s * (1.0 / 240.0 - s / 132.0))));
+  };
+  return std::log1p(n / x) - tail(x + n) + tail(x);
+}
+
+}  // namespace
+
+double logAddExp(double a, double b) {
+  const double high = std::max(a, b), low = std::min(a, b);
+  if (low == -kInfinity || high == kInfinity) return high;
+  return high + std::log1p(std::exp(low - high));
+}
+
+double logGamma(double x) { return boost::math::lgamma(x); }
+
+double halfDeviance(double x, double m, double logM) {
+  if (x == 0.0) return m;
+  if (std::abs(x - m) < 0.1 * (x + m)) {
+    // With v = (x - m)/(x + m): x ln(x/m) = 2 x (v + v^3/3 + ...), and m - x = -v (x + m).
+    const double v = (x - m) / (x + m);
+    double sum = (x - m) * v, term = 2.0 * x * v;
+    for (int j = 1; j < 60; ++j) {
+      term *= v * v;
+      const double next = sum + term / (2 * j + 1);
+      if (next == sum) return next;
+      sum = next;
+    }
+    return sum;
+  }
+  return x * (std::log(x) - logM) + m - x;
+}
+
+double stirlingError(double n) {
+  // Below 16 by ln n! itself; the values of n = 0 ... 15 are few.
+  static const std::array<double, 16> kSmall = [] {
+    std::array<double, 16> table{};
+    for (int i = 1; i < 16; ++i) {
+      const long double k = i;
+      table[static_cast<size_t>(i)] = static_cast<double>(
+          boost::math::lgamma(k + 1) - (k + 0.5L) * std::log(k) + k - 0.918938533204672741780329736406L);
+    }
+    return table;
+  }();
+  if (n < 16.0) return kSmall[static_cast<size_t>(n)];
+  return stirlingSeries(n);
+}
+
+double logSaturatedChance(int64_t k, int64_t n) {
+  if (k == 0 || k == n) return 0.0;
+  const double a = static_cast<double>(k), b = static_cast<double>(n - k), sum = static_cast<double>(n);
+  return stirlingError(sum) - stirlingError(a) - stirlingError(b) - kHalfLogTwoPi -
+         0.5 * std::log(a * (b / sum));
+}
+
+RisingSum logRisingSum(double p, double r, int64_t k) {
+  RisingSum sum;
+  // Directly while the terms are few or near the pole of the Gamma function.
+  constexpr int64_t kDirect = 48;
+  int64_t direct = k;
+  if (k > kDirect) direct = p >= 15.0 * r ? 0 : std::min(k, static_cast<int64_t>(std::ceil(15.0 - p / r)));
+  double product = 1.0;
+  for (int64_t i = 0; i < direct; ++i) {
+    const double di = static_cast<double>(i);
+    const double term = p + di * r;
+    if (i == 0) {
+      // p may be too small for products.
+      sum.value += std::log(term);
+    } else {
+      product *= term;
+      if (product < 1e-150 || product > 1e150) {
+        sum.value += std::log(product);
+        product = 1.0;
+      }
+    }
+    sum.byP += 1.0 / term;
+    sum.byR += di / term;
+  }
+  sum.value += std::log(product);
+  if (direct == k) return sum;
+
+  const double start = p + static_cast<double>(direct) * r;  // r x
+  const double n = static_cast<double>(k - direct), offset = static_cast<double>(direct);
+  if (n * r < 1e-5 * start) {
+    // Expanded in r: sums of i^m over 0 ... n - 1. The next term is 1e-20 of the first.
+    const double s1 = n * (n - 1.0) / 2.0, s2 = s1 * (2.0 * n - 1.0) / 3.0, s3 = s1 * s1;
+    const double e = r / start;
+    sum.value += n * std::log(start) + e * s1 - e * e * s2 / 2.0 + e * e * e * s3 / 3.0;
+    const double inverse = (n - e * s1 + e * e * s2 - e * e * e * s3) / start;  // sum of 1/term
+    sum.byP += inverse;
+    sum.byR += offset * inverse + (s1 - e * s2 + e * e * s3) / start;
+    return sum;
+  }
+  const double x = start / r;
+  sum.value +=
+      n * std::log(start) + (x + n - 0.5) * std::log1p(n / x) - n + stirlingSeries(x + n) - stirlingSeries(x);
+  const double inverse = harmonicSum(x, n) / r;
+  sum.byP += inverse;
+  // Sum of (offset + i)/(start + i r), with i r = (start + i r) - start.
+  sum.byR += offset * inverse + (n - start * inverse) / r;
+  return sum;
+}
+
+}  // namespace limen::analysis

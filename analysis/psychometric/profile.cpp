@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/psychometric/intervals.h"
+#include "analysis/psychometric/objective.h"
+#include "analysis/psychometric/optimiser.h"
+#include "analysis/statistics/distributions.h"
+
+namespace limen::analysis {
+namespace {
+
+/// The objective that condition `c` belongs to and where its optimum lies: conditions that share nothing have
+/// one each.
+struct Own {
+  Objective objective;
+  std::vector<double> x;
+  size_t condition;
+};
+
+Own ownOf(const std::vector<Condition>& conditions, const Fit& fit, size_t c) {
+  Objective joint(conditions, fit.settings);
+  const bool shared =
+      std::any_of(fit.settings.shared.begin(), fit.settings.shared.end(), [](bool s) { return s; });
+  if (shared || conditions.size() == 1) return {std::move(joint), fit.x, c};
+  Objective alone({conditions[c]}, fit.settings);
+  std::vector<double> x(alone.size());
+  for (size_t i = 0; i < kFitParameters; ++i) {
+    const FitParameter parameter = static_cast<FitParameter>(i);
+    if (const int to = alone.place(0, parameter); to >= 0)
+      x[static_cast<size_t>(to)] = fit.x[static_cast<size_t>(joint.place(c, parameter))];
+  }
+  return {std::move(alone), std::move(x), 0};
+}
+
+/// The value of parameter j on one side at which the profile has risen by `rise`.
+struct Limit {
+  double value;
+  bool open;
+};
+
+Limit profileLimit(const Objective& objective, const std::vector<double>& optimum, size_t j, int side,
+                   double rise) {
+  const FreeParameter& free = objective.free()[j];
+  const double bound = side < 0 ? free.low : free.high;
+  const double least = objective.evaluate(optimum.data(), nullptr);
+  std::vector<bool> held(optimum.size(), false);
+  held[j] = true;
+  std::vector<double> last = optimum;
+  // Distance in units in which a quadratic profile is a straight line. The best of two starts: where the
+  // profile was before, and the optimum.
+  const auto excess = [&](double value) {
+    std::vector<double> start = last;
+    start[j] = value;
+    Optimum found = minimise(objective, start, held);
+    start = optimum;
+    start[j] = value;
+    const Optimum other = minimise(objective, start, held);
+    if (!(found.value <= other.value)) found = other;
+    if (!std::isfinite(found.value)) return 1e6;
+    last = found.x;
+    return std::sqrt(std::max(0.0, found.value - least)) - std::sqrt(rise);
+  };
+  double inside = optimum[j], below = -std::sqrt(rise);
+  double step = 0.5 * free.scale;
+  double outside = inside, above = below;
+  while (above < 0.0) {
+    if (outside == bound) return {bound, true};
+    inside = outside;
+    below = above;
+    outside = side < 0 ? std::max(bound, outside - step) : std::min(bound, outside + step);
+    above = excess(outside);
+    step *= 1.8;
+  }
+  // Illinois: false position that halves the weight of an end that stays.
+  int stayed = 0;
+  for (int i = 0; i < 60 && std::abs(outside - inside) > 1e-7 * free.scale; ++i) {
+    const double middle = std::clamp(inside - below * (outside - inside) / (above - below),
+                                     std::min(inside, outside), std::max(inside, outside));
+    const double value = excess(middle);
+    if (std::abs(value) < 1e-8) return {middle, false};
+    if (value < 0.0) {
+      inside = middle;
+      below = value;
+      if (stayed == -1) above *= 0.5;
+      stayed = -1;
+    } else {
+      outside = middle;
+      above = value;
+      if (stayed == 1) below *= 0.5;
+      stayed = 1;
+    }
+  }
+  return {0.5 * (inside + outside), false};
+}
+
+double offScale(const Objective& objective, FitParameter parameter, double value) {
+  if (parameter == FitParameter::Width) return std::exp(value);
+  return parameter == FitParameter::Threshold ? objective.shape().offAxis(value) : value;
+}
+
+/// On a linear axis the slope is a constant over the width.
+void addSlope(const ConditionFit& fit, const FitSettings& settings, ConditionIntervals& own) {
+  const auto& width = own[indexOf(FitParameter::Width)];
+  if (!width || settings.logarithmic()) return;
+  const double constant = fit.slope * fit.value(FitParameter::Width);
+  own[kFitParameters] =
+      FitInterval{constant / width->high, constant / width->low, width->highOpen, width->lowOpen};
+}
+
+void tieGuess(const FitSettings& settings, ConditionIntervals& own) {
+  if (settings.task.kind == FitTask::Kind::EqualAsymptotes)
+    own[indexOf(FitParameter::Guess)] = own[indexOf(FitParameter::Lapse)];
+}
+
+}  // namespace
+
+FitIntervals profileIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence) {
+  FitIntervals intervals{IntervalMethod::Profile, confidence, {}, {}};
+  // The quantile of chi-squared with one degree of freedom is that of the normal, squared.
+  const double z = normalQuantile(0.5 * (1.0 + confidence));
+  for (size_t c = 0; c < conditions.size(); ++c) {
+    const Own own = ownOf(conditions, fit, c);
+    ConditionIntervals found;
+    for (size_t i = 0; i < kFitParameters; ++i) {
+      const FitParameter parameter = static_cast<FitParameter>(i);
+      const int place = own.objective.place(own.condition, parameter);
+      if (place < 0) continue;
+      const Limit low = profileLimit(own.objective, own.x, static_cast<size_t>(place), -1, 0.5 * z * z);
+      const Limit high = profileLimit(own.objective, own.x, static_cast<size_t>(place), 1, 0.5 * z * z);
+      found[i] = FitInterval{offScale(own.objective, parameter, low.value),
+                             offScale(own.objective, parameter, high.value), low.open, high.open};
+    }
+    tieGuess(fit.settings, found);
+    addSlope(fit.conditions[c], fit.settings, found);
+    intervals.conditions.push_back(found);
+  }
+  return intervals;
+}
+
+FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence) {
+  FitIntervals intervals{IntervalMethod::Laplace, confidence, {}, {}};
+  const double z = normalQuantile(0.5 * (1.0 + confidence));
+  for (size_t c = 0; c < conditions.size(); ++c) {
+    const Own own = ownOf(conditions, fit, c);
+    const std::vector<double> all = secondDerivatives(own.objective, own.x);
+    const size_t size = own.x.size();
+    // What is at a bound has no curvature to go by and is held there.
+    std::vector<size_t> inside;
+    std::vector<int> place(size, -1);
+    for (size_t j = 0; j < size; ++j) {
+      const FreeParameter& free = own.objective.free()[j];
+      const double near = 1e-6 * (free.high - free.low);
+      if (own.x[j] <= free.low + near || own.x[j] >= free.high - near) continue;
+      place[j] = static_cast<int>(inside.size());
+      inside.push_back(j);
+    }
+    const auto n = static_cast<Eigen::Index>(inside.size());
+    Eigen::MatrixXd h(n, n);
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = 0; b < n; ++b)
+        h(a, b) = all[inside[static_cast<size_t>(a)] * size + inside[static_cast<size_t>(b)]];
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(h);
+    const std::string of = conditions[c].name.empty() ? "" : conditions[c].name + ": ";
+    ConditionIntervals found;
+    if (!h.allFinite() || cholesky.info() != Eigen::Success) {
+      intervals.warnings.push_back(of +
+                                   "the curvature at the optimum is not that of a maximum; no intervals");
+      intervals.conditions.push_back(found);
+      continue;
+    }
+    if (inside.size() < size)
+      intervals.warnings.push_back(of +
+                                   "parameters at a bound have no interval, and those of the others take "
+                                   "them for known");
+    const Eigen::MatrixXd covariance = cholesky.solve(Eigen::MatrixXd::Identity(n, n));
+    Eigen::VectorXd logSlope = Eigen::VectorXd::Zero(n);
+    for (size_t i = 0; i < kFitParameters; ++i) {
+      const FitParameter parameter = static_cast<FitParameter>(i);
+      const int at = own.objective.place(own.condition, parameter);
+      if (at < 0 || place[static_cast<size_t>(at)] < 0) continue;
+      const Eigen::Index k = place[static_cast<size_t>(at)];
+      const double half = z * std::sqrt(covariance(k, k)), middle = own.x[static_cast<size_t>(at)];
+      const FreeParameter& free = own.objective.free()[static_cast<size_t>(at)];
+      // Rates stay rates.
+      const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+      const double low = rate ? std::max(middle - half, 0.0) : middle - half;
+      const double high = rate ? std::min(middle + half, free.high) : middle + half;
+      found[i] = FitInterval{offScale(own.objective, parameter, low),
+                             offScale(own.objective, parameter, high), false, false};
+      // ln slope = constant - ln w, on a logarithmic axis - t as well.
+      if (parameter == FitParameter::Width ||
+          (parameter == FitParameter::Threshold && fit.settings.logarithmic()))
+        logSlope[k] = -1.0;
+    }
+    if (logSlope.any()) {
+      const double half = z * std::sqrt(logSlope.dot(covariance * logSlope));
+      const double slope = fit.conditions[c].slope;
+      found[kFitParameters] = FitInterval{slope * std::exp(-half), slope * std::exp(half), false, false};
+    }
+    tieGuess(fit.settings, found);
+    intervals.conditions.push_back(found);
+  }
+  return intervals;
+}
+
+}  // namespace limen::analysis

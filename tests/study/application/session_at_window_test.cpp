@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole sessions at a real window, under a virtual display, with keys and mouse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+
+#include "base/image.h"
+#include "tests/study/application/study_run.h"
+#include "tests/study/application/x_server.h"
+
+namespace limen {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class SessionAtWindow : public testing::Test {
+ protected:
+  SessionAtWindow() {
+    folder_ = fs::temp_directory_path() / ("limen_window_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SessionAtWindow() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
+    std::vector<std::string> all = {"quick",   "--participant",  "p01",
+                                    "--store", path("s.sqlite"), "--seed",
+                                    "7",       "--announce",     "--any-timing"};
+    if (std::find(more.begin(), more.end(), "--full-screen") == more.end())
+      all.insert(all.end(), {"--window", "640x480"});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  /// First column of a query, as text.
+  std::vector<std::string> column(const std::string& query) const {
+    sqlite3* database = nullptr;
+    sqlite3_stmt* statement = nullptr;
+    std::vector<std::string> values;
+    EXPECT_EQ(sqlite3_open_v2(path("s.sqlite").c_str(), &database, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+    EXPECT_EQ(sqlite3_prepare_v2(database, query.c_str(), -1, &statement, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
+    while (sqlite3_step(statement) == SQLITE_ROW)
+      values.emplace_back(reinterpret_cast<const char*>(sqlite3_column_text(statement, 0)));
+    sqlite3_finalize(statement);
+    sqlite3_close(database);
+    return values;
+  }
+
+  /// Leads a session to its end: keys for the questions in turn, space for everything else. Gives the answers
+  /// that were meant.
+  std::vector<std::string> answerAll(test::StudyRun& run, size_t from = 0) {
+    const std::vector<std::string> kKeys = {"y", "n", "Right", "Left", "n", "n", "2", "1"};
+    const std::vector<std::string> kMeaning = {"yes", "no", "no", "yes", "no", "no", "no", "yes"};
+    std::vector<std::string> meant;
+    for (std::string line = run.line(); line.rfind("screen: ", 0) == 0; line = run.line()) {
+      const std::string name = line.substr(8);
+      if (name == "consent") {
+        run.key("y");
+      } else if (name == "question") {
+        const size_t i = (from + meant.size()) % kKeys.size();
+        meant.push_back(kMeaning[i]);
+        run.key(kKeys[i]);
+      } else if (name != "stimulus" && name != "feedback" && name != "wait") {
+        run.key("space");
+      }
+      if (name == "debrief") break;
+    }
+    return meant;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SessionAtWindow, StoresTheAnswersThatWereGivenInTheirOrder) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments({"--full-screen", "--screenshots", path("shots")}),
+                     path("messages"));
+  const std::vector<std::string> meant = answerAll(run);
+  EXPECT_EQ(run.finish(), 0) << run.messages();
+  // Two of practice, then 2 distances x (2 with a change + 1 without).
+  EXPECT_EQ(meant.size(), 8u);
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), meant);
+  EXPECT_EQ(column("SELECT DISTINCT device FROM response"), std::vector<std::string>{"keyboard"});
+  EXPECT_EQ(column("SELECT count(*) FROM response WHERE reaction_time_s < 0"), std::vector<std::string>{"0"});
+  EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"finished"});
+  // 30 frames of half a second at 60 Hz in each of the 8 trials.
+  EXPECT_EQ(column("SELECT count(*) FROM frame_log"), std::vector<std::string>{"240"});
+  EXPECT_THAT(run.messages(), HasSubstr("timing is not fit for a lab"));
+  EXPECT_EQ(column("SELECT json_extract(facts, '$.front_end.lab_ready') FROM environment"),
+            std::vector<std::string>{"0"});
+
+  std::map<std::string, int> shots;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path("shots"))) {
+    const Image image = readImage(entry.path().string());
+    const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
+    EXPECT_GT(*most - *least, 0.2F) << entry.path() << " is blank";
+    const std::string name = entry.path().filename().string();
+    ++shots[name.substr(5, name.rfind('_') - 5)];
+  }
+  for (const char* name :
+       {"consent", "instructions", "practice_start", "practice_result", "block_start", "debrief"})
+    EXPECT_GE(shots[name], 1) << name;
+  EXPECT_EQ(shots["question"], 8);
+  EXPECT_EQ(shots["stimulus"], 8);
+  EXPECT_EQ(shots["feedback"], 2) << "in practice only";
+}
+
+TEST_F(SessionAtWindow, PausedInTheMiddleAndTakenUpAgain) {
+  const test::XServer server(640, 480);
+  std::vector<std::string> meant;
+  {
+    test::StudyRun run(server.display(), arguments(), path("messages"));
+    ASSERT_TRUE(run.reaches("consent"));
+    run.key("y");
+    ASSERT_TRUE(run.reaches("instructions"));
+    run.key("space");
+    ASSERT_TRUE(run.reaches("practice_start"));
+    run.key("space");
+    ASSERT_TRUE(run.reaches("question"));
+    run.key("y");
+    ASSERT_TRUE(run.reaches("question"));
+    run.key("Escape");
+    ASSERT_TRUE(run.reaches("pause"));
+    run.key("space");  // goes on: the trial is shown again
+    ASSERT_TRUE(run.reaches("question"));
+    run.key("n");
+    ASSERT_TRUE(run.reaches("practice_result"));
+    run.key("Escape");
+    ASSERT_TRUE(run.reaches("pause"));
+    run.key("s");
+    ASSERT_TRUE(run.reaches("pause_stop"));
+    run.key("l");
+    EXPECT_EQ(run.finish(), 1);
+    EXPECT_THAT(run.rest(), HasSubstr("--resume"));
+  }
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), (std::vector<std::string>{"yes", "no"}));
+  EXPECT_EQ(column("SELECT reason FROM trial WHERE valid = 0"),
+            std::vector<std::string>{"paused in the middle"});
+  EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});
+  test::StudyRun run(server.display(), arguments({"--resume"}), path("messages"));
+  const std::vector<std::string> later = answerAll(run, 2);
+  EXPECT_EQ(run.finish(), 0) << run.messages();
+  EXPECT_EQ(later.size(), 6u);
+  std::vector<std::string> all = {"yes", "no"};
+  all.insert(all.end(), later.begin(), later.end());
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), all);
+}
+
+TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments(), path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  run.key("y");
+  ASSERT_TRUE(run.reaches("instructions"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("practice_start"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("stimulus"));
+  run.key("y");
+  ASSERT_TRUE(run.reaches("question"));
+  // The buttons stand in the middle; the right one is "no".
+  run.act({"mousemove", "420", "270", "click", "1"});
+  ASSERT_TRUE(run.reaches("stimulus"));
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.finish(), 1) << run.messages();
+  EXPECT_EQ(column("SELECT answer FROM response"), std::vector<std::string>{"no"});
+  EXPECT_EQ(column("SELECT device FROM response"), std::vector<std::string>{"mouse"});
+  EXPECT_EQ(column("SELECT json_extract(extra, '$.early_inputs[0].key') FROM response"),
+            std::vector<std::string>{"y"});
+  EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});
+}
+
+TEST_F(SessionAtWindow, DecliningEndsItAndKeepsNoAnswers) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments(), path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  run.key("n");
+  ASSERT_TRUE(run.reaches("consent_declined"));
+  run.key("e");
+  EXPECT_EQ(run.finish(), 1);
+  EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"aborted"});
+  EXPECT_EQ(column("SELECT count(*) FROM trial"), std::vector<std::string>{"0"});
+}
+
+TEST_F(SessionAtWindow, DisplayTakenAwayLosesNothing) {
+  test::XServer server(640, 480);
+  {
+    test::StudyRun run(server.display(), arguments(), path("messages"));
+    ASSERT_TRUE(run.reaches("consent"));
+    run.key("y");
+    ASSERT_TRUE(run.reaches("instructions"));
+    run.key("space");
+    ASSERT_TRUE(run.reaches("practice_start"));
+    run.key("space");
+    ASSERT_TRUE(run.reaches("question"));
+    run.key("y");
+    ASSERT_TRUE(run.reaches("stimulus"));
+    server.stop();
+    EXPECT_EQ(run.finish(), 1) << "the window library ends the process";
+  }
+  EXPECT_EQ(column("SELECT answer FROM response"), std::vector<std::string>{"yes"});
+  const test::XServer other(640, 480);
+  test::StudyRun run(other.display(), arguments({"--resume"}), path("messages"));
+  ASSERT_TRUE(run.reaches("question")) << run.messages();
+  run.key("n");
+  ASSERT_TRUE(run.reaches("practice_result")) << "the second round of practice, not the first one again";
+  run.signal(SIGTERM);
+  run.finish();
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), (std::vector<std::string>{"yes", "no"}));
+}
+
+TEST_F(SessionAtWindow, SaysWhatItNeedsWithoutAWindowSystem) {
+  test::StudyRun run("", arguments(), path("messages"));
+  EXPECT_EQ(run.finish(), 2);
+  EXPECT_THAT(run.messages(), HasSubstr("no window system"));
+  EXPECT_THAT(run.messages(), HasSubstr("limen study simulate"));
+  EXPECT_FALSE(fs::exists(path("s.sqlite"))) << "nothing was begun";
+}
+
+TEST_F(SessionAtWindow, RefusesAWindowThatIsTooSmallForTheStimuli) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), {"quick", "--participant", "p01", "--window", "200x200"},
+                     path("messages"));
+  EXPECT_EQ(run.finish(), 2) << run.messages();
+  EXPECT_FALSE(run.messages().empty());
+}
+
+}  // namespace
+}  // namespace limen
