@@ -97,7 +97,6 @@ int main(int argc, char** argv) {
   distances->callback([&] { runSwitchDistances(switches, json); });
 
   limen::analysis::addFitCommand(app);
-  for (const auto& [command, runCommand] : limen::analysis::addStudyCommands(app))
-    command->callback(runCommand);
+  limen::analysis::addStudyCommands(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

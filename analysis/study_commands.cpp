@@ -101,12 +101,11 @@ void validate(const ValidateOptions& options) {
 
 /// A command of common options and one result.
 template <class Analyse>
-void addSimple(CLI::App& app, StudyCommands& out, const std::string& name, const std::string& summary,
-               Analyse analyse) {
+void addSimple(CLI::App& app, const std::string& name, const std::string& summary, Analyse analyse) {
   CLI::App* command = app.add_subcommand(name, summary);
   auto options = std::make_shared<StudyOptions>();
   addCommon(*command, *options);
-  out.emplace_back(command, [options, analyse, name] {
+  command->callback([options, analyse, name] {
     const StudyAnswers study = read(*options);
     print(*options, study, analyse(study), name);
   });
@@ -114,16 +113,15 @@ void addSimple(CLI::App& app, StudyCommands& out, const std::string& name, const
 
 }  // namespace
 
-StudyCommands addStudyCommands(CLI::App& app) {
-  StudyCommands out;
-  addSimple(app, out, "rates", "how often observers of a study reported a change, by condition and observer",
+void addStudyCommands(CLI::App& app) {
+  addSimple(app, "rates", "how often observers of a study reported a change, by condition and observer",
             [](const StudyAnswers& study) { return studyRates(study); });
   addSimple(
-      app, out, "anova",
+      app, "anova",
       "analysis of variance of a study's detection rates, with the published values of experiment_1 and "
       "_2",
       [](const StudyAnswers& study) { return studyAnova(study); });
-  addSimple(app, out, "sdt", "sensitivity and criterion of a study's observers (signal detection theory)",
+  addSimple(app, "sdt", "sensitivity and criterion of a study's observers (signal detection theory)",
             [](const StudyAnswers& study) { return studySensitivity(study); });
 
   CLI::App* command = app.add_subcommand(
@@ -153,8 +151,7 @@ StudyCommands addStudyCommands(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--top-regions", setting.bins.topRegions, "Regions whose mean R is the rating score")
       ->capture_default_str();
-  out.emplace_back(command, [options] { validate(*options); });
-  return out;
+  command->callback([options] { validate(*options); });
 }
 
 }  // namespace limen::analysis

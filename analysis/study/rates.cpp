@@ -102,6 +102,7 @@ class PartRates {
     }
     out.pooled = detectionRate(all.positive, all.trials, level);
     out.overObservers = meanOverSubjects(rates, level);
+    if (out.scope == RateScope::Part) out.published = publishedRate(study_.plan.name, part_.name, change);
     out.text = group.condition.empty() ? "all" : conditionText(part_, group.condition);
     return out;
   }
@@ -113,6 +114,25 @@ class PartRates {
 };
 
 }  // namespace
+
+std::optional<PublishedRate> publishedRate(const std::string& protocol, const std::string& part,
+                                           bool change) {
+  struct Published {
+    const char *protocol, *part;
+    bool change;
+    PublishedRate rate;
+  };
+  static constexpr Published kAll[] = {
+      {"experiment_1", "main", true, {0.6771, 0.1201, "Schwarz 2009, section 10.4.1"}},
+      {"experiment_1", "main", false, {0.0446, 0.0458, "Schwarz 2009, section 10.4.1"}},
+      {"experiment_2", "object", true, {0.6146, 0.1661, "Schwarz 2009, section 10.4.2"}},
+      {"experiment_2", "object", false, {0.0417, 0.0487, "Schwarz 2009, section 10.4.2"}},
+      {"experiment_2", "terrain", true, {0.6771, 0.3359, "Schwarz 2009, section 10.4.2"}},
+      {"experiment_2", "terrain", false, {0.0313, 0.0421, "Schwarz 2009, section 10.4.2"}}};
+  for (const Published& one : kAll)
+    if (protocol == one.protocol && part == one.part && change == one.change) return one.rate;
+  return {};
+}
 
 StudyRates studyRates(const StudyAnswers& study, double level) {
   StudyRates out;

@@ -18,6 +18,13 @@ enum class RateScope {
   Condition  ///< one level of each factor
 };
 
+/// Mean and SD over observers that the thesis printed for a part.
+struct PublishedRate {
+  double mean = 0.0, sd = 0.0;
+  const char* source = "";
+};
+std::optional<PublishedRate> publishedRate(const std::string& protocol, const std::string& part, bool change);
+
 struct RateRow {
   std::string part;
   RateScope scope = RateScope::Part;
@@ -27,6 +34,7 @@ struct RateRow {
   Rate pooled;
   MeanOverSubjects overObservers;  ///< of each observer's own rate
   std::string text;                ///< the condition in words
+  std::optional<PublishedRate> published;
 };
 
 struct ObserverRate {

@@ -41,7 +41,7 @@ std::string toText(const StudyRates& rates) {
   std::string part;
   std::vector<std::vector<std::string>> table;
   const auto flush = [&] {
-    if (!table.empty()) out += "\npart " + part + "\n" + alignedText(table, {0, 1});
+    if (!table.empty()) out += "\npart " + part + "\n" + alignedText(table, {0, 1, 8});
     table.clear();
   };
   for (const RateRow& row : rates.rows) {
@@ -49,13 +49,16 @@ std::string toText(const StudyRates& rates) {
     part = row.part;
     if (table.empty())
       table.push_back({"condition", "rate of", "observers", "mean", "sd", "95 % over observers", "pooled",
-                       "95 % (Wilson)"});
+                       "95 % (Wilson)", "published"});
     const MeanOverSubjects& mean = row.overObservers;
-    table.push_back({row.text, ofText(row), std::to_string(mean.subjects), percentText(mean.mean),
-                     mean.standardDeviation ? percentText(*mean.standardDeviation) : "-",
-                     intervalText(mean.interval, true),
-                     fmt::format("{}/{}", row.pooled.successes, row.pooled.trials),
-                     intervalText(row.pooled.wilson, true)});
+    table.push_back(
+        {row.text, ofText(row), std::to_string(mean.subjects), percentText(mean.mean),
+         mean.standardDeviation ? percentText(*mean.standardDeviation) : "-",
+         intervalText(mean.interval, true), fmt::format("{}/{}", row.pooled.successes, row.pooled.trials),
+         intervalText(row.pooled.wilson, true),
+         row.published
+             ? fmt::format("{} (sd {})", percentText(row.published->mean), percentText(row.published->sd))
+             : ""});
   }
   flush();
   for (const ObserverRate& one : rates.observers) {
@@ -98,7 +101,11 @@ nlohmann::json toJson(const StudyRates& rates) {
                     {"mean", row.overObservers.mean},
                     {"sd", numberJson(row.overObservers.standardDeviation)},
                     {"interval", intervalJson(row.overObservers.interval)},
-                    {"pooled", rateJson(row.pooled)}});
+                    {"pooled", rateJson(row.pooled)},
+                    {"published", row.published ? nlohmann::json{{"mean", row.published->mean},
+                                                                 {"sd", row.published->sd},
+                                                                 {"source", row.published->source}}
+                                                : nlohmann::json()}});
   for (const ObserverRate& one : rates.observers)
     observers.push_back({{"part", one.part},
                          {"observer", one.observer},

@@ -171,7 +171,7 @@ Counts predictAll(const Shown& shown, const ParameterValues& popping, const Pred
     row.widthPx = place.widthPx;
     row.heightPx = place.heightPx;
     row.predictor = "popping";
-    row.settings = {{"popping", popping.toJson()}, {"metrics", comparer.settings()}};
+    row.settings = {{"popping", popping.toJson()}, {"metrics", FrameComparer::settings()}};
     row.programVersion = projectVersion() + " (commit " + buildCommit() + ")";
     for (const auto& [hash, stimulusJson] : stimuli) {
       if (interruptSignal() != 0) {
@@ -197,6 +197,10 @@ void predict(const PredictOptions& options, Run& run) {
   const ParameterValues popping = poppingValues(options.settings);
   const Shown shown = readShown(options);
   installInterruptHandlers();
+  if (std::all_of(shown.stimuli.begin(), shown.stimuli.end(),
+                  [](const auto& place) { return place.second.empty(); }))
+    throw Error("no stimulus that was shown has a change", options.store,
+                "predictions are of changes of level of detail or technique within a sequence");
   const Counts counts = predictAll(shown, popping, options);
   if (options.asJson)
     fmt::print("{}\n", json({{"store", options.store},

@@ -62,8 +62,8 @@ double FrameComparer::flipPixelsPerDegree() const {
   return std::clamp(display_.pixelsPerDegree(), *parameter.minimum, *parameter.maximum);
 }
 
-nlohmann::json FrameComparer::settings() const {
-  nlohmann::json out = {{"flip_pixels_per_degree", flipPixelsPerDegree()}};
+nlohmann::json FrameComparer::settings() {
+  nlohmann::json out = {{"flip_pixels_per_degree", "display"}};
   for (const char* name : {"de94", "flip", "ssim", "rmse"})
     out[std::string(name) + "_version"] = metric(name).version;
   return out;

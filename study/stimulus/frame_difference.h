@@ -39,7 +39,7 @@ class FrameComparer {
   /// Throws Error as StimulusRenderer; the stimulus has a change.
   FrameDifference compare(const Stimulus& stimulus);
   /// Versions and parameters of the metrics: what decides the figures beside stimulus, window and display.
-  nlohmann::json settings() const;
+  static nlohmann::json settings();
 
  private:
   double flipPixelsPerDegree() const;

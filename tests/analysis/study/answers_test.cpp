@@ -82,6 +82,17 @@ TEST_F(StudyAnswersTest, RatesByHand) {
   EXPECT_EQ(rates.observers[1].catches->trials, 4);
 }
 
+TEST(PublishedRates, AreThoseOfWholeNumbersOfAnswers) {
+  // 8 observers x 84 and 28 trials; 12 observers x 16 of each kind and part (Schwarz 2009, section 10.4).
+  EXPECT_NEAR(publishedRate("experiment_1", "main", true)->mean, 455.0 / 672.0, 5.1e-5);
+  EXPECT_NEAR(publishedRate("experiment_1", "main", false)->mean, 10.0 / 224.0, 5.1e-5);
+  EXPECT_NEAR(publishedRate("experiment_2", "object", true)->mean, 118.0 / 192.0, 5.1e-5);
+  EXPECT_NEAR(publishedRate("experiment_2", "object", false)->mean, 8.0 / 192.0, 5.1e-5);
+  EXPECT_NEAR(publishedRate("experiment_2", "terrain", true)->mean, 130.0 / 192.0, 5.1e-5);
+  EXPECT_NEAR(publishedRate("experiment_2", "terrain", false)->mean, 6.0 / 192.0, 5.1e-5);
+  EXPECT_FALSE(publishedRate("quick", "main", true));
+}
+
 TEST_F(StudyAnswersTest, StaticAndDynamicComeFromStimuliWithoutAFactor) {
   std::vector<HandMadeTrial> own = trials({{"distance", "near"}}, 1, 4);
   for (size_t i = 0; i < 3; ++i) own[i].presentation = "static";
