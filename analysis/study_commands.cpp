@@ -35,6 +35,12 @@ void addCommon(CLI::App& command, StudyOptions& options) {
   command.add_option("store", options.choice.store, "Result store with sessions")->required();
   command.add_option("--protocol", options.choice.protocol,
                      "Name, or first digits of the SHA-256, if the store has several");
+  static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
+                                                              {"simulated", Observers::Simulated}};
+  command
+      .add_option("--observers", options.choice.observers,
+                  "people or simulated, if the store has sessions of both")
+      ->transform(CLI::CheckedTransformer(kObservers));
   command.add_flag("--no-exclusions", options.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", options.choice.unfinished, "Take broken-off sessions too");

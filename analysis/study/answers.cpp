@@ -39,6 +39,12 @@ StudyAnswer answerOf(const store::StudyTrial& trial, const StudyPart& part) {
   return out;
 }
 
+/// What the program that showed the stimuli said of itself.
+nlohmann::json frontEndOf(const store::SessionReader& reader, const store::StudySession& session) {
+  const nlohmann::json facts = reader.environment(session.environment).facts;
+  return facts.is_object() ? facts.value("front_end", nlohmann::json::object()) : nlohmann::json::object();
+}
+
 /// The protocol whose answers are meant. One that was changed between sessions has two hashes.
 store::StudyProtocol chooseProtocol(const store::SessionReader& reader, const StudyChoice& choice) {
   std::map<std::string, store::StudyProtocol> known;
@@ -98,6 +104,9 @@ StudyAnswers readStudyAnswers(const StudyChoice& choice) {
   out.plan = readStudyPlan(protocol);
   for (const store::StudySession& session : reader.sessions()) {
     if (session.protocol != protocol.hash) continue;
+    const nlohmann::json frontEnd = frontEndOf(reader, session);
+    const bool simulated = frontEnd.value("simulated", false);
+    if (choice.observers == (simulated ? Observers::People : Observers::Simulated)) continue;
     std::vector<StudyAnswer> own;
     for (const store::StudyTrial& trial : reader.trials(session.id)) {
       if (!trial.counts() || trial.practice) continue;
@@ -116,11 +125,16 @@ StudyAnswers readStudyAnswers(const StudyChoice& choice) {
     const size_t observer = indexIn(out.observers, session.participant);
     indexIn(out.displays, reader.display(session.display).name);
     ++out.sessions;
+    out.simulated += simulated ? 1 : 0;
+    out.notLabReady += frontEnd.value("lab_ready", true) ? 0 : 1;
     for (StudyAnswer& answer : own) {
       answer.observer = observer;
       out.answers.push_back(std::move(answer));
     }
   }
+  if (out.simulated > 0 && out.simulated < out.sessions)
+    throw Error("holds sessions of people and of simulated observers", choice.store,
+                "choose with --observers people or --observers simulated");
   if (out.answers.empty())
     throw Error("no finished session has an answer", choice.store,
                 "finish a session, or take broken-off ones with --unfinished");

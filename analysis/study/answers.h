@@ -49,16 +49,21 @@ struct StudyAnswers {
   std::vector<std::string> observers;  ///< participant codes, in order of their first session
   std::vector<StudyAnswer> answers;
   size_t sessions = 0;
+  size_t simulated = 0;               ///< sessions of simulated observers: all of them or none
+  size_t notLabReady = 0;             ///< sessions that began although timing was not ready for a laboratory
   std::vector<std::string> displays;  ///< names of the displays that were used
   std::vector<AppliedRule> rules;     ///< as declared
   std::vector<LeftOut> leftOut;       ///< sessions that were not finished among them
 };
 
+enum class Observers { Either, People, Simulated };
+
 struct StudyChoice {
   std::string store;
-  std::string protocol;     ///< name or SHA-256; "" if the store has answers to one only
-  bool exclusions = true;   ///< apply the rules that the protocol declares
-  bool unfinished = false;  ///< take sessions that were broken off too
+  std::string protocol;                     ///< name or SHA-256; "" if the store has answers to one only
+  bool exclusions = true;                   ///< apply the rules that the protocol declares
+  bool unfinished = false;                  ///< take sessions that were broken off too
+  Observers observers = Observers::Either;  ///< Either: whichever the store has, but not both
 };
 
 /// Reads, then applies the protocol's rules in the order in which it declares them, those on single answers
@@ -68,7 +73,8 @@ struct StudyChoice {
 /// observers who said yes to a larger share of their catch trials, of all parts together. lapse_above needs
 /// a fit of each observer's lapse rate and is not applied here, which the result says.
 ///
-/// Throws Error: no store, no session, several protocols and none named, no such protocol, no answer left.
+/// Throws Error: no store, no session, several protocols and none named, no such protocol, sessions of
+/// people and of simulated observers, no answer left.
 StudyAnswers readStudyAnswers(const StudyChoice& choice);
 
 /// The second half of readStudyAnswers(), without the check that anything is left.

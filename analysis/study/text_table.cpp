@@ -66,6 +66,10 @@ std::string headText(const StudyAnswers& study) {
       fmt::format("{} ({}, SHA-256 {})\n{} answers of {} observers in {} sessions on {}\n", study.plan.title,
                   study.plan.name, study.plan.hash.substr(0, 12), study.answers.size(),
                   study.observers.size(), study.sessions, join(study.displays));
+  if (study.simulated > 0) out += "simulated observers: these answers say nothing about people\n";
+  if (study.notLabReady > 0)
+    out += fmt::format("{} sessions were shown by a machine that was not ready for a laboratory\n",
+                       study.notLabReady);
   for (const AppliedRule& rule : study.rules)
     out += fmt::format("rule {}: {}{}\n", rule.name, shortestNumber(rule.limit),
                        rule.applied ? "" : " - not applied: " + rule.note);
@@ -89,6 +93,8 @@ nlohmann::json headJson(const StudyAnswers& study) {
           {"title", study.plan.title},
           {"observers", study.observers},
           {"sessions", study.sessions},
+          {"simulated_sessions", study.simulated},
+          {"not_lab_ready_sessions", study.notLabReady},
           {"answers", study.answers.size()},
           {"displays", study.displays},
           {"rules", rules},

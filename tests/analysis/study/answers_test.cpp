@@ -156,6 +156,21 @@ TEST_F(StudyAnswersTest, OneProtocolAtATime) {
   expectError([&] { readStudyAnswers(choice); }, "other");
 }
 
+TEST_F(StudyAnswersTest, PeopleAndSimulatedObserversAreNotMixed) {
+  addHandMadeSession(store(), "a", kProtocol, trials({}, 1, 2), "finished", "1", {{"lab_ready", false}});
+  EXPECT_EQ(read().simulated, 0U);
+  EXPECT_EQ(read().notLabReady, 1U);
+  addHandMadeSession(store(), "b", kProtocol, trials({}, 1, 3), "finished", "1", {{"simulated", true}});
+  expectError([&] { read(); }, "--observers");
+  StudyChoice choice;
+  choice.store = store();
+  choice.observers = Observers::People;
+  EXPECT_THAT(readStudyAnswers(choice).observers, ElementsAre("a"));
+  choice.observers = Observers::Simulated;
+  EXPECT_THAT(readStudyAnswers(choice).observers, ElementsAre("b"));
+  EXPECT_EQ(readStudyAnswers(choice).simulated, 1U);
+}
+
 TEST_F(StudyAnswersTest, SensitivityByHand) {
   // Corrected rates 3.5 / 5 = 0.7 and 0.5 / 5 = 0.1: z 0.5244005 and -1.2815516.
   addHandMadeSession(store(), "a", kProtocol, trials({}, 3, 4) + trials({}, 0, 4, false));

@@ -63,7 +63,7 @@ std::string handMadeHash(const HandMadeTrial& trial) {
 
 void addHandMadeSession(const std::string& path, const std::string& participant, const std::string& protocol,
                         const std::vector<HandMadeTrial>& shown, const std::string& state,
-                        const std::string& name) {
+                        const std::string& name, const nlohmann::json& frontEnd) {
   store::SessionLog log(path, false);
   store::StudySession session;
   session.participant = participant;
@@ -81,7 +81,7 @@ void addHandMadeSession(const std::string& path, const std::string& participant,
   entries.back().state = state;
   log.start(session, {protocol, "hand_made", "hand_made.yaml", "By hand", protocol},
             {"display_hash", "desk", "name: desk", nlohmann::json::object()},
-            {"gpu", false, nlohmann::json::object()}, {{0, "main", "main", false, 1}}, entries);
+            {"gpu", false, {{"front_end", frontEnd}}}, {{0, "main", "main", false, 1}}, entries);
 }
 
 void addHandMadePrediction(const std::string& path, const std::string& stimulusHash,

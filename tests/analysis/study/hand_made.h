@@ -32,7 +32,8 @@ std::string handMadeHash(const HandMadeTrial& trial);
 /// A session of such trials, by the store's own writer. The protocol's hash is its text.
 void addHandMadeSession(const std::string& store, const std::string& participant, const std::string& protocol,
                         const std::vector<HandMadeTrial>& trials, const std::string& state = "finished",
-                        const std::string& name = "1");
+                        const std::string& name = "1",
+                        const nlohmann::json& frontEnd = nlohmann::json::object());
 
 /// A prediction for the sessions' display and a window of 1024 x 768.
 void addHandMadePrediction(const std::string& store, const std::string& stimulusHash,
