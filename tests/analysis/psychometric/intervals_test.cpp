@@ -98,6 +98,24 @@ TEST(FitIntervals, BcaOfTheSlopeIsThatOfTheWidthTurnedOver) {
   EXPECT_NEAR(slope.high, constant / width.low, 0.05 * slope.high);
 }
 
+// Samples of a step are the same step: an interval from one number to the same would be a lie.
+TEST(FitIntervals, BootstrapOfAStepSaysNothingAndTheProfileLeavesItOpen) {
+  FitSettings settings;
+  settings.task = readFitTask("yesno", "");
+  const std::vector<Condition> data = {
+      {"", {{1.0, 0, 20, 0.0}, {2.0, 0, 20, 0.0}, {3.0, 20, 20, 0.0}, {4.0, 20, 20, 0.0}}}};
+  const Fit fit = fitPsychometric(data, settings);
+  const FitIntervals none =
+      bootstrapIntervals(data, fit, bootstrap(data, fit, {50, 1, true, 2}), false, 0.95);
+  for (const auto& interval : none.conditions[0]) EXPECT_FALSE(interval);
+  EXPECT_EQ(none.warnings.size(), 1u);
+  const auto profile = profileIntervals(data, fit, 0.95).conditions[0];
+  ASSERT_TRUE(profile[0] && profile[1]);
+  EXPECT_LT(profile[0]->low, 2.2);
+  EXPECT_GT(profile[0]->high, 2.8);
+  EXPECT_TRUE(profile[1]->lowOpen);
+}
+
 TEST(Bootstrap, DoesNotDependOnThreadsAndDoesOnTheSeed) {
   const std::vector<Condition> data = {classicSet()};
   const Fit fit = fitPsychometric(data, FitSettings{});
