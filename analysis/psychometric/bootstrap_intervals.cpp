@@ -103,10 +103,21 @@ FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const 
     throw Error("too few bootstrap samples can be fitted", "intervals", "free the rates or choose 'profile'");
   const double tail = 0.5 * (1.0 - confidence), zTail = normalQuantile(tail);
   for (size_t c = 0; c < conditions.size(); ++c) {
+    const ConditionFit& own = fit.conditions[c];
+    if (own.atBound[indexOf(FitParameter::Threshold)] != 0 ||
+        own.atBound[indexOf(FitParameter::Width)] != 0) {
+      // Samples drawn from a step are steps again, all alike: they would make certain what nobody knows.
+      intervals.warnings.push_back(
+          (own.name.empty() ? "" : own.name + ": ") +
+          std::string("no bootstrap intervals, as the fit is at a bound; 'profile' and "
+                      "'posterior' say what the answers leave open"));
+      intervals.conditions.emplace_back();
+      continue;
+    }
     const std::vector<Deletion> deletions =
         accelerated ? jackknife(conditions, fit, c) : std::vector<Deletion>{};
     const FitQuantities estimates = quantitiesOf(fit.conditions[c]);
-    ConditionIntervals own;
+    ConditionIntervals found;
     for (size_t i = 0; i < kFitQuantities; ++i) {
       if (!varies(fit.conditions[c], i)) continue;
       const std::vector<double> sorted = sortedQuantity(replicates, c, i);
@@ -123,9 +134,16 @@ FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const 
         low = corrected(zTail);
         high = corrected(-zTail);
       }
-      own[i] = FitInterval{sortedQuantile(sorted, low), sortedQuantile(sorted, high), false, false};
+      const double from = sortedQuantile(sorted, low), to = sortedQuantile(sorted, high);
+      if (from < to) {
+        found[i] = FitInterval{from, to, false, false};
+      } else {
+        intervals.warnings.push_back((own.name.empty() ? "" : own.name + ": ") +
+                                     std::string("no interval where all samples agree: ") +
+                                     (i < kFitParameters ? fitParameterNames()[i] : "slope"));
+      }
     }
-    intervals.conditions.push_back(own);
+    intervals.conditions.push_back(found);
   }
   return intervals;
 }

@@ -31,8 +31,12 @@ constexpr Measured kMeasured[] = {
     {IntervalMethod::Laplace, true, FitParameter::Threshold, 918, 996},
     {IntervalMethod::Laplace, true, FitParameter::Width, 928, 994},
     {IntervalMethod::Laplace, true, FitParameter::Lapse, 529, 540},
-    // BCA
-    // POST
+    {IntervalMethod::Bca, true, FitParameter::Threshold, 886, 1000},
+    {IntervalMethod::Bca, true, FitParameter::Width, 899, 1000},
+    {IntervalMethod::Bca, true, FitParameter::Lapse, 903, 1000},
+    {IntervalMethod::Posterior, true, FitParameter::Threshold, 944, 1000},
+    {IntervalMethod::Posterior, true, FitParameter::Width, 988, 1000},
+    {IntervalMethod::Posterior, true, FitParameter::Lapse, 998, 1000},
 };
 
 }  // namespace

@@ -26,7 +26,17 @@ void settle(const Objective& objective, Optimum& optimum) {
   if (!std::isfinite(optimum.value)) return;
   for (size_t j = 0; j < objective.size(); ++j) {
     const FreeParameter& free = objective.free()[j];
-    if (optimum.atBound[j] != 0) continue;
+    if (optimum.atBound[j] != 0) {
+      // What is as good as there is there.
+      std::vector<double> x = optimum.x;
+      x[j] = optimum.atBound[j] < 0 ? free.low : free.high;
+      const double value = objective.evaluate(x.data(), nullptr);
+      if (value <= optimum.value + kFlat) {
+        optimum.x = x;
+        optimum.value = value;
+      }
+      continue;
+    }
     // Rates that tell nothing are 0, never as large as they may be.
     const bool rate = free.parameter != FitParameter::Threshold && free.parameter != FitParameter::Width;
     for (const int side : {-1, 1}) {

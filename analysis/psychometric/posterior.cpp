@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "analysis/psychometric/intervals.h"
 #include "analysis/psychometric/log_math.h"
@@ -22,8 +25,12 @@ struct Span {
   LevelSpread spread;
 };
 
-size_t pointsOf(FitParameter parameter) {
-  return parameter == FitParameter::Threshold || parameter == FitParameter::Width ? 48 : 20;
+/// As many as a grid of so many dimensions affords.
+size_t pointsOf(FitParameter parameter, size_t dimensions) {
+  const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+  if (dimensions <= 3) return 48;
+  if (dimensions == 4) return rate ? 20 : 40;
+  return rate ? 12 : 24;
 }
 
 /// Values in the middle of equal parts of the span: on the axis, of widths in their logarithm.
@@ -85,8 +92,8 @@ void narrow(const GridPosterior& posterior, size_t d, Span& span) {
   for (double sum = marginal[last]; last > first && sum < kLeft; sum += marginal[--last]) {
   }
   const double cell = (span.high - span.low) / static_cast<double>(span.count);
-  const double low = span.low + cell * (static_cast<double>(first) - 1.0);
-  const double high = span.low + cell * (static_cast<double>(last) + 2.0);
+  const double low = span.low + cell * (static_cast<double>(first) - 2.0);
+  const double high = span.low + cell * (static_cast<double>(last) + 3.0);
   span.high = std::min(span.high, high);
   span.low = std::max(span.low, low);
 }
@@ -110,12 +117,30 @@ FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const 
     ConditionIntervals found;
     std::vector<Span> spans;
     for (const FreeParameter& free : objective.free())
-      spans.push_back({free.parameter, free.low, free.high, pointsOf(free.parameter), free.spread});
+      spans.push_back(
+          {free.parameter, free.low, free.high, pointsOf(free.parameter, objective.size()), free.spread});
     if (!spans.empty()) {
-      // Wide first, then where the posterior is.
-      for (int pass = 0; pass < 2; ++pass) {
+      // Wide first, then where the posterior is, until that is not much less.
+      for (int pass = 0; pass < 12; ++pass) {
         const GridPosterior posterior = posteriorOf(objective, spans);
-        for (size_t d = 0; d < spans.size(); ++d) narrow(posterior, d, spans[d]);
+        bool smaller = false;
+        for (size_t d = 0; d < spans.size(); ++d) {
+          const double before = spans[d].high - spans[d].low;
+          narrow(posterior, d, spans[d]);
+          smaller |= spans[d].high - spans[d].low < 0.7 * before;
+        }
+        if (!smaller) break;
+      }
+      if (spans.size() > 3) {
+        std::string cells;
+        for (const Span& span : spans)
+          if (span.parameter != FitParameter::Threshold && span.parameter != FitParameter::Width)
+            cells += fmt::format("{}{} {:.2g}", cells.empty() ? "" : ", ",
+                                 fitParameterNames()[indexOf(span.parameter)],
+                                 (span.high - span.low) / static_cast<double>(span.count));
+        intervals.warnings.push_back(fmt::format(
+            "{}{} free parameters leave the posterior a coarse grid; ends are good to about half a cell ({})",
+            condition.name.empty() ? "" : condition.name + ": ", spans.size(), cells));
       }
       const GridPosterior posterior = posteriorOf(objective, spans);
       for (size_t d = 0; d < spans.size(); ++d) {

@@ -147,6 +147,15 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
   FitIntervals intervals{IntervalMethod::Laplace, confidence, {}, {}};
   const double z = normalQuantile(0.5 * (1.0 + confidence));
   for (size_t c = 0; c < conditions.size(); ++c) {
+    if (fit.conditions[c].atBound[indexOf(FitParameter::Threshold)] != 0 ||
+        fit.conditions[c].atBound[indexOf(FitParameter::Width)] != 0) {
+      intervals.warnings.push_back(
+          (conditions[c].name.empty() ? "" : conditions[c].name + ": ") +
+          std::string("no Laplace intervals, as the fit is at a bound; 'profile' and "
+                      "'posterior' say what the answers leave open"));
+      intervals.conditions.emplace_back();
+      continue;
+    }
     const Own own = ownOf(conditions, fit, c);
     const std::vector<double> all = secondDerivatives(own.objective, own.x);
     const size_t size = own.x.size();
@@ -187,6 +196,11 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
       const Eigen::Index k = place[static_cast<size_t>(at)];
       const double half = z * std::sqrt(covariance(k, k)), middle = own.x[static_cast<size_t>(at)];
       const FreeParameter& free = own.objective.free()[static_cast<size_t>(at)];
+      // Wider than all that the fit considers: no normal distribution any more.
+      if (!(half < free.high - free.low)) {
+        intervals.warnings.push_back(of + "the curvature tells nothing of the " + fitParameterNames()[i]);
+        continue;
+      }
       // Rates stay rates.
       const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
       const double low = rate ? std::max(middle - half, 0.0) : middle - half;
@@ -198,8 +212,9 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
           (parameter == FitParameter::Threshold && fit.settings.logarithmic()))
         logSlope[k] = -1.0;
     }
-    if (logSlope.any()) {
-      const double half = z * std::sqrt(logSlope.dot(covariance * logSlope));
+    const double half = z * std::sqrt(logSlope.dot(covariance * logSlope));
+    // More than a factor of a thousand is no answer either.
+    if (logSlope.any() && half < 7.0) {
       const double slope = fit.conditions[c].slope;
       found[kFitParameters] = FitInterval{slope * std::exp(-half), slope * std::exp(half), false, false};
     }

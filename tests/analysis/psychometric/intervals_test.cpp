@@ -71,6 +71,26 @@ TEST(FitIntervals, PosteriorIsTheIntegralOfLikelihoodTimesPrior) {
   EXPECT_NEAR(above / sum, 0.025, 0.002);
 }
 
+// With a million answers a level posterior and profile are the same normal distribution.
+TEST(FitIntervals, PosteriorFindsNarrowPeaks) {
+  const CoverageExperiment experiment = coverageExperiment("2afc");
+  Condition condition = drawSet(experiment, 0);
+  for (Block& block : condition.blocks) {
+    block.correct *= 25000;
+    block.trials *= 25000;
+  }
+  const Fit fit = fitPsychometric({condition}, experiment.settings);
+  if (fit.conditions[0].atBound[indexOf(FitParameter::Lapse)] != 0)
+    GTEST_SKIP() << "the lapse rate is at its bound";
+  const auto posterior = posteriorIntervals({condition}, fit, 0.95).conditions[0];
+  const auto profile = profileIntervals({condition}, fit, 0.95).conditions[0];
+  for (const size_t i : {0, 1, 3}) {
+    const double size = profile[i]->high - profile[i]->low;
+    EXPECT_NEAR(posterior[i]->low, profile[i]->low, 0.05 * size);
+    EXPECT_NEAR(posterior[i]->high, profile[i]->high, 0.05 * size);
+  }
+}
+
 // The estimate falls with the count, so that its percentiles are those of a binomial count.
 TEST(FitIntervals, PercentilesAreThoseOfTheCounts) {
   const OneLevel one;
@@ -96,6 +116,25 @@ TEST(FitIntervals, BcaOfTheSlopeIsThatOfTheWidthTurnedOver) {
   const FitInterval width = *own[indexOf(FitParameter::Width)], slope = *own[kFitParameters];
   EXPECT_NEAR(slope.low, constant / width.high, 0.05 * slope.low);
   EXPECT_NEAR(slope.high, constant / width.low, 0.05 * slope.high);
+}
+
+// Samples of a step are the same step: an interval from one number to the same would be a lie.
+TEST(FitIntervals, BootstrapOfAStepSaysNothingAndTheProfileLeavesItOpen) {
+  FitSettings settings;
+  settings.task = readFitTask("yesno", "");
+  const std::vector<Condition> data = {
+      {"", {{1.0, 0, 20, 0.0}, {2.0, 0, 20, 0.0}, {3.0, 20, 20, 0.0}, {4.0, 20, 20, 0.0}}}};
+  const Fit fit = fitPsychometric(data, settings);
+  const FitIntervals none =
+      bootstrapIntervals(data, fit, bootstrap(data, fit, {50, 1, true, 2}), false, 0.95);
+  for (const auto& interval : none.conditions[0]) EXPECT_FALSE(interval);
+  EXPECT_EQ(none.warnings.size(), 1u);
+  for (const auto& interval : laplaceIntervals(data, fit, 0.95).conditions[0]) EXPECT_FALSE(interval);
+  const auto profile = profileIntervals(data, fit, 0.95).conditions[0];
+  ASSERT_TRUE(profile[0] && profile[1]);
+  EXPECT_LT(profile[0]->low, 2.2);
+  EXPECT_GT(profile[0]->high, 2.8);
+  EXPECT_TRUE(profile[1]->lowOpen);
 }
 
 TEST(Bootstrap, DoesNotDependOnThreadsAndDoesOnTheSeed) {
