@@ -113,10 +113,15 @@ TEST_F(CalibrateCommand, TakesWhatIsSetByEye) {
   const test::XServer server(800, 600);
   // The server states no size: the frame begins at a card on pixels of 0.25 mm or what the server makes up;
   // it is narrowed to the least, 20 px, and widened by 300. Then three squares are taken as they are.
-  std::string keys = "DISPLAY=" + server.display() + " xdotool search --sync --name 'Limen calibration' ";
-  for (int i = 0; i < 60; ++i) keys += "key Down ";
-  for (int i = 0; i < 30; ++i) keys += "key Up ";
-  keys += "key Return key Return key Return key Return";
+  // A slow machine may miss keys before the page is up: what sets the frame can be sent again and again, and
+  // Return is pressed until the window is gone.
+  const std::string find = "xdotool search --sync --name 'Limen calibration' ";
+  std::string frame = find;
+  for (int i = 0; i < 60; ++i) frame += "key Down ";
+  for (int i = 0; i < 30; ++i) frame += "key Up ";
+  const std::string keys =
+      "export DISPLAY=" + server.display() + "\nfor round in 1 2 3; do " + frame +
+      "; sleep 1; done\nwhile xdotool search --name 'Limen calibration' key Return; do sleep 0.3; done";
   std::ofstream(path("keys.sh")) << keys << "\n";
   const Called made =
       call("-u WAYLAND_DISPLAY DISPLAY=" + server.display() + " sh -c 'sh " + path("keys.sh") +
