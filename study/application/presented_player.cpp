@@ -25,11 +25,13 @@ struct PresentedPlayer::Prepared : PictureSource {
 };
 
 PresentedPlayer::PresentedPlayer(UiWindow& window, const Protocol& protocol,
-                                 const perception::DisplayProfile& display, bool anyTiming)
+                                 const perception::DisplayProfile& display, bool anyTiming,
+                                 const PhotodiodePatch& patch)
     : window_(window),
       protocol_(protocol),
       display_(display),
       anyTiming_(anyTiming),
+      patch_(patch),
       screen_(window, display) {}
 
 PresentedPlayer::~PresentedPlayer() { window_.context().makeCurrent(); }
@@ -74,6 +76,7 @@ PlayResult PresentedPlayer::play(const std::function<bool()>& goOn) {
   window_.context().makeCurrent();
   PresenterSetting setting;
   setting.background = protocol_.window.background;
+  setting.patch = patch_;
   setting.stop = [](const ScreenEvent& event) {
     return event.kind == ScreenEvent::Kind::Close ? std::string("stopped") : std::string();
   };
@@ -90,7 +93,9 @@ PlayResult PresentedPlayer::play(const std::function<bool()>& goOn) {
 }
 
 nlohmann::json PresentedPlayer::environment() const {
-  return {{"paced_by_timer", screen_.pacedByTimer()}, {"timing_checked", !anyTiming_}};
+  return {{"paced_by_timer", screen_.pacedByTimer()},
+          {"timing_checked", !anyTiming_},
+          {"photodiode_patch_px", patch_.sizePx}};
 }
 
 }  // namespace limen::study

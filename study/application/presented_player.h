@@ -7,6 +7,7 @@
 #include "perception/vision/display.h"
 #include "study/application/stimulus_player.h"
 #include "study/application/ui_screen.h"
+#include "study/presentation/presenter.h"
 #include "study/protocol/protocol.h"
 #include "study/stimulus/stage.h"
 
@@ -16,8 +17,9 @@ namespace limen::study {
 class PresentedPlayer : public StimulusPlayer {
  public:
   /// `anyTiming`: trials count whatever their frames' times, for trying things out.
+  /// `patch`: a square for a light sensor, to be covered by it: it tells when something changes.
   PresentedPlayer(UiWindow& window, const Protocol& protocol, const perception::DisplayProfile& display,
-                  bool anyTiming);
+                  bool anyTiming, const PhotodiodePatch& patch = {});
   ~PresentedPlayer() override;
 
   void prepare(const Trial& trial, const Session& session, const std::function<void()>& idle) override;
@@ -33,6 +35,7 @@ class PresentedPlayer : public StimulusPlayer {
   const Protocol& protocol_;
   perception::DisplayProfile display_;
   bool anyTiming_;
+  PhotodiodePatch patch_;
   UiScreen screen_;
   StageCache stages_;
   std::unique_ptr<Prepared> prepared_;

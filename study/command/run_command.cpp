@@ -26,7 +26,7 @@ namespace {
 struct Options {
   std::string protocol, participant, session = "1", store, display, screenshots;
   std::optional<uint64_t> seed;
-  std::string window;
+  std::string window, photodiode;
   int monitor = 0;
   double scale = 0.0;
   bool resume = false, fullScreen = false, announce = false, anyTiming = false, experimenter = false;
@@ -39,6 +39,17 @@ uint64_t seedOf(const Protocol& protocol, const Options& options) {
   const std::string hash = sha256(protocol.hash + "/" + options.participant + "/" + options.session);
   // 15 digits: below 2^60, which every reader of JSON keeps.
   return std::stoull(hash.substr(0, 15), nullptr, 16);
+}
+
+/// "lower_left:64".
+PhotodiodePatch patchOf(const std::string& text) {
+  if (text.empty()) return {};
+  const size_t colon = text.find(':');
+  const std::string size = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (size.empty() || size.size() > 4 || size.find_first_not_of("0123456789") != std::string::npos ||
+      std::stoi(size) < 1)
+    throw Error("'" + text + "' is no patch", "--photodiode", "write CORNER:PIXELS, such as lower_left:64");
+  return {std::stoi(size), cornerOf(text.substr(0, colon))};
 }
 
 glm::ivec2 sizeOf(const std::string& text) {
@@ -138,7 +149,7 @@ void runStudy(const Options& options, Run& run) {
   if (options.experimenter)
     experimenter = std::make_unique<ExperimenterWindow>(options.experimenterMonitor, window->scale(),
                                                         experimenterNotes());
-  PresentedPlayer player(*window, protocol, request.display, options.anyTiming);
+  PresentedPlayer player(*window, protocol, request.display, options.anyTiming, patchOf(options.photodiode));
   player.checkFit();
 
   WindowFrontEnd::Setting setting;
@@ -204,6 +215,10 @@ void addRunCommand(CLI::App& app, Run& run) {
   command->add_flag("--announce", options->announce, "Prints the name of every screen when it is shown");
   command->add_flag("--any-timing", options->anyTiming,
                     "Trials count even if frames were late: for trying things out, not for data");
+  command->add_option(
+      "--photodiode", options->photodiode,
+      "A square for a light sensor, CORNER:PIXELS (lower_left:64): white once a stimulus has changed, "
+      "else on every other frame. The sensor must cover it: it gives answers away");
   command->add_flag("--experimenter-window", options->experimenter,
                     "A second window: progress, timing, notes");
   command->add_option("--experimenter-monitor", options->experimenterMonitor, "Monitor of that window")
