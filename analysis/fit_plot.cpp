@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -15,16 +14,6 @@ namespace limen::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Okabe and Ito's colours, told apart with any colour vision.
-constexpr std::array<const char*, 7> kColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
-                                                 "#B07C00", "#2E86C1", "#444444"};
-
-std::string terminal(const std::string& extension) {
-  if (extension == ".svg") return "svg size 720,480 dynamic font 'system-ui, sans-serif,13'";
-  if (extension == ".png") return "pngcairo size 1440,960 font 'sans,20' linewidth 2";
-  return "pdfcairo size 14cm,9.3cm font 'sans,10'";
-}
 
 /// Three data blocks a condition: answers, curve, threshold.
 std::string dataOf(const FitAnswer& answer, double low, double high) {
@@ -85,7 +74,7 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
   const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
-                    terminal(extension) + "\nset output " + gnuplotQuoted(file.filename().string()) +
+                    gnuplotTerminal(extension) + "\nset output " + gnuplotQuoted(file.filename().string()) +
                     "\nset encoding utf8\nset border 3\nset tics nomirror out\nset key left top Left reverse "
                     "noenhanced samplen 2\nset xlabel 'level' noenhanced\nset ylabel 'share of correct or "
                     "positive answers' noenhanced\nset yrange [0:1.02]\n" +
@@ -93,7 +82,7 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
                     (settings.logarithmic() ? "set logscale x\n" : "") + "plot ";
   const std::string data = gnuplotQuoted(stem + ".dat");
   for (size_t c = 0; c < answer.data.size(); ++c) {
-    const char* colour = kColours[c % kColours.size()];
+    const char* colour = kChartColours[c % kChartColours.size()];
     const std::string name = answer.data[c].name;
     out += fmt::format("{}{} index {} using 1:2 with points pt 7 ps 0.7 lc rgb '{}' notitle, ", c ? ", " : "",
                        data, 3 * c, colour);

@@ -21,6 +21,12 @@ std::string gnuplotQuoted(const std::string& text) {
   return out + "'";
 }
 
+std::string gnuplotTerminal(const std::string& extension) {
+  if (extension == ".svg") return "svg size 720,480 dynamic font 'system-ui, sans-serif,13'";
+  if (extension == ".png") return "pngcairo size 1440,960 font 'sans,20' linewidth 2";
+  return "pdfcairo size 14cm,9.3cm font 'sans,10'";
+}
+
 void runGnuplot(const std::string& folder, const std::string& file) {
   std::array<int, 2> messages{};
   if (pipe(messages.data()) != 0) throw Error("no pipe can be made", "gnuplot");

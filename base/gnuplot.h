@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace limen {
 
 /// A text as gnuplot's single-quoted string; control characters become blanks.
 std::string gnuplotQuoted(const std::string& text);
+
+/// Okabe and Ito's colours, told apart with any colour vision; dashes tell apart what comes after.
+inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
+                                                             "#B07C00", "#2E86C1", "#444444"};
+
+/// Terminal and size of a chart in a file of its own: ".svg", ".png", anything else PDF.
+std::string gnuplotTerminal(const std::string& extension);
 
 /// Runs a script that lies in `folder`, with that as its working folder. Throws Error: gnuplot is missing
 /// (with the package to install) or fails (with what it said).

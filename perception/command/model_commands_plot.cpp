@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -15,20 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Okabe and Ito's colours, told apart with any colour vision; dashes tell apart what comes after.
-constexpr std::array<const char*, 7> kColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
-                                                 "#B07C00", "#2E86C1", "#444444"};
-
-std::string terminal(const std::string& extension) {
-  if (extension == ".svg") return "svg size 720,480 dynamic font 'system-ui, sans-serif,13'";
-  if (extension == ".png") return "pngcairo size 1440,960 font 'sans,20' linewidth 2";
-  return "pdfcairo size 14cm,9.3cm font 'sans,10'";
-}
-
 std::string script(const Plot& plot, const fs::path& file) {
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
-                    terminal(file.extension().string()) + "\nset output " +
+                    gnuplotTerminal(file.extension().string()) + "\nset output " +
                     gnuplotQuoted(file.filename().string()) +
                     "\nset encoding utf8\nset border 3\nset tics nomirror out\nset logscale xy\n"
                     "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
@@ -41,8 +30,9 @@ std::string script(const Plot& plot, const fs::path& file) {
     curves += fmt::format(
         "{0}{1} index {2} using 1:2 with lines lw 2.5 dt {3} lc rgb '{4}' title {5}"
         ", \\\n  '' index {2} using 1:3 with lines lw 1 dt {3} lc rgb '{4}' notitle",
-        i == 0 ? "" : ", \\\n  ", i == 0 ? gnuplotQuoted(stem + ".dat") : "''", i, 1 + i / kColours.size(),
-        kColours[i % kColours.size()], gnuplotQuoted(plot.curves[i].name));
+        i == 0 ? "" : ", \\\n  ", i == 0 ? gnuplotQuoted(stem + ".dat") : "''", i,
+        1 + i / kChartColours.size(), kChartColours[i % kChartColours.size()],
+        gnuplotQuoted(plot.curves[i].name));
   return out + "plot " + curves + "\n";
 }
 
