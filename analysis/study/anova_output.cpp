@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/study/anova.h"
-#include "analysis/study/text_table.h"
-#include "analysis/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/output/text_output.h"
 #include "base/text.h"
 
 namespace limen::analysis {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/study/rates.h"
-#include "analysis/study/text_table.h"
-#include "analysis/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/output/text_output.h"
 
 namespace limen::analysis {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "analysis/study/text_table.h"
-#include "analysis/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/output/text_output.h"
 
 namespace limen::analysis {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/study/text_table.h"
+#include "analysis/output/text_table.h"
 #include "analysis/study/validation.h"
-#include "analysis/text_output.h"
+#include "analysis/output/text_output.h"
 #include "base/text.h"
 
 namespace limen::analysis {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/report.h"
-#include "analysis/text_output.h"
+#include "analysis/output/text_output.h"
+#include "analysis/sweep/report.h"
 #include "tests/analysis/synthetic_store.h"
 
 namespace limen::analysis {

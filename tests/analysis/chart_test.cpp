@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/chart.h"
+#include "analysis/sweep/chart.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/crossing.h"
+#include "analysis/sweep/crossing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/analysis/synthetic_store.h"
+#include "tests/run_program.h"
 
 namespace limen::analysis {
 namespace {
@@ -21,21 +22,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-struct Outcome {
-  int code = -1;
-  std::string text;
-};
-
-Outcome fit(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(LIMEN_BIN_DIR "/limen-analyse fit ") + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.text.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
+ProgramRun fit(const std::string& arguments) { return runProgram("limen-analyse fit " + arguments); }
 
 constexpr const char* kClassic =
     ".0010,45\n.0015,50\n.0020,44\n.0025,44\n.0030,52\n.0035,53\n.0040,62\n.0045,64\n.0050,76\n.0060,79\n."
@@ -64,7 +51,7 @@ class FitProgram : public testing::Test {
 
 TEST_F(FitProgram, SaysTheClassicAnswerInJson) {
   const std::string file = write("classic.csv", classicTable({"a"}));
-  const Outcome outcome = fit(
+  const ProgramRun outcome = fit(
       file + columns_ + "--by condition --task 2afc --sigmoid normal --method ml --json --intervals profile");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
@@ -95,7 +82,8 @@ TEST_F(FitProgram, TakesSingleTrialsAsItTakesCounts) {
       rows += std::to_string(when++) + "\t" + line.substr(0, comma) + "\t" +
               (i < std::stoi(line.substr(comma + 1)) ? "1\n" : "0\n");
   }
-  const Outcome outcome = fit(write("trials.tsv", rows) + " --x level --outcome right --order when --json");
+  const ProgramRun outcome =
+      fit(write("trials.tsv", rows) + " --x level --outcome right --order when --json");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
   EXPECT_NEAR(answer.at("conditions").at(0).at("threshold").get<double>(), 0.0046478171, 2e-10);
@@ -105,7 +93,7 @@ TEST_F(FitProgram, TakesSingleTrialsAsItTakesCounts) {
 TEST_F(FitProgram, SharesComparesAndDraws) {
   const std::string file = write("two.csv", classicTable({"a", "b"}));
   const std::string picture = folder_.path("fit.svg");
-  const Outcome outcome =
+  const ProgramRun outcome =
       fit(file + columns_ + "--by condition --share lapse,width --json --plot " + picture);
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
@@ -120,7 +108,7 @@ TEST_F(FitProgram, SharesComparesAndDraws) {
 TEST_F(FitProgram, RepeatsItselfAndWritesTablesForPeopleAndPrograms) {
   const std::string file = write("classic.csv", classicTable({"a"}));
   const std::string call = file + columns_ + "--intervals bca --samples 100 --goodness --seed 4 ";
-  const Outcome one = fit(call + "--threads 1"), two = fit(call + "--threads 2");
+  const ProgramRun one = fit(call + "--threads 1"), two = fit(call + "--threads 2");
   ASSERT_EQ(one.code, 0) << one.text;
   EXPECT_EQ(one.text, two.text);
   EXPECT_THAT(one.text, HasSubstr("threshold       0.004647817"));
@@ -153,7 +141,7 @@ TEST_F(FitProgram, RefusesBadInputWithCodeTwoAndOneLine) {
        "text.csv:2, column 'correct': 'x' is not a number"},
       {write("one.csv", "level,correct,trials\n1,1,10\n") + columns_, "one level"}};
   for (const auto& [arguments, words] : cases) {
-    const Outcome outcome = fit(arguments);
+    const ProgramRun outcome = fit(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(words)) << arguments;
     EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;

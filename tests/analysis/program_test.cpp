@@ -8,27 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/analysis/synthetic_store.h"
+#include "tests/run_program.h"
 
 namespace limen::analysis {
 namespace {
 
 using testing::HasSubstr;
 
-struct Outcome {
-  int code = -1;
-  std::string text;
-};
-
-Outcome analyse(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(LIMEN_BIN_DIR "/limen-analyse ") + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.text.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
+ProgramRun analyse(const std::string& arguments) { return runProgram("limen-analyse " + arguments); }
 
 TEST(AnalyseProgram, WritesAReportAndSaysWhere) {
   const TemporaryFolder folder;
@@ -38,7 +25,8 @@ TEST(AnalyseProgram, WritesAReportAndSaysWhere) {
     experiment.title = "t";
     writeExperiment(store, experiment, {makeRun("a", "s", 1, {1}, 0.5)});
   }
-  const Outcome outcome = analyse("report " + folder.path("s.sqlite") + " --json -o " + folder.path("out"));
+  const ProgramRun outcome =
+      analyse("report " + folder.path("s.sqlite") + " --json -o " + folder.path("out"));
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const nlohmann::json line = nlohmann::json::parse(outcome.text);
   EXPECT_EQ(line.at("event"), "report");
@@ -64,7 +52,7 @@ TEST(AnalyseProgram, RefusesBadInputWithCodeTwoAndOneLine) {
       {"reprot x", "reprot"},
       {"", "subcommand"}};
   for (const auto& [arguments, words] : cases) {
-    const Outcome outcome = analyse(arguments);
+    const ProgramRun outcome = analyse(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(words)) << arguments;
   }

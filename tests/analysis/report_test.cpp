@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/report.h"
+#include "analysis/sweep/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/text_output.h"
+#include "analysis/output/text_output.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "tests/analysis/synthetic_store.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "analysis/trade_off.h"
+#include "analysis/sweep/trade_off.h"
 
 namespace limen::analysis {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/sweep.h"
+#include "analysis/sweep/sweep.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/switch_distances.h"
+#include "analysis/sweep/switch_distances.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

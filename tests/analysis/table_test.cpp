@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/table.h"
+#include "analysis/data/table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

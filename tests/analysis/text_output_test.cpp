@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/text_output.h"
+#include "analysis/output/text_output.h"
 
 #include <gtest/gtest.h>
 

@@ -41,17 +41,17 @@ TEST_F(PlantedTree, AllowedIncludesPass) {
   plant("renderer/references/area/area.cpp", "#include \"renderer/techniques/technique.h\"\n");
   plant("renderer/gl/context.cpp", "#include <epoxy/egl.h>\n");
   plant("experiments/runner.cpp", "#include \"experiments/store/store.h\"\n#include <glm/glm.hpp>\n");
-  plant("analysis/report.cpp", "#include \"experiments/store/store.h\"\n#include \"base/text.h\"\n");
+  plant("analysis/sweep/report.cpp", "#include \"experiments/store/store.h\"\n#include \"base/text.h\"\n");
   plant("tests/renderer/inside_test.cpp", "#include \"renderer/techniques/soft_shadows/hard/hard.h\"\n");
   EXPECT_THAT(checkIncludes(root_), IsEmpty());
 }
 
 TEST_F(PlantedTree, AnIncludeAgainstTheDirectionIsFoundWithItsLine) {
   plant("renderer/gl/texture.h", "// first line\n#  include \"renderer/scene/scene.h\"\n");
-  plant("analysis/report.cpp", "#include \"experiments/executor.h\"\n");
+  plant("analysis/sweep/report.cpp", "#include \"experiments/executor.h\"\n");
   plant("perception/flip.comp.glsl", "#include \"renderer/frame/frame.glsl\"\n");
   EXPECT_THAT(checkIncludes(root_),
-              ElementsAre(HasSubstr("analysis/report.cpp:1: includes experiments/executor.h"),
+              ElementsAre(HasSubstr("analysis/sweep/report.cpp:1: includes experiments/executor.h"),
                           HasSubstr("perception/flip.comp.glsl:1:"), HasSubstr("renderer/gl/texture.h:2:")));
 }
 
@@ -73,7 +73,7 @@ TEST_F(PlantedTree, AReferenceSharesOnlyTheInterfaceOfTechniques) {
 }
 
 TEST_F(PlantedTree, OpenGlInAModuleWithoutItIsFound) {
-  plant("analysis/fit.cpp", "#include <epoxy/gl.h>\n#include <glm/glm.hpp>\n");
+  plant("analysis/fits/fit.cpp", "#include <epoxy/gl.h>\n#include <glm/glm.hpp>\n");
   plant("base/window.h", "#include <GLFW/glfw3.h>\n");
   plant("renderer/scene/upload.cpp", "#include <GL/gl.h>\n");
   EXPECT_THAT(checkIncludes(root_), SizeIs(3));

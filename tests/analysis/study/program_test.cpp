@@ -11,6 +11,7 @@
 
 #include "tests/analysis/study/hand_made.h"
 #include "tests/analysis/synthetic_store.h"
+#include "tests/run_program.h"
 
 namespace limen::analysis {
 namespace {
@@ -18,31 +19,16 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-struct Outcome {
-  int code = -1;
-  std::string text;
-};
-
-Outcome runProgram(const std::string& call) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(LIMEN_BIN_DIR "/") + call + " 2>&1").c_str(), "r");
-  char buffer[4096];
-  while (const size_t read = fread(buffer, 1, sizeof buffer, pipe)) outcome.text.append(buffer, read);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
 TEST(AnalyseStudyProgram, SimulatedExperimentOne) {
   const TemporaryFolder folder;
   const std::string store = folder.path("s.sqlite");
-  const Outcome simulated =
+  const ProgramRun simulated =
       runProgram("limen-study simulate experiment_1 --observers 8 --seed 3 --quiet --json --store " + store);
   ASSERT_EQ(simulated.code, 0) << simulated.text;
   const json truth = json::parse(simulated.text).at("summary").at("parts").at(0);
 
   // The simulation sums up by itself what it made.
-  const Outcome rates = runProgram("limen-analyse rates --no-exclusions --json " + store);
+  const ProgramRun rates = runProgram("limen-analyse rates --no-exclusions --json " + store);
   ASSERT_EQ(rates.code, 0) << rates.text;
   for (const json& row : json::parse(rates.text).at("rates").at("rates")) {
     if (row.at("scope") != "part") continue;
@@ -54,7 +40,7 @@ TEST(AnalyseStudyProgram, SimulatedExperimentOne) {
 
   // The simulated observers see what the protocol says: large effects of the change of level and of distance.
   // Degrees of freedom as in the thesis.
-  const Outcome anova = runProgram("limen-analyse anova --no-exclusions --json " + store);
+  const ProgramRun anova = runProgram("limen-analyse anova --no-exclusions --json " + store);
   ASSERT_EQ(anova.code, 0) << anova.text;
   const json part = json::parse(anova.text).at("anova").at(0);
   EXPECT_EQ(part.at("observers"), 8);
@@ -70,10 +56,10 @@ TEST(AnalyseStudyProgram, SimulatedExperimentOne) {
   }
   EXPECT_EQ(effects["lod_change x switch_distance"].at("published").at("f"), 3.139);
   EXPECT_TRUE(effects["lod_change x presentation"].at("published").is_null());
-  const Outcome text = runProgram("limen-analyse anova --no-exclusions " + store);
+  const ProgramRun text = runProgram("limen-analyse anova --no-exclusions " + store);
   EXPECT_THAT(text.text, HasSubstr("F(1,7) = 98.926"));
 
-  const Outcome sdt = runProgram("limen-analyse sdt --json --no-exclusions " + store);
+  const ProgramRun sdt = runProgram("limen-analyse sdt --json --no-exclusions " + store);
   ASSERT_EQ(sdt.code, 0) << sdt.text;
   EXPECT_EQ(json::parse(sdt.text).at("sdt").at(0).at("d_prime").at("observers"), 8);
 }
@@ -87,7 +73,7 @@ TEST(AnalyseStudyProgram, ListsWhatWasLeftOut) {
   addHandMadeSession(store, "guesser", protocol,
                      trials({{"d", "a"}}, 1, 2) + trials({{"d", "a"}}, 2, 2, false));
   for (const char* command : {"rates", "anova", "sdt"}) {
-    const Outcome outcome = runProgram(std::string("limen-analyse ") + command + " " + store);
+    const ProgramRun outcome = runProgram(std::string("limen-analyse ") + command + " " + store);
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr("left out by catch_rate_above: guesser, 4 answers")) << command;
   }
@@ -99,7 +85,7 @@ TEST(AnalyseStudyProgram, ListsWhatWasLeftOut) {
   EXPECT_THAT(table, HasSubstr("main,observer,guesser,0,yes,1,1,"));
 
   EXPECT_EQ(runProgram("limen-analyse rates " + folder.path("none.sqlite")).code, 2);
-  const Outcome guess = runProgram("limen-analyse validate --guess often " + store);
+  const ProgramRun guess = runProgram("limen-analyse validate --guess often " + store);
   EXPECT_EQ(guess.code, 2);
   EXPECT_THAT(guess.text, HasSubstr("--guess"));
 }

@@ -11,37 +11,24 @@
 #include <nlohmann/json.hpp>
 
 #include "perception/vision/display.h"
+#include "tests/run_program.h"
 #include "tests/study/application/x_server.h"
 
 namespace limen::study {
 namespace {
 
-struct Called {
-  int code = -1;
-  std::string output;  ///< both streams
-};
-
-Called call(const std::string& environment, const std::string& arguments) {
-  const std::string line = "env " + environment + " " + LIMEN_BIN_DIR + "/limen-study " + arguments + " 2>&1";
-  Called out;
-  FILE* pipe = popen(line.c_str(), "r");
-  if (!pipe) return out;
-  std::array<char, 4096> buffer{};
-  for (size_t read = 0; (read = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    out.output.append(buffer.data(), read);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) out.code = WEXITSTATUS(status);
-  return out;
+ProgramRun call(const std::string& environment, const std::string& arguments) {
+  return runProgram("limen-study " + arguments, environment);
 }
 
-bool says(const Called& called, const std::string& text) {
-  return called.output.find(text) != std::string::npos;
+bool says(const ProgramRun& called, const std::string& text) {
+  return called.text.find(text) != std::string::npos;
 }
 
 TEST(TimingCommand, FindsWhatAVirtualDisplayDrops) {
-  const Called found = call("-u DISPLAY", "timing-test --virtual 144 --drop 30,90,91 --seconds 2 --json");
+  const ProgramRun found = call("-u DISPLAY", "timing-test --virtual 144 --drop 30,90,91 --seconds 2 --json");
   EXPECT_EQ(found.code, 1);
-  const auto report = nlohmann::json::parse(found.output);
+  const auto report = nlohmann::json::parse(found.text);
   EXPECT_EQ(report.at("missed_blanks"), 3);
   std::vector<int> swaps;
   for (const auto& event : report.at("events")) swaps.push_back(event.at("swap").get<int>());
@@ -53,15 +40,15 @@ TEST(TimingCommand, FindsWhatAVirtualDisplayDrops) {
 
 TEST(TimingCommand, CallsASoftwareRendererOnAVirtualServerNoLab) {
   const test::XServer server(320, 240);
-  const Called found =
+  const ProgramRun found =
       call("-u WAYLAND_DISPLAY DISPLAY=" + server.display(), "timing-test --windowed --seconds 0.5");
-  EXPECT_EQ(found.code, 1) << found.output;
+  EXPECT_EQ(found.code, 1) << found.text;
   for (const char* reason : {"software renderer", "no refresh rate", "not full screen", "not fit for a lab"})
     EXPECT_TRUE(says(found, reason)) << reason;
 }
 
 TEST(TimingCommand, WithoutAWindowSystemSaysSo) {
-  const Called found = call("-u DISPLAY -u WAYLAND_DISPLAY", "timing-test");
+  const ProgramRun found = call("-u DISPLAY -u WAYLAND_DISPLAY", "timing-test");
   EXPECT_EQ(found.code, 2);
   EXPECT_TRUE(says(found, "no window system"));
 }
@@ -85,8 +72,8 @@ TEST_F(CalibrateCommand, WritesAProfileFromReadings) {
   readings.close();
   const std::string arguments =
       "calibrate -o " + path("lab.yaml") + size_ + "--readings " + path("readings.csv");
-  const Called made = call("-u DISPLAY", arguments);
-  ASSERT_EQ(made.code, 0) << made.output;
+  const ProgramRun made = call("-u DISPLAY", arguments);
+  ASSERT_EQ(made.code, 0) << made.text;
   const perception::DisplayProfile profile = perception::readDisplay(path("lab.yaml"));
   EXPECT_EQ(profile.transfer, perception::TransferCurve::Gamma);
   EXPECT_NEAR(profile.gamma, 2.35, 1e-4);
@@ -103,9 +90,9 @@ TEST_F(CalibrateCommand, AsksForWhatItCannotKnow) {
   const std::string arguments = "calibrate -o " + path("lab.yaml") + size_;
   EXPECT_TRUE(says(call("-u DISPLAY", arguments), "luminance of black and white"));
   EXPECT_TRUE(says(call("-u DISPLAY", arguments + "--black-cd-m2 0.3 --peak-cd-m2 200"), "transfer curve"));
-  const Called matched =
+  const ProgramRun matched =
       call("-u DISPLAY", arguments + "--black-cd-m2 0.3 --peak-cd-m2 200 --match 0.25=0.5,0.0625=0.25");
-  EXPECT_EQ(matched.code, 0) << matched.output;
+  EXPECT_EQ(matched.code, 0) << matched.text;
   EXPECT_NEAR(perception::readDisplay(path("lab.yaml")).gamma, 2.0, 1e-9);
 }
 
@@ -123,12 +110,12 @@ TEST_F(CalibrateCommand, TakesWhatIsSetByEye) {
       "export DISPLAY=" + server.display() + "\nfor round in 1 2 3; do " + frame +
       "; sleep 1; done\nwhile xdotool search --name 'Limen calibration' key Return; do sleep 0.3; done";
   std::ofstream(path("keys.sh")) << keys << "\n";
-  const Called made =
+  const ProgramRun made =
       call("-u WAYLAND_DISPLAY DISPLAY=" + server.display() + " sh -c 'sh " + path("keys.sh") +
                " > /dev/null & exec \"$0\" \"$@\"'",
            "calibrate -o " + path("eye.yaml") +
                " --interactive --distance-cm 60 --refresh-hz 60 --black-cd-m2 0.3 --peak-cd-m2 200");
-  ASSERT_EQ(made.code, 0) << made.output;
+  ASSERT_EQ(made.code, 0) << made.text;
   const perception::DisplayProfile profile = perception::readDisplay(path("eye.yaml"));
   EXPECT_EQ(profile.resolutionPx, glm::ivec2(800, 600));
   EXPECT_NEAR(profile.widthM, 0.0856 / 320.0 * 800.0, 1e-9);

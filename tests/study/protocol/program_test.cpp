@@ -8,39 +8,28 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/run_program.h"
+
 namespace limen {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
 
-struct Output {
-  int code = 0;
-  std::string text;
-};
-
-Output study(const std::string& arguments) {
-  FILE* pipe =
-      popen((std::string(LIMEN_BIN_DIR "/limen-study protocol ") + arguments + " 2>&1").c_str(), "r");
-  Output out;
-  char buffer[4096];
-  while (const size_t read = fread(buffer, 1, sizeof buffer, pipe)) out.text.append(buffer, read);
-  out.code = WEXITSTATUS(pclose(pipe));
-  return out;
-}
+ProgramRun study(const std::string& arguments) { return runProgram("limen-study protocol " + arguments); }
 
 TEST(ProtocolCommand, ListsAndShows) {
-  const Output list = study("");
+  const ProgramRun list = study("");
   EXPECT_EQ(list.code, 0);
   for (const char* name : {"experiment_1", "experiment_2", "threshold_2ifc", "quality_pairs", "quick"})
     EXPECT_THAT(list.text, HasSubstr(name));
-  const Output quick = study("quick --participant-number 2 --seed 5");
+  const ProgramRun quick = study("quick --participant-number 2 --seed 5");
   EXPECT_EQ(quick.code, 0);
   EXPECT_THAT(quick.text, HasSubstr("participant 2, seed 5: 6 trials"));
 }
 
 TEST(ProtocolCommand, JsonAgreesWithItself) {
-  const Output output = study("quick --json --seed 5");
+  const ProgramRun output = study("quick --json --seed 5");
   ASSERT_EQ(output.code, 0) << output.text;
   const json shown = json::parse(output.text);
   EXPECT_EQ(shown["trials"], 6);
@@ -56,11 +45,11 @@ TEST(ProtocolCommand, ChecksFilesAndRefusesBadOnes) {
   EXPECT_EQ(study("quick experiment_1 --check").code, 0);
   const std::string bad = testing::TempDir() + "/bad_protocol.yaml";
   std::ofstream(bad) << "title: t\ntask: {type: yes_no, question: q}\n";
-  const Output refused = study("--check " + bad);
+  const ProgramRun refused = study("--check " + bad);
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.text, HasSubstr("bad_protocol.yaml:1:1: 'question' is missing"));
   EXPECT_THAT(refused.text, HasSubstr("'stimulus' is missing"));
-  const Output unknown = study("quik");
+  const ProgramRun unknown = study("quik");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.text, HasSubstr("did you mean 'quick'?"));
   EXPECT_EQ(study("quick --participant-number -1").code, 2);

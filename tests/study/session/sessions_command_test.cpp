@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "study/protocol/declarations.h"
+#include "tests/run_program.h"
 #include "tests/study/session/session_fixture.h"
 
 namespace limen::study {
@@ -18,21 +19,7 @@ using testing::HasSubstr;
 
 class SessionsCommandTest : public SessionStoreTest {
  protected:
-  struct Called {
-    int exitCode = 0;
-    std::string out;
-  };
-  Called call(const std::string& arguments) const {
-    Called called;
-    const std::string line = std::string("'") + LIMEN_BIN_DIR + "/limen-study' " + arguments + " 2>&1";
-    FILE* pipe = popen(line.c_str(), "r");
-    std::array<char, 4096> buffer{};
-    for (size_t got = 0; (got = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-      called.out.append(buffer.data(), got);
-    const int status = pclose(pipe);
-    called.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return called;
-  }
+  static ProgramRun call(const std::string& arguments) { return runProgram("limen-study " + arguments); }
 };
 
 TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
@@ -45,9 +32,9 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
   };
   run(protocol, paused);
 
-  const Called listed = call("sessions " + request_.store + " --json");
-  ASSERT_EQ(listed.exitCode, 0) << listed.out;
-  std::istringstream lines(listed.out);
+  const ProgramRun listed = call("sessions " + request_.store + " --json");
+  ASSERT_EQ(listed.code, 0) << listed.text;
+  std::istringstream lines(listed.text);
   std::string line;
   std::getline(lines, line);
   const nlohmann::json first = nlohmann::json::parse(line);
@@ -62,11 +49,11 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
   EXPECT_EQ(second["state"], "paused");
   EXPECT_EQ(second["answered"], 2);  // two of practice, then numbers 2 and 3
   EXPECT_EQ(second["invalid"], 1);
-  EXPECT_THAT(call("sessions " + request_.store).out, AllOf(HasSubstr("p01"), HasSubstr("2/6")));
+  EXPECT_THAT(call("sessions " + request_.store).text, AllOf(HasSubstr("p01"), HasSubstr("2/6")));
 
-  const Called replayed = call("replay " + request_.store + " p01 --json");
-  ASSERT_EQ(replayed.exitCode, 0) << replayed.out;
-  const nlohmann::json replay = nlohmann::json::parse(replayed.out);
+  const ProgramRun replayed = call("replay " + request_.store + " p01 --json");
+  ASSERT_EQ(replayed.code, 0) << replayed.text;
+  const nlohmann::json replay = nlohmann::json::parse(replayed.text);
   EXPECT_EQ(replay["verified"], true);
   ASSERT_EQ(replay["trials"].size(), frontEnd.trials.size());
   for (size_t i = 0; i < frontEnd.trials.size(); ++i) {
@@ -78,7 +65,7 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
     EXPECT_EQ(trial["stimulus_hashes"][0], stimulusHash(frontEnd.trials[i].stimuli[0]));
     EXPECT_EQ(trial["seed"], std::to_string(frontEnd.trials[i].seed));
   }
-  EXPECT_THAT(call("replay " + request_.store + " p02").out,
+  EXPECT_THAT(call("replay " + request_.store + " p02").text,
               AllOf(HasSubstr("invalid: paused"), HasSubstr("every row is what the events say")));
 
   sqlite3* database = nullptr;
@@ -86,9 +73,9 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
   sqlite3_exec(database, "DROP TRIGGER response_update; UPDATE response SET answer = 'maybe' WHERE trial = 3",
                nullptr, nullptr, nullptr);
   sqlite3_close(database);
-  const Called changed = call("replay " + request_.store + " p01");
-  EXPECT_EQ(changed.exitCode, 1);
-  EXPECT_THAT(changed.out, AllOf(HasSubstr("rows differ"), HasSubstr("trial 2: response: answer")));
+  const ProgramRun changed = call("replay " + request_.store + " p01");
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_THAT(changed.text, AllOf(HasSubstr("rows differ"), HasSubstr("trial 2: response: answer")));
 }
 
 TEST_F(SessionsCommandTest, WhatIsNotThereIsNamed) {
@@ -96,9 +83,9 @@ TEST_F(SessionsCommandTest, WhatIsNotThereIsNamed) {
   ScriptedFrontEnd frontEnd(protocol);
   run(protocol, frontEnd);
   const auto refused = [&](const std::string& arguments, const std::string& text) {
-    const Called called = call(arguments);
-    EXPECT_EQ(called.exitCode, 2) << called.out;
-    EXPECT_THAT(called.out, HasSubstr(text));
+    const ProgramRun called = call(arguments);
+    EXPECT_EQ(called.code, 2) << called.text;
+    EXPECT_THAT(called.text, HasSubstr(text));
   };
   refused("sessions " + path("none.sqlite"), "no such result store");
   refused("replay " + request_.store + " p10", "no participant 'p10'; did you mean 'p01'?");

@@ -13,25 +13,12 @@
 #include "perception/vision/display.h"
 #include "study/stimulus/prediction.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/run_program.h"
 
 namespace limen::study {
 namespace {
 
 using nlohmann::json;
-
-struct Output {
-  int code = 0;
-  std::string text;
-};
-
-Output runProgram(const std::string& call) {
-  FILE* pipe = popen((std::string(LIMEN_BIN_DIR "/") + call + " 2>&1").c_str(), "r");
-  Output out;
-  char buffer[4096];
-  while (const size_t read = fread(buffer, 1, sizeof buffer, pipe)) out.text.append(buffer, read);
-  out.code = WEXITSTATUS(pclose(pipe));
-  return out;
-}
 
 class PredictCommand : public gl::GlTest {
  protected:
@@ -50,10 +37,10 @@ class PredictCommand : public gl::GlTest {
 TEST_F(PredictCommand, PredictsWhatWasShownOnce) {
   ASSERT_EQ(runProgram("limen-study simulate quick --observers 3 --seed 2 --quiet --store " + store()).code,
             0);
-  const Output first = runProgram("limen-study predict --quiet --json " + store());
+  const ProgramRun first = runProgram("limen-study predict --quiet --json " + store());
   ASSERT_EQ(first.code, 0) << first.text;
   EXPECT_EQ(json::parse(first.text).at("made"), 2);  // two distances
-  const Output second = runProgram("limen-study predict --quiet --json " + store());
+  const ProgramRun second = runProgram("limen-study predict --quiet --json " + store());
   EXPECT_EQ(json::parse(second.text).at("made"), 0);
   EXPECT_EQ(json::parse(second.text).at("known"), 2);
 
@@ -75,23 +62,23 @@ TEST_F(PredictCommand, PredictsWhatWasShownOnce) {
     EXPECT_EQ(one.figures.at("region_count").get<size_t>(), popping.regions.size());
   }
 
-  const Output validated = runProgram("limen-analyse validate --json " + store());
+  const ProgramRun validated = runProgram("limen-analyse validate --json " + store());
   ASSERT_EQ(validated.code, 0) << validated.text;
   const json part = json::parse(validated.text).at("validation").at("parts").at(0);
   EXPECT_EQ(part.at("scenarios").size(), 2U);
 }
 
 TEST_F(PredictCommand, RefusesWhatItCannotDo) {
-  const Output none = runProgram("limen-study predict " + store());
+  const ProgramRun none = runProgram("limen-study predict " + store());
   EXPECT_EQ(none.code, 2);
   ASSERT_EQ(runProgram("limen-study simulate quick --observers 1 --quiet --store " + store()).code, 0);
-  const Output protocol = runProgram("limen-study predict --protocol quik " + store());
+  const ProgramRun protocol = runProgram("limen-study predict --protocol quik " + store());
   EXPECT_EQ(protocol.code, 2);
   EXPECT_THAT(protocol.text, testing::HasSubstr("quick"));
-  const Output setting = runProgram("limen-study predict --set region_treshold_jnd=1 " + store());
+  const ProgramRun setting = runProgram("limen-study predict --set region_treshold_jnd=1 " + store());
   EXPECT_EQ(setting.code, 2);
   EXPECT_THAT(setting.text, testing::HasSubstr("region_threshold_jnd"));
-  const Output validated = runProgram("limen-analyse validate " + store());
+  const ProgramRun validated = runProgram("limen-analyse validate " + store());
   EXPECT_EQ(validated.code, 2);
   EXPECT_THAT(validated.text, testing::HasSubstr("limen study predict"));
 }

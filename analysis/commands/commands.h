@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace limen::analysis {
+
+// Each adds its subcommands; their callbacks do the work and throw Error for bad input.
+
+void addSweepCommands(CLI::App& app);  ///< report, switch-distances
+void addFitCommand(CLI::App& app);     ///< fit
+void addStudyCommands(CLI::App& app);  ///< rates, anova, sdt, validate
+
+}  // namespace limen::analysis

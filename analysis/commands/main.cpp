@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+
+#include "analysis/commands/commands.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/program.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Says what sweeps and studies found. Needs no GPU.", "limen-analyse");
+  app.set_version_flag("--version", limen::versionText("limen-analyse"));
+  app.require_subcommand(1);
+  limen::analysis::addSweepCommands(app);
+  limen::analysis::addFitCommand(app);
+  limen::analysis::addStudyCommands(app);
+  return limen::runProgram(app, argc, argv, limen::kExitSuccess);
+}

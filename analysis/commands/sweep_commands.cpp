@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen analyse report, switch-distances: what sweeps found.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "analysis/commands/commands.h"
+#include "analysis/output/text_output.h"
+#include "analysis/sweep/report.h"
+#include "analysis/sweep/switch_distances.h"
+#include "base/error.h"
+
+namespace limen::analysis {
+namespace {
+
+void print(const ReportResult& result, bool json) {
+  if (json) {
+    const nlohmann::json line = {
+        {"event", "report"},         {"page", result.page},
+        {"title", result.title},     {"experiment", result.hash},
+        {"runs", result.runs},       {"failed", result.failed},
+        {"missing", result.missing}, {"broken_expectations", result.brokenExpectations}};
+    std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::printf("%s\n", result.page.c_str());
+  }
+}
+
+void runSwitchDistances(const SwitchOptions& options, bool json) {
+  const std::vector<SwitchReport> reports = findSwitchDistances(options);
+  for (const SwitchReport& report : reports) {
+    if (!options.folder.empty()) {
+      std::filesystem::path folder = options.folder;
+      if (reports.size() > 1) folder /= slug(report.title);
+      std::filesystem::create_directories(folder);
+      writeFileBytes((folder / "switch_distances.json").string(), toJson(report) + "\n");
+      writeFileBytes((folder / "switch_distances.csv").string(), toCsv(report));
+      drawSwitchChart(report, folder.string());
+    }
+    std::printf("%s\n", (json ? toJson(report) : toText(report)).c_str());
+  }
+}
+
+void addReport(CLI::App& app) {
+  struct Call {
+    ReportOptions options;
+    bool json = false;
+  };
+  const auto call = std::make_shared<Call>();
+  CLI::App* report = app.add_subcommand("report", "HTML page and CSV tables of a sweep: speed against error");
+  report->add_option("STORE", call->options.storePath, "result store that limen-sweep wrote")->required();
+  report
+      ->add_option("-o,--output", call->options.folder,
+                   "folder for report.html, CSV tables, charts and pictures")
+      ->required();
+  report->add_option(
+      "--experiment", call->options.experiment,
+      "title or hash (8 digits or more) of one experiment; otherwise all of the store, each in a folder "
+      "of its own if there are several");
+  report->add_flag("--force", call->options.force,
+                   "report although runs are missing or failed; the page says so");
+  report->add_flag("--json", call->json, "print one JSON line for each page");
+  report->callback([call] {
+    for (const ReportResult& result : writeReports(call->options)) print(result, call->json);
+  });
+}
+
+void addSwitchDistances(CLI::App& app) {
+  struct Call {
+    SwitchOptions options;
+    bool json = false;
+  };
+  const auto call = std::make_shared<Call>();
+  CLI::App* distances = app.add_subcommand(
+      "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
+  distances->add_option("STORE", call->options.storePath, "result store that limen-sweep wrote")->required();
+  distances->add_option("-p,--probability", call->options.probability, "detection that is allowed")
+      ->capture_default_str();
+  distances->add_option("--confidence", call->options.confidence, "of the interval over views")
+      ->capture_default_str();
+  distances->add_option("--experiment", call->options.experiment, "title or hash of one experiment");
+  distances->add_option("--distance", call->options.distance, "parameter that is the distance")
+      ->capture_default_str();
+  distances->add_option("--views", call->options.views, "parameters that make views of the same switch")
+      ->delimiter(',')
+      ->capture_default_str();
+  distances->add_option("--measurement", call->options.measurement, "what falls with distance")
+      ->capture_default_str();
+  distances->add_option("--seed", call->options.seed, "of the bootstrap")->capture_default_str();
+  distances->add_option("-o,--output", call->options.folder, "folder for JSON, CSV and chart");
+  distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
+  distances->add_flag("--json", call->json, "print one JSON line for each experiment");
+  distances->callback([call] { runSwitchDistances(call->options, call->json); });
+}
+
+}  // namespace
+
+void addSweepCommands(CLI::App& app) {
+  addReport(app);
+  addSwitchDistances(app);
+}
+
+}  // namespace limen::analysis

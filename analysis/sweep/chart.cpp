@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/sweep/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "analysis/output/text_output.h"
+#include "base/error.h"
+#include "base/gnuplot.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Okabe and Ito's colours (told apart with any colour vision), dark enough on white; the page's style sheet
+// gives them again for a dark page. gnuplot's point types and the page's own marker shapes go with them.
+constexpr std::array<const char*, kMarkerShapes> kColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
+                                                             "#B07C00", "#2E86C1", "#444444"};
+constexpr std::array<int, kMarkerShapes> kPointTypes = {7, 5, 9, 13, 11, 6, 4};
+constexpr std::array<const char*, kMarkerShapes> kMarkerPaths = {
+    "<circle cx='8' cy='8' r='5' fill='currentColor'/>",
+    "<rect x='3.5' y='3.5' width='9' height='9' fill='currentColor'/>",
+    "<path d='M8,2 L14,12.5 L2,12.5 z' fill='currentColor'/>",
+    "<path d='M8,1.5 L14.5,8 L8,14.5 L1.5,8 z' fill='currentColor'/>",
+    "<path d='M8,14 L14,3.5 L2,3.5 z' fill='currentColor'/>",
+    "<circle cx='8' cy='8' r='4.8' fill='none' stroke='currentColor' stroke-width='2'/>",
+    "<rect x='3.5' y='3.5' width='9' height='9' fill='none' stroke='currentColor' stroke-width='2'/>"};
+
+// After all seven pairs have been used, shapes move on by one against colours, so that 49 pairs differ.
+size_t shapeOf(size_t series) { return (series + series / kMarkerShapes) % kMarkerShapes; }
+size_t colourOf(size_t series) { return series % kMarkerShapes; }
+
+std::string ticksScript(const char* axisName, const ChartAxis& axis) {
+  std::string out;
+  const auto add = [&](const std::string& label, double value, int level) {
+    out += fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotQuoted(label), shortestNumber(value),
+                       level);
+  };
+  for (const auto& [label, value] : axis.ticks) add(label, value, 0);
+  for (const double value : axis.minorTicks) add("", value, 1);
+  return fmt::format("set {}tics ({})\n", axisName, out);
+}
+
+std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount) {
+  std::string out = "# Draws " + chart.name + ".svg from " + chart.name +
+                    ".dat. For a paper: gnuplot -e pdf=1 " + chart.name +
+                    ".gp\n"
+                    "reset\n"
+                    "if (exists('pdf')) {\n"
+                    "  set terminal pdfcairo size 12cm,8cm font 'sans,10'\n"
+                    "  set output '" +
+                    chart.name +
+                    ".pdf'\n"
+                    "  set title " +
+                    gnuplotQuoted(chart.title) +
+                    " noenhanced\n"
+                    "} else {\n"
+                    "  set terminal svg name '" +
+                    chart.name +
+                    "' size 640,430 dynamic font 'system-ui, sans-serif,13' noenhanced\n"
+                    "  set output '" +
+                    chart.name +
+                    ".svg'\n"
+                    "}\n"
+                    "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics "
+                    "nomirror out\nset errorbars 0\n"
+                    "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
+  out += "set xlabel " + gnuplotQuoted(chart.xTitle) + " noenhanced\nset ylabel " +
+         gnuplotQuoted(chart.yTitle) + " noenhanced\n";
+  if (x.logarithmic) out += "set logscale x\n";
+  if (y.logarithmic) out += "set logscale y\n";
+  out += fmt::format("set xrange [{}:{}]\n", shortestNumber(x.low), shortestNumber(x.high));
+  const bool reversed = chart.yUpsideDown;
+  out += fmt::format("set yrange [{}:{}]\n", shortestNumber(reversed ? y.high : y.low),
+                     shortestNumber(reversed ? y.low : y.high));
+  out += ticksScript("x", x) + ticksScript("y", y);
+  // Data set 0 is the front (with its ends at the border), then comes one for each series: x, y, low, high.
+  std::string plots = "'" + chart.name + ".dat' index 0 using 1:2 with steps lw 2 lc rgb '#777777'";
+  for (size_t series = 0; series < seriesCount; ++series)
+    plots += fmt::format(
+        ", \\\n  '' index {0} using 1:2:3:4 with xerrorbars pt 0 lw 1.5 lc rgb '{1}'"
+        ", \\\n  '' index {0} using 1:2 with points pt {2} ps 1.1 lw 1.5 lc rgb '{1}'",
+        series + 1, kColours[colourOf(series)], kPointTypes[shapeOf(series)]);
+  return out + "plot " + plots + "\n";
+}
+
+std::string data(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount) {
+  const auto row = [](double a, double b, double c, double d) {
+    return fmt::format("{} {} {} {}\n", shortestNumber(a), shortestNumber(b), shortestNumber(c),
+                       shortestNumber(d));
+  };
+  std::string out = "# front: x y\n";
+  for (const size_t index : chart.front) {
+    const ChartMark& mark = chart.marks[index];
+    const double px = x.place(mark.x), py = y.place(mark.y);
+    if (index == chart.front.front()) out += row(px, chart.yUpsideDown ? y.low : y.high, px, px);
+    out += row(px, py, px, px);
+    if (index == chart.front.back()) out += row(x.high, py, px, px);
+  }
+  // An empty data set would shift the numbers of those after it.
+  if (chart.front.empty()) out += "NaN NaN NaN NaN\n";
+  for (size_t series = 0; series < seriesCount; ++series) {
+    out += fmt::format("\n\n# series {}: x y low high\n", series);
+    bool any = false;
+    for (const ChartMark& mark : chart.marks) {
+      if (mark.series != series) continue;
+      any = true;
+      const double px = x.place(mark.x);
+      const MedianInterval bar = mark.interval.value_or(MedianInterval{px, px, false});
+      out +=
+          row(px, y.place(mark.y), std::clamp(bar.low, x.low, x.high), std::clamp(bar.high, x.low, x.high));
+    }
+    if (!any) out += "NaN NaN NaN NaN\n";
+  }
+  return out;
+}
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+struct Place {
+  double x = 0.0, y = 0.0;
+};
+
+// "<use xlink:href='#gpPt6' transform='translate(139.25,45.71) scale(5.85)' ...": where gnuplot put the
+// point.
+Place placeOf(const std::string& use) {
+  Place place;
+  const size_t at = use.find("translate(");
+  if (at != std::string::npos) std::sscanf(use.c_str() + at, "translate(%lf,%lf)", &place.x, &place.y);
+  return place;
+}
+
+// Beside the mark, where it hits neither another mark nor another number.
+Place placeNumber(const Place& mark, std::vector<Place>& taken) {
+  constexpr std::array<Place, 4> kOffsets = {Place{13, -9}, Place{-12, 11}, Place{12, 11}, Place{-12, -10}};
+  const auto room = [&](const Place& at) {
+    double nearest = 1e9;
+    for (const Place& other : taken) nearest = std::min(nearest, std::hypot(other.x - at.x, other.y - at.y));
+    return nearest;
+  };
+  Place best;
+  double bestRoom = -1.0;
+  for (const Place& offset : kOffsets) {
+    const Place at{mark.x + offset.x, mark.y + offset.y};
+    const double found = std::min(room(at), 12.0);  // enough is enough: the first good place wins
+    if (found <= bestRoom) continue;
+    best = at;
+    bestRoom = found;
+  }
+  taken.push_back(best);
+  return best;
+}
+
+std::string decorate(const ChartMark& mark, const std::string& use, std::vector<Place>& taken) {
+  const Place place = placeOf(use);
+  std::string spoken = mark.hover;
+  std::replace(spoken.begin(), spoken.end(), '\n', ';');
+  std::string number;
+  if (mark.frontNumber > 0) {
+    const Place at = placeNumber(place, taken);
+    number = fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", at.x, at.y + 4,
+                         mark.frontNumber);
+  }
+  return fmt::format(
+      "<g class=\"mark s{}{}\" data-series=\"{}\" data-run=\"{}\" data-label=\"{}\" data-x=\"{}\" "
+      "data-y=\"{}\" "
+      "data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}<circle class=\"hit\" cx=\"{:.2f}\" "
+      "cy=\"{:.2f}\" r=\"11\"/>{}</g>",
+      colourOf(mark.series), mark.onFront ? " front" : "", mark.series, escapeHtml(mark.key),
+      escapeHtml(mark.label), shortestNumber(mark.x), shortestNumber(mark.y), escapeHtml(mark.hover),
+      escapeHtml(spoken), use, place.x, place.y, number);
+}
+
+// gnuplot writes the points of a plot in the order of its data, so the n-th <use> of a series is its n-th
+// mark.
+std::string nameMarks(const std::string& svg, const Chart& chart, size_t seriesCount) {
+  std::vector<std::vector<const ChartMark*>> bySeries(seriesCount);
+  for (const ChartMark& mark : chart.marks) bySeries[mark.series].push_back(&mark);
+  std::vector<Place> taken;
+  for (size_t at = 0; (at = svg.find("transform='translate(", at)) != std::string::npos; ++at)
+    taken.push_back(placeOf(svg.substr(at, 60)));
+  std::string out = svg;
+  for (size_t series = 0; series < seriesCount; ++series) {
+    const std::string bars = fmt::format("id=\"{}_plot_{}\"", chart.name, 2 + 2 * series);
+    const std::string points = fmt::format("id=\"{}_plot_{}\"", chart.name, 3 + 2 * series);
+    replaceAll(out, bars,
+               fmt::format("{} class=\"bars s{}\" data-series=\"{}\"", bars, colourOf(series), series));
+    size_t at = out.find(points);
+    for (const ChartMark* mark : bySeries[series]) {
+      at = at == std::string::npos ? at : out.find("<use ", at);
+      const size_t end = at == std::string::npos ? at : out.find("/>", at);
+      if (end == std::string::npos) throw Error("gnuplot left out a point of " + chart.name);
+      const std::string marked = decorate(*mark, out.substr(at, end + 2 - at), taken);
+      out.replace(at, end + 2 - at, marked);
+      at += marked.size();
+    }
+  }
+  return out;
+}
+
+// From a file of its own to a part of a page: no XML head, no titles that would pop up, ids of its own,
+// colours that follow the page.
+std::string makeInline(std::string svg, const Chart& chart) {
+  svg.erase(0, svg.find("<svg"));
+  for (size_t at; (at = svg.find("<title>")) != std::string::npos;)
+    svg.erase(at, svg.find("</title>", at) + 8 - at);
+  for (size_t at; (at = svg.find("<filter")) != std::string::npos;)
+    svg.erase(at, svg.find("</filter>", at) + 9 - at);
+  replaceAll(svg, "gpDot", chart.name + "_gpDot");
+  replaceAll(svg, "gpPt", chart.name + "_gpPt");
+  replaceAll(svg, "gnuplot_canvas", chart.name + "_canvas");
+  replaceAll(svg, "stroke='black'", "stroke='currentColor'");
+  replaceAll(svg, "fill=\"black\"", "fill=\"currentColor\"");
+  replaceAll(svg, "color=\"black\"", "");
+  replaceAll(svg, "color=\"white\"", "");
+  replaceAll(svg, "stroke='rgb(221, 221, 221)'", "class='grid'");
+  replaceAll(svg, "class='grid' class=\"gridline\"", "class='grid'");
+  svg.replace(0, 4,
+              "<svg class=\"chart\" role=\"group\" aria-label=\"" +
+                  escapeHtml(chart.title + ": " + chart.yTitle + " against " + chart.xTitle) + "\"");
+  return svg;
+}
+
+}  // namespace
+
+std::string drawChart(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount,
+                      const std::string& folder) {
+  const fs::path base = fs::path(folder) / chart.name;
+  writeFileBytes(base.string() + ".gp", script(chart, x, y, seriesCount));
+  writeFileBytes(base.string() + ".dat", data(chart, x, y, seriesCount));
+  runGnuplot(folder, chart.name + ".gp");
+  const std::string svg = makeInline(readFileBytes(base.string() + ".svg"), chart);
+  std::string out = nameMarks(svg, chart, seriesCount);
+  const std::string front = fmt::format("id=\"{}_plot_1\"", chart.name);
+  replaceAll(out, front, front + " class=\"front-line\"");
+  return out;
+}
+
+std::string markerSvg(size_t series) {
+  return fmt::format("<svg class=\"marker s{}\" viewBox=\"0 0 16 16\" aria-hidden=\"true\">{}</svg>",
+                     colourOf(series), kMarkerPaths[shapeOf(series)]);
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/sweep/export.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "analysis/sweep/grouping.h"
+#include "analysis/output/text_output.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string number(const std::optional<double>& value) { return value ? shortestNumber(*value) : ""; }
+
+// What names a run in every table.
+Row identity(const store::Run& run) { return {run.key, run.device, run.technique, run.scene, run.label}; }
+const Row kIdentity = {"key", "device", "technique", "scene", "label"};
+
+Row joined(Row left, const Row& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+void write(const std::string& folder, const std::string& name, const Row& header,
+           const std::vector<Row>& rows) {
+  std::string text = csvLine(header);
+  for (const Row& row : rows) text += csvLine(row);
+  writeFileBytes((std::filesystem::path(folder) / name).string(), text);
+}
+
+std::vector<const store::Run*> allRuns(const Sweep& sweep) {
+  std::vector<const store::Run*> runs;
+  for (const Cell& cell : sweep.cells) runs.push_back(&cell.run);
+  for (const store::Run& run : sweep.failed) runs.push_back(&run);
+  return runs;
+}
+
+void exportRuns(const Sweep& sweep, const std::string& folder) {
+  const std::vector<const store::Run*> runs = allRuns(sweep);
+  std::set<std::string> parameters;
+  Row measurements;
+  for (const store::Run* run : runs) {
+    for (const auto& [path, value] : flatParameters(*run)) parameters.insert(path);
+    for (const store::Measurement& m : run->measurements)
+      if (std::find(measurements.begin(), measurements.end(), m.name) == measurements.end())
+        measurements.push_back(m.name);
+  }
+  const Row times = {"n_frames",     "frame_median_ms", "frame_low95_ms", "frame_high95_ms",
+                     "frame_p95_ms", "frame_min_ms",    "frame_mean_ms",  "frame_sd_ms"};
+  Row header = joined(kIdentity, {"status", "error", "started", "finished"});
+  header = joined(header, Row(parameters.begin(), parameters.end()));
+  header = joined(joined(header, measurements), times);
+
+  std::vector<Row> rows;
+  for (size_t index = 0; index < runs.size(); ++index) {
+    const store::Run& run = *runs[index];
+    Row row = joined(identity(run), {run.status, run.error, run.started, run.finished});
+    const std::map<std::string, std::string> values = flatParameters(run);
+    for (const std::string& path : parameters) {
+      const auto found = values.find(path);
+      row.push_back(found == values.end() ? "" : found->second);
+    }
+    for (const std::string& name : measurements) {
+      const auto found = std::find_if(run.measurements.begin(), run.measurements.end(),
+                                      [&](const store::Measurement& m) { return m.name == name; });
+      row.push_back(found == run.measurements.end() ? "" : number(found->value));
+    }
+    if (index < sweep.cells.size() && sweep.cells[index].frame) {
+      const Summary& s = *sweep.cells[index].frame;
+      const MedianInterval& i = *sweep.cells[index].interval;
+      row = joined(row, {std::to_string(s.n), number(s.median), number(i.low), number(i.high), number(s.p95),
+                         number(s.minimum), number(s.mean), number(s.standardDeviation)});
+    } else {
+      row.resize(row.size() + times.size());
+    }
+    rows.push_back(std::move(row));
+  }
+  write(folder, "runs.csv", header, rows);
+}
+
+}  // namespace
+
+void exportTables(const Sweep& sweep, const std::string& folder) {
+  exportRuns(sweep, folder);
+  std::vector<Row> measurements, frameTimes, passes;
+  for (const store::Run* run : allRuns(sweep)) {
+    for (const store::Measurement& m : run->measurements)
+      measurements.push_back(joined(identity(*run), {m.name, m.kind, number(m.value), m.unit}));
+    for (const store::FrameTime& t : run->frameTimes)
+      frameTimes.push_back({run->key, run->device, std::to_string(t.frame), std::to_string(t.round), t.pass,
+                            std::to_string(t.nanoseconds)});
+  }
+  for (const Cell& cell : sweep.cells) {
+    std::vector<store::Pass> all = cell.run.passes;
+    for (const PassTime& time : cell.passes)  // a pass that held nothing of its own
+      if (std::none_of(all.begin(), all.end(), [&](const store::Pass& p) { return p.name == time.pass; }))
+        all.push_back({time.pass, 0});
+    for (const store::Pass& pass : all) {
+      const auto time = std::find_if(cell.passes.begin(), cell.passes.end(),
+                                     [&](const PassTime& t) { return t.pass == pass.name; });
+      const bool timed = time != cell.passes.end();
+      passes.push_back(
+          joined(identity(cell.run),
+                 {pass.name, std::to_string(pass.bytesHeld), timed ? number(time->ms.median) : "",
+                  timed ? number(time->ms.p95) : "", timed ? std::to_string(time->ms.n) : ""}));
+    }
+  }
+  write(folder, "measurements.csv", joined(kIdentity, {"name", "kind", "value", "unit"}), measurements);
+  write(folder, "frame_times.csv", {"key", "device", "frame", "round", "pass", "nanoseconds"}, frameTimes);
+  write(folder, "passes.csv", joined(kIdentity, {"pass", "bytes_held", "median_ms", "p95_ms", "n_frames"}),
+        passes);
+}
+
+}  // namespace limen::analysis

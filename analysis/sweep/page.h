@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/sweep/pictures.h"
+#include "analysis/sweep/sweep.h"
+
+namespace limen::analysis {
+
+/// The charts of a page as inline SVG, by panel; empty text where a panel has nothing to draw.
+struct PageCharts {
+  std::vector<std::string> speed, counter;
+  bool footUsed = false;  ///< a mark stands at an axis' foot
+};
+
+/// The whole page, self-contained.
+std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures);
+
+// Its sections, each a piece of HTML or "" if there is nothing to say.
+std::string renderNotices(const Sweep& sweep);
+std::string renderVerdict(const Sweep& sweep);
+std::string renderLegend(const Sweep& sweep);
+std::string renderSpeed(const Sweep& sweep, const PageCharts& charts);
+std::string renderCounter(const Sweep& sweep, const PageCharts& charts);
+std::string renderPasses(const Sweep& sweep);
+std::string renderPictures(const Sweep& sweep, const Pictures& pictures);
+std::string renderRunTable(const Sweep& sweep);
+std::string renderProblems(const Sweep& sweep);
+std::string renderExpectations(const Sweep& sweep);
+std::string renderEnvironment(const Sweep& sweep);
+
+/// "soft_shadows/pcss, samples=8" with the marker of its series, as HTML.
+std::string renderCellName(const Sweep& sweep, const Cell& cell);
+/// "1.23 ms", with the interval if there is one, as plain text.
+std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval);
+/// Number with the axis' unit.
+std::string withUnit(double value, const Axis& axis);
+/// Number and noun: "1 run", "3 runs".
+std::string counted(size_t count, const std::string& noun);
+
+}  // namespace limen::analysis

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/sweep/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "analysis/sweep/chart.h"
+#include "analysis/sweep/experiments.h"
+#include "analysis/sweep/export.h"
+#include "analysis/sweep/page.h"
+#include "analysis/output/text_output.h"
+#include "analysis/sweep/trade_off.h"
+#include "base/error.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireComplete(const Sweep& sweep, const std::string& storePath) {
+  if (!sweep.isComplete()) {
+    const std::string example = !sweep.failed.empty()
+                                    ? fmt::format("{} in {} failed: {}", sweep.failed[0].technique,
+                                                  sweep.failed[0].scene, sweep.failed[0].error)
+                                    : fmt::format("{} ({}) in {} is missing", sweep.missing[0].technique,
+                                                  sweep.missing[0].label, sweep.missing[0].scene);
+    throw Error(fmt::format("'{}' is not complete: of {} planned runs {} failed and {} are missing ({})",
+                            sweep.experiment.title, sweep.planned, sweep.failed.size(), sweep.missing.size(),
+                            example),
+                storePath, "finish the sweep, or use --force to report on what is there");
+  }
+  if (sweep.cells.empty())
+    throw Error("'" + sweep.experiment.title + "' plans no runs", storePath, "check its descriptor");
+}
+
+std::string hoverText(const Sweep& sweep, const Cell& cell, const Axis& x, double value) {
+  std::string out = sweep.label(cell) + "\n" + sweep.panels[cell.panel].title;
+  for (const auto& [name, text] : cell.varying) out += "\n" + name + ": " + text;
+  out += "\n" + x.title + ": " + formatNumber(value);
+  if (&x == &sweep.x && cell.interval)
+    out += fmt::format(" [{}–{}]", formatNumber(cell.interval->low), formatNumber(cell.interval->high));
+  out += "\n" + sweep.y.title + ": " + formatNumber(*cell.y);
+  if (cell.frontNumber > 0) out += fmt::format("\nno. {} on the Pareto front", cell.frontNumber);
+  return out;
+}
+
+// The figure of one x axis: a chart for each panel, all with the same axes so that they can be compared.
+std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool isCounter,
+                                    const std::string& folder, bool& footUsed) {
+  std::vector<Chart> charts;
+  std::vector<double> xs, ys;
+  for (size_t index = 0; index < sweep.panels.size(); ++index) {
+    const Panel& panel = sweep.panels[index];
+    Chart chart;
+    chart.name = fmt::format("{}_{}", isCounter ? "counter" : "speed", index + 1);
+    chart.title = sweep.experiment.title + ", " + panel.title;
+    chart.xTitle = xAxis.title;
+    chart.yTitle = sweep.y.title;
+    chart.yUpsideDown = sweep.y.higherIsBetter;
+    std::vector<std::pair<double, double>> points;
+    for (const size_t cellIndex : panel.cells) {
+      const Cell& cell = sweep.cells[cellIndex];
+      const std::optional<double> x = isCounter ? cell.counter : cell.x;
+      if (!x || !cell.y) continue;
+      ChartMark mark{*x,
+                     *cell.y,
+                     std::nullopt,
+                     cell.series,
+                     false,
+                     0,
+                     cell.run.key,
+                     sweep.label(cell),
+                     hoverText(sweep, cell, xAxis, *x)};
+      if (!isCounter) {
+        mark.interval = cell.interval;
+        mark.frontNumber = cell.frontNumber;
+      }
+      xs.push_back(*x);
+      if (mark.interval) xs.insert(xs.end(), {mark.interval->low, mark.interval->high});
+      ys.push_back(*cell.y);
+      points.emplace_back(*x, sweep.y.higherIsBetter ? -*cell.y : *cell.y);
+      chart.marks.push_back(std::move(mark));
+    }
+    chart.front = paretoFront(points);
+    for (const size_t place : chart.front) chart.marks[place].onFront = true;
+    charts.push_back(std::move(chart));
+  }
+  const ChartAxis x = makeChartAxis(xs, false), y = makeChartAxis(ys, sweep.y.higherIsBetter);
+  std::vector<std::string> out;
+  for (const Chart& chart : charts) {
+    out.push_back(chart.marks.empty() ? "" : drawChart(chart, x, y, sweep.series.size(), folder));
+    for (const ChartMark& mark : chart.marks) footUsed = footUsed || x.isAtFoot(mark.x) || y.isAtFoot(mark.y);
+  }
+  return out;
+}
+
+ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder / "charts", error);
+  if (error)
+    throw Error("the folder cannot be made: " + error.message(), folder.string(), "choose another with -o");
+  exportTables(sweep, folder.string());
+  PageCharts charts;
+  charts.speed = drawFigure(sweep, sweep.x, false, (folder / "charts").string(), charts.footUsed);
+  if (sweep.counter)
+    charts.counter = drawFigure(sweep, *sweep.counter, true, (folder / "charts").string(), charts.footUsed);
+  const Pictures pictures = choosePictures(sweep, storePath, (folder / "pictures").string());
+  const std::string page = (folder / "report.html").string();
+  writeFileBytes(page, renderPage(sweep, charts, pictures));
+
+  ReportResult result{page,
+                      sweep.experiment.title,
+                      sweep.experiment.hash,
+                      sweep.cells.size(),
+                      sweep.failed.size(),
+                      sweep.missing.size(),
+                      0};
+  for (const store::Expectation& expectation : sweep.expectations)
+    result.brokenExpectations += !expectation.held;
+  return result;
+}
+
+}  // namespace
+
+std::vector<ReportResult> writeReports(const ReportOptions& options) {
+  const store::Store store(options.storePath, store::Access::ReadOnly);
+  std::vector<Sweep> sweeps;
+  for (const store::Experiment& experiment : chooseExperiments(store, options.experiment)) {
+    sweeps.push_back(loadSweep(store, experiment));
+    if (!options.force) requireComplete(sweeps.back(), options.storePath);
+  }
+  std::vector<ReportResult> results;
+  for (const Sweep& sweep : sweeps) {
+    fs::path folder = options.folder;
+    if (sweeps.size() > 1)
+      folder /= slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
+    results.push_back(writeReport(sweep, options.storePath, folder));
+  }
+  return results;
+}
+
+}  // namespace limen::analysis
