@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen analyse rates, anova, sdt, validate: what the sessions of a study say.
-#include "analysis/commands/commands.h"
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
+#include "analysis/commands/commands.h"
+#include "analysis/commands/study_input.h"
 #include "analysis/study/anova.h"
-#include "analysis/study/answers.h"
-#include "analysis/study/head.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/sensitivity.h"
 #include "analysis/study/validation.h"
@@ -20,54 +16,11 @@
 namespace limen::analysis {
 namespace {
 
-struct StudyOptions {
-  StudyChoice choice;
-  bool noExclusions = false, asJson = false;
-  std::string csv;
-};
-
-struct ValidateOptions : StudyOptions {
+struct ValidateOptions : StudyInput {
   ValidationSetting setting;
   std::string guess = "catch", lapse = "free";
   std::vector<double> coverageEdges, ratingEdges;
 };
-
-void addCommon(CLI::App& command, StudyOptions& options) {
-  command.add_option("store", options.choice.store, "Result store with sessions")->required();
-  command.add_option("--protocol", options.choice.protocol,
-                     "Name, or first digits of the SHA-256, if the store has several");
-  static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
-                                                              {"simulated", Observers::Simulated}};
-  command
-      .add_option("--observers", options.choice.observers,
-                  "people or simulated, if the store has sessions of both")
-      ->transform(CLI::CheckedTransformer(kObservers));
-  command.add_flag("--no-exclusions", options.noExclusions,
-                   "Do not apply the exclusion rules that the protocol declares");
-  command.add_flag("--unfinished", options.choice.unfinished, "Take broken-off sessions too");
-  command.add_flag("--json", options.asJson, "One JSON object");
-  command.add_option("--csv", options.csv, "Writes a table to this file")->type_name("FILE");
-}
-
-StudyAnswers read(const StudyOptions& options) {
-  StudyChoice choice = options.choice;
-  choice.exclusions = !options.noExclusions;
-  return readStudyAnswers(choice);
-}
-
-/// Every result opens with what the answers are and what was left out.
-template <class Result>
-void print(const StudyOptions& options, const StudyAnswers& study, const Result& result,
-           const std::string& name) {
-  if (!options.csv.empty()) writeFileBytes(options.csv, toCsv(result));
-  if (options.asJson) {
-    nlohmann::json out = headJson(study);
-    out[name] = toJson(result);
-    std::printf("%s\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  } else {
-    std::printf("%s%s", headText(study).c_str(), toText(result).c_str());
-  }
-}
 
 /// A rate from 0 to below 1.
 double rateOf(const std::string& text, const std::string& option, const std::string& words) {
@@ -95,7 +48,7 @@ void validate(const ValidateOptions& options) {
   if (options.lapse != "free") setting.lapse = rateOf(options.lapse, "--lapse", "'free'");
   if (setting.guess.value_or(0.0) + setting.lapse.value_or(0.0) >= 1.0)
     throw Error("guess and lapse rates sum to 1 or more", "--guess, --lapse");
-  const StudyAnswers study = read(options);
+  const StudyAnswers study = readStudy(options);
   const std::vector<store::StudyPrediction> predictions = store::readPredictions(options.choice.store);
   std::map<std::string, std::string> names;
   const store::SessionReader reader(options.choice.store);
@@ -103,18 +56,18 @@ void validate(const ValidateOptions& options) {
     if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
   for (const store::StudyPrediction& one : predictions)
     if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
-  print(options, study, validateStudy(study, predictions, names, setting), "validation");
+  printStudyResult(options, study, validateStudy(study, predictions, names, setting), "validation");
 }
 
 /// A command of common options and one result.
 template <class Analyse>
 void addSimple(CLI::App& app, const std::string& name, const std::string& summary, Analyse analyse) {
   CLI::App* command = app.add_subcommand(name, summary);
-  auto options = std::make_shared<StudyOptions>();
-  addCommon(*command, *options);
+  auto options = std::make_shared<StudyInput>();
+  addStudyInput(*command, *options);
   command->callback([options, analyse, name] {
-    const StudyAnswers study = read(*options);
-    print(*options, study, analyse(study), name);
+    const StudyAnswers study = readStudy(*options);
+    printStudyResult(*options, study, analyse(study), name);
   });
 }
 
@@ -135,7 +88,7 @@ void addStudyCommands(CLI::App& app) {
       "validate",
       "how well predictors of popping predict a study's answers (limen study predict makes them)");
   auto options = std::make_shared<ValidateOptions>();
-  addCommon(*command, *options);
+  addStudyInput(*command, *options);
   ValidationSetting& setting = options->setting;
   command->add_option("--display", setting.display,
                       "Display that predictions are for: name, or first digits of the SHA-256 (default: the "

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/commands/study_input.h"
+
+#include <map>
+
+#include "analysis/data/source.h"
+#include "base/error.h"
+
+namespace limen::analysis {
+
+void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
+                   const std::string& meaning) {
+  command.add_option(positional, input.choice.store, meaning)->required();
+  command.add_option("--protocol", input.choice.protocol,
+                     "Name, or first digits of the SHA-256, if the store has several");
+  static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
+                                                              {"simulated", Observers::Simulated}};
+  command
+      .add_option("--observers", input.choice.observers,
+                  "people or simulated, if the store has sessions of both")
+      ->transform(CLI::CheckedTransformer(kObservers));
+  command.add_flag("--no-exclusions", input.noExclusions,
+                   "Do not apply the exclusion rules that the protocol declares");
+  command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+  command.add_flag("--json", input.asJson, "One JSON object");
+  command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
+}
+
+StudyAnswers readStudy(const StudyInput& input) {
+  StudyChoice choice = input.choice;
+  choice.exclusions = !input.noExclusions;
+  return readStudyAnswers(choice);
+}
+
+bool isStudyStore(const CLI::App& command, const StudyInput& input,
+                  const std::vector<std::string>& tableOptions) {
+  const bool store = isDatabase(input.choice.store);
+  static const std::vector<std::string> kStoreOptions = {"--protocol", "--observers", "--no-exclusions",
+                                                         "--unfinished"};
+  for (const std::string& option : store ? tableOptions : kStoreOptions)
+    if (command.count(option) > 0)
+      throw Error(store ? "names a column, and a result store has none" : "means nothing for a table", option,
+                  store ? "leave it out, or give a CSV file" : "leave it out, or give a result store");
+  return store;
+}
+
+void printJson(const nlohmann::json& out) {
+  std::printf("%s\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+}  // namespace limen::analysis
