@@ -14,5 +14,6 @@ void addFitCommand(CLI::App& app);     ///< fit
 void addStudyCommands(CLI::App& app);  ///< rates, validate
 void addAnovaCommand(CLI::App& app);
 void addSdtCommand(CLI::App& app);
+void addMixedCommand(CLI::App& app);
 
 }  // namespace limen::analysis

@@ -15,5 +15,6 @@ int main(int argc, char** argv) {
   limen::analysis::addStudyCommands(app);
   limen::analysis::addAnovaCommand(app);
   limen::analysis::addSdtCommand(app);
+  limen::analysis::addMixedCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }
