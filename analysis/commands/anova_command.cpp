@@ -27,7 +27,8 @@ void addAnovaCommand(CLI::App& app) {
   AnovaColumns& columns = call->columns;
   command->add_option("--subject", columns.subject, "CSV: column that says who answered");
   command->add_option("--within", columns.within, "CSV: columns of the factors, A,B,...; numbers are ordered")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   addAnswerColumns(*command, columns.answers);
   command->add_option("--value", columns.answers.value, "CSV: column with any measured number");
   command->add_flag("--drop-incomplete", columns.dropIncomplete,
@@ -37,7 +38,8 @@ void addAnovaCommand(CLI::App& app) {
   command
       ->add_option("--transform", call->settings.transform,
                    "of each cell's rate: none, or arcsine for asin(sqrt(p)) (default: none)")
-      ->transform(CLI::CheckedTransformer(kTransforms));
+      ->transform(CLI::CheckedTransformer(kTransforms))
+      ->option_text("none|arcsine");
   command->add_flag("--ranks", call->settings.ranks,
                     "Friedman's test of each factor and Wilcoxon's signed ranks of its pairs too");
   command->callback([call, command] {

@@ -34,18 +34,24 @@ void addMixedCommand(CLI::App& app) {
       ->add_option("--fixed", terms.fixed,
                    "Columns or factors, A,B,A:B; numbers as they are, text against its first level")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->required();
   command->add_option("--slope", terms.slope,
                       "One of these along which each group or observer has a slope of its own");
-  command->add_option("--reference", terms.references,
-                      "COLUMN=LEVEL: the level that the others are compared with; may be repeated");
+  command
+      ->add_option("--reference", terms.references,
+                   "COLUMN=LEVEL: the level that the others are compared with; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--categorical", terms.categorical, "Columns of numbers that are names of levels")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option("--center", terms.centre, "Columns of numbers of which their mean over rows is taken off")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--log", terms.log, "Columns of numbers of which the natural logarithm is taken, first")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->callback([call, command] {
     if (isStudyStore(*command, call->input, {"--outcome", "--k", "--n", "--group", "--where"})) {
       const StudyAnswers study = readStudy(call->input);

@@ -29,7 +29,8 @@ void addSdtCommand(CLI::App& app) {
   command
       ->add_option("--by", columns.by,
                    "CSV: columns of conditions, A,B,...; without --subject means are over their rows")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--task", columns.task, "CSV: yesno, 2afc, mafc:M")->capture_default_str();
   addAnswerColumns(*command, columns.answers);
   command->add_option("--signal", columns.signal,

@@ -6,8 +6,10 @@ namespace limen::analysis {
 void addTableInput(CLI::App& command, StudyInput& input, std::vector<std::string>& where) {
   addStudyInput(command, input, "data",
                 "Result store with sessions; or CSV or TSV, columns named in the first line");
-  command.add_option("--where", where,
-                     "CSV: only rows with COLUMN=VALUE; may be repeated, of one column any value fits");
+  command
+      .add_option("--where", where,
+                  "CSV: only rows with COLUMN=VALUE; may be repeated, of one column any value fits")
+      ->allow_extra_args(false);
 }
 
 void addAnswerColumns(CLI::App& command, AnswerColumns& columns) {

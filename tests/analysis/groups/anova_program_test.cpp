@@ -203,10 +203,11 @@ TEST_F(AnovaProgram, IncompleteSubjectsAreRefusedOrLeftOutAndNamed) {
   EXPECT_EQ(part.at("observers"), 3);
   EXPECT_THAT(runProgram("limen-analyse " + design + " --drop-incomplete").text, HasSubstr("left out: c"));
   refuses(design + " --drop-incomplete --where who=a --where who=c", {"fewer than two are left"});
-  // Of these rows nobody misses any.
-  const json some = analyse("anova " + table +
-                            " --subject who --within distance --value t"
-                            " --where lod=near --where who=a --where who=b --where who=d");
+  // Of these rows nobody misses any. Lists do not swallow the table behind them.
+  const json some = analyse(
+      "anova --subject who --value t --where lod=near --where who=a --where who=b --where who=d"
+      " --within distance " +
+      table);
   EXPECT_EQ(some.at("anova").at(0).at("observers"), 3);
   EXPECT_EQ(some.at("rows"), 6);
   EXPECT_EQ(some.at("rows_in_file"), 14);

@@ -121,6 +121,7 @@ TEST_F(MixedProgram, StoreAndItsExportAgree) {
               ofStore.at("columns").at(0).at("reference").get<std::string>())
           .at("mixed");
   EXPECT_EQ(ofStore.at("trials"), 8 * 84);
+  EXPECT_EQ(ofStore.at("columns").at(0).at("reference"), "2_to_3");  // the protocol's first
   for (size_t i = 0; i < 4; ++i) {
     expectRelative(ofTable.at("fixed").at(i).at("estimate"), ofStore.at("fixed").at(i).at("estimate"), 1e-6);
     expectRelative(ofTable.at("fixed").at(i).at("standard_error"),
