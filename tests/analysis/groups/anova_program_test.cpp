@@ -246,40 +246,13 @@ TEST_F(AnovaProgram, NeverPrintsWhatIsNoNumber) {
   EXPECT_THAT(text.text, Not(HasSubstr("nan")));
 }
 
-TEST_F(AnovaProgram, RefusesWhatItCannotAnalyse) {
-  const std::string head = "who,lod,group,k,n,right,t\n";
-  const std::string good = head + "a,1,x,3,4,1,0.5\na,2,x,1,4,0,1\nb,1,y,2,4,1,2\nb,2,y,1,4,1,2.5\n";
-  const auto call = [&](const std::string& text, const std::string& options) {
-    return "anova " + write(text) + " " + options;
-  };
-  const std::string counts = "--subject who --within lod --k k --n n";
-  EXPECT_EQ(runProgram("limen-analyse " + call(good, counts)).code, 0);
-  refuses(call(good, "--subject whom --within lod --k k --n n"), {"no column 'whom' (--subject)", "'who'"});
-  refuses(call(good, "--subject who --within lad --k k --n n"), {"no column 'lad'", "'lod'"});
-  refuses(call(good, "--within lod --k k --n n"), {"give --subject"});
-  refuses(call(good, "--subject who --k k --n n"), {"give --within"});
-  refuses(call(good, "--subject who --within lod"), {"--outcome, or --k and --n, or --value"});
-  refuses(call(good, "--subject who --within lod --k k"), {"--n"});
-  refuses(call(good, "--subject who --within lod --k k --n n --value t"), {"one kind"});
-  refuses(call(good, "--subject who --within lod,lod --k k --n n"), {"'lod' is named twice"});
-  refuses(call(good, "--subject who --within group --k k --n n"),
-          {"no subject has more than one level of 'group'"});
-  refuses(call(good, "--subject who --within lod --outcome k"),
-          {"table.csv:2, column 'k'", "neither 0 nor 1"});
-  refuses(call(good, counts + " --where lod=1"), {"column 'lod' has one level, '1'"});
-  refuses(call(good, counts + " --where who=a"), {"column 'who' has one subject, 'a'"});
-  refuses(call(good, counts + " --where who=z"), {"no row has who=z"});
-  refuses(call(good, counts + " --where who"), {"--where", "COLUMN=VALUE"});
-  refuses(call(good, counts + " --protocol x"), {"--protocol", "means nothing for a table"});
-  refuses(call(good + "a,1,x,5,4,1,1\n", counts), {"table.csv:6, column 'k'", "5 of 4 trials"});
-  refuses(call(good + "a,1,x,-1,4,1,1\n", counts), {"table.csv:6, column 'k'", "negative"});
-  refuses(call(good + "a,1,x,0,0,1,1\n", counts), {"table.csv:6, column 'n'", "no trials"});
-  refuses(call(good + "a,1,x,1.5,4,1,1\n", counts), {"table.csv:6, column 'k'", "whole number"});
-  refuses(call(good + ",1,x,1,4,1,1\n", counts), {"table.csv:6, column 'who'", "is empty"});
-  refuses(call(good + "a,,x,1,4,1,1\n", counts), {"table.csv:6, column 'lod'", "is empty"});
-  refuses(call(good + "a,1,x,1,4,1,nan\n", "--subject who --within lod --value t"),
-          {"table.csv:6, column 't'", "not a finite number"});
-  refuses("anova " + folder_.path("none.csv") + " " + counts, {"no such file"});
+TEST_F(AnovaProgram, RefusesWithLineAndColumnOrOption) {
+  const std::string call = "anova " + write("who,lod,k,n\na,1,3,4\na,2,5,4\nb,1,2,4\nb,2,1,4\n") +
+                           " --subject who --within lod --k k --n n";
+  refuses(call, {"table.csv:3, column 'k': 5 of 4 trials"});
+  refuses(call + " --where who=z", {"no row has who=z"});
+  refuses(call + " --protocol x", {"--protocol", "means nothing for a table"});
+  refuses("anova " + folder_.path("none.csv"), {"no such file"});
 }
 
 }  // namespace

@@ -146,38 +146,11 @@ TEST_F(MixedProgram, PartsOfAStudyAreNamed) {
   refuses("mixed " + store + " --part terain --fixed presentation", {"did you mean 'terrain'?"});
 }
 
-TEST_F(MixedProgram, RefusesWhatItCannotFit) {
-  const std::string good =
-      "who,x,y,c,k,n\na,1,0.5,red,1,4\na,2,0.7,blue,3,4\nb,1,0.1,red,2,4\nb,2,0,blue,3,4\nc,1,0.4,red,0,4\nc,"
-      "2,1,blue,2,4\n";
-  const auto call = [&](const std::string& options, const std::string& text) {
-    return "mixed " + write(text) + " --group who --k k --n n " + options;
-  };
-  refuses(call("--fixed z", good), {"no column 'z'", "--fixed"});
-  refuses(call("--fixed x,x", good), {"'x' is named twice"});
-  refuses(call("--fixed x,x:c", good), {"interaction 'x:c' has no 'c' beside it"});
-  refuses(call("--fixed y --log y", good), {"table.csv:5, column 'y'", "no logarithm"});
-  refuses(call("--fixed x --log y", good), {"'y' is not in the model"});
-  refuses(call("--fixed c --center c", good), {"does not hold numbers", "--center"});
-  refuses(call("--fixed c --reference c=green", good), {"no level 'green'"});
-  refuses(call("--fixed x --reference x=1", good), {"--categorical x"});
-  refuses(call("--fixed x --slope y", good), {"'y' is not in the model", "--slope"});
-  refuses(call("--fixed x", good + "d,1,1,red,5,4\n"), {"table.csv:8, column 'k'", "5 of 4"});
-  refuses(call("--fixed x", good + "d,l,1,red,3,4\n"), {"table.csv:8, column 'x'", "'l' is no number"});
-  refuses(call("--fixed x", good + "d,,1,red,3,4\n"), {"table.csv:8, column 'x'", "is empty"});
-  refuses(call("--fixed x", good + ",1,1,red,3,4\n"), {"table.csv:8, column 'who'", "is empty"});
-  refuses(call("--fixed x --where who=a", good), {"all rows are of one who, 'a'"});
-  refuses(call("--fixed c --where c=red", good), {"one level, 'red'"});
-  refuses(call("--fixed x --where x=1", good), {"the same in all rows"});
-  refuses(call("--fixed x,c", good), {"follows from those before it"});
-  refuses("mixed " + folder_.path("table.csv") + " --k k --n n --fixed x", {"--group"});
-  refuses("mixed " + folder_.path("table.csv") + " --group who --fixed x", {"--outcome, or --k and --n"});
-  refuses("mixed " + folder_.path("table.csv") + " --group who --k k --n n --fixed x --part main",
-          {"--part"});
-  // All right at x = 2, all wrong at 1.
-  refuses(call("--fixed x", "who,x,k,n\na,1,0,4\na,2,4,4\nb,1,0,4\nb,2,4,4\n"), {"separates"});
-  const std::string three = "who,c,k,n\na,r,1,4\na,g,2,4\na,b,3,4\nb,r,1,4\nb,g,3,4\nb,b,2,4\n";
-  refuses(call("--fixed c --slope c", three), {"more than two levels", "--slope"});
+TEST_F(MixedProgram, RefusesWithLineAndColumnOrOption) {
+  const std::string call = "mixed " + write("who,x,k,n\na,1,0,4\na,2,4,4\nb,1,0,4\nb,2,l,4\n") +
+                           " --group who --k k --n n --fixed x";
+  refuses(call, {"table.csv:5, column 'k': 'l' is not a number"});
+  refuses(call + " --part main", {"--part", "means nothing for a table"});
 }
 
 }  // namespace

@@ -121,24 +121,5 @@ TEST_F(SdtProgram, StoreAndItsExportAgree) {
   refuses("sdt " + store + " --task 2afc", {"--task", "protocol"});
 }
 
-TEST_F(SdtProgram, RefusesWhatItCannotAnalyse) {
-  const std::string table = write("who,yes,there,h,s,f,n\na,1,1,3,4,1,4\na,0,0,2,4,5,4\nb,1,2,1,4,1,4\n");
-  const std::string call = "sdt " + table + " ";
-  refuses(call + "--outcome yes --signal there --subject who",
-          {"table.csv:4, column 'there'", "neither 0 nor 1"});
-  refuses(call + "--hits h --signals s --false-alarms f --noises n --subject who",
-          {"table.csv:3, column 'f'", "5 of 4 trials"});
-  refuses(call + "--outcome yes --subject who", {"--signal"});
-  refuses(call + "--outcome yes --signal there", {"--subject", "--by"});
-  refuses(call + "--hits h --signals s --subject who", {"four columns"});
-  refuses(call + "--hits h --outcome yes --subject who", {"not both"});
-  refuses(call + "--k h --n s --subject who", {"--task mafc:M"});
-  refuses(call + "--task mafc:1 --k h --n s --subject who", {"mafc:1", "mafc:4"});
-  refuses(call + "--task 3afc --k h --n s --subject who", {"no task '3afc'"});
-  refuses(call + "--task 2afc --hits h --subject who", {"do not fit"});
-  refuses(call + "--outcome yes --signal there --subject who --correction some",
-          {"--correction", "loglinear"});
-}
-
 }  // namespace
 }  // namespace limen::analysis
