@@ -11,6 +11,9 @@ namespace limen::analysis {
 
 void addSweepCommands(CLI::App& app);  ///< report, switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
-void addStudyCommands(CLI::App& app);  ///< rates, anova, sdt, validate
+void addStudyCommands(CLI::App& app);  ///< rates, validate
+void addAnovaCommand(CLI::App& app);
+void addSdtCommand(CLI::App& app);
+void addMixedCommand(CLI::App& app);
 
 }  // namespace limen::analysis

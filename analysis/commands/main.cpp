@@ -13,5 +13,8 @@ int main(int argc, char** argv) {
   limen::analysis::addSweepCommands(app);
   limen::analysis::addFitCommand(app);
   limen::analysis::addStudyCommands(app);
+  limen::analysis::addAnovaCommand(app);
+  limen::analysis::addSdtCommand(app);
+  limen::analysis::addMixedCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }
