@@ -13,4 +13,7 @@ void addSweepCommands(CLI::App& app);  ///< report, switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
 void addStudyCommands(CLI::App& app);  ///< rates, anova, sdt, validate
 
+void addCorrelateCommand(CLI::App& app);  ///< correlate
+void addScaleCommand(CLI::App& app);      ///< scale
+
 }  // namespace limen::analysis
