@@ -53,7 +53,11 @@ void drawScales(const Scales& scales, const std::string& path) {
           "set xrange [{}:{}]\nset key off\nset grid ytics lc rgb '#DDDDDD' dt 1\nset tics noenhanced\n"
           "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#999999'\n",
           low - margin, high + margin);
-  if (!single) script += fmt::format("set multiplot layout {},{}\n", grid.rows, grid.columns);
+  const std::string zero = setting.reference.empty() ? "values sum to 0" : setting.reference + " is 0";
+  const std::string kind = fmt::format("{}; {}", modelName(setting.model), zero);
+  if (!single)
+    script += fmt::format("set multiplot layout {},{} title {} noenhanced\n", grid.rows, grid.columns,
+                          gnuplotQuoted(kind));
   std::string data;
   size_t block = 0;
   for (const ItemScale& scale : scales.groups) {
@@ -67,10 +71,10 @@ void drawScales(const Scales& scales, const std::string& path) {
       names += fmt::format("{}{} {}", i ? ", " : "", gnuplotQuoted(item.name), row);
     }
     data += "\n\n";
-    const std::string zero = setting.reference.empty() ? "values sum to 0" : setting.reference + " is 0";
-    script += "set title " + gnuplotQuoted(scale.name) + " noenhanced\nset xlabel " +
-              gnuplotQuoted(fmt::format("scale value ({}; {}; {})", modelName(setting.model), zero,
-                                        barsText(scale, setting))) +
+    const std::string bars = barsText(scale, setting);
+    script += "set title " + gnuplotQuoted(single ? "" : scale.name + " (" + bars + ")") +
+              " noenhanced\nset xlabel " +
+              gnuplotQuoted(single ? "scale value (" + kind + "; " + bars + ")" : "scale value") +
               " noenhanced\nset ytics (" + names + ")\n" +
               fmt::format(
                   "set yrange [0.4:{}.6]\nplot {} index {} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw "

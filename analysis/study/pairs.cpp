@@ -31,6 +31,18 @@ std::string groupOf(const StudyPart& part, const StudyAnswer& answer, const std:
   return join(words);
 }
 
+/// Parts and levels in the order in which the protocol writes them.
+std::vector<size_t> placeOf(const StudyPlan& plan, const StudyAnswer& answer,
+                            const std::vector<std::string>& by) {
+  const StudyPart& part = plan.parts[answer.part];
+  const std::vector<size_t> levels = levelsOf(part, answer.condition);
+  std::vector<size_t> out{answer.part};
+  for (const std::string& factor : by)
+    for (size_t i = 0; i < levels.size(); ++i)
+      if (part.factors[i].name == factor) out.push_back(levels[i]);
+  return out;
+}
+
 /// What tells one pass through the pairs from the others.
 std::string roundOf(const StudyAnswer& answer) {
   std::string out = std::to_string(answer.session) + "/" + std::to_string(answer.target) + "/" +
@@ -48,31 +60,33 @@ std::vector<PairGroup> readStudyPairs(const StudyAnswers& study, const std::vect
   const auto count = std::count_if(parts.begin(), parts.end(), compares);
   if (count == 0)
     throw Error("no part compares items in pairs", study.plan.name, "limen analyse rates takes the others");
-  std::vector<PairGroup> out;
-  std::vector<std::map<std::string, size_t>> rounds;
+  struct Place {
+    PairGroup group;
+    std::map<std::string, size_t> rounds;
+  };
+  // Levels that the protocol does not list share a place, and are told apart by name.
+  std::map<std::pair<std::vector<size_t>, std::string>, Place> groups;
   for (const StudyAnswer& answer : study.answers) {
     const StudyPart& part = parts[answer.part];
     if (!compares(part)) continue;
     const std::string name = groupOf(part, answer, by, count > 1);
-    auto group = std::find_if(out.begin(), out.end(), [&](const PairGroup& one) { return one.name == name; });
-    if (group == out.end()) {
-      group = out.insert(out.end(), PairGroup{});
-      group->name = name;
-      group->ordered = true;
-      rounds.emplace_back();
-    }
-    auto& known = rounds[static_cast<size_t>(group - out.begin())];
+    Place& place = groups[{placeOf(study.plan, answer, by), name}];
+    PairGroup& group = place.group;
+    group.name = name;
+    group.ordered = true;
     const bool second = answer.outcome == answer.target;
     PairJudgement one;
-    one.winner = group->item(answer.condition.at(kItems[second ? 1 : 0]));
-    one.loser = group->item(answer.condition.at(kItems[second ? 0 : 1]));
-    one.subject = group->subject(study.observers[answer.observer]);
-    one.round = known.emplace(roundOf(answer), known.size()).first->second;
-    ++group->judged;
-    group->firstChosen += answer.outcome == 0 ? 1 : 0;
-    group->judgements.push_back(one);
+    one.winner = group.item(answer.condition.at(kItems[second ? 1 : 0]));
+    one.loser = group.item(answer.condition.at(kItems[second ? 0 : 1]));
+    one.subject = group.subject(study.observers[answer.observer]);
+    one.round = place.rounds.emplace(roundOf(answer), place.rounds.size()).first->second;
+    ++group.judged;
+    group.firstChosen += answer.outcome == 0 ? 1 : 0;
+    group.judgements.push_back(one);
   }
-  if (out.empty()) throw Error("no pair was judged", study.plan.name);
+  if (groups.empty()) throw Error("no pair was judged", study.plan.name);
+  std::vector<PairGroup> out;
+  for (auto& [key, place] : groups) out.push_back(std::move(place.group));
   return out;
 }
 

@@ -136,6 +136,8 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
   const json scenes = call("scale " + store + model + "--by scene --samples 0").at("scale").at("groups");
   ASSERT_EQ(scenes.size(), 2U);
   EXPECT_EQ(scenes[0].at("judgements"), 420);
+  EXPECT_EQ(scenes[0].at("group"), "scene=bunny") << "as the protocol writes them";
+  EXPECT_EQ(scenes[1].at("group"), "scene=columns_hall");
   const ProgramRun factor = runProgram("limen-analyse scale --by scenes " + store);
   EXPECT_EQ(factor.code, 2);
   EXPECT_THAT(factor.text, HasSubstr("did you mean 'scene'"));
