@@ -16,4 +16,7 @@ void addAnovaCommand(CLI::App& app);
 void addSdtCommand(CLI::App& app);
 void addMixedCommand(CLI::App& app);
 
+void addCorrelateCommand(CLI::App& app);  ///< correlate
+void addScaleCommand(CLI::App& app);      ///< scale
+
 }  // namespace limen::analysis

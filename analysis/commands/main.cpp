@@ -16,5 +16,7 @@ int main(int argc, char** argv) {
   limen::analysis::addAnovaCommand(app);
   limen::analysis::addSdtCommand(app);
   limen::analysis::addMixedCommand(app);
+  limen::analysis::addCorrelateCommand(app);
+  limen::analysis::addScaleCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }
