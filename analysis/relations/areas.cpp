@@ -84,9 +84,8 @@ Areas compareAreas(const std::vector<RelationRows>& groups, const RelationColumn
         BootstrapSetting own = setting.bootstrap;
         own.seed = psychometrics::childSeed(own.seed, rows.name);
         resample(group, rows, own);
-        if (rows.clusterCount < kLeastClusters)
-          group.notes.push_back(fmt::format("{} different {}: no bootstrap, which takes {}",
-                                            rows.clusterCount, columns.cluster, kLeastClusters));
+        if (const std::string note = noteOnClusters(rows.clusterCount, columns.cluster); !note.empty())
+          group.notes.push_back(note);
       }
     }
     out.groups.push_back(std::move(group));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/relations/cluster_bootstrap.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "analysis/statistics/summary.h"
@@ -41,6 +43,15 @@ std::vector<ResampledInterval> resampleClusters(const std::vector<size_t>& clust
   }
   for (size_t i = 0; i < statistics; ++i) out[i] = percentileInterval(values[i], setting);
   return out;
+}
+
+std::string noteOnClusters(size_t count, const std::string& of) {
+  if (count < kLeastClusters)
+    return fmt::format("{} different {}: no bootstrap, which takes {}", count, of, kLeastClusters);
+  if (count < kFewClusters)
+    return fmt::format("{} different {} are few: intervals of the bootstrap come out somewhat too narrow",
+                       count, of);
+  return {};
 }
 
 }  // namespace limen::analysis

@@ -144,9 +144,9 @@ Correlations correlateColumns(const std::vector<RelationRows>& groups, const Rel
       correlate(relation, rows.clusters, own);
       group.relations.push_back(std::move(relation));
     }
-    if (!columns.cluster.empty() && rows.clusterCount < kLeastClusters)
-      group.notes.push_back(fmt::format("{} different {}: no bootstrap, which takes {}", rows.clusterCount,
-                                        columns.cluster, kLeastClusters));
+    if (!columns.cluster.empty())
+      if (const std::string note = noteOnClusters(rows.clusterCount, columns.cluster); !note.empty())
+        group.notes.push_back(note);
     adjustGroup(group);
     out.groups.push_back(std::move(group));
   }

