@@ -13,10 +13,11 @@ namespace {
 /// 0.05 and fitted; maximum likelihood; 300 bootstrap samples an interval. Laplace gives no interval in some
 /// of the experiments.
 ///
-/// Of two alternatives profile intervals fall short on one side alone: the true threshold and width lie above them
-/// several times as often as below. With the lapse rate held at its true value they hold threshold and width in 95
-/// and 94 % of 2000 further experiments, on both sides alike; that it may rise to 0.45 in place of 0.1 changes
-/// nothing. What takes away is the lapse rate, whose estimate ends at 0 in two of five experiments.
+/// Of two alternatives profile intervals fall short on one side alone: the true threshold and width lie above
+/// them several times as often as below. With the lapse rate held at its true value they hold threshold and
+/// width in 95 and 94 % of 2000 further experiments, on both sides alike; that it may rise to 0.45 in place
+/// of 0.1 changes nothing. What takes away is the lapse rate, whose estimate ends at 0 in two of five
+/// experiments.
 struct Measured {
   const char* task;
   IntervalMethod method;

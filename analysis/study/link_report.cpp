@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit_settings.h"
@@ -84,12 +86,20 @@ LinkErrorIntervals errorIntervals(const std::vector<LinkReport>& samples,
 
 LinkIntervals intervalsOf(const LinkData& data, const LinkReportSetting& setting, size_t observers) {
   std::vector<LinkReport> samples(setting.samples);
-  for (size_t i = 0; i < samples.size(); ++i) {
-    psychometrics::Random random(psychometrics::childSeed(setting.seed, fmt::format("observers {}", i)));
-    Weights weights(observers, 0);
-    for (size_t drawn = 0; drawn < observers; ++drawn) ++weights[random.below(observers)];
-    samples[i] = reportOf(data, setting, weights);
-  }
+  // Leaving out makes a fit of each scenario and sample: seconds to minutes.
+  std::atomic<size_t> next{0};
+  const auto work = [&] {
+    for (size_t i; (i = next++) < samples.size();) {
+      psychometrics::Random random(psychometrics::childSeed(setting.seed, fmt::format("observers {}", i)));
+      Weights weights(observers, 0);
+      for (size_t drawn = 0; drawn < observers; ++drawn) ++weights[random.below(observers)];
+      samples[i] = reportOf(data, setting, weights);
+    }
+  };
+  std::vector<std::thread> others;
+  for (unsigned t = 1; t < setting.threads; ++t) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
   const auto of = [&](double Link::*parameter) {
     std::vector<double> values;
     for (const LinkReport& sample : samples)

@@ -28,8 +28,9 @@ struct LinkData {
 struct LinkReportSetting {
   LinkSetting link;       ///< guess rate none: that of catch trials
   bool fitGuess = false;  ///< guess rate fitted together with the catch trials
-  size_t samples = 1000;  ///< of the bootstrap; 0: none
+  size_t samples = 400;   ///< of the bootstrap; 0: none
   uint64_t seed = 1;
+  unsigned threads = 2;  ///< change nothing but the time
 };
 
 /// 95 % percentile intervals; none where too few samples tell, or an end is infinite.

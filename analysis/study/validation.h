@@ -72,7 +72,7 @@ struct ValidationSetting {
   std::optional<double> guess;  ///< of the link; none: from catch trials
   bool fitGuess = false;        ///< fitted together with the catch trials
   std::optional<double> lapse;  ///< none: fitted
-  size_t samples = 1000;        ///< of the bootstrap over observers, for the link
+  size_t samples = 400;         ///< of the bootstrap over observers, for the link
   uint64_t seed = 1;
 };
 
