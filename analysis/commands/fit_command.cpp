@@ -1,39 +1,126 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// limen analyse fit: psychometric functions of a table's or a study's answers.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "analysis/commands/commands.h"
+#include "analysis/commands/study_input.h"
 #include "analysis/fits/fit_options.h"
+#include "analysis/study/fitted_parts.h"
 #include "base/error.h"
+#include "base/text.h"
 
 namespace limen::analysis {
+namespace {
+
+struct Call {
+  FitOptions options;
+  StudyInput study;
+  FittedPartsChoice parts;
+  std::string guess = "free", plot;
+  bool json = false, csv = false;
+};
+
+/// What was not typed is what the protocol says.
+FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const FittedPart& fitted) {
+  FitOptions own = typed;
+  own.level = fitted.variable;
+  own.task = nameOf(fitted.task);
+  if (fitted.guess) own.fixed.push_back("guess=" + shortestNumber(*fitted.guess));
+  const auto fill = [](std::string& option, const std::string& value) {
+    if (option.empty()) option = value;
+  };
+  if (part.assumed && part.assumed->variable == fitted.variable) {
+    fill(own.sigmoid, part.assumed->sigmoid);
+    fill(own.axis, part.assumed->axis);
+    fill(own.direction, part.assumed->direction);
+    if (!own.thresholdLevel) own.thresholdLevel = part.assumed->level;
+  }
+  fill(own.direction, "auto");
+  return own;
+}
+
+void fitStore(Call& call) {
+  call.parts.variable = call.options.level;
+  call.parts.guessFromCatch = call.guess == "catch";
+  const StudyAnswers study = readStudy(call.study);
+  const std::vector<FittedPart> parts = fittedParts(study, call.parts);
+  if (!call.plot.empty() && parts.size() > 1)
+    throw Error("is one picture, and several parts are fitted", "--plot", "name one with --part");
+  std::vector<FitAnswer> answers;
+  for (const FittedPart& part : parts) {
+    const StudyPart& own = study.plan.parts[part.part];
+    answers.push_back(answerFit(optionsOf(call.options, own, part), part.conditions));
+    answers.back().part = own.name;
+    answers.back().notes = part.notes;
+  }
+  if (!call.plot.empty()) drawFit(answers.front(), call.plot);
+  if (call.json) {
+    nlohmann::json out = headJson(study);
+    out["command"] = "fit";
+    for (const FitAnswer& answer : answers) out["fits"].push_back(toJson(answer));
+    printJson(out);
+  } else if (call.csv) {
+    std::fputs(toCsv(answers).c_str(), stdout);
+  } else {
+    std::string text = headText(study);
+    for (const FitAnswer& answer : answers) text += "\n" + toText(answer);
+    std::fputs(text.c_str(), stdout);
+  }
+}
+
+void fitTable(const Call& call) {
+  const FitAnswer answer = answerFit(call.options, readConditions(call.options));
+  if (!call.plot.empty()) drawFit(answer, call.plot);
+  if (call.json)
+    std::printf("%s\n", toJson(answer).dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  else
+    std::fputs((call.csv ? toCsv(answer) : toText(answer)).c_str(), stdout);
+}
+
+}  // namespace
 
 void addFitCommand(CLI::App& app) {
-  struct Call {
-    FitOptions options;
-    std::string plot;
-    bool json = false, csv = false;
-  };
   const auto call = std::make_shared<Call>();
   FitOptions& options = call->options;
   CLI::App* fit =
       app.add_subcommand("fit", "psychometric functions of answers: thresholds, widths, intervals");
-  fit->add_option("DATA", options.file, "CSV or TSV, columns named in the first line")->required();
-  fit->add_option("--x", options.level, "column with the stimulus level")->required();
+  fit->add_option("DATA", options.file,
+                  "CSV or TSV, columns named in the first line; or a result store with sessions, whose parts "
+                  "are fitted as their protocol describes them")
+      ->required();
+  fit->add_option("--x", options.level,
+                  "column with the stimulus level; of a store the axis or factor, where there are several");
   fit->add_option("--k", options.correct, "column with the number of correct or positive answers");
   fit->add_option("--n", options.trials, "column with the number of trials");
   fit->add_option("--outcome", options.outcome, "column with 0 or 1, where each row is one trial");
-  fit->add_option("--by", options.by, "columns whose values are the conditions")->delimiter(',');
+  fit->add_option("--by", options.by,
+                  "columns whose values are the conditions; of a store factors, 'observer' or none (default: "
+                  "all factors but x, observers pooled)")
+      ->delimiter(',');
   fit->add_option("--order", options.order,
                   "column that says when a row was measured; otherwise the file's order");
-  fit->add_option("--task", options.task, "yesno, 2afc, mafc:M, equal (guess rate = lapse rate)")
-      ->capture_default_str();
-  fit->add_option("--sigmoid", options.sigmoid,
-                  "logistic, normal, weibull, gumbel, reversed_gumbel, hyperbolic_secant, student_t")
-      ->capture_default_str();
-  fit->add_option("--axis", options.axis, "linear or log; weibull is log")->capture_default_str();
-  fit->add_option("--level", options.thresholdLevel, "F at which the threshold is")->capture_default_str();
+  fit->add_option("--part", call->parts.part, "of a store: the part to fit (default: all that can be)");
+  fit->add_option("--guess", call->guess,
+                  "of a store, yes/no: free, fitted with the catch trials as trials without a stimulus, or "
+                  "catch, held at their rate")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"free", "catch"}));
+  addStudyChoice(*fit, call->study);
+  fit->add_option(
+      "--task", options.task,
+      "yesno, 2afc, mafc:M, equal (guess rate = lapse rate); 2afc if not given, of a store its own");
+  fit->add_option(
+      "--sigmoid", options.sigmoid,
+      "logistic, normal, weibull, gumbel, reversed_gumbel, hyperbolic_secant, student_t; normal if "
+      "not given, of a store as its simulation block says (so with axis, direction and level)");
+  fit->add_option("--axis", options.axis, "linear or log; weibull is log; linear if not given");
+  fit->add_option("--direction", options.direction,
+                  "rising, falling (F of -x, on a log axis of 1/x) or auto, as the answers go; rising if not "
+                  "given, of a store auto");
+  fit->add_option("--level", options.thresholdLevel, "F at which the threshold is; 0.5 if not given");
   fit->add_option("--method", options.method, "ml: maximum likelihood, map: with priors")
       ->capture_default_str();
   fit->add_option("--fix", options.fixed, "parameter that is known: lapse=0.01; may be repeated");
@@ -62,11 +149,15 @@ void addFitCommand(CLI::App& app) {
   fit->add_option("--plot", call->plot, "draw into FILE.svg, .pdf or .png");
   CLI::Option* json = fit->add_flag("--json", call->json, "print JSON");
   fit->add_flag("--csv", call->csv, "print CSV, a row for each parameter")->excludes(json);
-  fit->callback([call] {
-    const FitAnswer answer = answerFit(call->options);
-    if (!call->plot.empty()) drawFit(answer, call->plot);
-    const std::string text = call->json ? toJson(answer) + "\n" : call->csv ? toCsv(answer) : toText(answer);
-    std::fputs(text.c_str(), stdout);
+  fit->callback([call, fit] {
+    call->study.choice.store = call->options.file;
+    if (!isStudyStore(*fit, call->study, {"--k", "--n", "--outcome", "--order"}, {"--part", "--guess"}))
+      return fitTable(*call);
+    if (fit->count("--task") > 0)
+      throw Error("is what the protocol says", "--task", "leave it out, or give a CSV file");
+    if (fit->count("--by") > 0) call->parts.by = call->options.by;
+    if (call->parts.by == std::vector<std::string>{"none"}) call->parts.by->clear();
+    fitStore(*call);
   });
 }
 

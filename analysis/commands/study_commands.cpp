@@ -98,6 +98,10 @@ void addStudyCommands(CLI::App& app) {
       ->add_option("--rating-edges", options->ratingEdges,
                    "R from which a rating is low, high, very high (default: 1,2,3)")
       ->delimiter(',');
+  command->add_option("--samples", setting.samples, "Samples of observers for the link's intervals; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000));
+  command->add_option("--seed", setting.seed, "Of these samples")->capture_default_str();
   command->add_option("--top-regions", setting.bins.topRegions, "Regions whose mean R is the rating score")
       ->capture_default_str();
   command->callback([options] { validate(*options); });

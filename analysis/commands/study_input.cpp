@@ -8,9 +8,7 @@
 
 namespace limen::analysis {
 
-void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
-                   const std::string& meaning) {
-  command.add_option(positional, input.choice.store, meaning)->required();
+void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
                      "Name, or first digits of the SHA-256, if the store has several");
   static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
@@ -22,6 +20,12 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+}
+
+void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
+                   const std::string& meaning) {
+  command.add_option(positional, input.choice.store, meaning)->required();
+  addStudyChoice(command, input);
   command.add_flag("--json", input.asJson, "One JSON object");
   command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
 }
@@ -33,11 +37,12 @@ StudyAnswers readStudy(const StudyInput& input) {
 }
 
 bool isStudyStore(const CLI::App& command, const StudyInput& input,
-                  const std::vector<std::string>& tableOptions) {
+                  const std::vector<std::string>& tableOptions,
+                  const std::vector<std::string>& storeOptions) {
   const bool store = isDatabase(input.choice.store);
-  static const std::vector<std::string> kStoreOptions = {"--protocol", "--observers", "--no-exclusions",
-                                                         "--unfinished"};
-  for (const std::string& option : store ? tableOptions : kStoreOptions)
+  std::vector<std::string> ofStores = {"--protocol", "--observers", "--no-exclusions", "--unfinished"};
+  ofStores.insert(ofStores.end(), storeOptions.begin(), storeOptions.end());
+  for (const std::string& option : store ? tableOptions : ofStores)
     if (command.count(option) > 0)
       throw Error(store ? "names a column, and a result store has none" : "means nothing for a table", option,
                   store ? "leave it out, or give a CSV file" : "leave it out, or give a result store");

@@ -21,7 +21,9 @@ struct StudyInput {
   std::string csv;
 };
 
-/// Adds the positional, --protocol, --observers, --no-exclusions, --unfinished, --json, --csv.
+/// Adds --protocol, --observers, --no-exclusions, --unfinished.
+void addStudyChoice(CLI::App& command, StudyInput& input);
+/// Adds the positional, the options of addStudyChoice(), --json, --csv.
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional = "store",
                    const std::string& meaning = "Result store with sessions");
 
@@ -30,9 +32,10 @@ StudyAnswers readStudy(const StudyInput& input);
 
 /// For commands that take a store or a table, before anything is read: whether it is a store. Throws Error if
 /// an option was given that means nothing for the other kind: `tableOptions` beside a store, those of
-/// addStudyInput() that choose sessions beside a table.
+/// addStudyChoice() and `storeOptions` beside a table.
 bool isStudyStore(const CLI::App& command, const StudyInput& input,
-                  const std::vector<std::string>& tableOptions);
+                  const std::vector<std::string>& tableOptions,
+                  const std::vector<std::string>& storeOptions = {});
 
 /// Prints a JSON object on one line.
 void printJson(const nlohmann::json& out);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,10 @@ namespace limen::analysis {
 
 /// All that one call of `limen analyse fit` found.
 struct FitAnswer {
-  std::string file, hash;  ///< of the data; the hash is its SHA-256
+  std::string file, hash;          ///< of the data; the hash is its SHA-256
+  std::string part;                ///< of a study; empty for tables
+  std::string level;               ///< name of x
+  std::vector<std::string> notes;  ///< what whoever reads the numbers has to know of the data
   std::vector<Condition> data;
   Fit fit;
   std::optional<FitIntervals> intervals;
@@ -28,9 +32,11 @@ struct FitAnswer {
 };
 
 std::string toText(const FitAnswer& answer);
-std::string toJson(const FitAnswer& answer);
-/// One row for each condition and quantity: condition, parameter, estimate, low, high, ...
+nlohmann::json toJson(const FitAnswer& answer);
+/// One row for each condition and quantity: condition, parameter, estimate, low, high, ...; of several
+/// answers with their part before it.
 std::string toCsv(const FitAnswer& answer);
+std::string toCsv(const std::vector<FitAnswer>& parts);
 
 /// Draws data, fitted functions and intervals of the thresholds; beside FILE.svg, .pdf or .png lie its
 /// gnuplot script and data. Throws Error.

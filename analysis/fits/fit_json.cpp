@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ json settingsOf(const FitAnswer& answer, size_t c) {
   json out = {{"task", nameOf(settings.task)},
               {"sigmoid", psychometrics::nameOf(settings.sigmoid)},
               {"axis", settings.logarithmic() ? "log" : "linear"},
+              {"direction", settings.falling ? "falling" : "rising"},
               {"method", settings.method == FitMethod::MaximumLikelihood ? "ml" : "map"},
               {"threshold_level", settings.thresholdLevel},
               {"width_from", 0.05},
@@ -33,14 +35,13 @@ json settingsOf(const FitAnswer& answer, size_t c) {
     const int place = objective.place(c, static_cast<FitParameter>(i));
     if (place < 0) continue;
     const FreeParameter& free = objective.free()[static_cast<size_t>(place)];
-    const auto off = [&](double value) {
-      if (free.parameter == FitParameter::Width) return std::exp(value);
-      return free.parameter == FitParameter::Threshold ? objective.shape().offAxis(value) : value;
-    };
-    out["bounds"][name] = {off(free.low), off(free.high)};
+    out["bounds"][name] =
+        free.parameter == FitParameter::Width       ? std::array{std::exp(free.low), std::exp(free.high)}
+        : free.parameter == FitParameter::Threshold ? objective.shape().offAxis(free.low, free.high)
+                                                    : std::array{free.low, free.high};
     if (settings.method == FitMethod::MaximumPosterior ||
         (answer.intervals && answer.intervals->method == IntervalMethod::Posterior))
-      out["priors"][name] = priorText(free.parameter, free.spread);
+      out["priors"][name] = priorText(free.parameter, free.spread, settings.falling);
   }
   return out;
 }
@@ -55,7 +56,9 @@ json goodnessOf(const FitAnswer& answer, size_t c) {
   const Goodness& goodness = answer.goodness[c];
   json blocks = json::array();
   for (size_t i = 0; i < goodness.residuals.values.size(); ++i) {
-    json block = {{"level", goodness.residuals.levels[i]},
+    const double level = goodness.residuals.levels[i];
+    json block = {{"level", std::isfinite(level) ? json(level) : json()},
+                  {"no_stimulus", !std::isfinite(level)},
                   {"predicted", goodness.residuals.predicted[i]},
                   {"deviance_residual", goodness.residuals.values[i]}};
     const BlockInfluence& influence = goodness.influences[i];
@@ -87,7 +90,7 @@ json intervalsOf(const FitAnswer& answer, size_t c) {
     if (interval && interval->lowOpen) out["open"].push_back(name + " low");
     if (interval && interval->highOpen) out["open"].push_back(name + " high");
   }
-  out["notes"] = coverageNotes(intervals.method, answer.parametric);
+  out["notes"] = coverageNotes(intervals.method, answer.parametric, answer.fit.settings.task);
   return out;
 }
 
@@ -111,9 +114,13 @@ json conditionOf(const FitAnswer& answer, size_t c) {
       out["at_bound"].push_back(fitParameterNames()[i] + (fit.atBound[i] < 0 ? " low" : " high"));
   }
   const psychometrics::Sigmoid sigmoid = fit.sigmoid(answer.fit.settings);
-  out["location"] = sigmoid.location();
+  const bool falling = answer.fit.settings.falling, logarithmic = answer.fit.settings.logarithmic();
+  // Of x, where the sigmoid is one of -x or 1/x.
+  out["location"] = falling ? -sigmoid.location() : sigmoid.location();
   out["scale"] = sigmoid.scale();
-  out["alpha"] = sigmoid.alpha();
+  out["alpha"] = !falling      ? sigmoid.alpha()
+                 : logarithmic ? std::exp(-sigmoid.location())
+                               : -sigmoid.location();
   out["beta"] = sigmoid.beta();
   // Priors of a parameter that conditions share have no condition of their own.
   const bool map = answer.fit.settings.method == FitMethod::MaximumPosterior;
@@ -133,12 +140,14 @@ json summaryOf(const Fit& fit) {
 
 }  // namespace
 
-std::string toJson(const FitAnswer& answer) {
+json toJson(const FitAnswer& answer) {
   json versions = {{"limen", projectVersion()}, {"commit", buildCommit()}};
   for (const auto& [name, version] : fitLibraries()) versions[name] = version;
   json out = {{"command", "fit"},
               {"file", answer.file},
               {"sha256", answer.hash},
+              {"x", answer.level},
+              {"notes", answer.notes},
               {"versions", versions},
               {"all", summaryOf(answer.fit)},
               {"conditions", json::array()},
@@ -152,7 +161,8 @@ std::string toJson(const FitAnswer& answer) {
                                {"degrees", answer.ratio->degrees},
                                {"p", answer.ratio->p},
                                {"note", "chi-squared; approximate for few trials and for rates at a bound"}};
-  return out.dump(2, ' ', false, json::error_handler_t::replace);
+  if (!answer.part.empty()) out["part"] = answer.part;
+  return out;
 }
 
 }  // namespace limen::analysis

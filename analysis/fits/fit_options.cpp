@@ -46,16 +46,22 @@ std::string choice(const std::string& text, const std::vector<std::string>& know
 
 }  // namespace
 
-FitSettings readFitSettings(const FitOptions& options) {
+FitSettings readFitSettings(const FitOptions& options, const std::vector<Condition>& data) {
+  const auto orElse = [](const std::string& text, const char* otherwise) {
+    return text.empty() ? std::string(otherwise) : text;
+  };
   FitSettings settings;
-  settings.sigmoid = psychometrics::sigmoidFamily(options.sigmoid, "--sigmoid");
-  settings.task = readFitTask(options.task, "--task");
-  settings.axis = choice(options.axis, {"linear", "log"}, "--axis") == "log"
+  settings.sigmoid = psychometrics::sigmoidFamily(orElse(options.sigmoid, "normal"), "--sigmoid");
+  settings.task = readFitTask(orElse(options.task, "2afc"), "--task");
+  settings.axis = choice(orElse(options.axis, "linear"), {"linear", "log"}, "--axis") == "log"
                       ? psychometrics::StimulusAxis::Logarithmic
                       : psychometrics::StimulusAxis::Linear;
+  const std::string direction =
+      choice(orElse(options.direction, "rising"), {"rising", "falling", "auto"}, "--direction");
+  settings.falling = direction == "auto" ? answersFall(data, settings) : direction == "falling";
   settings.method = choice(options.method, {"ml", "map"}, "--method") == "ml" ? FitMethod::MaximumLikelihood
                                                                               : FitMethod::MaximumPosterior;
-  settings.thresholdLevel = options.thresholdLevel;
+  settings.thresholdLevel = options.thresholdLevel.value_or(0.5);
   settings.lapseMost = options.lapseMost;
   settings.guessMost = options.guessMost;
   settings.overdispersion = options.overdispersion;
@@ -69,6 +75,8 @@ FitSettings readFitSettings(const FitOptions& options) {
 }
 
 std::vector<Condition> readConditions(const FitOptions& options) {
+  if (options.level.empty())
+    throw Error("the column with the stimulus level is not named", "", "name it with --x");
   const bool single = !options.outcome.empty();
   if (single && (!options.correct.empty() || !options.trials.empty()))
     throw Error("rows are single trials or counts, not both", "--outcome", "drop it, or drop --k and --n");
@@ -121,12 +129,12 @@ std::vector<Condition> readConditions(const FitOptions& options) {
   return conditions;
 }
 
-FitAnswer answerFit(const FitOptions& options) {
+FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
   if (!(options.confidence > 0.0 && options.confidence < 1.0))
     throw Error("has to lie between 0 and 1, both excluded", "--confidence");
   if (options.samples < 100 || options.samples > 1000000)
     throw Error("has to be 100 to 1000000", "--samples", "2000 are usual");
-  const FitSettings settings = readFitSettings(options);
+  const FitSettings settings = readFitSettings(options, data);
   std::optional<IntervalMethod> method;
   if (!options.intervals.empty()) method = readIntervalMethod(options.intervals, "--intervals");
   const bool parametric =
@@ -134,7 +142,8 @@ FitAnswer answerFit(const FitOptions& options) {
 
   FitAnswer answer;
   answer.file = options.file;
-  answer.data = readConditions(options);
+  answer.level = options.level;
+  answer.data = std::move(data);
   answer.hash = sha256File(options.file);
   answer.parametric = parametric;
   answer.samples = static_cast<size_t>(options.samples);

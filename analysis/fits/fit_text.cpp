@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "analysis/fits/fit_answer.h"
+#include "analysis/output/text_output.h"
 #include "analysis/psychometric/coverage.h"
 #include "analysis/psychometric/objective.h"
-#include "analysis/output/text_output.h"
 #include "base/build_facts.h"
 #include "base/text.h"
 
@@ -17,11 +17,13 @@ namespace {
 std::string heading(const FitAnswer& answer) {
   const FitSettings& settings = answer.fit.settings;
   std::string out = fmt::format(
-      "psychometric function, {}: P = guess + (1 - guess - lapse) F\nF {} on a {} axis, task {}, {}; "
+      "psychometric function of {}, {}: P = guess + (1 - guess - lapse) F\nF {}, {} on a {} axis, task {}, "
+      "{}; "
       "threshold "
       "at F = {}, width from F = 0.05 to 0.95{}\n",
-      answer.file, psychometrics::nameOf(settings.sigmoid), settings.logarithmic() ? "logarithmic" : "linear",
-      nameOf(settings.task),
+      answer.level, answer.part.empty() ? answer.file : "part " + answer.part,
+      psychometrics::nameOf(settings.sigmoid), settings.falling ? "falling" : "rising",
+      settings.logarithmic() ? "logarithmic" : "linear", nameOf(settings.task),
       settings.method == FitMethod::MaximumLikelihood ? "maximum likelihood" : "maximum a posteriori",
       shortestNumber(settings.thresholdLevel), settings.logarithmic() ? " in units of ln x" : "");
   std::vector<std::string> held, shared;
@@ -32,6 +34,7 @@ std::string heading(const FitAnswer& answer) {
   }
   if (!held.empty()) out += "fixed: " + join(held) + "\n";
   if (!shared.empty()) out += "shared by all conditions: " + join(shared) + "\n";
+  for (const std::string& note : answer.notes) out += "note: " + note + "\n";
   return out + "limen-analyse " + projectVersion() + ", commit " + buildCommit() + "\n";
 }
 
@@ -77,7 +80,9 @@ std::string goodnessLines(const FitAnswer& answer, size_t c) {
                                 "threshold", "width");
   for (size_t i = 0; i < goodness.influences.size(); ++i) {
     const BlockInfluence& without = goodness.influences[i];
-    out += fmt::format("    {:>12.6g}{:>12.4f}{:>12.3f}", goodness.residuals.levels[i],
+    const double level = goodness.residuals.levels[i];
+    out += fmt::format("    {:>12}{:>12.4f}{:>12.3f}",
+                       std::isfinite(level) ? fmt::format("{:.6g}", level) : "none",
                        goodness.residuals.predicted[i], goodness.residuals.values[i]);
     out += without.refused ? fmt::format("{:>28}", "no fit without it")
                            : fmt::format("{:>14.6g}{:>14.6g}", without.threshold, without.width);
@@ -97,7 +102,8 @@ std::string priorLines(const FitAnswer& answer, size_t c) {
     if (place < 0) continue;
     const FreeParameter& free = objective.free()[static_cast<size_t>(place)];
     const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
-    out += fmt::format("    {:<11}{}{}\n", fitParameterNames()[i], priorText(parameter, free.spread),
+    out += fmt::format("    {:<11}{}{}\n", fitParameterNames()[i],
+                       priorText(parameter, free.spread, answer.fit.settings.falling),
                        rate ? " up to " + shortestNumber(free.high) : "");
   }
   return out;
@@ -120,7 +126,8 @@ std::string toText(const FitAnswer& answer) {
       out += fmt::format(", {}, {} samples, seed {}", answer.parametric ? "parametric" : "nonparametric",
                          answer.samples, answer.seed);
     out += "\n";
-    for (const std::string& note : coverageNotes(intervals.method, answer.parametric))
+    for (const std::string& note :
+         coverageNotes(intervals.method, answer.parametric, answer.fit.settings.task))
       out += "  note: " + note + "\n";
     for (const std::string& warning : intervals.warnings) out += "  warning: " + warning + "\n";
   }
@@ -149,12 +156,16 @@ std::string toText(const FitAnswer& answer) {
   return out;
 }
 
-std::string toCsv(const FitAnswer& answer) {
+namespace {
+
+const std::vector<std::string> kColumns = {"condition",       "parameter",      "estimate", "low",     "high",
+                                           "interval_method", "interval_level", "fitted",   "at_bound"};
+
+std::vector<std::vector<std::string>> rowsOf(const FitAnswer& answer) {
   const auto number = [](double value) {
     return std::isfinite(value) ? shortestNumber(value) : std::string();
   };
-  std::string out = csvLine({"condition", "parameter", "estimate", "low", "high", "interval_method",
-                             "interval_level", "fitted", "at_bound"});
+  std::vector<std::vector<std::string>> out;
   for (size_t c = 0; c < answer.fit.conditions.size(); ++c) {
     const ConditionFit& fit = answer.fit.conditions[c];
     const FitQuantities quantities = quantitiesOf(fit);
@@ -170,15 +181,35 @@ std::string toCsv(const FitAnswer& answer) {
       }
       const bool parameter = i < kFitParameters;
       const int bound = parameter ? fit.atBound[i] : 0;
-      out += csvLine({fit.name, quantityName(i), number(quantities[i]), low, high, method, level,
-                      parameter ? (fit.fitted[i] ? "1" : "0") : "",
-                      bound < 0   ? "low"
-                      : bound > 0 ? "high"
-                                  : ""});
+      out.push_back({fit.name, quantityName(i), number(quantities[i]), low, high, method, level,
+                     parameter ? (fit.fitted[i] ? "1" : "0") : "",
+                     bound < 0   ? "low"
+                     : bound > 0 ? "high"
+                                 : ""});
     }
-    out += csvLine({fit.name, "deviance", number(fit.deviance), "", "", "", "", "", ""});
-    out += csvLine({fit.name, "log_likelihood", number(fit.logLikelihood), "", "", "", "", "", ""});
+    out.push_back({fit.name, "deviance", number(fit.deviance), "", "", "", "", "", ""});
+    out.push_back({fit.name, "log_likelihood", number(fit.logLikelihood), "", "", "", "", "", ""});
   }
+  return out;
+}
+
+}  // namespace
+
+std::string toCsv(const FitAnswer& answer) {
+  std::string out = csvLine(kColumns);
+  for (const std::vector<std::string>& row : rowsOf(answer)) out += csvLine(row);
+  return out;
+}
+
+std::string toCsv(const std::vector<FitAnswer>& parts) {
+  std::vector<std::string> heading = kColumns;
+  heading.insert(heading.begin(), "part");
+  std::string out = csvLine(heading);
+  for (const FitAnswer& part : parts)
+    for (std::vector<std::string> row : rowsOf(part)) {
+      row.insert(row.begin(), part.part);
+      out += csvLine(row);
+    }
   return out;
 }
 

@@ -89,6 +89,19 @@ const std::string& nameOf(IntervalMethod method) {
   return intervalMethodNames()[static_cast<size_t>(method)];
 }
 
+std::optional<FitInterval> slopeOfWidth(const ConditionFit& fit, const FitSettings& settings,
+                                        const ConditionIntervals& intervals) {
+  const auto& width = intervals[indexOf(FitParameter::Width)];
+  if (!width || settings.logarithmic()) return {};
+  const double constant = fit.slope * fit.value(FitParameter::Width);
+  FitInterval out{constant / width->high, constant / width->low, width->highOpen, width->lowOpen};
+  if (settings.falling) {
+    std::swap(out.low, out.high);
+    std::swap(out.lowOpen, out.highOpen);
+  }
+  return out;
+}
+
 FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const Fit& fit,
                                 const std::vector<Replicate>& replicates, bool accelerated,
                                 double confidence) {

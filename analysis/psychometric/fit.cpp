@@ -154,11 +154,16 @@ ConditionFit describe(const Condition& condition, const Objective& objective, si
     fit.fitted[i] = place >= 0;
     if (place >= 0) fit.atBound[i] = optimum.atBound[static_cast<size_t>(place)];
   }
+  if (shape.falling) fit.atBound[indexOf(FitParameter::Threshold)] *= -1;
   if (objective.settings().task.kind == FitTask::Kind::EqualAsymptotes) {
     fit.fitted[indexOf(FitParameter::Guess)] = fit.fitted[indexOf(FitParameter::Lapse)];
     fit.atBound[indexOf(FitParameter::Guess)] = fit.atBound[indexOf(FitParameter::Lapse)];
   }
-  fit.slope = fit.sigmoid(objective.settings()).slopeAtThreshold(shape.level);
+  const FitSettings& settings = objective.settings();
+  const double mirrored = fit.sigmoid(settings).threshold(shape.level);
+  fit.slope = fit.sigmoid(settings).derivative(mirrored);
+  // F(-x) or F(1/x): the inner derivative is -1, or -1/x^2.
+  if (shape.falling) fit.slope *= shape.logarithmic ? -mirrored * mirrored : -1.0;
   fit.logLikelihood = blocks.logSaturated - negativeLogLikelihood(shape, blocks, values, nullptr);
   for (size_t i = 0; i < blocks.u.size(); ++i) {
     fit.deviance +=
@@ -177,31 +182,30 @@ ConditionFit describe(const Condition& condition, const Objective& objective, si
   return fit;
 }
 
+/// The stimulus that F rises with.
+double risingStimulus(const FitSettings& settings, double x) {
+  if (!settings.falling) return x;
+  return settings.logarithmic() ? 1.0 / x : -x;
+}
+
 /// What the reader has to know about a condition's numbers.
 void warn(const Condition& condition, const Objective& objective, size_t c, ConditionFit& fit) {
   std::vector<std::string>& warnings = fit.warnings;
   const PreparedBlocks& blocks = objective.blocks(c);
   int64_t correct = 0, trials = 0;
-  double meanU = 0.0, meanP = 0.0, covariance = 0.0, n = 0.0;
   for (size_t i = 0; i < blocks.u.size(); ++i) {
     correct += blocks.correct[i];
     trials += blocks.trials[i];
-    if (!std::isfinite(blocks.u[i])) continue;
-    n += static_cast<double>(blocks.trials[i]);
-    meanU += static_cast<double>(blocks.trials[i]) * blocks.u[i];
-    meanP += static_cast<double>(blocks.correct[i]);
   }
-  for (size_t i = 0; i < blocks.u.size(); ++i)
-    if (std::isfinite(blocks.u[i]))
-      covariance += (blocks.u[i] - meanU / n) * (static_cast<double>(blocks.correct[i]) -
-                                                 static_cast<double>(blocks.trials[i]) * meanP / n);
   if (blocks.u.size() < condition.blocks.size())
     warnings.push_back(
         fmt::format("{} block(s) without trials left out", condition.blocks.size() - blocks.u.size()));
   if (correct == trials) warnings.push_back("every answer is correct");
   if (correct == 0) warnings.push_back("no answer is correct");
-  if (covariance < 0.0)
-    warnings.push_back("answers get worse with the level; sigmoids rise, so turn the axis (its negative)");
+  const bool falling = objective.shape().falling;
+  if (covariance(blocks) < 0.0)
+    warnings.push_back(falling ? "answers get better with the level, but a falling function is fitted"
+                               : "answers get worse with the level, but a rising function is fitted");
   const auto at = [&](FitParameter parameter) { return fit.atBound[indexOf(parameter)]; };
   if (at(FitParameter::Threshold) != 0)
     warnings.push_back(fmt::format("the threshold is at the {} bound of the fit; the data do not tell it",
@@ -232,13 +236,14 @@ void warn(const Condition& condition, const Objective& objective, size_t c, Cond
 
 psychometrics::Sigmoid ConditionFit::sigmoid(const FitSettings& settings) const {
   return psychometrics::Sigmoid::fromThresholdWidth(settings.sigmoid, settings.axis,
-                                                    value(FitParameter::Threshold),
+                                                    risingStimulus(settings, value(FitParameter::Threshold)),
                                                     value(FitParameter::Width), settings.thresholdLevel);
 }
 
 double ConditionFit::probability(const FitSettings& settings, double x) const {
   const double guess = value(FitParameter::Guess), lapse = value(FitParameter::Lapse);
-  return guess + (1.0 - guess - lapse) * sigmoid(settings).value(x);
+  if (x == kNoStimulus) return guess;
+  return guess + (1.0 - guess - lapse) * sigmoid(settings).value(risingStimulus(settings, x));
 }
 
 Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings& settings,

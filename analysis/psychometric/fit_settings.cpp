@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/psychometric/likelihood.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -113,20 +114,29 @@ void checkFit(const std::vector<Condition>& conditions, const FitSettings& setti
   for (const Condition& condition : conditions) {
     const std::string place = placeOf(where, condition);
     std::set<double> levels;
+    bool blanks = false;
     for (size_t i = 0; i < condition.blocks.size(); ++i) {
       const Block& block = condition.blocks[i];
       const std::string at = fmt::format("{}{}block {}", place, place.empty() ? "" : ", ", i + 1);
       if (block.trials < 0 || block.correct < 0 || block.correct > block.trials)
         throw Error(
             fmt::format("{} correct of {} trials is no count of answers", block.correct, block.trials), at);
+      if (block.level == kNoStimulus) {
+        blanks |= block.trials > 0;
+        continue;
+      }
       if (!std::isfinite(block.level)) throw Error("the level is not a finite number", at);
-      if (settings.logarithmic() && block.level < 0.0)
-        throw Error(fmt::format("level {} has no place on a logarithmic axis", block.level), at,
-                    "use a linear axis or levels above 0");
+      if (settings.logarithmic() && (block.level < 0.0 || (settings.falling && block.level == 0.0)))
+        throw Error(fmt::format("level {} has no place on a {}logarithmic axis", block.level,
+                                settings.falling ? "falling " : ""),
+                    at, "use a linear axis or levels above 0");
       // 0 on a logarithmic axis lies at minus infinity: F = 0 there, whatever the threshold.
-      if (block.trials > 0 && !(settings.logarithmic() && block.level == 0.0)) levels.insert(block.level);
+      const bool zero = settings.logarithmic() && block.level == 0.0;
+      blanks |= zero && block.trials > 0;
+      if (block.trials > 0 && !zero) levels.insert(block.level);
     }
-    if (levels.empty()) throw Error("there are no trials", place);
+    if (levels.empty())
+      throw Error(blanks ? "there are no trials but those without a stimulus" : "there are no trials", place);
     const bool both = !settled(FitParameter::Threshold) && !settled(FitParameter::Width);
     if (levels.size() < 2 && both)
       throw Error("one level does not tell threshold and width", place,
@@ -136,6 +146,15 @@ void checkFit(const std::vector<Condition>& conditions, const FitSettings& setti
       throw Error("the priors need a range, which one level does not have", place,
                   "name the range of levels or use maximum likelihood");
   }
+}
+
+bool answersFall(const std::vector<Condition>& conditions, const FitSettings& settings) {
+  FitSettings rising = settings;
+  rising.falling = false;
+  const SigmoidShape shape(rising);
+  double sum = 0.0;
+  for (const Condition& condition : conditions) sum += covariance(PreparedBlocks(condition, shape));
+  return sum < 0.0;
 }
 
 }  // namespace limen::analysis

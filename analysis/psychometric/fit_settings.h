@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +12,13 @@
 
 namespace limen::analysis {
 
+/// Level of trials that showed no stimulus (catch trials): F = 0 there, whatever threshold, width, axis and
+/// direction, so that P is the guess rate. Such blocks have no part in ranges of levels.
+inline constexpr double kNoStimulus = -std::numeric_limits<double>::infinity();
+
 /// Answers to `trials` presentations of one stimulus level.
 struct Block {
-  double level = 0.0;
+  double level = 0.0;  ///< finite, or kNoStimulus; 0 on a logarithmic axis is no stimulus, too
   int64_t correct = 0, trials = 0;
   double order = 0.0;  ///< when it was shown, in any unit; blocks of one time share it
 };
@@ -49,6 +54,9 @@ enum class FitMethod {
 struct FitSettings {
   psychometrics::SigmoidFamily sigmoid = psychometrics::SigmoidFamily::Normal;
   psychometrics::StimulusAxis axis = psychometrics::StimulusAxis::Linear;
+  /// F falls with x, as detection does with distance: the rising sigmoid is one of -x, on a logarithmic axis
+  /// of 1/x. For families that are not symmetric that is not 1 - F of the rising one.
+  bool falling = false;
   FitTask task;
   FitMethod method = FitMethod::MaximumLikelihood;
   double thresholdLevel = 0.5;  ///< the F that defines the threshold
@@ -70,10 +78,14 @@ struct FitSettings {
   }
 };
 
-/// Throws Error for settings or data that have no fit: no trials, counts out of range, levels that are not
-/// finite or negative on a logarithmic axis, one level where threshold and width are both free, fixed values
-/// out of range. `where` names the data.
+/// Throws Error for settings or data that have no fit: no trials, counts out of range, levels that are
+/// neither finite nor kNoStimulus, or have no place on a logarithmic axis, one level where threshold and
+/// width are both free, fixed values out of range. `where` names the data.
 void checkFit(const std::vector<Condition>& conditions, const FitSettings& settings,
               const std::string& where = {});
+
+/// Whether answers get worse with the level: the covariances of level (on the axis) and answers within
+/// conditions sum to less than 0. Trials without a stimulus do not count.
+bool answersFall(const std::vector<Condition>& conditions, const FitSettings& settings);
 
 }  // namespace limen::analysis

@@ -38,6 +38,11 @@ struct FitIntervals {
   std::vector<std::string> warnings;
 };
 
+/// On a linear axis the slope is a constant over the width, and so is its interval; none on a logarithmic
+/// one.
+std::optional<FitInterval> slopeOfWidth(const ConditionFit& fit, const FitSettings& settings,
+                                        const ConditionIntervals& intervals);
+
 /// From replicates of bootstrap(). Bca fits twice for each block more, for the acceleration: by how much the
 /// estimates change with one answer less (jackknife over trials).
 FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const Fit& fit,

@@ -74,12 +74,25 @@ Standard standardAt(const SigmoidShape& shape, double z) {
 SigmoidShape::SigmoidShape(const FitSettings& settings)
     : family(settings.sigmoid),
       logarithmic(settings.logarithmic()),
+      falling(settings.falling),
       level(settings.thresholdLevel),
       zAtThreshold(standardInverse(settings.sigmoid, settings.thresholdLevel)),
       zWidth(standardInverseComplement(settings.sigmoid, kTail) - standardInverse(settings.sigmoid, kTail)) {}
 
-double SigmoidShape::onAxis(double x) const { return logarithmic ? std::log(x) : x; }
-double SigmoidShape::offAxis(double u) const { return logarithmic ? std::exp(u) : u; }
+double SigmoidShape::onAxis(double x) const {
+  if (x == kNoStimulus) return -kInfinity;
+  const double u = logarithmic ? std::log(x) : x;
+  return falling ? -u : u;
+}
+
+double SigmoidShape::offAxis(double u) const {
+  const double turned = falling ? -u : u;
+  return logarithmic ? std::exp(turned) : turned;
+}
+
+std::array<double, 2> SigmoidShape::offAxis(double low, double high) const {
+  return falling ? std::array{offAxis(high), offAxis(low)} : std::array{offAxis(low), offAxis(high)};
+}
 
 double SigmoidShape::z(double u, const AxisValues& values) const {
   return zAtThreshold +
@@ -101,6 +114,21 @@ PreparedBlocks::PreparedBlocks(const Condition& condition, const SigmoidShape& s
     order.push_back(block.order);
     logSaturated += logSaturatedChance(block.correct, block.trials);
   }
+}
+
+double covariance(const PreparedBlocks& blocks) {
+  double meanU = 0.0, meanP = 0.0, sum = 0.0, n = 0.0;
+  for (size_t i = 0; i < blocks.u.size(); ++i) {
+    if (!std::isfinite(blocks.u[i])) continue;
+    n += static_cast<double>(blocks.trials[i]);
+    meanU += static_cast<double>(blocks.trials[i]) * blocks.u[i];
+    meanP += static_cast<double>(blocks.correct[i]);
+  }
+  for (size_t i = 0; i < blocks.u.size(); ++i)
+    if (std::isfinite(blocks.u[i]))
+      sum += (blocks.u[i] - meanU / n) *
+             (static_cast<double>(blocks.correct[i]) - static_cast<double>(blocks.trials[i]) * meanP / n);
+  return sum;
 }
 
 double halfBlockDeviance(const Chance& chance, int64_t correct, int64_t trials) {

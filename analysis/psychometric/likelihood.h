@@ -17,13 +17,17 @@ struct SigmoidShape {
   explicit SigmoidShape(const FitSettings& settings);
 
   psychometrics::SigmoidFamily family;
-  bool logarithmic;
+  bool logarithmic, falling;
   double level;         ///< F at the threshold
   double zAtThreshold;  ///< standard form's argument there
   double zWidth;        ///< from F = 0.05 to 0.95
 
-  double onAxis(double x) const;  ///< x or ln x; -infinity for x = 0 on a logarithmic axis
+  /// u = x or ln x, its negative where F falls, so that F always rises with u; -infinity where there is no
+  /// stimulus.
+  double onAxis(double x) const;
   double offAxis(double u) const;
+  /// The same for both ends of an interval, which a falling F turns round.
+  std::array<double, 2> offAxis(double low, double high) const;
   double z(double u, const AxisValues& values) const;
 };
 
@@ -43,6 +47,9 @@ struct PreparedBlocks {
   std::vector<double> order;
   double logSaturated = 0.0;  ///< binomial log-likelihood where every P is k/n
 };
+
+/// Sum over trials of (u - mean u)(answer - mean answer); blocks without a stimulus left out.
+double covariance(const PreparedBlocks& blocks);
 
 /// Half the binomial deviance of one block.
 double halfBlockDeviance(const Chance& chance, int64_t correct, int64_t trials);

@@ -147,18 +147,14 @@ FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const 
         const psychometrics::CredibleInterval own = posterior.equalTailed(d, confidence);
         FitInterval interval{own.low, own.high, false, false};
         if (spans[d].parameter == FitParameter::Threshold) {
-          interval.low = objective.shape().offAxis(own.low);
-          interval.high = objective.shape().offAxis(own.high);
+          const auto [low, high] = objective.shape().offAxis(own.low, own.high);
+          interval.low = low;
+          interval.high = high;
         }
         found[indexOf(spans[d].parameter)] = interval;
       }
     }
-    const auto& width = found[indexOf(FitParameter::Width)];
-    if (width && !settings.logarithmic()) {
-      const ConditionFit& own = fit.conditions[intervals.conditions.size()];
-      const double constant = own.slope * own.value(FitParameter::Width);
-      found[kFitParameters] = FitInterval{constant / width->high, constant / width->low, false, false};
-    }
+    found[kFitParameters] = slopeOfWidth(fit.conditions[intervals.conditions.size()], settings, found);
     if (settings.task.kind == FitTask::Kind::EqualAsymptotes)
       found[indexOf(FitParameter::Guess)] = found[indexOf(FitParameter::Lapse)];
     intervals.conditions.push_back(found);

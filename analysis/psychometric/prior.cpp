@@ -34,8 +34,8 @@ LevelSpread spreadOf(std::vector<double> u, const FitSettings& settings) {
   if (!u.empty()) spread = {u.front(), u.back(), 0.0};
   if (settings.range) {
     const SigmoidShape shape(settings);
-    spread.low = shape.onAxis((*settings.range)[0]);
-    spread.high = shape.onAxis((*settings.range)[1]);
+    spread.low = shape.onAxis((*settings.range)[settings.falling ? 1 : 0]);
+    spread.high = shape.onAxis((*settings.range)[settings.falling ? 0 : 1]);
   }
   spread.spacing = spread.range();
   for (size_t i = 1; i < u.size(); ++i)
@@ -61,7 +61,9 @@ LogPrior logPrior(FitParameter parameter, double value, const LevelSpread& sprea
   }
 }
 
-std::string priorText(FitParameter parameter, const LevelSpread& spread) {
+std::string priorText(FitParameter parameter, const LevelSpread& own, bool falling) {
+  LevelSpread spread = own;
+  if (falling) spread.low = -own.high, spread.high = -own.low;
   const double half = spread.range() / 2.0;
   switch (parameter) {
     case FitParameter::Threshold:

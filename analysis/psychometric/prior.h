@@ -15,7 +15,7 @@ struct LevelSpread {
 
   double range() const { return high - low; }
 };
-/// Of levels `u` on the axis; infinite ones (0 on a logarithmic axis) do not count.
+/// Of levels `u` on the axis; infinite ones (no stimulus) do not count.
 LevelSpread spreadOf(std::vector<double> u, const FitSettings& settings);
 
 /// ln of the prior density and its derivative, those of psignifit 4 (Schuett, Harmeling, Macke and Wichmann
@@ -33,7 +33,7 @@ struct LogPrior {
 };
 LogPrior logPrior(FitParameter parameter, double value, const LevelSpread& spread);
 
-/// The formula with its numbers, for reports.
-std::string priorText(FitParameter parameter, const LevelSpread& spread);
+/// The formula with its numbers, for reports: those of x or ln x, whichever way F runs.
+std::string priorText(FitParameter parameter, const LevelSpread& spread, bool falling);
 
 }  // namespace limen::analysis

@@ -99,18 +99,18 @@ Limit profileLimit(const Objective& objective, const std::vector<double>& optimu
   return {0.5 * (inside + outside), false};
 }
 
-double offScale(const Objective& objective, FitParameter parameter, double value) {
-  if (parameter == FitParameter::Width) return std::exp(value);
-  return parameter == FitParameter::Threshold ? objective.shape().offAxis(value) : value;
-}
-
-/// On a linear axis the slope is a constant over the width.
-void addSlope(const ConditionFit& fit, const FitSettings& settings, ConditionIntervals& own) {
-  const auto& width = own[indexOf(FitParameter::Width)];
-  if (!width || settings.logarithmic()) return;
-  const double constant = fit.slope * fit.value(FitParameter::Width);
-  own[kFitParameters] =
-      FitInterval{constant / width->high, constant / width->low, width->highOpen, width->lowOpen};
+FitInterval offScale(const Objective& objective, FitParameter parameter, const FitInterval& own) {
+  FitInterval out = own;
+  if (parameter == FitParameter::Width) {
+    out.low = std::exp(own.low);
+    out.high = std::exp(own.high);
+  } else if (parameter == FitParameter::Threshold) {
+    const auto [low, high] = objective.shape().offAxis(own.low, own.high);
+    out.low = low;
+    out.high = high;
+    if (objective.shape().falling) std::swap(out.lowOpen, out.highOpen);
+  }
+  return out;
 }
 
 void tieGuess(const FitSettings& settings, ConditionIntervals& own) {
@@ -133,11 +133,10 @@ FitIntervals profileIntervals(const std::vector<Condition>& conditions, const Fi
       if (place < 0) continue;
       const Limit low = profileLimit(own.objective, own.x, static_cast<size_t>(place), -1, 0.5 * z * z);
       const Limit high = profileLimit(own.objective, own.x, static_cast<size_t>(place), 1, 0.5 * z * z);
-      found[i] = FitInterval{offScale(own.objective, parameter, low.value),
-                             offScale(own.objective, parameter, high.value), low.open, high.open};
+      found[i] = offScale(own.objective, parameter, {low.value, high.value, low.open, high.open});
     }
     tieGuess(fit.settings, found);
-    addSlope(fit.conditions[c], fit.settings, found);
+    found[kFitParameters] = slopeOfWidth(fit.conditions[c], fit.settings, found);
     intervals.conditions.push_back(found);
   }
   return intervals;
@@ -205,18 +204,19 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
       const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
       const double low = rate ? std::max(middle - half, 0.0) : middle - half;
       const double high = rate ? std::min(middle + half, free.high) : middle + half;
-      found[i] = FitInterval{offScale(own.objective, parameter, low),
-                             offScale(own.objective, parameter, high), false, false};
-      // ln slope = constant - ln w, on a logarithmic axis - t as well.
-      if (parameter == FitParameter::Width ||
-          (parameter == FitParameter::Threshold && fit.settings.logarithmic()))
-        logSlope[k] = -1.0;
+      found[i] = offScale(own.objective, parameter, {low, high, false, false});
+      // ln |slope| = constant - ln w, on a logarithmic axis - t as well, which u is the negative of if F
+      // falls.
+      if (parameter == FitParameter::Width) logSlope[k] = -1.0;
+      if (parameter == FitParameter::Threshold && fit.settings.logarithmic())
+        logSlope[k] = fit.settings.falling ? 1.0 : -1.0;
     }
     const double half = z * std::sqrt(logSlope.dot(covariance * logSlope));
     // More than a factor of a thousand is no answer either.
     if (logSlope.any() && half < 7.0) {
       const double slope = fit.conditions[c].slope;
-      found[kFitParameters] = FitInterval{slope * std::exp(-half), slope * std::exp(half), false, false};
+      const auto [low, high] = std::minmax({slope * std::exp(-half), slope * std::exp(half)});
+      found[kFitParameters] = FitInterval{low, high, false, false};
     }
     tieGuess(fit.settings, found);
     intervals.conditions.push_back(found);

@@ -27,6 +27,7 @@ StudyAnswer answerOf(const store::StudyTrial& trial, const StudyPart& part) {
   StudyAnswer out;
   out.trial = trial.number;
   for (const auto& [factor, level] : trial.condition.items()) out.condition[factor] = levelText(level);
+  out.axes = trial.procedureStimulus;
   out.change = trial.change;
   const bool several = (part.task == "interval" || part.task == "alternative") && trial.target >= 0;
   const size_t which = several ? static_cast<size_t>(trial.target) : 0;

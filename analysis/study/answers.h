@@ -19,6 +19,7 @@ struct StudyAnswer {
   int64_t session = 0;  ///< row of the store
   int trial = 0;        ///< number in the session's plan
   std::map<std::string, std::string> condition;
+  std::vector<double> axes;  ///< what a procedure asked for, in the order of StudyPart::axes
   std::string presentation;  ///< "dynamic", "static"; "" if stimuli say nothing
   bool change = true;        ///< false: catch trial
   /// Of what was shown; with several the one in the interval or at the position of the change.
@@ -42,7 +43,7 @@ struct AppliedRule {
   std::string name;
   double limit = 0.0;
   bool applied = false;
-  std::string note;  ///< why not
+  std::string note;  ///< why not, or to whom not
 };
 
 /// The answers to one protocol in one store.
@@ -72,8 +73,8 @@ struct StudyChoice {
 /// first: a rule on an observer looks at the answers that are left.
 ///
 /// reaction_time_below_s, reaction_time_above_s: answers given before, after that time. catch_rate_above:
-/// observers who said yes to a larger share of their catch trials, of all parts together. lapse_above needs
-/// a fit of each observer's lapse rate and is not applied here, which the result says.
+/// observers who said yes to a larger share of their catch trials, of all parts together. lapse_above:
+/// observers whose fitted lapse rate is larger, where their answers tell it (lapseRates()).
 ///
 /// Throws Error: no store, no session, several protocols and none named, no such protocol, sessions of
 /// people and of simulated observers, no answer left.

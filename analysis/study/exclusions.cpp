@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "analysis/study/answers.h"
+#include "analysis/study/lapse_rule.h"
+#include "base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -62,6 +64,40 @@ std::map<size_t, std::string> aboveCatchRate(const StudyAnswers& study, double l
   return out;
 }
 
+/// Who lapses more often than the limit; what could not be told becomes the rule's note.
+std::map<size_t, std::string> aboveLapseRate(const StudyAnswers& study, AppliedRule& applied) {
+  std::map<size_t, std::string> out;
+  applied.applied = false;
+  if (!(applied.limit > 0.0 && applied.limit < 1.0)) {
+    applied.note = "a limit lies between 0 and 1";
+    return out;
+  }
+  const LapseRates rates = lapseRates(study, applied.limit);
+  std::vector<std::string> untold;
+  for (size_t i = 0; i < rates.observers.size(); ++i) {
+    const ObserverLapse& one = rates.observers[i];
+    if (one.verdict == ObserverLapse::Verdict::Untold)
+      untold.push_back(study.observers[i] + (one.rate ? fmt::format(" ({:.2f})", *one.rate) : ""));
+    if (one.verdict == ObserverLapse::Verdict::Above)
+      out[i] = fmt::format("lapse rate {:.3f}; the limit fits worse by a likelihood ratio of {:.1f}",
+                           *one.rate, one.statistic);
+  }
+  const size_t count = untold.size();
+  applied.applied = count < rates.observers.size();
+  if (!rates.why.empty()) {
+    applied.note = rates.why;
+  } else if (count > 0) {
+    constexpr size_t kListed = 12;
+    if (count > kListed) untold.resize(kListed);
+    applied.note = fmt::format(
+        "answers of {} of {} observers do not tell whether their lapse rate is above (the rate that fits "
+        "best "
+        "in brackets): {}{}",
+        count, rates.observers.size(), join(untold), count > kListed ? ", ..." : "");
+  }
+  return out;
+}
+
 }  // namespace
 
 void applyExclusions(StudyAnswers& study) {
@@ -78,10 +114,11 @@ void applyExclusions(StudyAnswers& study) {
                         [&](const StudyAnswer& answer) { return answer.reactionTimeS > rule.limit; });
       } else if (rule.name == "catch_rate_above") {
         leaveOutObservers(study, rule, aboveCatchRate(study, rule.limit));
+      } else if (rule.name == "lapse_above") {
+        leaveOutObservers(study, rule, aboveLapseRate(study, applied));
       } else {
         applied.applied = false;
-        applied.note = rule.name == "lapse_above" ? "needs each observer's fitted lapse rate"
-                                                  : "this program does not know it";
+        applied.note = "this program does not know it";
       }
       study.rules.push_back(applied);
     }

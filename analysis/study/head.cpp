@@ -18,9 +18,12 @@ std::string headText(const StudyAnswers& study) {
   if (study.notLabReady > 0)
     out += fmt::format("{} sessions were shown by a machine that was not ready for a laboratory\n",
                        study.notLabReady);
-  for (const AppliedRule& rule : study.rules)
-    out += fmt::format("rule {}: {}{}\n", rule.name, shortestNumber(rule.limit),
-                       rule.applied ? "" : " - not applied: " + rule.note);
+  for (const AppliedRule& rule : study.rules) {
+    out += fmt::format("rule {}: {}{}", rule.name, shortestNumber(rule.limit),
+                       rule.applied ? "" : " - not applied");
+    if (!rule.note.empty()) out += (rule.applied ? " - " : ": ") + rule.note;
+    out += "\n";
+  }
   for (const LeftOut& left : study.leftOut)
     out += fmt::format("left out by {}: {}, {} answers ({})\n", left.rule, left.observer, left.answers,
                        left.detail);

@@ -7,88 +7,40 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/psychometric/fit.h"
+#include "base/error.h"
+
 namespace limen::analysis {
 namespace {
 
 constexpr double kMostGuess = 0.5, kMostLapse = 0.2;
-/// Keeps the logarithm of a probability of 0 or 1 finite.
-constexpr double kLeastProbability = 1e-12;
-
-double clipped(double probability) {
-  return std::clamp(probability, kLeastProbability, 1.0 - kLeastProbability);
-}
+/// From F = 0.05 to 0.95 a logistic takes as many scales.
+const double kScalesPerWidth = 2.0 * std::log(19.0);
 
 double logLikelihood(const Link& link, const std::vector<LinkPoint>& points) {
   double sum = 0.0;
+  // What was never answered costs nothing, even where it had a probability of 0.
+  const auto gain = [](int64_t count, double p) {
+    return count > 0 ? static_cast<double>(count) * std::log(p) : 0.0;
+  };
   for (const LinkPoint& point : points) {
-    const double p = clipped(link.probability(point.rating));
-    sum += static_cast<double>(point.yes) * std::log(p) +
-           static_cast<double>(point.trials - point.yes) * std::log1p(-p);
+    const double p = link.probability(point.rating);
+    sum += gain(point.yes, p) + gain(point.trials - point.yes, 1.0 - p);
   }
   return sum;
 }
 
-/// Midpoint, ln of the scale, guess and lapse rate within bounds.
-using Values = std::array<double, 4>;
-struct Box {
-  Values low{}, high{};
-};
-
-Link linkOf(const Values& values) {
-  Link out;
-  out.midpointR = values[0];
-  out.scaleR = std::exp(values[1]);
-  out.guess = values[2];
-  out.lapse = values[3];
-  return out;
-}
-
-/// Pattern search: of all neighbours a step away in any combination of directions the best, until none is
-/// better at the smallest step. Slow and sure for four parameters at most, and the same on every machine.
-Values climb(Values start, const Box& box, const std::vector<LinkPoint>& points) {
-  double best = logLikelihood(linkOf(start), points);
-  for (double step = 0.125; step > 1e-9;) {
-    Values next = start;
-    double nextValue = best;
-    for (int code = 0; code < 81; ++code) {
-      Values tried = start;
-      bool moved = false, fixed = false;
-      for (size_t i = 0, rest = static_cast<size_t>(code); i < tried.size(); ++i, rest /= 3) {
-        const double way = static_cast<double>(rest % 3) - 1.0;
-        if (way == 0.0) continue;
-        fixed = fixed || box.low[i] == box.high[i];
-        tried[i] = std::clamp(start[i] + way * step * (box.high[i] - box.low[i]), box.low[i], box.high[i]);
-        moved = moved || tried[i] != start[i];
-      }
-      if (!moved || fixed) continue;
-      const double value = logLikelihood(linkOf(tried), points);
-      if (value > nextValue) nextValue = value, next = tried;
-    }
-    // What rounding adds up to must not count as better, or steps would never shrink.
-    if (nextValue > best + 1e-12 * (1.0 + std::abs(best))) {
-      start = next;
-      best = nextValue;
-    } else {
-      step *= 0.5;
-    }
-  }
-  return start;
-}
-
 /// What of the best values the answers do not tell.
-std::string doubts(const Values& at, const Box& box, const LinkSetting& setting,
-                   const std::vector<LinkPoint>& points) {
+std::string doubts(const ConditionFit& fit) {
   std::string out;
   const auto say = [&](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
-  if (at[0] == box.low[0] || at[0] == box.high[0]) say("the midpoint lies far beyond the ratings");
-  Values steeper = at;
-  steeper[1] -= std::log(2.0);
-  const double best = logLikelihood(linkOf(at), points);
-  if (at[1] == box.low[1] || logLikelihood(linkOf(steeper), points) > best - 1e-6 * (1.0 + std::abs(best)))
+  const auto at = [&](FitParameter parameter) { return fit.atBound[indexOf(parameter)]; };
+  if (at(FitParameter::Threshold) != 0) say("the midpoint lies far beyond the ratings");
+  if (at(FitParameter::Width) < 0)
     say("ratings part yes from no without overlap: a smaller scale fits as well");
-  if (at[1] == box.high[1]) say("answers hardly depend on the rating");
-  if (!setting.guess && (at[2] == box.low[2] || at[2] == box.high[2])) say("the guess rate is at its edge");
-  if (!setting.lapse && (at[3] == box.low[3] || at[3] == box.high[3])) say("the lapse rate is at its edge");
+  if (at(FitParameter::Width) > 0) say("answers hardly depend on the rating");
+  if (at(FitParameter::Guess) != 0) say("the guess rate is at its edge");
+  if (at(FitParameter::Lapse) != 0) say("the lapse rate is at its edge");
   return out;
 }
 
@@ -103,36 +55,38 @@ double Link::probability(double rating) const {
 std::optional<Link> fitLink(const std::vector<LinkPoint>& points, const LinkSetting& setting) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   int64_t yes = 0, trials = 0;
+  Condition condition;
   for (const LinkPoint& point : points) {
-    if (!std::isfinite(point.rating)) continue;
+    condition.blocks.push_back({point.rating, point.yes, point.trials, 0.0});
+    if (!std::isfinite(point.rating) || point.trials == 0) continue;
     least = std::min(least, point.rating);
     most = std::max(most, point.rating);
     yes += point.yes;
     trials += point.trials;
   }
-  const double range = most - least;
-  if (!(range > 0.0) || yes == 0 || yes == trials) return {};
-  Box box;
-  box.low = {least - range, std::log(range / 200.0), setting.guess.value_or(0.0),
-             setting.lapse.value_or(0.0)};
-  box.high = {most + range, std::log(range * 5.0), setting.guess.value_or(kMostGuess),
-              setting.lapse.value_or(kMostLapse)};
-  const double guess = setting.guess.value_or(0.05), lapse = setting.lapse.value_or(0.02);
-  std::optional<Link> best;
-  // The likelihood may have several hills; steep starts find what shallow ones pass by.
-  for (const double place : {0.25, 0.5, 0.75})
-    for (const double steepness : {0.02, 0.2}) {
-      const Values end =
-          climb({least + place * range, std::log(steepness * range), guess, lapse}, box, points);
-      Link link = linkOf(end);
-      link.logLikelihood = logLikelihood(link, points);
-      if (best && link.logLikelihood <= best->logLikelihood) continue;
-      link.guessFitted = !setting.guess;
-      link.lapseFitted = !setting.lapse;
-      link.note = doubts(end, box, setting, points);
-      best = link;
-    }
-  return best;
+  if (!(most > least) || yes == 0 || yes == trials) return {};
+  FitSettings settings;
+  settings.sigmoid = psychometrics::SigmoidFamily::Logistic;
+  settings.task = {FitTask::Kind::YesNo, 0};
+  settings.fixed[indexOf(FitParameter::Guess)] = setting.guess;
+  settings.fixed[indexOf(FitParameter::Lapse)] = setting.lapse;
+  settings.guessMost = kMostGuess;
+  settings.lapseMost = kMostLapse;
+  Link out;
+  try {
+    const ConditionFit fit = fitPsychometric({condition}, settings, "link").conditions[0];
+    out.midpointR = fit.value(FitParameter::Threshold);
+    out.scaleR = fit.value(FitParameter::Width) / kScalesPerWidth;
+    out.guess = fit.value(FitParameter::Guess);
+    out.lapse = fit.value(FitParameter::Lapse);
+    out.note = doubts(fit);
+  } catch (const Error&) {
+    return {};  // rates that are held make the answers impossible
+  }
+  out.logLikelihood = logLikelihood(out, points);
+  out.guessFitted = !setting.guess;
+  out.lapseFitted = !setting.lapse;
+  return out;
 }
 
 LinkError linkError(const std::vector<LinkPoint>& points, const std::vector<double>& probabilities) {

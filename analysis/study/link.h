@@ -8,7 +8,7 @@
 
 namespace limen::analysis {
 
-/// Answers to changes of one rating; minus infinity for trials without a change.
+/// Answers to changes of one rating; minus infinity (kNoStimulus) for trials without a change.
 struct LinkPoint {
   double rating = 0.0;
   int64_t yes = 0, trials = 0;
@@ -31,8 +31,9 @@ struct LinkSetting {
   std::optional<double> guess, lapse;
 };
 
-/// Maximum of the likelihood, s >= 1/200 of the ratings' range. None if fewer than two different ratings were
-/// shown, or all answers are the same.
+/// Maximum of the likelihood: the logistic fit of analysis/psychometric, m its threshold, 2 ln 19 s its
+/// width, within its bounds. None if fewer than two different ratings were shown, all answers to them are the
+/// same, or rates that are held make the answers impossible.
 std::optional<Link> fitLink(const std::vector<LinkPoint>& points, const LinkSetting& setting);
 
 /// How well scenarios are told that a prediction has not seen.

@@ -15,6 +15,15 @@ struct StudyFactor {
   std::vector<std::string> levels;  ///< in order of writing
 };
 
+/// The psychometric function that a protocol's `simulation:` block gives its simulated observers: what its
+/// author takes answers to be like. Names as `limen analyse fit` has them.
+struct AssumedFunction {
+  std::string variable;              ///< an axis or a factor
+  std::string sigmoid = "logistic";  ///< of the mirrored axis where it falls
+  std::string axis = "linear", direction = "rising";
+  double level = 0.5;  ///< F at the threshold
+};
+
 /// What the analysis needs to know of a protocol's part.
 struct StudyPart {
   std::string name;
@@ -22,6 +31,10 @@ struct StudyPart {
   int alternatives = 2;
   bool adaptive = false;  ///< a procedure chose its stimuli
   std::vector<StudyFactor> factors;
+  /// Of an adaptive part: names of the numbers of StudyAnswer::axes; "" for the number of an interleaved
+  /// procedure.
+  std::vector<std::string> axes;
+  std::optional<AssumedFunction> assumed;
 
   bool asksYesNo() const { return task == "yes_no"; }
   /// Whether an answer's outcome of 1 is one of two: "yes", or the right one.

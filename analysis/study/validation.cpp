@@ -22,7 +22,6 @@ std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const 
                                   const std::map<std::string, std::string>& displays) {
   struct Sums {
     Scenario scenario;
-    std::map<size_t, std::pair<int64_t, int64_t>> observers;
     double severity = 0.0;
     int64_t severities = 0;
   };
@@ -39,16 +38,16 @@ std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const 
     const int64_t yes = answer.outcome == 1 ? 1 : 0;
     scenario.yes += yes;
     ++scenario.trials;
-    sums.observers[answer.observer].first += yes;
-    ++sums.observers[answer.observer].second;
+    scenario.observers[answer.observer].yes += yes;
+    ++scenario.observers[answer.observer].trials;
     if (yes && answer.severity) sums.severity += *answer.severity, ++sums.severities;
   }
   std::vector<Scenario> out;
   for (auto& [key, sums] : all) {
     double rates = 0.0;
-    for (const auto& [observer, count] : sums.observers)
-      rates += static_cast<double>(count.first) / static_cast<double>(count.second);
-    sums.scenario.rate = rounded(rates / static_cast<double>(sums.observers.size()));
+    for (const auto& [observer, count] : sums.scenario.observers)
+      rates += static_cast<double>(count.yes) / static_cast<double>(count.trials);
+    sums.scenario.rate = rounded(rates / static_cast<double>(sums.scenario.observers.size()));
     if (sums.severities > 0)
       sums.scenario.meanSeverity = rounded(sums.severity / static_cast<double>(sums.severities));
     sums.scenario.predictors = chosen.values.at(key.second);
@@ -130,45 +129,28 @@ void compareTrials(PartValidation& out) {
   }
 }
 
-void fitLinks(PartValidation& out, const LinkPoint& catches, const ValidationSetting& setting) {
-  LinkReport& report = out.link;
-  report.catchTrials = catches.trials;
-  if (catches.trials > 0)
-    report.guessFromCatch = static_cast<double>(catches.yes) / static_cast<double>(catches.trials);
-  std::vector<LinkPoint> points;
-  std::vector<double> predicted, constant;
-  int64_t yes = 0, trials = 0;
-  for (const Scenario& scenario : out.scenarios) yes += scenario.yes, trials += scenario.trials;
+void fitLinks(PartValidation& out, const ObserverCounts& catches, const ValidationSetting& setting,
+              size_t observers) {
+  LinkData data;
+  data.catches = catches;
   for (const Scenario& scenario : out.scenarios) {
     const auto rating = scenario.predictors.find("rating");
     const auto probability = scenario.predictors.find("detection_probability");
-    if (rating == scenario.predictors.end() || probability == scenario.predictors.end()) return;
-    points.push_back({rating->second, scenario.yes, scenario.trials});
-    predicted.push_back(probability->second);
-    if (trials > scenario.trials)
-      constant.push_back(static_cast<double>(yes - scenario.yes) /
-                         static_cast<double>(trials - scenario.trials));
+    if (rating == scenario.predictors.end() || probability == scenario.predictors.end()) break;
+    data.ratings.push_back(rating->second);
+    data.predicted.push_back(probability->second);
+    data.answers.push_back(scenario.observers);
   }
-  report.asPredicted = linkError(points, predicted);
-  if (constant.size() == points.size()) report.constant = linkError(points, constant);
-  LinkSetting fit{setting.guess, setting.lapse};
-  std::vector<LinkPoint> all = points;
-  if (setting.fitGuess) {
-    if (catches.trials > 0)
-      all.push_back({-std::numeric_limits<double>::infinity(), catches.yes, catches.trials});
-  } else if (!setting.guess) {
-    if (catches.trials == 0) {
-      out.notes.push_back("no catch trials: the link is fitted with a guess rate of 0");
-      report.guessFromCatch = 0.0;
-    }
-    fit.guess = report.guessFromCatch;
-  }
-  report.refit = fitLink(all, fit);
-  if (!report.refit) {
-    out.notes.push_back("the link cannot be fitted: ratings or answers do not vary");
-    return;
-  }
-  if (const auto left = leaveOneOut(all, fit)) report.refitError = linkError(points, *left);
+  // Without all ratings there is nothing but the catch trials to tell.
+  const bool all = data.ratings.size() == out.scenarios.size();
+  if (!all) data.ratings.clear();
+  out.link = linkReport(
+      data, {{setting.guess, setting.lapse}, setting.fitGuess, all ? setting.samples : 0, setting.seed},
+      observers);
+  if (!all) return;
+  if (out.link.catchTrials == 0 && !setting.fitGuess && !setting.guess)
+    out.notes.push_back("no catch trials: the link is fitted with a guess rate of 0");
+  if (!out.link.refit) out.notes.push_back("the link cannot be fitted: ratings or answers do not vary");
 }
 
 }  // namespace
@@ -209,16 +191,16 @@ StudyValidation validateStudy(const StudyAnswers& study,
     one.part = study.plan.parts[part].name;
     one.scenarios = scenariosOf(study, part, chosen, displays);
     if (one.scenarios.empty()) continue;
-    LinkPoint catches;
+    ObserverCounts catches;
     for (const StudyAnswer& answer : study.answers)
       if (answer.part == part && !answer.change) {
-        ++catches.trials;
-        catches.yes += answer.outcome == 1 ? 1 : 0;
+        ++catches[answer.observer].trials;
+        catches[answer.observer].yes += answer.outcome == 1 ? 1 : 0;
       }
     compareRates(one, study.plan.name);
     compareSeverities(one, study.plan.name);
     compareTrials(one);
-    fitLinks(one, catches, setting);
+    fitLinks(one, catches, setting, study.observers.size());
     out.parts.push_back(std::move(one));
   }
   return out;

@@ -10,8 +10,8 @@
 #include "analysis/statistics/rank_correlation.h"
 #include "analysis/statistics/roc.h"
 #include "analysis/study/answers.h"
-#include "analysis/study/link.h"
 #include "analysis/study/predicted.h"
+#include "analysis/study/link_report.h"
 #include "analysis/study/scores.h"
 #include "experiments/store/predictions.h"
 
@@ -21,6 +21,7 @@ namespace limen::analysis {
 struct Scenario {
   std::string condition, presentation, stimulusHash, displayHash;
   int64_t yes = 0, trials = 0;
+  ObserverCounts observers;            ///< the same for each
   double rate = 0.0;                   ///< mean over observers of their own rates
   std::optional<double> meanSeverity;  ///< of those who said yes and were asked
   std::map<std::string, double> predictors;
@@ -54,16 +55,6 @@ struct TrialArea {
   std::optional<RocComparison> againstRating;  ///< this predictor minus `rating`; none for that itself
 };
 
-struct LinkReport {
-  double guessFromCatch = 0.0;  ///< rate of reports in catch trials
-  int64_t catchTrials = 0;
-  std::optional<Link> refit;
-  /// Of scenarios, each predicted without its own answers; none if there is no fit.
-  std::optional<LinkError> refitError;
-  std::optional<LinkError> asPredicted;  ///< of the probabilities that the prediction gave
-  std::optional<LinkError> constant;     ///< of the mean rate of the other scenarios
-};
-
 struct PartValidation {
   std::string part;
   std::vector<Scenario> scenarios;
@@ -79,6 +70,8 @@ struct ValidationSetting : PredictionChoice {
   std::optional<double> guess;  ///< of the link; none: from catch trials
   bool fitGuess = false;        ///< fitted together with the catch trials
   std::optional<double> lapse;  ///< none: fitted
+  size_t samples = 400;         ///< of the bootstrap over observers, for the link
+  uint64_t seed = 1;
 };
 
 struct StudyValidation {
@@ -89,8 +82,8 @@ struct StudyValidation {
 };
 
 /// Compares answers with predictions, part by part. Schwarz 2009, section 10.4. Rates are means over
-/// observers; trials of one observer are taken as independent where single trials count (areas, calibration,
-/// link), so that intervals there are too narrow.
+/// observers; trials of one observer are taken as independent where single trials count (areas, calibration),
+/// so that intervals there are too narrow. Those of the link are over observers.
 ///
 /// Throws Error if a stimulus has no prediction, or if the display or the settings asked for are unknown.
 StudyValidation validateStudy(const StudyAnswers& study,

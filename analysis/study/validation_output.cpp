@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/output/text_output.h"
 #include "analysis/output/text_table.h"
 #include "analysis/study/validation.h"
-#include "analysis/output/text_output.h"
 #include "base/text.h"
 
 namespace limen::analysis {
@@ -49,10 +49,16 @@ std::vector<std::string> agreementLine(const Agreement& one, bool clamp) {
   return out;
 }
 
-std::string errorText(const std::optional<LinkError>& error, const std::string& name) {
+std::string errorText(const std::optional<LinkError>& error, const LinkErrorIntervals* intervals,
+                      const std::string& name) {
   if (!error) return fmt::format("    {:<38} -\n", name);
-  return fmt::format("    {:<38} log loss {}, Brier {:.4f} a trial; RMS of rates {:.4f}\n", name,
-                     fixedText(error->logLoss, 4), error->brier, error->rmsRate);
+  std::string out = fmt::format("    {:<38} log loss {}, Brier {:.4f} a trial; RMS of rates {:.4f}\n", name,
+                                fixedText(error->logLoss, 4), error->brier, error->rmsRate);
+  if (intervals)
+    out += fmt::format("    {:<38} log loss {}, Brier {}; RMS {}\n", "  95 % over observers",
+                       intervalText(intervals->logLoss), intervalText(intervals->brier),
+                       intervalText(intervals->rmsRate));
+  return out;
 }
 
 std::string linkText(const LinkReport& link) {
@@ -62,13 +68,22 @@ std::string linkText(const LinkReport& link) {
     out += fmt::format("    fitted: g {:.4f}{}, l {:.4f}{}, m {:.4f}, s {:.4f}, ln likelihood {:.3f}\n",
                        fit.guess, fit.guessFitted ? "" : " (fixed)", fit.lapse,
                        fit.lapseFitted ? "" : " (fixed)", fit.midpointR, fit.scaleR, fit.logLikelihood);
+    if (link.intervals)
+      out +=
+          fmt::format("    95 % over observers: g {}, l {}, m {}, s {} ({} of {} samples fitted, seed {})\n",
+                      intervalText(link.intervals->guess), intervalText(link.intervals->lapse),
+                      intervalText(link.intervals->midpointR), intervalText(link.intervals->scaleR),
+                      link.intervals->fitted, link.intervals->samples, link.intervals->seed);
     if (!fit.note.empty()) out += "    " + fit.note + "\n";
   }
   out += fmt::format("    catch trials: {} with a rate of {}\n", link.catchTrials,
                      link.catchTrials > 0 ? percentText(link.guessFromCatch) : "-");
-  out += errorText(link.refitError, "fitted, each scenario left out once:");
-  out += errorText(link.asPredicted, "as predicted:");
-  out += errorText(link.constant, "mean rate of the other scenarios:");
+  const LinkIntervals* intervals = link.intervals ? &*link.intervals : nullptr;
+  out += errorText(link.refitError, intervals ? &intervals->refitError : nullptr,
+                   "fitted, each scenario left out once:");
+  out += errorText(link.asPredicted, intervals ? &intervals->asPredicted : nullptr, "as predicted:");
+  out += errorText(link.constant, intervals ? &intervals->constant : nullptr,
+                   "mean rate of the other scenarios:");
   return out;
 }
 
@@ -135,13 +150,36 @@ nlohmann::json linkErrorJson(const std::optional<LinkError>& error) {
   return {{"log_loss", numberJson(error->logLoss)}, {"brier", error->brier}, {"rms_rate", error->rmsRate}};
 }
 
+nlohmann::json errorIntervalsJson(const LinkErrorIntervals& intervals) {
+  return {{"log_loss", intervalJson(intervals.logLoss)},
+          {"brier", intervalJson(intervals.brier)},
+          {"rms_rate", intervalJson(intervals.rmsRate)}};
+}
+
+nlohmann::json linkIntervalsJson(const std::optional<LinkIntervals>& intervals) {
+  if (!intervals) return {};
+  return {{"level", 0.95},
+          {"method", "percentiles over samples of observers"},
+          {"samples", intervals->samples},
+          {"fitted", intervals->fitted},
+          {"seed", intervals->seed},
+          {"guess_rate", intervalJson(intervals->guess)},
+          {"lapse_rate", intervalJson(intervals->lapse)},
+          {"rating_midpoint", intervalJson(intervals->midpointR)},
+          {"rating_scale_r", intervalJson(intervals->scaleR)},
+          {"leave_one_out", errorIntervalsJson(intervals->refitError)},
+          {"as_predicted", errorIntervalsJson(intervals->asPredicted)},
+          {"constant", errorIntervalsJson(intervals->constant)}};
+}
+
 nlohmann::json linkJson(const LinkReport& link) {
   nlohmann::json out = {{"catch_trials", link.catchTrials},
                         {"guess_from_catch", link.guessFromCatch},
                         {"refit", nullptr},
                         {"leave_one_out", linkErrorJson(link.refitError)},
                         {"as_predicted", linkErrorJson(link.asPredicted)},
-                        {"constant", linkErrorJson(link.constant)}};
+                        {"constant", linkErrorJson(link.constant)},
+                        {"intervals", linkIntervalsJson(link.intervals)}};
   if (link.refit)
     out["refit"] = {{"guess_rate", link.refit->guess},
                     {"guess_fitted", link.refit->guessFitted},
@@ -199,8 +237,9 @@ std::string toText(const StudyValidation& validation) {
   out +=
       "\nClamped: predictions above the least that everybody noticed are lowered to it (Schwarz 2009, "
       "section "
-      "10.4.1).\nAreas, calibration and link take trials of one observer as independent: their intervals are "
-      "too narrow.\n-: cannot be told, or of no width, which is no certainty.\n";
+      "10.4.1).\nAreas and calibration take trials of one observer as independent: their intervals are too "
+      "narrow. Those of the link are percentiles over samples of whole observers.\n-: cannot be told, or of "
+      "no width, which is no certainty.\n";
   return out;
 }
 

@@ -45,9 +45,10 @@ Condition drawSet(const CoverageExperiment& experiment, int index) {
   return condition;
 }
 
-CoverageCount countCoverage(const CoverageExperiment& experiment, const std::string& method, int first,
-                            int sets, size_t samples) {
-  CoverageCount count;
+std::vector<CoverageCount> countCoverage(const CoverageExperiment& experiment,
+                                         const std::vector<std::string>& methods, int first, int sets,
+                                         size_t samples) {
+  std::vector<CoverageCount> counts(methods.size());
   std::array<double, kFitQuantities> truth{};
   std::copy(experiment.truth.begin(), experiment.truth.end(), truth.begin());
   truth[kFitParameters] = Sigmoid::fromThresholdWidth(experiment.settings.sigmoid, experiment.settings.axis,
@@ -56,28 +57,35 @@ CoverageCount countCoverage(const CoverageExperiment& experiment, const std::str
   for (int index = first; index < first + sets; ++index) {
     const std::vector<Condition> conditions = {drawSet(experiment, index)};
     const Fit fit = fitPsychometric(conditions, experiment.settings);
-    FitIntervals intervals;
-    if (method == "profile") {
-      intervals = profileIntervals(conditions, fit, 0.95);
-    } else if (method == "laplace") {
-      intervals = laplaceIntervals(conditions, fit, 0.95);
-    } else if (method == "posterior") {
-      intervals = posteriorIntervals(conditions, fit, 0.95);
-    } else {
-      const BootstrapOptions options{samples, static_cast<uint64_t>(index), method != "nonparametric", 1};
-      intervals =
-          bootstrapIntervals(conditions, fit, bootstrap(conditions, fit, options), method == "bca", 0.95);
-    }
-    for (size_t i = 0; i < kFitQuantities; ++i) {
-      const auto& interval = intervals.conditions[0][i];
-      if (!interval) continue;
-      ++count.given[i];
-      const bool low = interval->lowOpen || interval->low <= truth[i];
-      const bool high = interval->highOpen || truth[i] <= interval->high;
-      if (low && high) ++count.held[i];
+    std::vector<Replicate> parametric;
+    const auto drawn = [&](bool fromFit) {
+      return bootstrap(conditions, fit, {samples, static_cast<uint64_t>(index), fromFit, 1});
+    };
+    for (size_t m = 0; m < methods.size(); ++m) {
+      FitIntervals intervals;
+      if (methods[m] == "profile") {
+        intervals = profileIntervals(conditions, fit, 0.95);
+      } else if (methods[m] == "laplace") {
+        intervals = laplaceIntervals(conditions, fit, 0.95);
+      } else if (methods[m] == "posterior") {
+        intervals = posteriorIntervals(conditions, fit, 0.95);
+      } else if (methods[m] == "nonparametric") {
+        intervals = bootstrapIntervals(conditions, fit, drawn(false), false, 0.95);
+      } else {
+        if (parametric.empty()) parametric = drawn(true);
+        intervals = bootstrapIntervals(conditions, fit, parametric, methods[m] == "bca", 0.95);
+      }
+      for (size_t i = 0; i < kFitQuantities; ++i) {
+        const auto& interval = intervals.conditions[0][i];
+        if (!interval) continue;
+        ++counts[m].given[i];
+        const bool low = interval->lowOpen || interval->low <= truth[i];
+        const bool high = interval->highOpen || truth[i] <= interval->high;
+        if (low && high) ++counts[m].held[i];
+      }
     }
   }
-  return count;
+  return counts;
 }
 
 }  // namespace limen::analysis

@@ -20,7 +20,7 @@ struct CoverageExperiment {
   int64_t trials = 40;
 };
 /// Cumulative Gaussian with threshold 0 and width 2, levels at F = 0.1 ... 0.98, lapse rate 0.02 and free;
-/// "2afc" or "yesno" (false alarms 0.05 and free).
+/// "2afc", "mafc:M" or "yesno" (false alarms 0.05 and free).
 CoverageExperiment coverageExperiment(const std::string& task);
 
 /// Answers drawn with childSeed(7, "set INDEX").
@@ -29,8 +29,10 @@ Condition drawSet(const CoverageExperiment& experiment, int index);
 struct CoverageCount {
   std::array<int, kFitQuantities> held{}, given{};
 };
-/// `method`: a name of intervalMethodNames() or "nonparametric" (percentiles).
-CoverageCount countCoverage(const CoverageExperiment& experiment, const std::string& method, int first,
-                            int sets, size_t samples);
+/// Of each method, over the sets from `first` on. `methods`: names of intervalMethodNames() or
+/// "nonparametric" (percentiles). "bootstrap" and "bca" are of the same samples.
+std::vector<CoverageCount> countCoverage(const CoverageExperiment& experiment,
+                                         const std::vector<std::string>& methods, int first, int sets,
+                                         size_t samples);
 
 }  // namespace limen::analysis

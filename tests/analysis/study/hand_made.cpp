@@ -17,6 +17,7 @@ store::StudyEntry entryOf(const HandMadeTrial& trial, int number, int event) {
   row.stimuli = {{{"presentation", trial.presentation}}};
   row.stimulusHashes = {handMadeHash(trial)};
   row.change = trial.change;
+  row.procedureStimulus = trial.axes;
   row.practice = trial.practice;
   row.startedUtc = kUtc;
   out.begun = row;

@@ -19,6 +19,7 @@ struct HandMadeTrial {
   double reactionTimeS = 1.0;
   std::string part = "main", presentation = "dynamic", hash = {};  ///< hash "": one for each condition
   bool practice = false, valid = true, superseded = false;
+  std::vector<double> axes = {};  ///< what a procedure asked for
 };
 
 /// `count` trials alike, the first `yes` of them answered with yes.

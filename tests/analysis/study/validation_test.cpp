@@ -102,6 +102,72 @@ TEST(PoppingLink, ErrorsByHand) {
   EXPECT_TRUE(std::isinf(linkError({{1.0, 3, 4}}, {1.0}).logLoss));
 }
 
+// Three observers answer to R = 1 and 3. Of the 27 equally likely samples one is of the first alone and one
+// of the last alone, and these have the least and the largest midpoint; as each has a share of 1/27 > 0.025,
+// the interval runs from one to the other. Midpoint and scale follow from the two logits.
+TEST(PoppingLink, IntervalsAreOverObservers) {
+  const int yes[3][2] = {{4, 18}, {6, 14}, {2, 12}};
+  const auto logit = [](double p) { return std::log(p / (1.0 - p)); };
+  const auto midpoint = [&](int a, int b, int c) {
+    double low = 0.0, high = 0.0;
+    for (const int i : {a, b, c}) low += yes[i][0] / 60.0, high += yes[i][1] / 60.0;
+    return 1.0 - logit(low) * 2.0 / (logit(high) - logit(low));
+  };
+  LinkData data{{1.0, 3.0}, {0.5, 0.5}, {{}, {}}, {}};
+  for (size_t observer = 0; observer < 3; ++observer)
+    for (size_t scenario = 0; scenario < 2; ++scenario)
+      data.answers[scenario][observer] = {yes[observer][scenario], 20};
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_GE(midpoint(a, b, c), midpoint(0, 0, 0) - 1e-12);
+        ASSERT_LE(midpoint(a, b, c), midpoint(2, 2, 2) + 1e-12);
+      }
+  LinkReportSetting setting{{0.0, 0.0}, false, 2000, 1};
+  const LinkReport report = linkReport(data, setting, 3);
+  EXPECT_NEAR(report.refit->midpointR, midpoint(0, 1, 2), 1e-6);
+  ASSERT_TRUE(report.intervals && report.intervals->midpointR);
+  EXPECT_NEAR(report.intervals->midpointR->low, midpoint(0, 0, 0), 1e-6);
+  EXPECT_NEAR(report.intervals->midpointR->high, midpoint(2, 2, 2), 1e-6);
+  EXPECT_FALSE(report.intervals->guess);  // held
+  EXPECT_FALSE(report.refitError);        // one rating is left
+  // Everybody at 1/2 costs (1/2)^2 in every sample.
+  EXPECT_DOUBLE_EQ(report.intervals->asPredicted.brier->low, 0.25);
+  EXPECT_DOUBLE_EQ(report.intervals->asPredicted.brier->high, 0.25);
+  EXPECT_EQ(report.intervals->fitted, 2000U);
+
+  // One observer is no sample of observers; none asked for, none given.
+  LinkData single = data;
+  for (ObserverCounts& counts : single.answers) counts.erase(1), counts.erase(2);
+  EXPECT_FALSE(linkReport(single, setting, 1).intervals);
+  setting.samples = 0;
+  EXPECT_FALSE(linkReport(data, setting, 3).intervals);
+}
+
+// Observers who answer alike make every sample the same; the guess rate is each sample's own.
+TEST(PoppingLink, ObserversAlikeLeaveNothingOpen) {
+  LinkData data{{0.0, 1.0, 2.0, 3.0}, {0.1, 0.3, 0.6, 0.9}, {{}, {}, {}, {}}, {}};
+  const int yes[] = {3, 8, 15, 19};
+  for (size_t observer = 0; observer < 4; ++observer) {
+    for (size_t scenario = 0; scenario < 4; ++scenario)
+      data.answers[scenario][observer] = {yes[scenario], 20};
+    data.catches[observer] = {1, 10};
+  }
+  const LinkReport report = linkReport(data, {{std::nullopt, 0.0}, false, 50, 1}, 4);
+  ASSERT_TRUE(report.refit && report.refitError && report.intervals);
+  EXPECT_DOUBLE_EQ(report.refit->guess, 0.1);
+  EXPECT_DOUBLE_EQ(report.intervals->guess->low, 0.1);
+  EXPECT_NEAR(report.intervals->scaleR->low, report.refit->scaleR, 1e-12);
+  EXPECT_NEAR(report.intervals->scaleR->high, report.refit->scaleR, 1e-12);
+  EXPECT_NEAR(report.intervals->refitError.rmsRate->high, report.refitError->rmsRate, 1e-12);
+  // One of them is a guesser in catch trials: samples have 0 to 4 of that one.
+  data.catches[3] = {5, 10};
+  const LinkReport other = linkReport(data, {{std::nullopt, 0.0}, false, 400, 1}, 4);
+  EXPECT_DOUBLE_EQ(other.guessFromCatch, 0.2);
+  EXPECT_DOUBLE_EQ(other.intervals->guess->low, 0.1);   // P(not drawn) = (3/4)^4 = 0.32
+  EXPECT_DOUBLE_EQ(other.intervals->guess->high, 0.4);  // P(three or four) = 13/256, P(four) = 1/256
+}
+
 class ValidationTest : public testing::Test {
  protected:
   std::string store() const { return folder_.path("s.sqlite"); }
