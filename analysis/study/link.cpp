@@ -47,6 +47,10 @@ Link linkOf(const Values& values) {
 /// better at the smallest step. Slow and sure for four parameters at most, and the same on every machine.
 Values climb(Values start, const Box& box, const std::vector<LinkPoint>& points) {
   double best = logLikelihood(linkOf(start), points);
+  // What rounding adds up to must not count as better, or steps would never shrink.
+  const auto isBetter = [&](double value) { return value > best + 1e-12 * (1.0 + std::abs(best)); };
+  Values mark = start;
+  int moves = 0;
   for (double step = 0.125; step > 1e-9;) {
     Values next = start;
     double nextValue = best;
@@ -64,13 +68,26 @@ Values climb(Values start, const Box& box, const std::vector<LinkPoint>& points)
       const double value = logLikelihood(linkOf(tried), points);
       if (value > nextValue) nextValue = value, next = tried;
     }
-    // What rounding adds up to must not count as better, or steps would never shrink.
-    if (nextValue > best + 1e-12 * (1.0 + std::abs(best))) {
-      start = next;
-      best = nextValue;
-    } else {
+    if (!isBetter(nextValue)) {
       step *= 0.5;
+      continue;
     }
+    start = next;
+    best = nextValue;
+    if (++moves % 64 != 0) continue;
+    // Along a narrow ridge steps are many and small: stride on to where the last ones led.
+    Values way{};
+    for (size_t i = 0; i < way.size(); ++i) way[i] = start[i] - mark[i];
+    for (double stride = 1.0;; stride *= 2.0) {
+      Values tried = start;
+      for (size_t i = 0; i < tried.size(); ++i)
+        tried[i] = std::clamp(start[i] + stride * way[i], box.low[i], box.high[i]);
+      const double value = logLikelihood(linkOf(tried), points);
+      if (!isBetter(value)) break;
+      start = tried;
+      best = value;
+    }
+    mark = start;
   }
   return start;
 }
