@@ -8,17 +8,9 @@
 
 #include "analysis/statistics/repeated_measures_anova.h"
 #include "analysis/study/answers.h"
+#include "analysis/study/published.h"
 
 namespace limen::analysis {
-
-/// What a study printed for an effect, to be set beside one's own.
-struct PublishedEffect {
-  double f = 0.0, df = 0.0, dfError = 0.0;
-  std::string p;          ///< as printed
-  bool fDerived = false;  ///< F was not printed and is the one that p belongs to
-  std::string remark;
-  std::string source;
-};
 
 /// Analysis of variance of one part: each observer's rate of reports (or of right answers) in each condition,
 /// of trials with a change.
@@ -35,10 +27,6 @@ struct PartAnova {
 /// All parts with answers. Schwarz 2009, sections 10.4.1 and 10.4.2: each effect against its own interaction
 /// with observers. The published values are those of the protocols experiment_1 and experiment_2.
 std::vector<PartAnova> studyAnova(const StudyAnswers& study);
-
-/// Effect of a protocol's part as the thesis printed it, by the names of the factors that take part.
-std::optional<PublishedEffect> publishedEffect(const std::string& protocol, const std::string& part,
-                                               const std::vector<std::string>& factors);
 
 std::string toText(const std::vector<PartAnova>& parts);
 nlohmann::json toJson(const std::vector<PartAnova>& parts);
