@@ -11,6 +11,7 @@ namespace limen::analysis {
 
 void addSweepCommands(CLI::App& app);  ///< report, switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
+void addPublishedCommand(CLI::App& app);  ///< published
 void addStudyCommands(CLI::App& app);  ///< rates, anova, sdt, validate
 
 }  // namespace limen::analysis

@@ -13,5 +13,6 @@ int main(int argc, char** argv) {
   limen::analysis::addSweepCommands(app);
   limen::analysis::addFitCommand(app);
   limen::analysis::addStudyCommands(app);
+  limen::analysis::addPublishedCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

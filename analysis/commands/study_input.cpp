@@ -8,9 +8,7 @@
 
 namespace limen::analysis {
 
-void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
-                   const std::string& meaning) {
-  command.add_option(positional, input.choice.store, meaning)->required();
+void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
                      "Name, or first digits of the SHA-256, if the store has several");
   static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
@@ -22,8 +20,25 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+}
+
+void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
+                   const std::string& meaning) {
+  command.add_option(positional, input.choice.store, meaning)->required();
+  addStudyChoice(command, input);
   command.add_flag("--json", input.asJson, "One JSON object");
   command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
+}
+
+std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
+                                                const std::vector<store::StudyPrediction>& predictions) {
+  std::map<std::string, std::string> names;
+  const store::SessionReader reader(store);
+  for (const StudyAnswer& answer : study.answers)
+    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
+  for (const store::StudyPrediction& one : predictions)
+    if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
+  return names;
 }
 
 StudyAnswers readStudy(const StudyInput& input) {
