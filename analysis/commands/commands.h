@@ -18,5 +18,6 @@ void addMixedCommand(CLI::App& app);
 
 void addCorrelateCommand(CLI::App& app);  ///< correlate
 void addScaleCommand(CLI::App& app);      ///< scale
+void addPublishedCommand(CLI::App& app);  ///< published
 
 }  // namespace limen::analysis

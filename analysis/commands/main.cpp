@@ -18,5 +18,6 @@ int main(int argc, char** argv) {
   limen::analysis::addMixedCommand(app);
   limen::analysis::addCorrelateCommand(app);
   limen::analysis::addScaleCommand(app);
+  limen::analysis::addPublishedCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

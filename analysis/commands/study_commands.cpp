@@ -48,13 +48,10 @@ void validate(const ValidateOptions& options) {
     throw Error("guess and lapse rates sum to 1 or more", "--guess, --lapse");
   const StudyAnswers study = readStudy(options);
   const std::vector<store::StudyPrediction> predictions = store::readPredictions(options.choice.store);
-  std::map<std::string, std::string> names;
-  const store::SessionReader reader(options.choice.store);
-  for (const StudyAnswer& answer : study.answers)
-    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
-  for (const store::StudyPrediction& one : predictions)
-    if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
-  printStudyResult(options, study, validateStudy(study, predictions, names, setting), "validation");
+  printStudyResult(
+      options, study,
+      validateStudy(study, predictions, displayNames(options.choice.store, study, predictions), setting),
+      "validation");
 }
 
 void addRates(CLI::App& app) {

@@ -30,6 +30,17 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
   command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
 }
 
+std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
+                                                const std::vector<store::StudyPrediction>& predictions) {
+  std::map<std::string, std::string> names;
+  const store::SessionReader reader(store);
+  for (const StudyAnswer& answer : study.answers)
+    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
+  for (const store::StudyPrediction& one : predictions)
+    if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
+  return names;
+}
+
 StudyAnswers readStudy(const StudyInput& input) {
   StudyChoice choice = input.choice;
   choice.exclusions = !input.noExclusions;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "analysis/output/text_output.h"
 #include "analysis/study/answers.h"
 #include "analysis/study/head.h"
+#include "experiments/store/predictions.h"
 
 namespace limen::analysis {
 
@@ -21,11 +23,15 @@ struct StudyInput {
   std::string csv;
 };
 
-/// Adds --protocol, --observers, --no-exclusions, --unfinished.
+/// Adds --protocol, --observers, --no-exclusions, --unfinished: which sessions and answers count.
 void addStudyChoice(CLI::App& command, StudyInput& input);
 /// Adds the positional, the options of addStudyChoice(), --json, --csv.
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional = "store",
                    const std::string& meaning = "Result store with sessions");
+
+/// Names of displays by hash: those of the answers and those that were predicted for.
+std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
+                                                const std::vector<store::StudyPrediction>& predictions);
 
 /// Throws Error as readStudyAnswers().
 StudyAnswers readStudy(const StudyInput& input);

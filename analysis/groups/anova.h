@@ -66,7 +66,7 @@ struct FactorComparison {
 struct PublishedEffect {
   double f = 0.0, df = 0.0, dfError = 0.0;
   std::string p;          ///< as printed
-  bool fDerived = false;  ///< F was not printed and is the one that p belongs to
+  bool fDerived = false;  ///< F and df were not printed; F is the one that p belongs to
   std::string remark;
   std::string source;
 };

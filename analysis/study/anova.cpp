@@ -7,32 +7,6 @@
 namespace limen::analysis {
 namespace {
 
-struct Published {
-  const char *protocol, *part;
-  std::vector<std::string> factors;
-  PublishedEffect effect;
-};
-
-const std::vector<Published>& publishedEffects() {
-  const std::string first = "Schwarz 2009, section 10.4.1", second = "Schwarz 2009, section 10.4.2";
-  static const std::vector<Published> kAll = {
-      {"experiment_1", "main", {"lod_change"}, {98.926, 1, 7, "< 0.0001", false, "", first}},
-      {"experiment_1", "main", {"switch_distance"}, {30.226, 6, 42, "< 0.0001", false, "", first}},
-      {"experiment_1", "main", {"lod_change", "switch_distance"}, {3.139, 6, 42, "0.012", false, "", first}},
-      {"experiment_1", "main", {"presentation"}, {29.377, 1, 7, "< 0.001", false, "", first}},
-      {"experiment_2", "object", {"presentation"}, {5.337, 1, 11, "0.041", false, "", second}},
-      {"experiment_2", "object", {"scenario"}, {18.222, 7, 77, "< 0.0001", false, "", second}},
-      {"experiment_2",
-       "terrain",
-       {"presentation"},
-       {5.337, 1, 11, "0.004", false, "F and p as printed do not fit: this F has p = 0.041", second}},
-      {"experiment_2",
-       "terrain",
-       {"scenario"},
-       {1.53, 7, 77, "0.170", true, "F was not printed; derived from p", second}}};
-  return kAll;
-}
-
 /// Factors that vary, by their levels that were shown.
 std::vector<NamedFactor> varyingFactors(const StudyPart& part,
                                         const std::vector<const StudyAnswer*>& answers) {
@@ -95,15 +69,6 @@ PartAnova anovaOf(const StudyAnswers& study, const StudyPart& part,
 }
 
 }  // namespace
-
-std::optional<PublishedEffect> publishedEffect(const std::string& protocol, const std::string& part,
-                                               const std::vector<std::string>& factors) {
-  for (const Published& one : publishedEffects())
-    if (protocol == one.protocol && part == one.part &&
-        std::is_permutation(factors.begin(), factors.end(), one.factors.begin(), one.factors.end()))
-      return one.effect;
-  return {};
-}
 
 std::vector<PartAnova> studyAnova(const StudyAnswers& study, const AnovaSettings& settings) {
   std::vector<PartAnova> out;

@@ -7,6 +7,7 @@
 
 #include "analysis/groups/anova.h"
 #include "analysis/study/answers.h"
+#include "analysis/study/published.h"
 
 namespace limen::analysis {
 
@@ -15,9 +16,5 @@ namespace limen::analysis {
 /// own interaction with observers. Factors of one level are left out. The published values are those of the
 /// protocols experiment_1 and experiment_2; they are of rates that were not transformed.
 std::vector<PartAnova> studyAnova(const StudyAnswers& study, const AnovaSettings& settings = {});
-
-/// Effect of a protocol's part as the thesis printed it, by the names of the factors that take part.
-std::optional<PublishedEffect> publishedEffect(const std::string& protocol, const std::string& part,
-                                               const std::vector<std::string>& factors);
 
 }  // namespace limen::analysis

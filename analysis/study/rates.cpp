@@ -115,25 +115,6 @@ class PartRates {
 
 }  // namespace
 
-std::optional<PublishedRate> publishedRate(const std::string& protocol, const std::string& part,
-                                           bool change) {
-  struct Published {
-    const char *protocol, *part;
-    bool change;
-    PublishedRate rate;
-  };
-  static constexpr Published kAll[] = {
-      {"experiment_1", "main", true, {0.6771, 0.1201, "Schwarz 2009, section 10.4.1"}},
-      {"experiment_1", "main", false, {0.0446, 0.0458, "Schwarz 2009, section 10.4.1"}},
-      {"experiment_2", "object", true, {0.6146, 0.1661, "Schwarz 2009, section 10.4.2"}},
-      {"experiment_2", "object", false, {0.0417, 0.0487, "Schwarz 2009, section 10.4.2"}},
-      {"experiment_2", "terrain", true, {0.6771, 0.3359, "Schwarz 2009, section 10.4.2"}},
-      {"experiment_2", "terrain", false, {0.0313, 0.0421, "Schwarz 2009, section 10.4.2"}}};
-  for (const Published& one : kAll)
-    if (protocol == one.protocol && part == one.part && change == one.change) return one.rate;
-  return {};
-}
-
 StudyRates studyRates(const StudyAnswers& study, double level) {
   StudyRates out;
   for (size_t part = 0; part < study.plan.parts.size(); ++part) {
@@ -151,6 +132,7 @@ StudyRates studyRates(const StudyAnswers& study, double level) {
     const PartRates rates(study, part);
     rates.rows(level, out);
     rates.observers(level, out);
+    addScenarioSpreads(study, part, out);
   }
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/study/answers.h"
+#include "analysis/study/published.h"
 
 namespace limen::analysis {
 
@@ -17,13 +18,6 @@ enum class RateScope {
   Level,     ///< one level of one factor, others together
   Condition  ///< one level of each factor
 };
-
-/// Mean and SD over observers that the thesis printed for a part.
-struct PublishedRate {
-  double mean = 0.0, sd = 0.0;
-  const char* source = "";
-};
-std::optional<PublishedRate> publishedRate(const std::string& protocol, const std::string& part, bool change);
 
 struct RateRow {
   std::string part;
@@ -43,9 +37,27 @@ struct ObserverRate {
   std::optional<Rate> catches;
 };
 
+/// Mean and standard deviation of one value a scenario.
+struct Spread {
+  size_t scenarios = 0;
+  double mean = 0.0;
+  std::optional<double> sd;  ///< with n - 1; none for one scenario
+  double sdOfN = 0.0;        ///< with n
+};
+
+/// How scenarios of one kind of stimulus differ: conditions, each with a change.
+struct ScenarioSpread {
+  std::string part, presentation;  ///< "static", "dynamic", or "all" if stimuli are of one kind
+  std::string of;                  ///< "yes" or "right"
+  Spread rate;                     ///< of each scenario's mean over observers of their own rates
+  std::optional<Spread> severity;  ///< of each scenario's mean over answers that gave one
+  std::optional<PublishedScenarios> published;
+};
+
 struct StudyRates {
   std::vector<RateRow> rows;  ///< by part: whole, levels, conditions; each with its catch trials
   std::vector<ObserverRate> observers;
+  std::vector<ScenarioSpread> scenarios;
   std::vector<std::string> notes;  ///< parts that have no rates, and why
 };
 
@@ -53,6 +65,9 @@ struct StudyRates {
 /// observer. Schwarz 2009, section 10.4. Where a factor `presentation` is missing but stimuli are of both
 /// kinds, it is taken from them.
 StudyRates studyRates(const StudyAnswers& study, double level = 0.95);
+
+/// Adds the scenarios of a part with binary answers.
+void addScenarioSpreads(const StudyAnswers& study, size_t part, StudyRates& out);
 
 std::string toText(const StudyRates& rates);
 nlohmann::json toJson(const StudyRates& rates);

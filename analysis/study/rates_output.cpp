@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/study/rates.h"
-#include "analysis/output/text_table.h"
 #include "analysis/output/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/study/rates.h"
 
 namespace limen::analysis {
 namespace {
@@ -32,6 +32,48 @@ nlohmann::json rateJson(const Rate& rate) {
 
 std::string ofText(const RateRow& row) {
   return row.change ? row.of : row.of == "yes" ? "false alarm" : row.of + " without change";
+}
+
+std::string spreadText(const Spread& spread, bool percent) {
+  const auto number = [&](double value) { return percent ? percentText(value) : fixedText(value, 2); };
+  return fmt::format("{} (sd {})", number(spread.mean), number(spread.sdOfN));
+}
+
+std::string scenariosText(const std::vector<ScenarioSpread>& scenarios) {
+  std::vector<std::vector<std::string>> table = {
+      {"scenarios", "stimuli", "number", "rate", "severity", "published rate", "severity"}};
+  for (const ScenarioSpread& one : scenarios) {
+    table.push_back({one.part, one.presentation, std::to_string(one.rate.scenarios),
+                     spreadText(one.rate, true), one.severity ? spreadText(*one.severity, false) : "-"});
+    const auto& known = one.published;
+    table.back().push_back(known ? spreadText({0, known->meanRate, {}, known->sdRate}, true) : "");
+    table.back().push_back(known ? spreadText({0, known->meanSeverity, {}, known->sdSeverity}, false) : "");
+  }
+  return "\n" + alignedText(table, {0, 1}) + "  mean over scenarios with a change, sd by their number\n";
+}
+
+nlohmann::json spreadJson(const Spread& spread) {
+  return {{"scenarios", spread.scenarios},
+          {"mean", spread.mean},
+          {"sd", numberJson(spread.sd)},
+          {"sd_of_n", spread.sdOfN}};
+}
+
+nlohmann::json scenarioJson(const ScenarioSpread& one) {
+  nlohmann::json out = {{"part", one.part},
+                        {"presentation", one.presentation},
+                        {"rate_of", one.of},
+                        {"rate", spreadJson(one.rate)},
+                        {"severity", one.severity ? spreadJson(*one.severity) : nlohmann::json()},
+                        {"published", nullptr}};
+  if (const auto& known = one.published)
+    out["published"] = {{"mean_rate", known->meanRate},
+                        {"sd_rate", known->sdRate},
+                        {"mean_severity", known->meanSeverity},
+                        {"sd_severity", known->sdSeverity},
+                        {"remark", known->remark},
+                        {"source", known->source}};
+  return out;
 }
 
 }  // namespace
@@ -81,6 +123,7 @@ std::string toText(const StudyRates& rates) {
     table.push_back(line);
   }
   if (!table.empty()) out += "\nobservers, part " + part + "\n" + alignedText(table, {0});
+  if (!rates.scenarios.empty()) out += scenariosText(rates.scenarios);
   for (const std::string& note : rates.notes) out += note + "\n";
   out +=
       "\nOver observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials "
@@ -90,7 +133,8 @@ std::string toText(const StudyRates& rates) {
 }
 
 nlohmann::json toJson(const StudyRates& rates) {
-  nlohmann::json rows = nlohmann::json::array(), observers = nlohmann::json::array();
+  nlohmann::json rows = nlohmann::json::array(), observers = nlohmann::json::array(),
+                 scenarios = nlohmann::json::array();
   for (const RateRow& row : rates.rows)
     rows.push_back({{"part", row.part},
                     {"scope", scopeText(row.scope)},
@@ -112,7 +156,8 @@ nlohmann::json toJson(const StudyRates& rates) {
                          {"rate_of", one.of},
                          {"change", rateJson(one.change)},
                          {"catch", one.catches ? rateJson(*one.catches) : nlohmann::json()}});
-  return {{"rates", rows}, {"by_observer", observers}, {"notes", rates.notes}};
+  for (const ScenarioSpread& one : rates.scenarios) scenarios.push_back(scenarioJson(one));
+  return {{"rates", rows}, {"by_observer", observers}, {"over_scenarios", scenarios}, {"notes", rates.notes}};
 }
 
 std::string toCsv(const StudyRates& rates) {

@@ -57,6 +57,7 @@ const std::vector<PredictorName>& studyPredictors() {
       {"rating", "R of the region rated highest"},
       {"detection_score", "Table 10.1 of rating score and coverage"},
       {"rating_score", "mean R of the most highly rated regions"},
+      {"rating_level", "level of that mean; what the thesis correlates as its rating score"},
       {"coverage_score", "level of the popping pixels' share of the object"},
       {"detection_probability", "of the rating, by the link that the prediction was made with"},
       {"largest_jnd", "largest visible difference"},
@@ -84,10 +85,12 @@ std::map<std::string, double> predictorValues(const nlohmann::json& figures, con
       ratings.push_back(region.at("rating").get<double>());
     out["region_count"] = static_cast<double>(ratings.size());
     out["rating_score"] = ratingScore(ratings, out["rating"], bins.topRegions);
+    const int rating = ratingLevel(out["rating_score"], bins);
+    out["rating_level"] = rating;
     if (number("coverage_of_object")) {
       const int coverage = coverageLevel(out["coverage_of_object"], bins);
       out["coverage_score"] = coverage;
-      out["detection_score"] = detectionScore(ratingLevel(out["rating_score"], bins), coverage);
+      out["detection_score"] = detectionScore(rating, coverage);
     }
   }
   return out;

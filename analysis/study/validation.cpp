@@ -86,23 +86,24 @@ void compareRates(PartValidation& out, const std::string& protocol) {
 }
 
 void compareSeverities(PartValidation& out, const std::string& protocol) {
-  for (const std::string& set : setsOf(out.scenarios)) {
-    std::vector<double> predictions, severities;
-    for (const Scenario& scenario : out.scenarios) {
-      const auto value = scenario.predictors.find("rating_score");
-      if (!isIn(scenario, set) || value == scenario.predictors.end() || !scenario.meanSeverity) continue;
-      predictions.push_back(value->second);
-      severities.push_back(*scenario.meanSeverity);
+  for (const std::string& set : setsOf(out.scenarios))
+    for (const std::string predictor : {"rating_score", "rating_level"}) {
+      std::vector<double> predictions, severities;
+      for (const Scenario& scenario : out.scenarios) {
+        const auto value = scenario.predictors.find(predictor);
+        if (!isIn(scenario, set) || value == scenario.predictors.end() || !scenario.meanSeverity) continue;
+        predictions.push_back(value->second);
+        severities.push_back(*scenario.meanSeverity);
+      }
+      if (predictions.size() < 2) continue;
+      out.severity.push_back({set,
+                              predictor,
+                              predictions.size(),
+                              kendall(predictions, severities),
+                              pearson(predictions, severities),
+                              {},
+                              publishedAgreement(protocol, out.part, set, predictor, true)});
     }
-    if (predictions.size() < 2) continue;
-    out.severity.push_back({set,
-                            "rating_score",
-                            predictions.size(),
-                            kendall(predictions, severities),
-                            pearson(predictions, severities),
-                            {},
-                            publishedAgreement(protocol, out.part, set, "rating_score", true)});
-  }
 }
 
 void compareTrials(PartValidation& out) {
@@ -199,8 +200,10 @@ StudyValidation validateStudy(const StudyAnswers& study,
       }
     compareRates(one, study.plan.name);
     compareSeverities(one, study.plan.name);
-    compareTrials(one);
-    fitLinks(one, catches, setting, study.observers.size());
+    if (!setting.onlyAgreements) {
+      compareTrials(one);
+      fitLinks(one, catches, setting, study.observers.size());
+    }
     out.parts.push_back(std::move(one));
   }
   return out;

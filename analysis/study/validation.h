@@ -10,8 +10,9 @@
 #include "analysis/statistics/rank_correlation.h"
 #include "analysis/statistics/roc.h"
 #include "analysis/study/answers.h"
-#include "analysis/study/predicted.h"
 #include "analysis/study/link_report.h"
+#include "analysis/study/predicted.h"
+#include "analysis/study/published.h"
 #include "analysis/study/scores.h"
 #include "experiments/store/predictions.h"
 
@@ -26,17 +27,6 @@ struct Scenario {
   std::optional<double> meanSeverity;  ///< of those who said yes and were asked
   std::map<std::string, double> predictors;
 };
-
-/// What the thesis printed for a predictor and a set of scenarios.
-struct PublishedAgreement {
-  double tauC = 0.0, r = 0.0;
-  bool clamped = false;  ///< r is that of clamped predictions
-  const char* source = "";
-};
-/// By names of protocol and part; `severity`: with mean severity, else with detection rates.
-std::optional<PublishedAgreement> publishedAgreement(const std::string& protocol, const std::string& part,
-                                                     const std::string& set, const std::string& predictor,
-                                                     bool severity);
 
 /// How a predictor goes with the detection rates of a set of scenarios.
 struct Agreement {
@@ -59,7 +49,7 @@ struct PartValidation {
   std::string part;
   std::vector<Scenario> scenarios;
   std::vector<Agreement> agreements;
-  std::vector<Agreement> severity;  ///< rating_score with mean severity; no clamp
+  std::vector<Agreement> severity;  ///< rating_score and its level with mean severity; no clamp
   std::vector<TrialArea> areas;     ///< empty if all trials were answered alike
   std::optional<Calibration> calibration;
   LinkReport link;
@@ -72,6 +62,7 @@ struct ValidationSetting : PredictionChoice {
   std::optional<double> lapse;  ///< none: fitted
   size_t samples = 400;         ///< of the bootstrap over observers, for the link
   uint64_t seed = 1;
+  bool onlyAgreements = false;  ///< no areas, calibration and link
 };
 
 struct StudyValidation {

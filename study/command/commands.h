@@ -17,6 +17,7 @@ struct Run {
 
 // Each adds its subcommand; the callback does the work, sets Run::exitCode and throws Error for bad input.
 void addCalibrateCommand(CLI::App& app, Run& run);
+void addExampleCommand(CLI::App& app, Run& run);
 void addExportCommand(CLI::App& app, Run& run);
 void addPowerCommand(CLI::App& app, Run& run);
 void addPredictCommand(CLI::App& app, Run& run);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   study::addSimulateCommand(app, run);
   study::addPowerCommand(app, run);
   study::addPredictCommand(app, run);
+  study::addExampleCommand(app, run);
   study::addTraceCommand(app, run);
   study::addTimingCommand(app, run);
   study::addCalibrateCommand(app, run);

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/analysis/study/hand_made.h"
 #include "tests/analysis/synthetic_store.h"
@@ -66,6 +69,87 @@ TEST(AnalyseStudyProgram, SimulatedExperimentOne) {
   const ProgramRun sdt = runProgram("limen-analyse sdt --json --no-exclusions " + store);
   ASSERT_EQ(sdt.code, 0) << sdt.text;
   EXPECT_EQ(json::parse(sdt.text).at("sdt").at(0).at("d_prime").at("observers"), 8);
+}
+
+// Every number of the comparison is that of the command that works it out.
+TEST(AnalyseStudyProgram, PublishedStatisticsBesideThoseOfTheOtherCommands) {
+  const TemporaryFolder folder;
+  const std::string first = folder.path("1.sqlite"), second = folder.path("2.sqlite"),
+                    csv = folder.path("c.csv");
+  ASSERT_EQ(
+      runProgram("limen-study simulate experiment_1 --observers 8 --seed 5 --quiet --store " + first).code,
+      0);
+  ASSERT_EQ(
+      runProgram("limen-study simulate experiment_2 --observers 12 --seed 5 --quiet --store " + second).code,
+      0);
+  const ProgramRun run =
+      runProgram("limen-analyse published --no-exclusions --json --csv " + csv + " " + first + " " + second);
+  ASSERT_EQ(run.code, 0) << run.text;
+  const json all = json::parse(run.text);
+  ASSERT_EQ(all.at("published").size(), 2U);
+  EXPECT_EQ(all.at("stores").at(1).at("protocol"), "experiment_2");
+  size_t numbers = 0, effects = 0, rates = 0;
+  for (const auto& [store, index, statistics] : {std::tuple{first, 0, 14}, std::tuple{second, 1, 24}}) {
+    const json& one = all.at("published").at(static_cast<size_t>(index));
+    EXPECT_EQ(one.at("statistics").size(), static_cast<size_t>(statistics));
+    EXPECT_EQ(one.at("data"), "simulated: lapsing");
+    EXPECT_THAT(one.at("notes").dump(), HasSubstr("no evidence about people"));
+    std::map<std::string, json> found;
+    for (const json& statistic : one.at("statistics")) {
+      const std::string name =
+          statistic.at("part").get<std::string>() + " " + statistic.at("statistic").get<std::string>();
+      for (const json& value : statistic.at("values")) {
+        ++numbers;
+        found[name + " " + value.at("quantity").get<std::string>()] = value;
+      }
+    }
+    const json anova = json::parse(runProgram("limen-analyse anova --no-exclusions --json " + store).text);
+    for (const json& part : anova.at("anova"))
+      for (const json& effect : part.at("effects")) {
+        if (effect.at("published").is_null()) continue;
+        ++effects;
+        const std::string name =
+            part.at("part").get<std::string>() + " variance by " + effect.at("effect").get<std::string>();
+        const std::pair<const char*, const char*> pairs[] = {
+            {"F", "f"}, {"df", "df"}, {"df error", "df_error"}, {"p", "p"}};
+        for (const auto& [ours, theirs] : pairs)
+          EXPECT_EQ(found.at(name + " " + ours).at("ours"), effect.at(theirs)) << name << " " << ours;
+        // As many observers and levels as the thesis had.
+        EXPECT_EQ(found.at(name + " df").at("difference"), 0.0);
+        EXPECT_EQ(found.at(name + " df error").at("difference"), 0.0);
+      }
+    const json table = json::parse(runProgram("limen-analyse rates --no-exclusions --json " + store).text);
+    for (const json& row : table.at("rates").at("rates")) {
+      if (row.at("published").is_null()) continue;
+      ++rates;
+      const std::string name = row.at("part").get<std::string>() + " detection rate, " +
+                               (row.at("change").get<bool>() ? "trials with a change" : "catch trials");
+      EXPECT_EQ(found.at(name + " mean").at("ours"), row.at("mean")) << name;
+      EXPECT_EQ(found.at(name + " sd").at("ours"), row.at("sd")) << name;
+    }
+    for (const json& row : table.at("rates").at("over_scenarios")) {
+      if (row.at("published").is_null()) continue;
+      const std::string of = "terrain detection rate of static scenarios ";
+      EXPECT_EQ(row.at("part"), "terrain");
+      EXPECT_EQ(row.at("presentation"), "static");
+      EXPECT_EQ(found.at(of + "mean").at("ours"), row.at("rate").at("mean"));
+      EXPECT_EQ(found.at(of + "sd").at("ours"), row.at("rate").at("sd_of_n"));
+      EXPECT_EQ(found.at("terrain mean severity of static scenarios mean").at("ours"),
+                row.at("severity").at("mean"));
+    }
+  }
+  EXPECT_EQ(effects, 8U);
+  EXPECT_EQ(rates, 6U);
+  std::ifstream stream(csv);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(static_cast<size_t>(std::count(text.begin(), text.end(), '\n')), numbers + 1);
+
+  const std::string other = folder.path("3.sqlite");
+  ASSERT_EQ(runProgram("limen-study simulate quick --observers 1 --quiet --store " + other).code, 0);
+  const ProgramRun none = runProgram("limen-analyse published " + other);
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.text, HasSubstr("experiment_1, experiment_2"));
+  EXPECT_EQ(runProgram("limen-analyse published " + folder.path("none.sqlite")).code, 2);
 }
 
 TEST(AnalyseStudyProgram, ListsWhatWasLeftOut) {

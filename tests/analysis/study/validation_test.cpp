@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -47,12 +48,39 @@ TEST(StudyScores, MeanOfTheMostHighlyRated) {
   EXPECT_DOUBLE_EQ(ratingScore({}, -1.5, 3), -1.5);
   const auto values = predictorValues(json::parse(
       R"({"rating": 4, "regions": [{"rating": 4}, {"rating": 2}], "coverage_of_object": 0.03, "ssim": 0.75})"));
-  EXPECT_EQ(values.at("rating_score"), 3.0);    // very high
+  EXPECT_EQ(values.at("rating_score"), 3.0);
+  EXPECT_EQ(values.at("rating_level"), 4.0);    // very high
   EXPECT_EQ(values.at("coverage_score"), 2.0);  // small
   EXPECT_EQ(values.at("detection_score"), 3.0);
   EXPECT_EQ(values.at("one_minus_ssim"), 0.25);
   EXPECT_EQ(values.at("region_count"), 2.0);
   EXPECT_EQ(values.count("flip"), 0U);
+}
+
+TEST(PoppingLink, IsTheHighestPointOfALongRidge) {
+  // Answers that hardly depend on the rating: midpoint, scale and lapse rate trade against one another.
+  std::vector<LinkPoint> points;
+  for (int i = 0; i < 28; ++i) points.push_back({-1.0 + 0.15 * i, 6 + i / 5 + i * 7 % 5 - 2, 24});
+  const auto link = fitLink(points, {0.049, {}});
+  ASSERT_TRUE(link);
+  const auto logLikelihood = [&](const Link& at) {
+    double sum = 0.0;
+    for (const LinkPoint& point : points) {
+      const double p = at.probability(point.rating);
+      sum += static_cast<double>(point.yes) * std::log(p) +
+             static_cast<double>(point.trials - point.yes) * std::log(1.0 - p);
+    }
+    return sum;
+  };
+  EXPECT_NEAR(logLikelihood(*link), link->logLikelihood, 1e-9);
+  for (const double size : {0.001, 0.01, 0.1})
+    for (int way = 0; way < 27; ++way) {
+      Link near = *link;
+      near.midpointR += size * (way % 3 - 1);
+      near.scaleR *= std::exp(size * (way / 3 % 3 - 1));
+      near.lapse = std::clamp(near.lapse + 0.1 * size * (way / 9 - 1), 0.0, 0.2);
+      EXPECT_LE(logLikelihood(near), link->logLikelihood + 1e-6) << size << " " << way;
+    }
 }
 
 TEST(PoppingLink, TwoRatingsInClosedForm) {
@@ -229,7 +257,7 @@ TEST_F(ValidationTest, TrialsByHand) {
   EXPECT_DOUBLE_EQ(part.link.guessFromCatch, 0.25);
   // The other scenario's rate: 1 for a, 1/2 for b.
   EXPECT_NEAR(part.link.constant->rmsRate, 0.5, 1e-12);
-  ASSERT_EQ(part.severity.size(), 1U);
+  ASSERT_EQ(part.severity.size(), 2U);  // rating_score and its level
   EXPECT_EQ(part.severity[0].scenarios, 2U);
   EXPECT_NEAR(part.severity[0].pearson->coefficient.value, -1.0, 1e-12);
 }
@@ -277,10 +305,12 @@ TEST(PublishedAgreements, AreReachableByStuartsTauC) {
                             {"experiment_2", "object", "static", "coverage_score", false, 8, 4, 18},
                             {"experiment_2", "object", "dynamic", "coverage_score", false, 8, 4, 19},
                             {"experiment_2", "object", "both", "coverage_score", false, 16, 4, 72},
-                            {"experiment_2", "object", "static", "rating_score", true, 8, 3, 20},
-                            {"experiment_2", "object", "dynamic", "rating_score", true, 8, 3, 16},
-                            {"experiment_2", "object", "both", "rating_score", true, 16, 4, 75},
-                            {"experiment_2", "terrain", "dynamic", "coverage_score", false, 8, 3, 5}};
+                            {"experiment_2", "object", "static", "rating_level", true, 8, 3, 20},
+                            {"experiment_2", "object", "dynamic", "rating_level", true, 8, 3, 16},
+                            {"experiment_2", "object", "both", "rating_level", true, 16, 4, 75},
+                            {"experiment_2", "terrain", "dynamic", "coverage_score", false, 8, 3, 5},
+                            {"experiment_2", "terrain", "dynamic", "rating_level", false, 8, 3, 16}};
+  EXPECT_EQ(std::size(triples), publishedAgreements().size());
   for (const Triple& one : triples) {
     const auto published = publishedAgreement(one.protocol, one.part, one.set, one.predictor, one.severity);
     ASSERT_TRUE(published) << one.part << one.set << one.predictor;

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/study/published_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/output/text_table.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+std::string shareText(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
+
+ComparedValue share(const std::string& quantity, double printed, const std::optional<double>& ours) {
+  return {quantity, shareText(printed), printed, ours, ours ? shareText(*ours) : "-"};
+}
+ComparedValue number(const std::string& quantity, double printed, const std::optional<double>& ours,
+                     int digits) {
+  return {quantity, fixedText(printed, digits), printed, ours, fixedText(ours, digits)};
+}
+
+class Comparer {
+ public:
+  explicit Comparer(const StudyFindings& findings)
+      : findings_(findings), protocol_(findings.study->plan.name) {}
+
+  PublishedComparison compare() {
+    out_.protocol = protocol_;
+    out_.observers = findings_.study->observers.size();
+    out_.simulated = findings_.study->simulated > 0;
+    out_.data = out_.simulated ? "simulated: " + join(findings_.observerKinds) : "people";
+    design();
+    for (const PublishedRateOf& one : publishedRates())
+      if (one.protocol == protocol_) rate(one);
+    for (const PublishedScenariosOf& one : publishedScenarios())
+      if (one.protocol == protocol_) scenarios(one);
+    for (const PublishedEffectOf& one : publishedEffects())
+      if (one.protocol == protocol_) effect(one);
+    for (const PublishedAgreementOf& one : publishedAgreements())
+      if (one.protocol == protocol_) agreement(one);
+    notes();
+    return std::move(out_);
+  }
+
+ private:
+  void design() {
+    std::vector<std::string> known;
+    for (const PublishedDesign& one : publishedDesigns()) {
+      known.push_back(one.protocol);
+      if (one.protocol != protocol_) continue;
+      const size_t observers = out_.observers, answers = findings_.study->answers.size();
+      out_.statistics.push_back(
+          {"",
+           "observers",
+           {number("count", static_cast<double>(one.observers), static_cast<double>(observers), 0)},
+           "",
+           one.source});
+      const double each = static_cast<double>(answers) / static_cast<double>(observers);
+      out_.statistics.push_back({"",
+                                 "trials of each observer",
+                                 {number("count", static_cast<double>(one.trialsEach), each, 0)},
+                                 answers % observers == 0 ? "" : "ours: a mean, since answers are missing",
+                                 one.source});
+      return;
+    }
+    out_.notes.push_back("nothing was published of this protocol; comparisons are with " + join(known));
+  }
+
+  void rate(const PublishedRateOf& one) {
+    std::optional<double> mean, sd;
+    for (const RateRow& row : findings_.rates->rows)
+      if (row.part == one.part && row.scope == RateScope::Part && row.change == one.change) {
+        mean = row.overObservers.mean;
+        sd = row.overObservers.standardDeviation;
+      }
+    out_.statistics.push_back(
+        {one.part,
+         one.change ? "detection rate, trials with a change" : "detection rate, catch trials",
+         {share("mean", one.rate.mean, mean), share("sd", one.rate.sd, sd)},
+         "",
+         one.rate.source});
+  }
+
+  void scenarios(const PublishedScenariosOf& one) {
+    std::optional<double> rate, rateSd, severity, severitySd;
+    for (const ScenarioSpread& own : findings_.rates->scenarios) {
+      if (own.part != one.part || own.presentation != one.presentation) continue;
+      rate = own.rate.mean;
+      rateSd = own.rate.sdOfN;
+      if (!own.severity) continue;
+      severity = own.severity->mean;
+      severitySd = own.severity->sdOfN;
+    }
+    const PublishedScenarios& known = one.scenarios;
+    const std::string of = " of " + one.presentation + " scenarios";
+    out_.statistics.push_back({one.part,
+                               "detection rate" + of,
+                               {share("mean", known.meanRate, rate), share("sd", known.sdRate, rateSd)},
+                               known.remark,
+                               known.source});
+    out_.statistics.push_back(
+        {one.part,
+         "mean severity" + of,
+         {number("mean", known.meanSeverity, severity, 2), number("sd", known.sdSeverity, severitySd, 2)},
+         "",
+         known.source});
+    leastScores(one);
+  }
+
+  /// The thesis says of its static terrain scenarios only from which level on their scores are.
+  void leastScores(const PublishedScenariosOf& one) {
+    std::optional<double> coverage, rating;
+    const auto take = [](std::optional<double>& least, const Scenario& scenario, const char* predictor) {
+      const auto value = scenario.predictors.find(predictor);
+      if (value != scenario.predictors.end()) least = std::min(least.value_or(value->second), value->second);
+    };
+    if (findings_.validation)
+      for (const PartValidation& part : findings_.validation->parts)
+        for (const Scenario& scenario : part.scenarios)
+          if (part.part == one.part && scenario.presentation == one.presentation) {
+            take(coverage, scenario, "coverage_score");
+            take(rating, scenario, "rating_level");
+          }
+    const PublishedScenarios& known = one.scenarios;
+    const auto least = [](const std::string& quantity, int level, const std::optional<double>& ours) {
+      return ComparedValue{quantity, fmt::format(">= {}", level), {}, ours, fixedText(ours, 0)};
+    };
+    out_.statistics.push_back({one.part,
+                               "least scores of " + one.presentation + " scenarios",
+                               {least("coverage level", known.leastCoverageLevel, coverage),
+                                least("rating level", known.leastRatingLevel, rating)},
+                               known.least + (coverage ? "" : "; ours: " + findings_.whyNotValidated),
+                               known.source});
+  }
+
+  void effect(const PublishedEffectOf& one) {
+    const AnovaEffect* own = nullptr;
+    std::string why = "the part was not analysed";
+    for (const PartAnova& part : *findings_.anova) {
+      if (part.part != one.part) continue;
+      why = part.note.empty() ? "no such effect in these answers" : part.note;
+      for (size_t i = 0; part.result && i < part.result->effects.size(); ++i) {
+        std::vector<std::string> names;
+        for (const size_t factor : part.result->effects[i].factors)
+          names.push_back(part.factors[factor].name);
+        if (std::is_permutation(names.begin(), names.end(), one.factors.begin(), one.factors.end()))
+          own = &part.result->effects[i];
+      }
+    }
+    const PublishedEffect& known = one.effect;
+    const auto degrees = [&](double value) { return own ? std::optional<double>(value) : std::nullopt; };
+    const std::optional<double> f = own ? own->f : std::nullopt, p = own ? own->p : std::nullopt;
+    ComparedValue pValue{"p", known.p, {}, p, pText(p)};
+    if (known.p.find('<') == std::string::npos) pValue.printed = std::stod(known.p);
+    std::string note = known.remark;
+    if (!own || !own->note.empty()) note += (note.empty() ? "ours: " : "; ours: ") + (own ? own->note : why);
+    out_.statistics.push_back(
+        {one.part,
+         "variance by " + join(one.factors, " x "),
+         {number("F", known.f, f, 3), number("df", known.df, degrees(own ? own->df : 0.0), 0),
+          number("df error", known.dfError, degrees(own ? own->dfError : 0.0), 0), pValue},
+         note,
+         known.source});
+    // F was worked out of p, and nothing else but p was printed.
+    if (known.fDerived)
+      for (ComparedValue& value : out_.statistics.back().values)
+        if (value.quantity != "p") value.published += " (derived)";
+  }
+
+  void agreement(const PublishedAgreementOf& one) {
+    const Agreement* own = nullptr;
+    if (findings_.validation)
+      for (const PartValidation& part : findings_.validation->parts)
+        if (part.part == one.part)
+          for (const Agreement& agreement : one.severity ? part.severity : part.agreements)
+            if (agreement.set == one.set && agreement.predictor == one.predictor) own = &agreement;
+    std::optional<double> tauC, r;
+    if (own && own->kendall.tauC) tauC = own->kendall.tauC->value;
+    if (own && !one.agreement.clamped && own->pearson) r = own->pearson->coefficient.value;
+    if (own && one.agreement.clamped && own->clamped.correlation)
+      r = own->clamped.correlation->coefficient.value;
+    std::string note;
+    if (!findings_.validation)
+      note = "ours: " + findings_.whyNotValidated;
+    else if (!own)
+      note = "ours: too few scenarios of this kind";
+    else if (!tauC || !r)
+      note = "ours: predictions or answers do not vary";
+    out_.statistics.push_back({one.part,
+                               fmt::format("{} with {}, {}", one.predictor,
+                                           one.severity ? "mean severity" : "detection rate", one.set),
+                               {number("tau_c", one.agreement.tauC, tauC, 3),
+                                number(one.agreement.clamped ? "r clamped" : "r", one.agreement.r, r, 3)},
+                               note,
+                               one.agreement.source});
+  }
+
+  void notes() {
+    if (!out_.simulated) return;
+    out_.notes.push_back("ours are answers of simulated observers (" + join(findings_.observerKinds) +
+                         "): a check of the chain, no evidence about people");
+    const auto& kinds = findings_.observerKinds;
+    if (std::find(kinds.begin(), kinds.end(), "model") != kinds.end())
+      out_.notes.push_back(
+          "observers of kind 'model' answer by the predictor's own rating: how well that and what is made of "
+          "it "
+          "agree with their answers is circular");
+  }
+
+  const StudyFindings& findings_;
+  std::string protocol_;
+  PublishedComparison out_;
+};
+
+}  // namespace
+
+PublishedComparison comparePublished(const StudyFindings& findings) { return Comparer(findings).compare(); }
+
+}  // namespace limen::analysis
