@@ -8,7 +8,7 @@ set(limen_separate_targets
 # Files that share a name of their own with a neighbour, and may.
 set(limen_separate_files
     analysis/psychometric/log_math.cpp analysis/psychometric/objective.cpp analysis/statistics/pairwise_scaling.cpp
-    analysis/study/published_agreement.cpp analysis/sweep/switch_distances.cpp experiments/expectation_reader.cpp
+    analysis/study/scenario_spread.cpp analysis/sweep/switch_distances.cpp experiments/expectation_reader.cpp
     perception/popping/gpu/regions_gpu.cpp perception/popping/weights_gpu.cpp
     perception/threshold_maps/threshold_tables.cpp perception/vision/csf.cpp perception/vision/csf_models.cpp
     perception/vision/spatial_csfs.cpp study/application/page_view.cpp study/observers/power.cpp
