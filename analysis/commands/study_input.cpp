@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/commands/study_input.h"
 
+#include <algorithm>
 #include <map>
 
 #include "analysis/data/source.h"
@@ -8,9 +9,17 @@
 
 namespace limen::analysis {
 
-void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
-                   const std::string& meaning) {
-  command.add_option(positional, input.choice.store, meaning)->required();
+namespace {
+
+const std::vector<std::string>& choiceOptions() {
+  static const std::vector<std::string> kOptions = {"--protocol", "--observers", "--no-exclusions",
+                                                    "--unfinished"};
+  return kOptions;
+}
+
+}  // namespace
+
+void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
                      "Name, or first digits of the SHA-256, if the store has several");
   static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
@@ -22,22 +31,33 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+}
+
+bool choosesSessions(const CLI::App& command) {
+  return std::any_of(choiceOptions().begin(), choiceOptions().end(),
+                     [&](const std::string& option) { return command.count(option) > 0; });
+}
+
+void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
+                   const std::string& meaning) {
+  command.add_option(positional, input.choice.store, meaning)->required();
+  addStudyChoice(command, input);
   command.add_flag("--json", input.asJson, "One JSON object");
   command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
 }
 
-StudyAnswers readStudy(const StudyInput& input) {
+StudyChoice choiceOf(const StudyInput& input) {
   StudyChoice choice = input.choice;
   choice.exclusions = !input.noExclusions;
-  return readStudyAnswers(choice);
+  return choice;
 }
+
+StudyAnswers readStudy(const StudyInput& input) { return readStudyAnswers(choiceOf(input)); }
 
 bool isStudyStore(const CLI::App& command, const StudyInput& input,
                   const std::vector<std::string>& tableOptions) {
   const bool store = isDatabase(input.choice.store);
-  static const std::vector<std::string> kStoreOptions = {"--protocol", "--observers", "--no-exclusions",
-                                                         "--unfinished"};
-  for (const std::string& option : store ? tableOptions : kStoreOptions)
+  for (const std::string& option : store ? tableOptions : choiceOptions())
     if (command.count(option) > 0)
       throw Error(store ? "names a column, and a result store has none" : "means nothing for a table", option,
                   store ? "leave it out, or give a CSV file" : "leave it out, or give a result store");

@@ -21,9 +21,17 @@ struct StudyInput {
   std::string csv;
 };
 
+/// Adds --protocol, --observers, --no-exclusions, --unfinished: which sessions and answers count.
+void addStudyChoice(CLI::App& command, StudyInput& input);
+/// Whether one of those was given.
+bool choosesSessions(const CLI::App& command);
+
 /// Adds the positional, --protocol, --observers, --no-exclusions, --unfinished, --json, --csv.
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional = "store",
                    const std::string& meaning = "Result store with sessions");
+
+/// The choice with what the options say.
+StudyChoice choiceOf(const StudyInput& input);
 
 /// Throws Error as readStudyAnswers().
 StudyAnswers readStudy(const StudyInput& input);

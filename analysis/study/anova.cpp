@@ -112,6 +112,8 @@ PartAnova anovaOf(const StudyAnswers& study, size_t index, const std::vector<con
   const RepeatedMeasures data = averageCells(factors, subjects.size(), observations);
   out.unequalReplicates = data.unequalReplicates;
   out.result = analyseRepeatedMeasures(data);
+  for (size_t factor = 0; factor < factors.size(); ++factor)
+    out.comparisons.push_back({comparePairs(data, factor)});
   for (const AnovaEffect& effect : out.result->effects) {
     std::vector<std::string> names;
     for (const size_t factor : effect.factors) names.push_back(out.factors[factor].name);

@@ -20,6 +20,11 @@ struct PublishedEffect {
   std::string source;
 };
 
+/// Levels of one factor, other factors averaged.
+struct FactorComparison {
+  std::vector<PairedComparison> pairs;
+};
+
 /// Analysis of variance of one part: each observer's rate of reports (or of right answers) in each condition,
 /// of trials with a change.
 struct PartAnova {
@@ -29,6 +34,7 @@ struct PartAnova {
   bool unequalReplicates = false;
   std::optional<RepeatedMeasuresAnova> result;
   std::vector<std::optional<PublishedEffect>> published;  ///< for each effect
+  std::vector<FactorComparison> comparisons;              ///< for each of `factors`
   std::string note;                                       ///< why there is no result
 };
 
