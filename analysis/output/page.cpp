@@ -47,6 +47,7 @@ std::string inlineSvg(std::string svg, const std::string& name, const std::strin
   replaceAll(svg, "fill=\"black\"", "fill=\"currentColor\"");
   replaceAll(svg, "color=\"black\"", "");
   replaceAll(svg, "color=\"white\"", "");
+  replaceAll(svg, "color='white'", "color='var(--paper)'");  // rings that part marks from bars
   replaceAll(svg, "stroke='rgb(221, 221, 221)'", "class='grid'");
   replaceAll(svg, "class='grid' class=\"gridline\"", "class='grid'");
   for (size_t i = 0; i < kChartColours.size(); ++i)
