@@ -14,7 +14,7 @@
 namespace limen::analysis {
 namespace {
 
-const char* const kProbe = R"js(<script>
+const char* const kStudyProbe = R"js(<script>
 (() => {
   const all = (s, r = document) => [...r.querySelectorAll(s)], out = {};
   out.sections = all("section").map(s => s.id);
@@ -100,7 +100,7 @@ TEST(StudyPage, ReadsWellOnWideAndNarrowScreens) {
     }
   EXPECT_GT(colours.size(), 50U) << "a page that is not drawn has one colour";
 
-  const nlohmann::json found = probe(browser, folder, result.page, kProbe, "1280,1600");
+  const nlohmann::json found = probe(browser, folder, result.page, kStudyProbe, "1280,1600");
   EXPECT_EQ(found.at("problems"), nlohmann::json::array());
   EXPECT_EQ(found.at("duplicateIds"), nlohmann::json::array());
   EXPECT_EQ(found.at("sections"), nlohmann::json({"exclusions", "rates", "anova", "sensitivity", "validation",

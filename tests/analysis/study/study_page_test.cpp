@@ -31,7 +31,7 @@ using testing::Not;
 constexpr double kT3 = 3.182446305284263, kZ = 1.959963984540054;
 
 const char* const kHostile = "<b>\"O'Neil\" & co</b>";
-const std::string kProtocol = R"(title: unused
+const std::string kPageProtocol = R"(title: unused
 question: "Is <i>this</i> & \"that\" seen?"
 task:
   type: yes_no
@@ -49,7 +49,7 @@ form:
   - {name: age, label: Your age, choices: [young, old]}
 )";
 
-const std::string kDisplay =
+const std::string kPageDisplay =
     "name: desk\nresolution_px: [1600, 1200]\nsize_m: [0.4064, 0.3048]\ndistance_m: 0.6\nblack_cd_m2: 0.5\n"
     "peak_cd_m2: 250\ntransfer: srgb\nrefresh_hz: 60\n";
 
@@ -83,7 +83,7 @@ std::vector<HandMadeTrial> answersOf(size_t observer, bool guesses) {
   return out;
 }
 
-struct Row {
+struct AnswerRow {
   std::string observer, distance, presentation;
   bool change = true;
   int outcome = 0;
@@ -101,7 +101,8 @@ class StudyPageTest : public testing::Test {
       late.valid = false;
       shown = shown + std::vector<HandMadeTrial>{hasty, practice, late};
     }
-    addHandMadeSession(store(), code, kProtocol, shown, "finished", "1", frontEnd, kHostile, kDisplay);
+    addHandMadeSession(store(), code, kPageProtocol, shown, "finished", "1", frontEnd, kHostile,
+                       kPageDisplay);
   }
   void addStudy(const nlohmann::json& frontEnd = nlohmann::json::object()) {
     for (size_t i = 0; i < 4; ++i) addSession(i, codes_[i], false, frontEnd);
@@ -137,8 +138,8 @@ class StudyPageTest : public testing::Test {
   }
 
   /// Rows that count, of the observers who stay.
-  std::vector<Row> rows() const {
-    std::vector<Row> out;
+  std::vector<AnswerRow> rows() const {
+    std::vector<AnswerRow> out;
     for (const store::StudySession& session : store::readSessions(store()))
       for (const store::StudyTrial& trial : store::readTrials(store(), session.id)) {
         if (!trial.valid.value_or(false) || trial.practice || trial.superseded ||
@@ -155,7 +156,7 @@ class StudyPageTest : public testing::Test {
   template <class Fits>
   std::map<std::string, double> ratesOf(Fits fits) const {
     std::map<std::string, std::pair<double, double>> sums;
-    for (const Row& row : rows())
+    for (const AnswerRow& row : rows())
       if (fits(row)) sums[row.observer].first += row.outcome, sums[row.observer].second += 1.0;
     std::map<std::string, double> out;
     for (const auto& [observer, sum] : sums) out[observer] = sum.first / sum.second;
@@ -235,7 +236,7 @@ TEST_F(StudyPageTest, RatesAreThoseOfTheRows) {
     ASSERT_EQ(drawn.size(), 3U);
     for (size_t i = 0; i < 3; ++i) {
       const std::string distance = std::vector<std::string>{"1", "2", "4"}[i];
-      const Moments own = momentsOf(ratesOf([&](const Row& row) {
+      const Moments own = momentsOf(ratesOf([&](const AnswerRow& row) {
         return row.change && row.distance == distance && row.presentation == presentation;
       }));
       const double half = kT3 * own.sd / 2.0;  // sqrt(4) observers
@@ -248,7 +249,7 @@ TEST_F(StudyPageTest, RatesAreThoseOfTheRows) {
       EXPECT_THAT(page, HasSubstr("<td class=\"num\">" + percent(own.mean) + "</td>"));
     }
   }
-  const Moments catches = momentsOf(ratesOf([](const Row& row) { return !row.change; }));
+  const Moments catches = momentsOf(ratesOf([](const AnswerRow& row) { return !row.change; }));
   EXPECT_NEAR(blockWith(data, "no change").front().at(1), 100.0 * catches.mean, 1e-9);
   EXPECT_THAT(page, HasSubstr("<td class=\"num\">" + percent(catches.mean) + "</td><td class=\"num\">" +
                               percent(catches.sd) + "</td>"));
@@ -260,7 +261,7 @@ TEST_F(StudyPageTest, SensitivityIsThatOfTheRows) {
   std::map<std::string, double> dPrimes, criteria;
   for (const std::string& code : codes_) {
     double hits = 0.0, signals = 0.0, alarms = 0.0, noises = 0.0;
-    for (const Row& row : rows()) {
+    for (const AnswerRow& row : rows()) {
       if (row.observer != code) continue;
       (row.change ? hits : alarms) += row.outcome;
       (row.change ? signals : noises) += 1.0;
@@ -293,7 +294,7 @@ TEST_F(StudyPageTest, VarianceAndPairsAreThoseOfTheRows) {
   // A factor of two levels: F is the square of the paired t over observers.
   const auto meanOf = [&](const std::string& factor, const std::string& level) {
     // Cells have equal numbers of answers, so that means of answers are means of cells.
-    return ratesOf([&](const Row& row) {
+    return ratesOf([&](const AnswerRow& row) {
       return row.change && (factor == "distance" ? row.distance : row.presentation) == level;
     });
   };
@@ -329,7 +330,7 @@ TEST_F(StudyPageTest, PredictionsAreSetBesideTheRows) {
     double rating = 0.0, yes = 0.0, trials = 0.0;
   };
   std::map<std::pair<std::string, std::string>, Sums> scenarios;
-  for (const Row& row : rows()) {
+  for (const AnswerRow& row : rows()) {
     if (!row.change) continue;
     Sums& sums = scenarios[{row.presentation, row.distance}];
     sums.rating = ratingOf(row.distance, row.presentation == "dynamic");
@@ -396,7 +397,7 @@ TEST_F(StudyPageTest, SaysWhatTheDataAreAndWhatWasLeftOut) {
   EXPECT_THAT(page, HasSubstr("<td>reaction_time_below_s</td><td class=\"num\">1</td>"));
   EXPECT_THAT(page, HasSubstr("no: this program does not know it"));
   // Nothing excluded: five observers, the guesser's rates among them.
-  const Moments own = momentsOf(ratesOf([](const Row& row) { return !row.change; }));
+  const Moments own = momentsOf(ratesOf([](const AnswerRow& row) { return !row.change; }));
   const double all = (4.0 * own.mean + 1.0) / 5.0;
   EXPECT_THAT(page, HasSubstr("<td class=\"num\">5</td><td class=\"num\">" + percent(all)));
   EXPECT_THAT(page, HasSubstr("2026-01-31"));
