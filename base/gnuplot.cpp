@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/gnuplot.h"
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,10 +22,14 @@ std::string gnuplotQuoted(const std::string& text) {
   return out + "'";
 }
 
-std::string gnuplotTerminal(const std::string& extension) {
-  if (extension == ".svg") return "svg size 720,480 dynamic font 'system-ui, sans-serif,13'";
-  if (extension == ".png") return "pngcairo size 1440,960 font 'sans,20' linewidth 2";
-  return "pdfcairo size 14cm,9.3cm font 'sans,10'";
+std::string gnuplotTerminal(const std::string& extension, double width, double height) {
+  if (extension == ".svg")
+    return fmt::format("svg size {:.0f},{:.0f} dynamic font 'system-ui, sans-serif,13'", 720.0 * width,
+                       480.0 * height);
+  if (extension == ".png")
+    return fmt::format("pngcairo size {:.0f},{:.0f} font 'sans,20' linewidth 2 pointscale 2", 1440.0 * width,
+                       960.0 * height);
+  return fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font 'sans,10'", 14.0 * width, 9.3 * height);
 }
 
 void runGnuplot(const std::string& folder, const std::string& file) {

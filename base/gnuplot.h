@@ -13,8 +13,9 @@ std::string gnuplotQuoted(const std::string& text);
 inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
                                                              "#B07C00", "#2E86C1", "#444444"};
 
-/// Terminal and size of a chart in a file of its own: ".svg", ".png", anything else PDF.
-std::string gnuplotTerminal(const std::string& extension);
+/// Terminal and size of a chart in a file of its own: ".svg", ".png", anything else PDF. `width` and `height`
+/// are in usual widths and heights.
+std::string gnuplotTerminal(const std::string& extension, double width = 1.0, double height = 1.0);
 
 /// Runs a script that lies in `folder`, with that as its working folder. Throws Error: gnuplot is missing
 /// (with the package to install) or fails (with what it said).

@@ -12,6 +12,12 @@ namespace limen::analysis {
 void addReportCommand(CLI::App& app);  ///< report
 void addSweepCommands(CLI::App& app);  ///< switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
-void addStudyCommands(CLI::App& app);  ///< rates, anova, sdt, validate
+void addStudyCommands(CLI::App& app);  ///< rates, validate
+void addAnovaCommand(CLI::App& app);
+void addSdtCommand(CLI::App& app);
+void addMixedCommand(CLI::App& app);
+
+void addCorrelateCommand(CLI::App& app);  ///< correlate
+void addScaleCommand(CLI::App& app);      ///< scale
 
 }  // namespace limen::analysis

@@ -14,5 +14,10 @@ int main(int argc, char** argv) {
   limen::analysis::addSweepCommands(app);
   limen::analysis::addFitCommand(app);
   limen::analysis::addStudyCommands(app);
+  limen::analysis::addAnovaCommand(app);
+  limen::analysis::addSdtCommand(app);
+  limen::analysis::addMixedCommand(app);
+  limen::analysis::addCorrelateCommand(app);
+  limen::analysis::addScaleCommand(app);
   return limen::runProgram(app, argc, argv, limen::kExitSuccess);
 }

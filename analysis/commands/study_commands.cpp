@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen analyse rates, anova, sdt, validate: what the sessions of a study say.
+// limen analyse rates, validate: what the sessions of a study say.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -7,9 +7,7 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/study/anova.h"
 #include "analysis/study/rates.h"
-#include "analysis/study/sensitivity.h"
 #include "analysis/study/validation.h"
 #include "base/error.h"
 
@@ -59,30 +57,21 @@ void validate(const ValidateOptions& options) {
   printStudyResult(options, study, validateStudy(study, predictions, names, setting), "validation");
 }
 
-/// A command of common options and one result.
-template <class Analyse>
-void addSimple(CLI::App& app, const std::string& name, const std::string& summary, Analyse analyse) {
-  CLI::App* command = app.add_subcommand(name, summary);
+void addRates(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "rates", "how often observers of a study reported a change, by condition and observer");
   auto options = std::make_shared<StudyInput>();
   addStudyInput(*command, *options);
-  command->callback([options, analyse, name] {
+  command->callback([options] {
     const StudyAnswers study = readStudy(*options);
-    printStudyResult(*options, study, analyse(study), name);
+    printStudyResult(*options, study, studyRates(study), "rates");
   });
 }
 
 }  // namespace
 
 void addStudyCommands(CLI::App& app) {
-  addSimple(app, "rates", "how often observers of a study reported a change, by condition and observer",
-            [](const StudyAnswers& study) { return studyRates(study); });
-  addSimple(
-      app, "anova",
-      "analysis of variance of a study's detection rates, with the published values of experiment_1 and "
-      "_2",
-      [](const StudyAnswers& study) { return studyAnova(study); });
-  addSimple(app, "sdt", "sensitivity and criterion of a study's observers (signal detection theory)",
-            [](const StudyAnswers& study) { return studySensitivity(study); });
+  addRates(app);
 
   CLI::App* command = app.add_subcommand(
       "validate",

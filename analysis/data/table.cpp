@@ -85,6 +85,14 @@ class Records {
 
 }  // namespace
 
+std::optional<double> finiteNumber(const std::string& text) {
+  double value = 0.0;
+  const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
 Table Table::read(const std::string& path, char separator) {
   if (!std::filesystem::exists(path)) throw Error("no such file", path);
   if (std::filesystem::is_directory(path)) throw Error("is a folder, not a table", path);
@@ -135,6 +143,14 @@ std::string Table::place(size_t row) const { return fmt::format("{}:{}", name_, 
 
 std::string Table::place(size_t row, size_t column) const {
   return fmt::format("{}, column '{}'", place(row), header_[column]);
+}
+
+Table Table::only(const std::vector<size_t>& rows) const {
+  Table out;
+  out.name_ = name_;
+  out.header_ = header_;
+  for (const size_t row : rows) out.rows_.push_back(rows_[row]);
+  return out;
 }
 
 double Table::number(size_t row, size_t column) const {

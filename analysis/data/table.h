@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace limen::analysis {
+
+/// A finite number with a decimal point, whatever the locale; none for any other text.
+std::optional<double> finiteNumber(const std::string& text);
 
 /// A table of text with named columns, read from CSV (RFC 4180) or TSV. Numbers have a decimal point,
 /// whatever the locale. Whatever is wrong throws one Error with file, line and column.
@@ -28,6 +32,10 @@ class Table {
   /// "FILE:LINE, column 'NAME'" of a field, for messages of one's own.
   std::string place(size_t row, size_t column) const;
   std::string place(size_t row) const;
+  const std::string& name() const { return name_; }  ///< of the file
+
+  /// These rows alone, which keep their places.
+  Table only(const std::vector<size_t>& rows) const;
 
  private:
   struct Row {

@@ -74,13 +74,20 @@ std::vector<bool> reach(const std::vector<Pair>& pairs, size_t items, Along alon
   return reached;
 }
 
+/// How messages call an item.
+template <class Index>
+std::string nameOf(const PairwiseOptions& options, Index item) {
+  return options.names.empty() ? std::to_string(item) : "'" + options.names[static_cast<size_t>(item)] + "'";
+}
+
 /// Why the scale has no finite estimate; empty if it has one.
-std::string whyUnbounded(const std::vector<Pair>& pairs, size_t items, PairwiseModel model) {
+std::string whyUnbounded(const std::vector<Pair>& pairs, size_t items, const PairwiseOptions& options) {
+  const PairwiseModel model = options.model;
   if (model == PairwiseModel::kThurstoneLeastSquares) {
     for (const Pair& p : pairs)
       if (p.wins == 0.0 || p.wins == p.trials)
         return fmt::format("items {} and {} were judged unanimously, which puts them infinitely far apart",
-                           p.first, p.second);
+                           nameOf(options, p.first), nameOf(options, p.second));
     return {};
   }
   for (const Along along : {Along::kWins, Along::kLosses}) {
@@ -89,8 +96,8 @@ std::string whyUnbounded(const std::vector<Pair>& pairs, size_t items, PairwiseM
     if (missing != reached.end())
       return fmt::format(
           "no chain of preferences leads from item {} to item {}, which puts them infinitely far apart",
-          along == Along::kWins ? 0 : missing - reached.begin(),
-          along == Along::kWins ? missing - reached.begin() : 0);
+          nameOf(options, along == Along::kWins ? 0 : missing - reached.begin()),
+          nameOf(options, along == Along::kWins ? missing - reached.begin() : 0));
   }
   return {};
 }
@@ -207,7 +214,9 @@ double drawBinomial(std::mt19937_64& random, double trials, double chance) {
   return mode;
 }
 
-std::vector<Pair> pairsOf(const std::vector<int64_t>& wins, size_t items) {
+std::vector<Pair> pairsOf(const std::vector<int64_t>& wins, size_t items, const PairwiseOptions& options) {
+  if (!options.names.empty() && options.names.size() != items)
+    throw Error(fmt::format("{} names for {} items", options.names.size(), items), "names");
   if (items < 2) throw Error(fmt::format("{} items, needs at least 2", items), "items");
   if (wins.size() % items != 0 || wins.size() / items != items)
     throw Error(fmt::format("{} counts for {} items", wins.size(), items), indexed("wins", wins.size()),
@@ -228,8 +237,8 @@ std::vector<Pair> pairsOf(const std::vector<int64_t>& wins, size_t items) {
   const std::vector<bool> reached = reach(pairs, items, Along::kJudged);
   const auto missing = std::find(reached.begin(), reached.end(), false);
   if (missing != reached.end())
-    throw Error(fmt::format("items 0 and {} are not connected by any chain of judged pairs",
-                            missing - reached.begin()),
+    throw Error(fmt::format("items {} and {} are not connected by any chain of judged pairs",
+                            nameOf(options, 0), nameOf(options, missing - reached.begin())),
                 "wins", "scale the parts one by one, or judge a pair that joins them");
   return pairs;
 }
@@ -263,10 +272,11 @@ void bootstrap(PairwiseScale& scale, const std::vector<Pair>& pairs, size_t item
   for (int r = 0; r < options.resamples; ++r) {
     std::vector<Pair> sample = pairs;
     for (Pair& p : sample) p.wins = drawBinomial(random, p.trials, p.wins / p.trials);
-    const bool penalise = scale.penalised || !whyUnbounded(sample, items, options.model).empty();
+    const bool penalise = scale.penalised || !whyUnbounded(sample, items, options).empty();
     scale.penalisedResamples += penalise ? 1 : 0;
     const Fit again = fit(sample, items, options, penalise);
     for (size_t i = 0; i < items; ++i) draws[i].push_back(again.values(static_cast<Eigen::Index>(i)));
+    scale.bootstrapValues.emplace_back(again.values.begin(), again.values.end());
   }
   const double tail = (1.0 - options.level) / 2.0;
   for (const std::vector<double>& values : draws)
@@ -281,8 +291,8 @@ PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const P
     throw Error(fmt::format("{} is no standard deviation", options.priorDeviation), "priorDeviation",
                 "give one above 0");
   if (options.resamples < 0) throw Error(fmt::format("{} resamples", options.resamples), "resamples");
-  const std::vector<Pair> pairs = pairsOf(wins, items);
-  const std::string why = whyUnbounded(pairs, items, options.model);
+  const std::vector<Pair> pairs = pairsOf(wins, items, options);
+  const std::string why = whyUnbounded(pairs, items, options);
   if (!why.empty() && options.unbounded == UnboundedScale::kRefuse)
     throw Error(why, "wins", "collect more judgements, leave the item out, or ask for a penalised scale");
 

@@ -38,6 +38,7 @@ struct PairwiseOptions {
   double level = 0.95;
   int resamples = 0;  ///< of the bootstrap; 0 for none
   uint64_t seed = 1;
+  std::vector<std::string> names;  ///< of the items, for messages; empty: their numbers from 0
 };
 
 struct PairwiseScale {
@@ -49,6 +50,8 @@ struct PairwiseScale {
   /// Percentile intervals; each resample draws every pair's judgements anew from its observed proportion.
   /// Empty without resamples. Same seed, same bytes.
   std::vector<Interval> bootstrapIntervals;
+  /// What the intervals are quantiles of: for each resample the values of all items.
+  std::vector<std::vector<double>> bootstrapValues;
   int penalisedResamples = 0;  ///< resamples that were unbounded, and penalised whatever `unbounded` says
 
   double logLikelihood = 0.0;  ///< of the judgements in their order, without binomial coefficients or penalty

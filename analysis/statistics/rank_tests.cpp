@@ -17,12 +17,27 @@ namespace limen::analysis {
 namespace {
 
 constexpr size_t kExactPairs = 50;
+constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  ///< of the largest value
 
 /// Sum of t^3 - t over groups of ties.
 double tieSum(const Ranks& ranks) {
   double sum = 0.0;
   for (const double t : ranks.tieSizes) sum += t * (t - 1.0) * (t + 1.0);
   return sum;
+}
+
+/// Values that follow one another within `rounding` become the smallest of them.
+void joinNeighbours(std::vector<double>& values, double rounding) {
+  std::vector<size_t> order(values.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return values[a] < values[b]; });
+  double joined = -std::numeric_limits<double>::infinity(), previous = joined;
+  for (const size_t i : order) {
+    const double value = values[i];
+    if (value - previous > rounding) joined = value;
+    previous = value;
+    values[i] = joined;
+  }
 }
 
 /// first - second, where those that differ by rounding only are made equal in size: 3.1 - 2.2 and 2.8 - 3.7
@@ -38,18 +53,12 @@ std::vector<double> differencesOf(const std::vector<double>& first, const std::v
     differences.push_back(first[i] - second[i]);
     largest = std::max({largest, std::abs(first[i]), std::abs(second[i])});
   }
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
-  std::vector<size_t> order(differences.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](size_t a, size_t b) { return std::abs(differences[a]) < std::abs(differences[b]); });
-  double last = 0.0, previous = 0.0;  // size that the group has, size before rounding
-  for (const size_t i : order) {
-    const double size = std::abs(differences[i]);
-    if (size - previous > rounding) last = size;
-    previous = size;
-    differences[i] = std::copysign(last, differences[i]);
-  }
+  // Beside a size of 0, so that what rounding leaves of equal pairs becomes 0.
+  std::vector<double> sizes = {0.0};
+  for (const double difference : differences) sizes.push_back(std::abs(difference));
+  joinNeighbours(sizes, kRounding * largest);
+  for (size_t i = 0; i < differences.size(); ++i)
+    differences[i] = std::copysign(sizes[i + 1], differences[i]);
   return differences;
 }
 
@@ -88,8 +97,12 @@ FriedmanTest friedmanTest(const std::vector<double>& values, size_t subjects, si
   const auto n = static_cast<double>(subjects), k = static_cast<double>(treatments);
   double ties = 0.0;
   for (size_t s = 0; s < subjects; ++s) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(s * treatments);
-    const Ranks ranks = rank({row, row + static_cast<std::ptrdiff_t>(treatments)});
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(s * treatments);
+    std::vector<double> row(first, first + static_cast<std::ptrdiff_t>(treatments));
+    double largest = 0.0;
+    for (const double value : row) largest = std::max(largest, std::abs(value));
+    joinNeighbours(row, kRounding * largest);
+    const Ranks ranks = rank(row);
     ties += tieSum(ranks);
     for (size_t j = 0; j < treatments; ++j) test.meanRanks[j] += ranks.ranks[j];
   }

@@ -8,7 +8,8 @@
 
 namespace limen::analysis {
 
-/// Friedman (1937): do k treatments, ranked by each of n subjects, differ?
+/// Friedman (1937): do k treatments, ranked by each of n subjects, differ? Values of a subject that agree but
+/// for rounding (some 1e-15 of their largest) are ties.
 struct FriedmanTest {
   size_t subjects = 0, treatments = 0;
   std::vector<double> meanRanks;  ///< of each treatment; 1 is smallest

@@ -188,11 +188,13 @@ RepeatedMeasures averageCells(const std::vector<WithinFactor>& factors, size_t s
                             subjects),
                 "observations", "leave out subjects or levels that were not fully measured");
   RepeatedMeasures data{factors, subjects, std::vector<double>(cells * subjects, 0.0), false};
-  std::vector<size_t> counts(cells * subjects, 0);
+  std::vector<double> weights(cells * subjects, 0.0);
   for (size_t i = 0; i < observations.size(); ++i) {
     const CellObservation& o = observations[i];
     const std::string where = indexed("observations", i);
     requireFinite(o.value, where);
+    requireFinite(o.weight, where);
+    if (!(o.weight > 0.0)) throw Error(fmt::format("a weight of {}", o.weight), where);
     if (o.subject >= subjects) throw Error(fmt::format("subject {} of {}", o.subject, subjects), where);
     requireSameLength(factors.size(), "factors", o.levels.size(), where + ".levels");
     size_t cell = o.subject;
@@ -203,11 +205,11 @@ RepeatedMeasures averageCells(const std::vector<WithinFactor>& factors, size_t s
                     where);
       cell = cell * factors[f].levels + o.levels[f];
     }
-    data.values[cell] += o.value;
-    ++counts[cell];
+    data.values[cell] += o.value * o.weight;
+    weights[cell] += o.weight;
   }
-  for (size_t cell = 0; cell < counts.size(); ++cell) {
-    if (counts[cell] == 0) {
+  for (size_t cell = 0; cell < weights.size(); ++cell) {
+    if (weights[cell] == 0.0) {
       std::string levels;
       for (size_t f = factors.size(), rest = cell; f-- > 0; rest /= factors[f].levels)
         levels = fmt::format("{} {}{}{}", factors[f].name, rest % factors[f].levels,
@@ -215,8 +217,8 @@ RepeatedMeasures averageCells(const std::vector<WithinFactor>& factors, size_t s
       throw Error(fmt::format("subject {} has no observation at {}", cell / cells, levels), "observations",
                   "leave out the subject or the level");
     }
-    data.values[cell] /= static_cast<double>(counts[cell]);
-    if (counts[cell] != counts[0]) data.unequalReplicates = true;
+    data.values[cell] /= weights[cell];
+    if (weights[cell] != weights[0]) data.unequalReplicates = true;
   }
   return data;
 }
@@ -279,8 +281,7 @@ RepeatedMeasuresAnova analyseRepeatedMeasures(const RepeatedMeasures& data, doub
   return anova;
 }
 
-std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t factor, double level) {
-  requireLevel(level);
+std::vector<std::vector<double>> levelMeans(const RepeatedMeasures& data, size_t factor) {
   const size_t cells = check(data);
   if (factor >= data.factors.size())
     throw Error(fmt::format("factor {} of {}", factor, data.factors.size()), "factor");
@@ -288,13 +289,22 @@ std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t 
   size_t stride = 1;
   for (size_t f = factor + 1; f < data.factors.size(); ++f) stride *= data.factors[f].levels;
 
-  const double share = static_cast<double>(levels) / static_cast<double>(cells);
-  std::vector<std::vector<double>> means(levels, std::vector<double>(data.subjects, 0.0));
+  // In extended precision, so that the order of cells does not break ties.
+  std::vector<std::vector<long double>> sums(levels, std::vector<long double>(data.subjects, 0.0L));
+  for (size_t i = 0; i < data.values.size(); ++i) sums[i / stride % levels][i / cells] += data.values[i];
+  std::vector<std::vector<double>> means(levels);
+  for (size_t level = 0; level < levels; ++level)
+    for (const long double sum : sums[level])
+      means[level].push_back(static_cast<double>(sum / static_cast<long double>(cells / levels)));
+  return means;
+}
+
+std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t factor, double level) {
+  requireLevel(level);
+  const std::vector<std::vector<double>> means = levelMeans(data, factor);
+  const size_t levels = means.size();
   double largest = 0.0;
-  for (size_t i = 0; i < data.values.size(); ++i) {
-    means[i / stride % levels][i / cells] += data.values[i] * share;
-    largest = std::max(largest, std::abs(data.values[i]));
-  }
+  for (const double value : data.values) largest = std::max(largest, std::abs(value));
   const double noise = 16.0 * std::numeric_limits<double>::epsilon() * largest;
 
   const auto n = static_cast<double>(data.subjects);

@@ -30,11 +30,13 @@ struct CellObservation {
   size_t subject = 0;
   std::vector<size_t> levels;  ///< one index for each factor
   double value = 0.0;
+  double weight = 1.0;  ///< of how many trials `value` is the mean
 };
 
-/// Averages repetitions within each cell. limen::Error for an index out of range or a value that is not
-/// finite (names the observation), and for a cell without observations (names subject and levels): a subject
-/// who misses a cell has to be left out, or the factor reduced; no value is made up.
+/// Averages repetitions within each cell, by their weights. limen::Error for an index out of range, a value
+/// that is not finite or a weight that is not above 0 (names the observation), and for a cell without
+/// observations (names subject and levels): a subject who misses a cell has to be left out, or the factor
+/// reduced; no value is made up.
 RepeatedMeasures averageCells(const std::vector<WithinFactor>& factors, size_t subjects,
                               const std::vector<CellObservation>& observations);
 
@@ -80,6 +82,10 @@ struct RepeatedMeasuresAnova {
 /// what rounding of the values leaves count as zero. limen::Error for fewer than two subjects, no factor, a
 /// factor of fewer than two levels, values that are missing, too many or not finite.
 RepeatedMeasuresAnova analyseRepeatedMeasures(const RepeatedMeasures& data, double level = 0.95);
+
+/// Mean of each subject at each level of one factor, other factors averaged: by level, then by subject.
+/// Values that are equal on paper agree to some 1e-16 of the largest.
+std::vector<std::vector<double>> levelMeans(const RepeatedMeasures& data, size_t factor);
 
 /// Two levels of one factor, other factors averaged, by a paired t test over subjects.
 struct PairedComparison {

@@ -37,6 +37,17 @@ double varianceOfZ(double rate, double z, int64_t trials) {
   return rate * (1.0 - rate) / (static_cast<double>(trials) * density * density);
 }
 
+/// Standard error of A' = 1/2 + (h - l)(1 + h - l) / (4 h (1 - l)), h the larger of the rates and l the
+/// smaller (and 1 minus that below chance), of the rates' binomial errors.
+double aPrimeErrorOf(double hitRate, double falseAlarmRate, double varH, double varF) {
+  const bool above = hitRate >= falseAlarmRate;
+  const double h = above ? hitRate : falseAlarmRate, l = above ? falseAlarmRate : hitRate, d = h - l;
+  const double varHigh = above ? varH : varF, varLow = above ? varF : varH;
+  const double scale = 4.0 * h * (1.0 - l), rise = 1.0 + 2.0 * d, share = d * (1.0 + d);
+  const double byHigh = (rise - share / h) / scale, byLow = (share / (1.0 - l) - rise) / scale;
+  return std::sqrt(byHigh * byHigh * varHigh + byLow * byLow * varLow);
+}
+
 void requireMAfc(double dPrime, int alternatives) {
   if (alternatives < 2 || alternatives > kMostAlternatives)
     throw Error(fmt::format("{} alternatives, give 2 to {}", alternatives, kMostAlternatives),
@@ -109,10 +120,18 @@ YesNoSensitivity analyseYesNo(const YesNoCounts& counts, RateCorrection correcti
   s.dPrimeError = std::sqrt(varH + varF);
   s.criterionError = 0.5 * s.dPrimeError;
   s.lnBetaError = std::sqrt(zH * zH * varH + zF * zF * varF);
+  const auto binomial = [](double rate, int64_t trials) {
+    return rate * (1.0 - rate) / static_cast<double>(trials);
+  };
+  s.aPrimeError = aPrimeErrorOf(s.hitRate, s.falseAlarmRate, binomial(s.hitRate, counts.signalTrials),
+                                binomial(s.falseAlarmRate, counts.noiseTrials));
   const double z = -normalQuantile((1.0 - level) / 2.0);
   s.dPrimeInterval = {s.dPrime - z * s.dPrimeError, s.dPrime + z * s.dPrimeError};
   s.criterionInterval = {s.criterion - z * s.criterionError, s.criterion + z * s.criterionError};
   s.lnBetaInterval = {s.lnBeta - z * s.lnBetaError, s.lnBeta + z * s.lnBetaError};
+  s.betaInterval = {std::exp(s.lnBetaInterval.low), std::exp(s.lnBetaInterval.high)};
+  s.aPrimeInterval = {std::max(0.0, s.aPrime - z * s.aPrimeError),
+                      std::min(1.0, s.aPrime + z * s.aPrimeError)};
   return s;
 }
 

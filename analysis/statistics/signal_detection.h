@@ -28,10 +28,12 @@ struct YesNoSensitivity {
   double beta = 0.0;                           ///< likelihood ratio at the criterion
   double aPrime = 0.0;                         ///< see aPrime()
   /// Large-sample errors of Gourevitch and Galanter (1967): var z(p) = p (1 - p) / (n phi(z)^2), with the
-  /// corrected rates and the true n; ln beta by the delta method. Rough below some 20 trials, or with rates
-  /// next to 0 or 1.
-  double dPrimeError = 0.0, criterionError = 0.0, lnBetaError = 0.0;
+  /// corrected rates and the true n; ln beta and A' by the delta method. Rough below some 20 trials, or with
+  /// rates next to 0 or 1.
+  double dPrimeError = 0.0, criterionError = 0.0, lnBetaError = 0.0, aPrimeError = 0.0;
   Interval dPrimeInterval, criterionInterval, lnBetaInterval;  ///< estimate +- z error
+  Interval betaInterval;                                       ///< e to the bounds of ln beta
+  Interval aPrimeInterval;                                     ///< estimate +- z error, cut to [0, 1]
 };
 
 /// limen::Error for negative counts, more answers than trials, no trials, or a rate of 0 or 1 without

@@ -2,10 +2,7 @@
 #include "analysis/study/anova.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
-
-#include "base/error.h"
 
 namespace limen::analysis {
 namespace {
@@ -37,15 +34,15 @@ const std::vector<Published>& publishedEffects() {
 }
 
 /// Factors that vary, by their levels that were shown.
-std::vector<StudyFactor> varyingFactors(const StudyPart& part,
+std::vector<NamedFactor> varyingFactors(const StudyPart& part,
                                         const std::vector<const StudyAnswer*>& answers) {
-  std::vector<StudyFactor> out;
+  std::vector<NamedFactor> out;
   for (const StudyFactor& factor : part.factors) {
     std::set<std::string> shown;
     for (const StudyAnswer* answer : answers)
       if (const auto own = answer->condition.find(factor.name); own != answer->condition.end())
         shown.insert(own->second);
-    StudyFactor varying{factor.name, {}};
+    NamedFactor varying{factor.name, {}};
     for (const std::string& level : factor.levels)
       if (shown.erase(level) > 0) varying.levels.push_back(level);
     varying.levels.insert(varying.levels.end(), shown.begin(), shown.end());
@@ -54,10 +51,10 @@ std::vector<StudyFactor> varyingFactors(const StudyPart& part,
   return out;
 }
 
-std::optional<std::vector<size_t>> cellOf(const std::vector<StudyFactor>& factors,
+std::optional<std::vector<size_t>> cellOf(const std::vector<NamedFactor>& factors,
                                           const StudyAnswer& answer) {
   std::vector<size_t> out;
-  for (const StudyFactor& factor : factors) {
+  for (const NamedFactor& factor : factors) {
     const auto own = answer.condition.find(factor.name);
     if (own == answer.condition.end()) return {};
     const auto level = std::find(factor.levels.begin(), factor.levels.end(), own->second);
@@ -66,11 +63,12 @@ std::optional<std::vector<size_t>> cellOf(const std::vector<StudyFactor>& factor
   return out;
 }
 
-PartAnova anovaOf(const StudyAnswers& study, size_t index, const std::vector<const StudyAnswer*>& answers) {
-  const StudyPart& part = study.plan.parts[index];
+PartAnova anovaOf(const StudyAnswers& study, const StudyPart& part,
+                  const std::vector<const StudyAnswer*>& answers, const AnovaSettings& settings) {
   PartAnova out;
   out.part = part.name;
   out.of = part.asksYesNo() ? "yes" : "right";
+  out.measure = "rate of '" + out.of + "' in trials with a change";
   if (!part.isBinary()) {
     out.note = "answers are not one of two";
     return out;
@@ -79,45 +77,19 @@ PartAnova anovaOf(const StudyAnswers& study, size_t index, const std::vector<con
     out.note = "a procedure chose the stimuli: rates say more of it than of observers";
     return out;
   }
-  out.factors = varyingFactors(part, answers);
-  if (out.factors.empty()) {
+  GroupObservations data{varyingFactors(part, answers), study.observers, {}};
+  if (data.factors.empty()) {
     out.note = "no factor has two levels";
     return out;
   }
-  size_t cells = 1;
-  for (const StudyFactor& factor : out.factors) cells *= factor.levels.size();
-  std::vector<std::set<std::vector<size_t>>> seen(study.observers.size());
   for (const StudyAnswer* answer : answers)
-    if (const auto cell = cellOf(out.factors, *answer)) seen[answer->observer].insert(*cell);
-  std::map<size_t, size_t> subjects;
-  for (size_t observer = 0; observer < seen.size(); ++observer) {
-    if (seen[observer].size() == cells)
-      subjects.emplace(observer, subjects.size());
-    else
-      out.incomplete.push_back(study.observers[observer]);
-  }
-  if (subjects.size() < 2) {
-    out.note = "fewer than two observers answered in every condition";
-    return out;
-  }
-  std::vector<WithinFactor> factors;
-  for (const StudyFactor& factor : out.factors) factors.push_back({factor.name, factor.levels.size()});
-  std::vector<CellObservation> observations;
-  for (const StudyAnswer* answer : answers) {
-    const auto subject = subjects.find(answer->observer);
-    const auto cell = cellOf(out.factors, *answer);
-    if (subject == subjects.end() || !cell) continue;
-    observations.push_back({subject->second, *cell, answer->outcome == 1 ? 1.0 : 0.0});
-  }
-  const RepeatedMeasures data = averageCells(factors, subjects.size(), observations);
-  out.unequalReplicates = data.unequalReplicates;
-  out.result = analyseRepeatedMeasures(data);
-  for (size_t factor = 0; factor < factors.size(); ++factor)
-    out.comparisons.push_back({comparePairs(data, factor)});
-  for (const AnovaEffect& effect : out.result->effects) {
+    if (const auto cell = cellOf(data.factors, *answer))
+      data.observations.push_back({answer->observer, *cell, answer->outcome == 1 ? 1.0 : 0.0});
+  analyseGroup(out, data, settings);
+  for (size_t i = 0; i < out.published.size(); ++i) {
     std::vector<std::string> names;
-    for (const size_t factor : effect.factors) names.push_back(out.factors[factor].name);
-    out.published.push_back(publishedEffect(study.plan.name, part.name, names));
+    for (const size_t factor : out.result->effects[i].factors) names.push_back(out.factors[factor].name);
+    out.published[i] = publishedEffect(study.plan.name, part.name, names);
   }
   return out;
 }
@@ -133,13 +105,13 @@ std::optional<PublishedEffect> publishedEffect(const std::string& protocol, cons
   return {};
 }
 
-std::vector<PartAnova> studyAnova(const StudyAnswers& study) {
+std::vector<PartAnova> studyAnova(const StudyAnswers& study, const AnovaSettings& settings) {
   std::vector<PartAnova> out;
   for (size_t part = 0; part < study.plan.parts.size(); ++part) {
     std::vector<const StudyAnswer*> answers;
     for (const StudyAnswer& answer : study.answers)
       if (answer.part == part && answer.change) answers.push_back(&answer);
-    if (!answers.empty()) out.push_back(anovaOf(study, part, answers));
+    if (!answers.empty()) out.push_back(anovaOf(study, study.plan.parts[part], answers, settings));
   }
   return out;
 }

@@ -34,6 +34,8 @@ StudyAnswer answerOf(const store::StudyTrial& trial, const StudyPart& part) {
   if (which < trial.stimuli.size() && trial.stimuli[which].is_object())
     out.presentation = trial.stimuli[which].value("presentation", std::string());
   out.outcome = trial.response->outcome;
+  out.target = trial.target;
+  out.repetition = trial.repetition;
   out.severity = trial.response->severity;
   out.reactionTimeS = trial.response->reactionTimeS;
   return out;

@@ -24,7 +24,9 @@ struct StudyAnswer {
   /// Of what was shown; with several the one in the interval or at the position of the change.
   std::string stimulusHash;
   std::string displayHash;
-  int outcome = 0;  ///< 1: "yes", or right
+  int outcome = 0;  ///< 1: "yes", or right; Rating: step from 0; Pairwise: position that was chosen
+  int target = 0;   ///< Pairwise: position of the condition's "item_b"
+  int repetition = 0;
   std::optional<int> severity;
   double reactionTimeS = 0.0;
 };

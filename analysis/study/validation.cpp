@@ -15,66 +15,10 @@
 namespace limen::analysis {
 namespace {
 
-/// Stimulus and display.
-using Key = std::pair<std::string, std::string>;
-using Values = std::map<std::string, double>;
-
-/// The display that a prediction must be for, given the one that was used.
-std::string wantedDisplay(const std::string& used, const std::map<std::string, std::string>& names,
-                          const ValidationSetting& setting) {
-  if (setting.display.empty()) return used;
-  std::vector<std::string> fitting, known;
-  for (const auto& [hash, name] : names) {
-    known.push_back(name);
-    if (name == setting.display || (setting.display.size() >= 8 && hash.rfind(setting.display, 0) == 0))
-      fitting.push_back(hash);
-  }
-  if (fitting.empty())
-    throw Error("no display '" + setting.display + "' in the store", "--display",
-                suggest(setting.display, known));
-  if (fitting.size() > 1)
-    throw Error("several displays are named '" + setting.display + "'", "--display",
-                "give the first digits of a SHA-256: " + join(fitting));
-  return fitting.front();
-}
-
-struct Chosen {
-  std::string settingsHash, programVersion;
-  std::map<Key, Values> values;
-};
-
-/// Predictions of one program with one set of settings: figures of different ones are not comparable.
-Chosen choosePredictions(const std::vector<store::StudyPrediction>& predictions, const StudyPlan& plan,
-                         const std::set<Key>& wanted, const ValidationSetting& setting) {
-  Chosen out;
-  std::set<std::string> settings;
-  for (auto one = predictions.rbegin(); one != predictions.rend() && out.settingsHash.empty(); ++one) {
-    const std::string hash = store::settingsHash(one->settings);
-    settings.insert(hash.substr(0, 12));
-    if (!wanted.count({one->stimulusHash, one->displayHash})) continue;
-    if (!setting.settings.empty() && hash.rfind(setting.settings, 0) != 0) continue;
-    out.settingsHash = hash;
-    out.programVersion = one->programVersion;
-  }
-  if (!setting.settings.empty() && out.settingsHash.empty())
-    throw Error("no prediction with settings '" + setting.settings + "'", "--settings",
-                "known: " + join({settings.begin(), settings.end()}));
-  for (const store::StudyPrediction& one : predictions)
-    if (one.programVersion == out.programVersion && one.widthPx == plan.widthPx &&
-        one.heightPx == plan.heightPx && store::settingsHash(one.settings) == out.settingsHash)
-      out.values[{one.stimulusHash, one.displayHash}] = predictorValues(one.figures, setting.bins);
-  const auto missing =
-      std::count_if(wanted.begin(), wanted.end(), [&](const Key& key) { return out.values.count(key) == 0; });
-  if (missing > 0)
-    throw Error(fmt::format("{} of {} stimuli have no prediction", missing, wanted.size()), plan.name,
-                "make them with limen study predict, for the display that is asked for");
-  return out;
-}
-
 /// Rates are means of quotients: equal ones must stay equal, or ties would be lost to rounding.
 double rounded(double value) { return std::round(value * 1e12) / 1e12; }
 
-std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const Chosen& chosen,
+std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const ChosenPredictions& chosen,
                                   const std::map<std::string, std::string>& displays) {
   struct Sums {
     Scenario scenario;
@@ -82,10 +26,10 @@ std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const 
     double severity = 0.0;
     int64_t severities = 0;
   };
-  std::map<std::pair<std::vector<size_t>, Key>, Sums> all;
+  std::map<std::pair<std::vector<size_t>, PredictionKey>, Sums> all;
   for (const StudyAnswer& answer : study.answers) {
     if (answer.part != part || !answer.change) continue;
-    const Key key{answer.stimulusHash, displays.at(answer.displayHash)};
+    const PredictionKey key{answer.stimulusHash, displays.at(answer.displayHash)};
     Sums& sums = all[{levelsOf(study.plan.parts[part], answer.condition), key}];
     Scenario& scenario = sums.scenario;
     scenario.condition = conditionText(study.plan.parts[part], answer.condition);
@@ -235,7 +179,7 @@ StudyValidation validateStudy(const StudyAnswers& study,
                               const ValidationSetting& setting) {
   checkScoreBins(setting.bins);
   std::map<std::string, std::string> displays;  // used -> predicted for
-  std::set<Key> wanted;
+  std::set<PredictionKey> wanted;
   StudyValidation out;
   for (const StudyAnswer& answer : study.answers) {
     if (!displays.count(answer.displayHash))
@@ -250,7 +194,7 @@ StudyValidation validateStudy(const StudyAnswers& study,
   if (wanted.empty())
     throw Error("no trial with a change asks for yes or no", study.plan.name,
                 "name another protocol with --protocol");
-  const Chosen chosen = choosePredictions(predictions, study.plan, wanted, setting);
+  const ChosenPredictions chosen = choosePredictions(predictions, study.plan, wanted, setting);
   out.settingsHash = chosen.settingsHash;
   out.programVersion = chosen.programVersion;
   std::set<std::string> names;

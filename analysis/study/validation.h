@@ -11,6 +11,7 @@
 #include "analysis/statistics/roc.h"
 #include "analysis/study/answers.h"
 #include "analysis/study/link.h"
+#include "analysis/study/predicted.h"
 #include "analysis/study/scores.h"
 #include "experiments/store/predictions.h"
 
@@ -74,10 +75,7 @@ struct PartValidation {
   std::vector<std::string> notes;
 };
 
-struct ValidationSetting {
-  ScoreBins bins;
-  std::string display;          ///< name or hash of the predictions' display; "": the sessions'
-  std::string settings;         ///< first digits of the SHA-256 of the predictor's settings; "": newest
+struct ValidationSetting : PredictionChoice {
   std::optional<double> guess;  ///< of the link; none: from catch trials
   bool fitGuess = false;        ///< fitted together with the catch trials
   std::optional<double> lapse;  ///< none: fitted

@@ -6,6 +6,9 @@
 
 #include <functional>
 
+#include "analysis/data/answer_columns.h"
+#include "analysis/data/levels.h"
+#include "analysis/data/row_filter.h"
 #include "base/error.h"
 
 namespace limen::analysis {
@@ -76,6 +79,43 @@ TEST(Table, NamesRowAndColumnOfWhatIsWrong) {
   EXPECT_EQ(table.count(4, 1), 4);
   EXPECT_THAT(message([] { Table::read("/nowhere/t.csv"); }), HasSubstr("no such file"));
   EXPECT_THAT(message([] { Table::read("/tmp"); }), HasSubstr("is a folder"));
+}
+
+TEST(RowFilter, TakesRowsThatFitEveryColumn) {
+  const Table table = Table::parse("who,lod,x\na,1,p\nb,2,p\nc,1.0,q\nd,3,p\n", "t.csv");
+  const Table one = filterRows(table, {"lod=1"});
+  ASSERT_EQ(one.rows(), 2u);
+  EXPECT_EQ(one.text(1, 0), "c");
+  EXPECT_EQ(one.place(1), "t.csv:4");
+  EXPECT_EQ(filterRows(table, {"lod=1", "lod=2", "x=p"}).rows(), 2u);
+  EXPECT_EQ(filterRows(table, {}).rows(), 4u);
+  EXPECT_THAT(message([&] { filterRows(table, {"lod=4"}); }), HasSubstr("no row has lod=4"));
+  EXPECT_THAT(message([&] { filterRows(table, {"led=4"}); }), HasSubstr("did you mean 'lod'?"));
+  EXPECT_THAT(message([&] { filterRows(table, {"lod"}); }), HasSubstr("COLUMN=VALUE"));
+}
+
+TEST(Levels, AppearInOrderAndNumbersGrow) {
+  const Levels text = levelsIn({"still", "moving", "still"});
+  EXPECT_THAT(text.names, ElementsAre("still", "moving"));
+  EXPECT_THAT(text.ofRow, ElementsAre(0, 1, 0));
+  const Levels numbers = levelsIn({"10", "9", "9.0", "-1"});
+  EXPECT_THAT(numbers.names, ElementsAre("-1", "9", "10"));
+  EXPECT_THAT(numbers.ofRow, ElementsAre(2, 1, 1, 0));
+  EXPECT_THAT(levelsIn({"10", "9", "many"}).names, ElementsAre("10", "9", "many"));
+  EXPECT_THAT(namesIn({"10", "9", "9.0"}).names, ElementsAre("10", "9", "9.0"));
+}
+
+TEST(AnswerColumns, AreOfOneKind) {
+  const Table table = Table::parse("k,n,y\n3,4,1\n2,4,1.0\n", "t.csv");
+  const AnswerReader counts(table, {"", "k", "n", ""});
+  EXPECT_EQ(counts.count(0).correct, 3);
+  EXPECT_EQ(counts.value(1), 0.5);
+  const AnswerReader outcomes(table, {"y", "", "", ""});
+  EXPECT_EQ(outcomes.count(1).correct, 1);
+  EXPECT_EQ(outcomes.count(1).trials, 1);
+  EXPECT_THAT(message([&] { AnswerReader(table, {"y", "k", "n", ""}); }), HasSubstr("one kind"));
+  EXPECT_THAT(message([&] { AnswerReader(table, {"", "", "n", ""}); }), HasSubstr("--k"));
+  EXPECT_THAT(message([&] { AnswerReader(table, {}); }), HasSubstr("--outcome, or --k and --n"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace limen::frame {
 namespace {
 
-constexpr glm::ivec2 kSize{64, 48};
+constexpr glm::ivec2 kLevelsSize{64, 48};
 
 class LodLevelsTest : public gl::GlTest {};
 
@@ -53,7 +53,7 @@ TEST_F(LodLevelsTest, ChosenLevelsLookLikeASceneOfThemAlone) {
   const scene::Scene scene = spheres();
   const GpuScene gpuScene(scene);
   for (const Raster raster : {Raster::Hardware, Raster::Compute}) {
-    Frame frame(context(), scene, gpuScene, kSize, 0.0, raster);
+    Frame frame(context(), scene, gpuScene, kLevelsSize, 0.0, raster);
     for (const scene::LodSelection& selection :
          {scene::LodSelection{{0, 0, 0}, true}, scene::LodSelection{{1, 2, 0}, true},
           scene::LodSelection{{2, -1, 1}, true}, scene::LodSelection{{-1, 1, -1}, false}}) {
@@ -62,7 +62,7 @@ TEST_F(LodLevelsTest, ChosenLevelsLookLikeASceneOfThemAlone) {
       EXPECT_EQ(scene::triangleCount(scene, selection), alone.mesh.triangles.size());
       EXPECT_EQ(frame.geometry().triangleCount(), alone.mesh.triangles.size());
       const GpuScene gpuAlone(alone);
-      Frame other(context(), alone, gpuAlone, kSize, 0.0, raster);
+      Frame other(context(), alone, gpuAlone, kLevelsSize, 0.0, raster);
       const Image a = render(frame), b = render(other);
       size_t different = 0;
       for (size_t i = 0; i < a.pixels(); ++i) {
@@ -81,7 +81,7 @@ TEST_F(LodLevelsTest, ChosenLevelsLookLikeASceneOfThemAlone) {
 TEST_F(LodLevelsTest, WithoutAChoiceTheFinestIsShownAndAnEmptyOneShowsBackground) {
   const scene::Scene scene = spheres();
   const GpuScene gpuScene(scene);
-  Frame frame(context(), scene, gpuScene, kSize);
+  Frame frame(context(), scene, gpuScene, kLevelsSize);
   const Image whole = render(frame);
   frame.setLevels(scene::finestLevels(scene));
   EXPECT_EQ(render(frame).data, whole.data);
@@ -94,8 +94,8 @@ TEST_F(LodLevelsTest, WithoutAChoiceTheFinestIsShownAndAnEmptyOneShowsBackground
 TEST_F(LodLevelsTest, AViewWithinAFrameHasItsOwnLevelsSizeAndPassNames) {
   const scene::Scene scene = spheres();
   const GpuScene gpuScene(scene);
-  Frame frame(context(), scene, gpuScene, kSize);
-  Frame coarse(frame, "coarse", kSize / 2);
+  Frame frame(context(), scene, gpuScene, kLevelsSize);
+  Frame coarse(frame, "coarse", kLevelsSize / 2);
   coarse.setLevels(scene::uniformLevels(scene, 2));
   frame.begin();
   coarse.begin();
@@ -103,7 +103,7 @@ TEST_F(LodLevelsTest, AViewWithinAFrameHasItsOwnLevelsSizeAndPassNames) {
   const Image b = coarse.get<Shaded>(ShadedSetting{}).texture().read();
   coarse.end();
   frame.end();
-  EXPECT_EQ(b.width, kSize.x / 2);
+  EXPECT_EQ(b.width, kLevelsSize.x / 2);
   std::set<std::string> ran;
   for (const auto& pass : frame.passes().passes())
     if (pass.ran) ran.insert(pass.name);

@@ -12,7 +12,7 @@
 namespace limen::frame {
 namespace {
 
-constexpr glm::ivec2 kSize{48, 36};
+constexpr glm::ivec2 kPairSize{48, 36};
 constexpr double kDt = 0.1;
 
 class LodPairTest : public gl::GlTest {};
@@ -44,7 +44,7 @@ struct Alone {
 Alone alone(gl::Context& context, const scene::Scene& scene, const scene::LodSelection& selection,
             double timeS, const ShadedSetting& shaded) {
   const GpuScene gpuScene(scene);
-  Frame frame(context, scene, gpuScene, kSize, timeS);
+  Frame frame(context, scene, gpuScene, kPairSize, timeS);
   frame.setLevels(selection);
   frame.begin();
   Alone out{frame.get<Shaded>(shaded).texture().read(),
@@ -57,7 +57,7 @@ Alone alone(gl::Context& context, const scene::Scene& scene, const scene::LodSel
 TEST_F(LodPairTest, IsTheFrameWithNewAndOldLevelsNowAndBefore) {
   const scene::Scene scene = passing();
   const GpuScene gpuScene(scene);
-  Frame frame(context(), scene, gpuScene, kSize, 0.5);
+  Frame frame(context(), scene, gpuScene, kPairSize, 0.5);
   LodPairSetting setting;
   setting.dtS = kDt;
   LodPair pair(frame, setting);
@@ -91,7 +91,7 @@ TEST_F(LodPairTest, IsTheFrameWithNewAndOldLevelsNowAndBefore) {
 TEST_F(LodPairTest, DepthsTellWhatThePreviousFrameCouldNotSee) {
   const scene::Scene scene = passing();
   const GpuScene gpuScene(scene);
-  Frame frame(context(), scene, gpuScene, kSize, 0.95);
+  Frame frame(context(), scene, gpuScene, kPairSize, 0.95);
   LodPairSetting setting;
   setting.dtS =
       0.9;  // 1.8 units: at 43 px a unit and distance 9 and 6, 9 px for the wall, 13 px for the ball
@@ -106,17 +106,17 @@ TEST_F(LodPairTest, DepthsTellWhatThePreviousFrameCouldNotSee) {
   // on its right side. A wall point hidden before has the ball's depth at its place of then.
   const glm::dvec3 eye = scene.camera.at(0.05).eye;
   size_t hidden = 0;
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
+  for (int y = 0; y < kPairSize.y; ++y)
+    for (int x = 0; x < kPairSize.x; ++x) {
       const double px = x + 0.5 - motion.at(x, y, 0), py = y + 0.5 - motion.at(x, y, 1);
       const int i = static_cast<int>(std::floor(px)), j = static_cast<int>(std::floor(py));
-      if (i < 0 || j < 0 || i >= kSize.x || j >= kSize.y) continue;
+      if (i < 0 || j < 0 || i >= kPairSize.x || j >= kPairSize.y) continue;
       if (!(depth.at(x, y) > 8.0F)) continue;  // the wall, at distance 9
       const bool covered = before.at(i, j) < then.at(x, y) - 0.5F;
       // The ray from the eye of then to the wall point against the unit sphere.
       const double tangent = std::tan(glm::radians(22.5)),
-                   u = (px / kSize.x * 2 - 1) * tangent * kSize.x / kSize.y,
-                   v = (1 - py / kSize.y * 2) * tangent;
+                   u = (px / kPairSize.x * 2 - 1) * tangent * kPairSize.x / kPairSize.y,
+                   v = (1 - py / kPairSize.y * 2) * tangent;
       const glm::dvec3 d = glm::normalize(glm::dvec3(u, v, -1.0));
       const double b = glm::dot(eye, d),
                    miss = glm::dot(eye, eye) - b * b;        // squared distance from the middle
@@ -130,7 +130,7 @@ TEST_F(LodPairTest, DepthsTellWhatThePreviousFrameCouldNotSee) {
 TEST_F(LodPairTest, HighlightsOfThePreviousSetupAreThoseOfThePreviousEye) {
   const scene::Scene scene = passing();
   const GpuScene gpuScene(scene);
-  Frame frame(context(), scene, gpuScene, kSize, 0.5);
+  Frame frame(context(), scene, gpuScene, kPairSize, 0.5);
   LodPairSetting setting;
   setting.dtS = 0.4;
   setting.shaded.specular = 1.0;
@@ -146,8 +146,8 @@ TEST_F(LodPairTest, HighlightsOfThePreviousSetupAreThoseOfThePreviousEye) {
   const glm::dvec3 light = scene.lights[0].centre;
   for (const auto& [image, eye] : {std::pair{&now, camera.eye}, std::pair{&before, then.eye}}) {
     const double tangent = std::tan(glm::radians(22.5));
-    const glm::dvec3 p(camera.eye.x + (2 * 2.5 / kSize.x - 1) * tangent * kSize.x / kSize.y * 9.0,
-                       (1 - 2 * 3.5 / kSize.y) * tangent * 9.0, -3.0);
+    const glm::dvec3 p(camera.eye.x + (2 * 2.5 / kPairSize.x - 1) * tangent * kPairSize.x / kPairSize.y * 9.0,
+                       (1 - 2 * 3.5 / kPairSize.y) * tangent * 9.0, -3.0);
     const glm::dvec3 l = glm::normalize(light - p), v = glm::normalize(eye - p), h = glm::normalize(l + v);
     EXPECT_NEAR(image->at(2, 3), 0.3 * (0.2 + 0.8 * l.z) + std::pow(h.z, 32.0), 1e-5);
   }

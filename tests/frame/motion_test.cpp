@@ -11,7 +11,7 @@
 namespace limen::frame {
 namespace {
 
-constexpr glm::ivec2 kSize{56, 40};
+constexpr glm::ivec2 kMotionSize{56, 40};
 
 class MotionTest : public gl::GlTest {
  protected:
@@ -19,7 +19,7 @@ class MotionTest : public gl::GlTest {
     Image displacement, previousDepth, depth;
     std::vector<uint32_t> ids;
   };
-  static Made render(const scene::Scene& scene, double timeS, double dtS, glm::ivec2 sizePx = kSize) {
+  static Made render(const scene::Scene& scene, double timeS, double dtS, glm::ivec2 sizePx = kMotionSize) {
     const GpuScene gpuScene(scene);
     Frame frame(context(), scene, gpuScene, sizePx, timeS);
     frame.begin();
@@ -69,14 +69,14 @@ TEST_F(MotionTest, IsTheReprojectionOfEachPixelsPoint) {
                      right = glm::normalize(glm::cross(forward, now.up)), up = glm::cross(right, forward);
     const double tangent = std::tan(0.5 * glm::radians(now.verticalFovDeg));
     double largest = 0.0;
-    for (int y = 0; y < kSize.y; ++y)
-      for (int x = 0; x < kSize.x; ++x) {
+    for (int y = 0; y < kMotionSize.y; ++y)
+      for (int x = 0; x < kMotionSize.x; ++x) {
         const double depth = made.depth.at(x, y);
         ASSERT_GT(depth, 0.0);
-        const double nx = (2.0 * (x + 0.5) / kSize.x - 1.0) * tangent * kSize.x / kSize.y,
-                     ny = (1.0 - 2.0 * (y + 0.5) / kSize.y) * tangent;
+        const double nx = (2.0 * (x + 0.5) / kMotionSize.x - 1.0) * tangent * kMotionSize.x / kMotionSize.y,
+                     ny = (1.0 - 2.0 * (y + 0.5) / kMotionSize.y) * tangent;
         const glm::dvec3 point = now.eye + depth * (forward + nx * right + ny * up);
-        const Projected old = project(then, point, kSize);
+        const Projected old = project(then, point, kMotionSize);
         const glm::dvec2 expected = glm::dvec2(x + 0.5, y + 0.5) - old.px;
         // Float's 24 bits over a picture of 56 px, and the depth's own error times the motion it causes.
         EXPECT_NEAR(made.displacement.at(x, y, 0), expected.x, 2e-4);
@@ -113,17 +113,17 @@ TEST_F(MotionTest, BackgroundMovesWithTheTurnOfTheCameraAlone) {
   to.target += to.eye;
   const scene::Scene scene = squareAhead(from, to);
   const Made made = render(scene, 1.0, 1.0);
-  const double focal = 0.5 * kSize.y / std::tan(glm::radians(22.5));
+  const double focal = 0.5 * kMotionSize.y / std::tan(glm::radians(22.5));
   size_t background = 0;
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
-      if (made.ids[static_cast<size_t>(y * kSize.x + x)] != TriangleIds::kNone) continue;
+  for (int y = 0; y < kMotionSize.y; ++y)
+    for (int x = 0; x < kMotionSize.x; ++x) {
+      if (made.ids[static_cast<size_t>(y * kMotionSize.x + x)] != TriangleIds::kNone) continue;
       ++background;
       EXPECT_EQ(made.previousDepth.at(x, y), 0.0F);
       // A turn by 0.1 rad to the right: the direction at angle a now was at a + 0.1 then.
-      const double u = (x + 0.5 - 0.5 * kSize.x) / focal, v = (0.5 * kSize.y - y - 0.5) / focal;
+      const double u = (x + 0.5 - 0.5 * kMotionSize.x) / focal, v = (0.5 * kMotionSize.y - y - 0.5) / focal;
       const double c = std::cos(0.1), s = std::sin(0.1), z = c - u * s;
-      const glm::dvec2 then((u * c + s) / z * focal + 0.5 * kSize.x, 0.5 * kSize.y - v / z * focal);
+      const glm::dvec2 then((u * c + s) / z * focal + 0.5 * kMotionSize.x, 0.5 * kMotionSize.y - v / z * focal);
       EXPECT_NEAR(made.displacement.at(x, y, 0), x + 0.5 - then.x, 2e-4);
       EXPECT_NEAR(made.displacement.at(x, y, 1), y + 0.5 - then.y, 2e-4);
     }
@@ -137,13 +137,13 @@ TEST_F(MotionTest, APointFromBehindIsMarkedAndFinite) {
   to.eye = {0.0, 0.0, -97.0};
   to.target = {0.0, 0.0, -98.0};
   const Made made = render(squareAhead(from, to), 1.0, 1.0);
-  const double diagonal = std::hypot(kSize.x, kSize.y);
+  const double diagonal = std::hypot(kMotionSize.x, kMotionSize.y);
   size_t behind = 0;
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
+  for (int y = 0; y < kMotionSize.y; ++y)
+    for (int x = 0; x < kMotionSize.x; ++x) {
       const double length = std::hypot(made.displacement.at(x, y, 0), made.displacement.at(x, y, 1));
       ASSERT_TRUE(std::isfinite(length));
-      if (made.ids[static_cast<size_t>(y * kSize.x + x)] == TriangleIds::kNone) {
+      if (made.ids[static_cast<size_t>(y * kMotionSize.x + x)] == TriangleIds::kNone) {
         EXPECT_NEAR(length, 0.0, 1e-4);  // straight ahead: infinity stays
         continue;
       }

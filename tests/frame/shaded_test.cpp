@@ -12,11 +12,11 @@
 namespace limen::frame {
 namespace {
 
-constexpr glm::ivec2 kSize{56, 40};
+constexpr glm::ivec2 kShadedSize{56, 40};
 
 class ShadedTest : public gl::GlTest {
  protected:
-  static Image render(const scene::Scene& scene, const ShadedSetting& setting, glm::ivec2 sizePx = kSize) {
+  static Image render(const scene::Scene& scene, const ShadedSetting& setting, glm::ivec2 sizePx = kShadedSize) {
     const GpuScene gpuScene(scene);
     Frame frame(context(), scene, gpuScene, sizePx);
     frame.begin();
@@ -31,11 +31,11 @@ TEST_F(ShadedTest, IsTheAlbedoByAmbientAndCosine) {
   for (const double scale : {1e-4, 1.0, 1e4}) {
     const scene::Scene scene = builtScene("two_boxes", {{"scale", scale}});
     const GpuScene gpuScene(scene);
-    Frame frame(context(), scene, gpuScene, kSize);
+    Frame frame(context(), scene, gpuScene, kShadedSize);
     frame.begin();
     const Image ids = [&] {
       const std::vector<uint32_t> raw = frame.get<TriangleIds>().texture().readUint();
-      Image image(kSize.x, kSize.y, 1);
+      Image image(kShadedSize.x, kShadedSize.y, 1);
       for (size_t i = 0; i < raw.size(); ++i) image.data[i] = static_cast<float>(raw[i]);
       return image;
     }();
@@ -45,8 +45,8 @@ TEST_F(ShadedTest, IsTheAlbedoByAmbientAndCosine) {
     const BruteForce truth(scene, gpuScene.anchor());
     const glm::dvec3 eye(glm::inverse(frame.anchorToCamera())[3]);
     size_t lit = 0;
-    for (int y = 0; y < kSize.y; ++y)
-      for (int x = 0; x < kSize.x; ++x) {
+    for (int y = 0; y < kShadedSize.y; ++y)
+      for (int x = 0; x < kShadedSize.x; ++x) {
         const auto id = static_cast<uint32_t>(ids.at(x, y));
         EXPECT_EQ(colour.at(x, y, 3), 1.0F);
         if (position.at(x, y, 3) == 0.0F) {

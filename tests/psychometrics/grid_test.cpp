@@ -15,7 +15,7 @@ using testing::DoubleEq;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string refusal(const json& axis) {
+std::string axisRefusal(const json& axis) {
   try {
     readAxis(axis, "x", "threshold");
   } catch (const Error& error) {
@@ -60,17 +60,17 @@ TEST(Grid, WhatIsWrittenReadsBackTheSame) {
 }
 
 TEST(Grid, SlipsAreRefusedWithTheirPlaceAndTheMend) {
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}, {"step", 0.3}}), HasSubstr("threshold.step"));
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}, {"step", 0.3}}), HasSubstr("0.333"));
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}, {"stepp", 0.5}}), HasSubstr("'step'"));
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}}), HasSubstr("'step' and 'count'"));
-  EXPECT_THAT(refusal({{"from", 2}, {"to", 1}, {"count", 5}}), HasSubstr("below"));
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}, {"count", 5}, {"spacing", "log"}}), HasSubstr("above 0"));
-  EXPECT_THAT(refusal({{"from", 0}, {"to", 1}, {"count", 1}}), HasSubstr("from 2"));
-  EXPECT_THAT(refusal({1, 1}), HasSubstr("ascending"));
-  EXPECT_THAT(refusal(json::array()), HasSubstr("empty"));
-  EXPECT_THAT(refusal("high"), HasSubstr("give a number"));
-  EXPECT_THAT(refusal({1, nullptr}), HasSubstr("not a number"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}, {"step", 0.3}}), HasSubstr("threshold.step"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}, {"step", 0.3}}), HasSubstr("0.333"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}, {"stepp", 0.5}}), HasSubstr("'step'"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}}), HasSubstr("'step' and 'count'"));
+  EXPECT_THAT(axisRefusal({{"from", 2}, {"to", 1}, {"count", 5}}), HasSubstr("below"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}, {"count", 5}, {"spacing", "log"}}), HasSubstr("above 0"));
+  EXPECT_THAT(axisRefusal({{"from", 0}, {"to", 1}, {"count", 1}}), HasSubstr("from 2"));
+  EXPECT_THAT(axisRefusal({1, 1}), HasSubstr("ascending"));
+  EXPECT_THAT(axisRefusal(json::array()), HasSubstr("empty"));
+  EXPECT_THAT(axisRefusal("high"), HasSubstr("give a number"));
+  EXPECT_THAT(axisRefusal({1, nullptr}), HasSubstr("not a number"));
 }
 
 TEST(Grid, TheLastAxisOfAProductRunsFastest) {

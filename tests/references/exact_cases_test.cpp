@@ -13,7 +13,7 @@
 namespace limen::references {
 namespace {
 
-constexpr glm::ivec2 kSize{64, 64};
+constexpr glm::ivec2 kExactSize{64, 64};
 
 struct Method {
   const char* name;
@@ -41,7 +41,7 @@ TEST_F(ExactCases, LitSurfacesAreExactlyOneAndUmbraExactlyZeroAtEveryScaleAndPla
     const glm::dvec3 centre(light.toLightSpace() * glm::dvec4(scene.casterBounds().centre(), 1.0));
     const double radius = 0.36 * 1.6 * scale, lightRadius = 0.5 * glm::length(light.size);
     for (const Method& method : methods()) {
-      const Rendered rendered = renderReference(context(), scene, method.name, method.given, kSize);
+      const Rendered rendered = renderReference(context(), scene, method.name, method.given, kExactSize);
       size_t litSphere = 0, litGround = 0, umbra = 0, wrong = 0;
       for (size_t i = 0; i < rendered.visibility.pixels(); ++i) {
         if (!rendered.isReceiver(i)) continue;
@@ -134,10 +134,10 @@ TEST_F(ExactCases, AnotherSeedGivesOtherSamples) {
 TEST_F(ExactCases, CardsInTheUmbraOfACardChangeNothing) {
   const Rendered one =
       renderReference(context(), builtScene("card_stack", {{"cards", int64_t{1}}, {"fit", "umbra"}}),
-                      "soft_shadows/exact_union", {}, kSize);
+                      "soft_shadows/exact_union", {}, kExactSize);
   const Rendered many =
       renderReference(context(), builtScene("card_stack", {{"cards", int64_t{16}}, {"fit", "umbra"}}),
-                      "soft_shadows/exact_union", {}, kSize);
+                      "soft_shadows/exact_union", {}, kExactSize);
   size_t compared = 0;
   for (size_t i = 0; i < one.visibility.pixels(); ++i) {
     // Ground points that both pictures see; lower cards cover some from the camera.
@@ -152,7 +152,7 @@ TEST_F(ExactCases, CardsInTheUmbraOfACardChangeNothing) {
 TEST_F(ExactCases, DegenerateTrianglesGiveFiniteVisibility) {
   const scene::Scene scene = builtScene("degenerate_soup");
   for (const Method& method : methods()) {
-    const Rendered rendered = renderReference(context(), scene, method.name, method.given, kSize);
+    const Rendered rendered = renderReference(context(), scene, method.name, method.given, kExactSize);
     for (const float visibility : rendered.visibility.data)
       EXPECT_TRUE(visibility >= 0.0F && visibility <= 1.0F) << method.name << ' ' << visibility;
   }

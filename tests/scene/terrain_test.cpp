@@ -13,7 +13,7 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 HeightField field(int side = 33, int64_t seed = 3) {
   MountainSetting setting;
@@ -145,25 +145,25 @@ TEST(CapIntersection, IsTheSolidAngleThatDirectionsFallIn) {
     }
     const double share = inside / double(kSamples);
     // Five standard deviations of a binomial share.
-    const double tolerance = 4.0 * kPi * 5.0 * std::sqrt(std::max(share * (1.0 - share), 1e-6) / kSamples);
-    EXPECT_NEAR(capIntersection(c.a, c.b, c.d), 4.0 * kPi * share, tolerance)
+    const double tolerance = 4.0 * kHalfTurn * 5.0 * std::sqrt(std::max(share * (1.0 - share), 1e-6) / kSamples);
+    EXPECT_NEAR(capIntersection(c.a, c.b, c.d), 4.0 * kHalfTurn * share, tolerance)
         << c.a << ' ' << c.b << ' ' << c.d;
   }
 }
 
 TEST(CapIntersection, IsExactWhereCapsContainTouchOrHalveEachOther) {
-  const auto cap = [](double r) { return 2.0 * kPi * (1.0 - std::cos(r)); };
+  const auto cap = [](double r) { return 2.0 * kHalfTurn * (1.0 - std::cos(r)); };
   EXPECT_NEAR(capIntersection(1.0, 0.2, 0.5), cap(0.2), 1e-14);
   EXPECT_EQ(capIntersection(0.5, 0.2, 0.71), 0.0);
   // The rim of a hemisphere is a great circle: through the other's axis it halves it.
   for (const double r : {0.004653, 0.1, 1.0})
-    EXPECT_NEAR(capIntersection(kPi / 2, r, kPi / 2), 0.5 * cap(r), 1e-12 * cap(r) + 1e-16);
+    EXPECT_NEAR(capIntersection(kHalfTurn / 2, r, kHalfTurn / 2), 0.5 * cap(r), 1e-12 * cap(r) + 1e-16);
   // Symmetric, continuous at both ends of the overlap.
   EXPECT_NEAR(capIntersection(0.7, 0.4, 0.6), capIntersection(0.4, 0.7, 0.6), 1e-14);
   EXPECT_NEAR(capIntersection(0.7, 0.4, 0.3 + 1e-9), cap(0.4), 1e-7);
   EXPECT_NEAR(capIntersection(0.7, 0.4, 1.1 - 1e-9), 0.0, 1e-7);
   // Two hemispheres share a lune: 2 (pi - d).
-  EXPECT_NEAR(capIntersection(kPi / 2, kPi / 2, 1.0), 2.0 * (kPi - 1.0), 1e-12);
+  EXPECT_NEAR(capIntersection(kHalfTurn / 2, kHalfTurn / 2, 1.0), 2.0 * (kHalfTurn - 1.0), 1e-12);
 }
 
 /// First hit of a ray with the bilinear surface, by small steps.
@@ -191,16 +191,16 @@ TEST(Aperture, IsTheSolidAngleAndMeanOfTheSkyThatRaysReach) {
     for (int j = 0; j < kSide; ++j)
       for (int i = 0; i < kSide; ++i) {
         const double y = (j + random.uniform(0.0, 1.0)) / kSide,
-                     azimuth = 2.0 * kPi * (i + random.uniform(0.0, 1.0)) / kSide;
+                     azimuth = 2.0 * kHalfTurn * (i + random.uniform(0.0, 1.0)) / kSide;
         const double r = std::sqrt(1.0 - y * y);
         const glm::dvec3 w(r * std::cos(azimuth), y, r * std::sin(azimuth));
         if (blocked(ground, point, w)) continue;
-        solidAngle += 2.0 * kPi / (kSide * kSide);
+        solidAngle += 2.0 * kHalfTurn / (kSide * kSide);
         mean += w;
       }
     // The horizon meets the surface once a cell; between, a bilinear ridge may stand higher by a small part
     // of a cell's relief: a few hundredths of a radian at most at neighbouring cells.
-    EXPECT_NEAR(2.0 * kPi * (1.0 - std::cos(aperture.angleRad)), solidAngle, 0.04 * 2.0 * kPi);
+    EXPECT_NEAR(2.0 * kHalfTurn * (1.0 - std::cos(aperture.angleRad)), solidAngle, 0.04 * 2.0 * kHalfTurn);
     EXPECT_GT(glm::dot(aperture.axis, glm::normalize(mean)), std::cos(0.05));
   }
 }
@@ -208,14 +208,14 @@ TEST(Aperture, IsTheSolidAngleAndMeanOfTheSkyThatRaysReach) {
 TEST(Aperture, OfAWallIsHalfTheSkyLeaningAway) {
   // A cliff of practically infinite height along one side: the horizon is pi/2 over half of the azimuths.
   std::vector<double> horizonRad(360, 0.0);
-  for (size_t k = 0; k < 180; ++k) horizonRad[k] = kPi / 2;  // towards +z
+  for (size_t k = 0; k < 180; ++k) horizonRad[k] = kHalfTurn / 2;  // towards +z
   const Aperture aperture = apertureOf(horizonRad);
-  EXPECT_NEAR(2.0 * kPi * (1.0 - std::cos(aperture.angleRad)), kPi, 1e-12);
+  EXPECT_NEAR(2.0 * kHalfTurn * (1.0 - std::cos(aperture.angleRad)), kHalfTurn, 1e-12);
   // Quarter sphere z < 0, y > 0: its mean direction is (0, 1, -1).
   EXPECT_NEAR(glm::length(aperture.axis - glm::normalize(glm::dvec3(0, 1, -1))), 0.0, 1e-4);
   // The open plain: the whole sky, straight up; a flat surface gets all of sun and sky.
   const Aperture open = apertureOf(std::vector<double>(24, 0.0));
-  EXPECT_NEAR(open.angleRad, kPi / 2, 1e-12);
+  EXPECT_NEAR(open.angleRad, kHalfTurn / 2, 1e-12);
   const ApertureLight light = apertureLight(open, {0, 1, 0}, glm::normalize(glm::dvec3(0, 1, 1)), 0.0047);
   EXPECT_NEAR(light.sky, 1.0, 1e-12);
   EXPECT_NEAR(light.sun, std::sqrt(0.5), 1e-9);

@@ -12,14 +12,14 @@
 namespace limen::techniques {
 namespace {
 
-constexpr glm::ivec2 kSize{96, 64};
+constexpr glm::ivec2 kSwitchSize{96, 64};
 const char* const kSwitch = "popping/lod_switch";
 const char* const kReference = "popping/lod_switch_reference";
 
 class PoppingSwitch : public TechniqueTest {
  protected:
   static Rendered predict(const scene::Scene& scene, Given given, const char* technique = kSwitch) {
-    return render(scene, technique, given, kSize, true);
+    return render(scene, technique, given, kSwitchSize, true);
   }
   /// R = ln(0.375 Sigma) / ln 2.25 (Schwarz 2009, section 10.3.4).
   static double ratingOf(double sigma) { return std::log(0.375 * sigma) / std::log(2.25); }
@@ -189,9 +189,9 @@ TEST_F(PoppingSwitch, IsNotSeenWhereThePostHasJustUncoveredTheWall) {
   ASSERT_GT(hiddenUntil - postRight, 5.0);
   const auto within = [](double u, double low, double high) { return u > low + 1.5 && u < high - 1.5; };
   int uncovered = 0, seen = 0, beside = 0;
-  for (int x = 0; x < kSize.x; ++x) {
+  for (int x = 0; x < kSwitchSize.x; ++x) {
     const double u = x + 0.5 - 48.0;
-    for (int y = 8; y < kSize.y - 8; ++y) {
+    for (int y = 8; y < kSwitchSize.y - 8; ++y) {
       const float before = without.product.at(x, y), weighted = with.product.at(x, y);
       if (before < 0.01F) continue;
       if (within(u, postRight, hiddenUntil)) {
@@ -225,7 +225,7 @@ TEST_F(PoppingSwitch, TakesTheFrameForAWindowOfTheDisplay) {
   const scene::Scene scene = ball(6.0, 0.0);
   const Rendered out = predict(scene, {});
   EXPECT_NEAR(out.counter("pixels_per_degree"), 41.229, 1e-3);
-  const Rendered large = render(scene, kSwitch, {}, 2 * kSize, true);
+  const Rendered large = render(scene, kSwitch, {}, 2 * kSwitchSize, true);
   EXPECT_EQ(large.counter("pixels_per_degree"), out.counter("pixels_per_degree"));
   // Twice as many pixels show the ball twice as large: the change is easier to see.
   EXPECT_GT(large.counter("rating"), out.counter("rating"));

@@ -195,6 +195,28 @@ TEST(AverageCells, RepetitionsAreAveragedAndGapsNamed) {
   expectError([&] { averageCells(factors, 2, observations); }, "observations[3]");
 }
 
+TEST(AverageCells, WeightsSayHowOftenAValueCounts) {
+  // Of subject 0 at level 0: 5 of 10 and 1 of 5 are 6 of 15.
+  const std::vector<CellObservation> observations = {
+      {0, {0}, 0.5, 10}, {0, {0}, 0.2, 5}, {0, {1}, 0.6, 15}, {1, {0}, 0.2, 15}, {1, {1}, 1.0, 15}};
+  const RepeatedMeasures data = averageCells({{"lod", 2}}, 2, observations);
+  EXPECT_NEAR(data.values[0], 0.4, 1e-15);
+  EXPECT_FALSE(data.unequalReplicates);
+  std::vector<CellObservation> none = observations;
+  none[1].weight = 0.0;
+  expectError([&] { averageCells({{"lod", 2}}, 2, none); }, "observations[1]");
+}
+
+TEST(LevelMeans, AverageOverTheOtherFactors) {
+  const std::vector<std::vector<double>> means = levelMeans(lodByDistance(), 1);
+  ASSERT_EQ(means.size(), 4u);
+  ASSERT_EQ(means[0].size(), 6u);
+  EXPECT_NEAR(means[0][0], (0.31 + 0.12) / 2.0, 1e-15);
+  EXPECT_NEAR(means[3][5], (0.64 + 0.67) / 2.0, 1e-15);
+  EXPECT_NEAR(levelMeans(lodByDistance(), 0)[1][0], (0.12 + 0.28 + 0.33 + 0.62) / 4.0, 1e-15);
+  expectError([] { levelMeans(lodByDistance(), 2); }, "factor");
+}
+
 TEST(ComparePairs, AreThoseOfR) {
   const std::vector<PairedComparison> c = comparePairs(lodByDistance(), 1);
   ASSERT_EQ(c.size(), 6u);

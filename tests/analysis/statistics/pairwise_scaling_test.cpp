@@ -110,6 +110,14 @@ TEST(PairwiseScaling, BootstrapRepeatsBySeedAndAgreesWithTheHessian) {
     const double bootstrap = a.bootstrapIntervals[i].high - a.bootstrapIntervals[i].low;
     EXPECT_NEAR(bootstrap / hessian, 1.0, 0.15);
   }
+  // The values themselves: each sample's sum to 0, and all lie about the estimate.
+  ASSERT_EQ(a.bootstrapValues.size(), 2000u);
+  for (const std::vector<double>& values : a.bootstrapValues)
+    EXPECT_NEAR(values[0] + values[1] + values[2] + values[3], 0.0, 1e-9);
+  int inside = 0;
+  for (const std::vector<double>& values : a.bootstrapValues)
+    inside += values[0] >= a.bootstrapIntervals[0].low && values[0] <= a.bootstrapIntervals[0].high ? 1 : 0;
+  EXPECT_NEAR(inside, 1900, 2);
   EXPECT_EQ(a.penalisedResamples, 0);
 }
 
@@ -119,6 +127,20 @@ TEST(PairwiseScaling, DesignsThatCannotBeScaledAreRefused) {
   expectError([] { scalePairs({1, 3, 2, 0}, 2); }, "wins[0][0]");
   expectError([] { scalePairs({0, 3, 2}, 2); }, "wins[3]");
   expectError([] { scalePairs({0}, 1); }, "items");
+}
+
+TEST(PairwiseScaling, MessagesNameTheItems) {
+  PairwiseOptions named;
+  named.names = {"pcf", "hard", "pcss"};
+  expectError([&] { scalePairs({0, 30, 30, 0, 0, 17, 0, 13, 0}, 3, named); }, "'hard'");
+  named.model = PairwiseModel::kThurstoneLeastSquares;
+  expectError([&] { scalePairs({0, 30, 30, 0, 0, 17, 0, 13, 0}, 3, named); }, "items 'pcf' and 'hard'");
+  expectError(
+      [&] {
+        scalePairs({0, 3, 0, 2, 0, 0, 0, 0, 0}, 3, named);
+      },
+      "items 'pcf' and 'pcss' are not connected");
+  expectError([&] { scalePairs({0, 3, 2, 0}, 2, named); }, "3 names for 2 items");
 }
 
 }  // namespace

@@ -21,6 +21,12 @@ TEST(Friedman, IsThatOfRWithTies) {
   expectRelative(*t.fP, 0.00141070221747404, 1e-10);
 }
 
+TEST(Friedman, ValuesThatRoundingTellsApartAreTies) {
+  // 0.1 + 0.2 is above 0.3 in binary. Ranks 1.5, 1.5, 3 and 2, 1, 3.
+  const FriedmanTest t = friedmanTest({0.1 + 0.2, 0.3, 0.7, 0.5, 0.4, 0.9}, 2, 3);
+  EXPECT_EQ(t.meanRanks, (std::vector<double>{1.75, 1.25, 3.0}));
+}
+
 TEST(Friedman, PerfectAgreementAndNoneAreBounded) {
   const FriedmanTest same = friedmanTest({1, 2, 3, 4, 5, 6}, 2, 3);
   EXPECT_NEAR(*same.kendallW, 1.0, 1e-15);

@@ -72,6 +72,11 @@ TEST(SignalDetection, YesNoValuesAreThoseOfTheFormulasInR) {
   expectRelative(s.lnBetaError, 0.208703489557567, 1e-12);
   expectInterval(s.dPrimeInterval, 1.4232327760442947 - 1.959963984540054 * 0.292062376369623,
                  1.4232327760442947 + 1.959963984540054 * 0.292062376369623);
+  // R's derivatives are differences. The opposite answers have A' as far below 1/2 and the same error.
+  expectRelative(s.aPrimeError, 0.038947368441274, 1e-7);
+  expectRelative(analyseYesNo({9, 40, 38, 50}).aPrimeError, s.aPrimeError, 1e-12);
+  EXPECT_NEAR(analyseYesNo({9, 40, 38, 50}).aPrime, 1.0 - s.aPrime, 1e-14);
+  EXPECT_EQ(analyseYesNo({50, 50, 0, 50}).aPrimeInterval.high, 1.0);
   expectRelative(analyseYesNo({38, 50, 9, 40}, RateCorrection::kNone).dPrime, 1.46171758920056, 1e-12);
 }
 

@@ -30,13 +30,17 @@ TEST(AnalyseStudyProgram, SimulatedExperimentOne) {
   // The simulation sums up by itself what it made.
   const ProgramRun rates = runProgram("limen-analyse rates --no-exclusions --json " + store);
   ASSERT_EQ(rates.code, 0) << rates.text;
-  for (const json& row : json::parse(rates.text).at("rates").at("rates")) {
+  const json found = json::parse(rates.text);
+  int compared = 0;
+  for (const json& row : found.at("rates").at("rates")) {
     if (row.at("scope") != "part") continue;
+    ++compared;
     const json& own = truth.at(row.at("change").get<bool>() ? "change" : "catch");
     EXPECT_NEAR(row.at("mean").get<double>(), own.at("mean").get<double>(), 1e-9);
     EXPECT_NEAR(row.at("sd").get<double>(), own.at("sd").get<double>(), 1e-9);
     EXPECT_EQ(row.at("pooled").at("trials"), own.at("trials"));
   }
+  EXPECT_EQ(compared, 2) << "trials with and without a change";
 
   // The simulated observers see what the protocol says: large effects of the change of level and of distance.
   // Degrees of freedom as in the thesis.

@@ -7,7 +7,7 @@
 namespace limen::store {
 namespace {
 
-Experiment makeExperiment(const std::string& hash) {
+Experiment describedExperiment(const std::string& hash) {
   Experiment experiment;
   experiment.hash = hash;
   experiment.path = "shadows.yaml";
@@ -75,7 +75,7 @@ TEST_F(StoreTest, EverythingOfARunComesBack) {
 TEST_F(StoreTest, RunsOfAnExperimentComeInPlanOrderUnderItsLabels) {
   Store store(path("s.sqlite"), Access::ReadWrite);
   const int64_t id =
-      store.putExperiment(makeExperiment("h1"),
+      store.putExperiment(describedExperiment("h1"),
                           {{"b", "t", "s", "first"}, {"missing", "t", "s", "gone"}, {"a", "t", "s", "last"}});
   addDone(store, makeRun("a"));
   addDone(store, makeRun("b"));
@@ -90,21 +90,21 @@ TEST_F(StoreTest, RunsOfAnExperimentComeInPlanOrderUnderItsLabels) {
 
 TEST_F(StoreTest, AnExperimentWithTheSameHashKeepsItsRowAndGetsTheNewPlan) {
   Store store(path("s.sqlite"), Access::ReadWrite);
-  const int64_t id = store.putExperiment(makeExperiment("h1"), {{"a", "t", "s", ""}, {"b", "t", "s", ""}});
-  EXPECT_NE(store.putExperiment(makeExperiment("h2"), {}), id);
-  EXPECT_EQ(store.putExperiment(makeExperiment("h1"), {{"c", "t", "s", ""}}), id);
+  const int64_t id = store.putExperiment(describedExperiment("h1"), {{"a", "t", "s", ""}, {"b", "t", "s", ""}});
+  EXPECT_NE(store.putExperiment(describedExperiment("h2"), {}), id);
+  EXPECT_EQ(store.putExperiment(describedExperiment("h1"), {{"c", "t", "s", ""}}), id);
   ASSERT_EQ(store.plan(id).size(), 1U);
   EXPECT_EQ(store.plan(id)[0].key, "c");
   const std::vector<Experiment> experiments = store.experiments();
   ASSERT_EQ(experiments.size(), 2U);
-  EXPECT_EQ(experiments[0].title, makeExperiment("").title);
-  EXPECT_EQ(experiments[0].features, makeExperiment("").features);
-  EXPECT_EQ(experiments[0].report, makeExperiment("").report);
+  EXPECT_EQ(experiments[0].title, describedExperiment("").title);
+  EXPECT_EQ(experiments[0].features, describedExperiment("").features);
+  EXPECT_EQ(experiments[0].report, describedExperiment("").report);
 }
 
 TEST_F(StoreTest, ExpectationsAreReplacedAsAWhole) {
   Store store(path("s.sqlite"), Access::ReadWrite);
-  const int64_t id = store.putExperiment(makeExperiment("h1"), {});
+  const int64_t id = store.putExperiment(describedExperiment("h1"), {});
   store.putExpectations(id, {{"rmse < 1", true, ""}, {"rmse < 0.1", false, "run k has 0.2"}});
   store.putExpectations(id, {{"rmse < 0.5", false, "0.7"}});
   const std::vector<Expectation> back = store.expectations(id);

@@ -14,7 +14,7 @@
 namespace limen::perception {
 namespace {
 
-std::string text(const char* value) { return value; }
+std::string textValue(const char* value) { return value; }
 
 TEST(ThresholdSettings, NameModelsThatExist) {
   for (const Parameter& parameter : thresholdMapParameters()) {
@@ -39,13 +39,13 @@ TEST(ThresholdSettings, DefaultsOfTheDeclarationsAreThoseOfTheStructure) {
   EXPECT_EQ(declared.largestCdM2, plain.largestCdM2);
   EXPECT_EQ(declared.tviFactor, plain.tviFactor);
   EXPECT_EQ(declared.half, plain.half);
-  EXPECT_THROW(settingsOf({{"downsample", text("nine_fetch")}, {"kernel", text("burt")}}), Error);
+  EXPECT_THROW(settingsOf({{"downsample", textValue("nine_fetch")}, {"kernel", textValue("burt")}}), Error);
 }
 
 TEST(ThresholdModel, FrequencyElevationsAreThePublishedOnes) {
   // F of Barten 1989 at given frequencies: ppd = frequency / 0.5 puts band 0, whose peak is Nyquist, there.
   const auto f = [](double cpd, double luminance, const char* rule) {
-    const ThresholdModel model(settingsOf({{"f_rule", text(rule)}}), 2.0 * cpd, 64, 64);
+    const ThresholdModel model(settingsOf({{"f_rule", textValue(rule)}}), 2.0 * cpd, 64, 64);
     return model.frequencyElevation(0, luminance);
   };
   EXPECT_NEAR(f(5, 100, "actual"), 1.1002899108504425, 1e-6);
@@ -68,7 +68,7 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
     std::vector<std::string> cells;
     std::stringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    const ThresholdModel model(settingsOf({{"f_rule", text(original ? "original" : "actual")}}),
+    const ThresholdModel model(settingsOf({{"f_rule", textValue(original ? "original" : "actual")}}),
                                2.0 * std::stod(cells[1]), 64, 64);
     const double expected = std::stod(cells[7]);
     EXPECT_NEAR(model.frequencyElevation(0, original ? 7.0 : std::stod(cells[2])) / expected, 1.0, 1e-9)
@@ -80,8 +80,8 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
 
 TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
   // Band 2 of the six-tap pyramid at 41.07 ppd peaks at 2.459 cpd.
-  const ThresholdModel one(settingsOf({{"f_low", text("one")}}), kStudyPpd, 256, 256);
-  const ThresholdModel computed(settingsOf({{"f_low", text("as_computed")}, {"f_rule", text("original")}}),
+  const ThresholdModel one(settingsOf({{"f_low", textValue("one")}}), kStudyPpd, 256, 256);
+  const ThresholdModel computed(settingsOf({{"f_low", textValue("as_computed")}, {"f_rule", textValue("original")}}),
                                 kStudyPpd, 256, 256);
   EXPECT_NEAR(one.peaks()[2].frequencyCpd(kStudyPpd), 2.459, 0.001);
   EXPECT_EQ(one.frequencyElevation(2, 30.0), 1.0);
@@ -126,7 +126,7 @@ TEST(ThresholdModel, UnknownModelsAndDisplaysAreRefused) {
 
 TEST(ThresholdModel, TviOfACsfIsTheVisionModels) {
   for (const char* name : {"from_csf", "from_csf_scaled", "ward", "ward_smoothed"}) {
-    const ThresholdModel model(settingsOf({{"tvi", text(name)}}), kStudyPpd, 64, 64);
+    const ThresholdModel model(settingsOf({{"tvi", textValue(name)}}), kStudyPpd, 64, 64);
     const auto tvi = makeTvi(name, makeCsf("barten89"), CsfPoint{});
     for (const double luminance : {0.02, 0.9, 30.0, 100.0, 700.0})
       EXPECT_NEAR(model.tviCdM2(luminance) / tvi(luminance), 1.0, 1e-8) << name << luminance;

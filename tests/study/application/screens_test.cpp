@@ -8,7 +8,7 @@ namespace {
 
 constexpr int64_t kS = 1'000'000'000;
 
-Input key(int code, int64_t timeNs) { return {Device::Keyboard, code, 0, 0, timeNs}; }
+Input keyInput(int code, int64_t timeNs) { return {Device::Keyboard, code, 0, 0, timeNs}; }
 
 TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
   TextScreen::Setting setting;
@@ -16,9 +16,9 @@ TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
   TextScreen screen(setting);
   screen.shown(10 * kS);
   EXPECT_EQ(screen.page(12 * kS).status, "You can go on in 3 s");
-  screen.take(key(kKeySpace, 15 * kS - 1), {});
+  screen.take(keyInput(kKeySpace, 15 * kS - 1), {});
   EXPECT_FALSE(screen.done());
-  screen.take(key(kKeySpace, 15 * kS), {});
+  screen.take(keyInput(kKeySpace, 15 * kS), {});
   EXPECT_TRUE(screen.done());
 }
 
@@ -29,7 +29,7 @@ TEST(Screens, BreakGoesOnCountingBehindAPause) {
   screen.shown(0);
   screen.hidden();
   screen.shown(20 * kS);
-  screen.take(key(kKeyEnter, 21 * kS), {});
+  screen.take(keyInput(kKeyEnter, 21 * kS), {});
   EXPECT_TRUE(screen.done());
 }
 
@@ -37,14 +37,14 @@ TEST(Screens, ConsentIsGivenOnTheLastPageOnly) {
   ConsentScreen screen("text");
   screen.setTextPages(2);
   screen.shown(0);
-  screen.take(key('y', 1), {});
+  screen.take(keyInput('y', 1), {});
   EXPECT_FALSE(screen.done());
-  screen.take(key(kKeySpace, 2), {});
+  screen.take(keyInput(kKeySpace, 2), {});
   EXPECT_EQ(screen.page(3).textPages.index, 1);
   screen.shown(4);
-  screen.take(key(kKeySpace, 5), {});
+  screen.take(keyInput(kKeySpace, 5), {});
   EXPECT_FALSE(screen.done()) << "going on is not agreeing";
-  screen.take(key('y', 6), {});
+  screen.take(keyInput('y', 6), {});
   EXPECT_TRUE(screen.done());
   EXPECT_TRUE(screen.agreed());
 }
@@ -52,16 +52,16 @@ TEST(Screens, ConsentIsGivenOnTheLastPageOnly) {
 TEST(Screens, DecliningIsAskedBack) {
   ConsentScreen screen("text");
   screen.shown(0);
-  screen.take(key('n', 1), {});
+  screen.take(keyInput('n', 1), {});
   EXPECT_EQ(screen.name(), "consent_declined");
   EXPECT_FALSE(screen.done());
   screen.shown(2);
-  screen.take(key(kKeyBackspace, 3), {});
+  screen.take(keyInput(kKeyBackspace, 3), {});
   EXPECT_EQ(screen.name(), "consent");
   screen.shown(4);
-  screen.take(key('n', 5), {});
+  screen.take(keyInput('n', 5), {});
   screen.shown(6);
-  screen.take(key('e', 7), {});
+  screen.take(keyInput('e', 7), {});
   EXPECT_TRUE(screen.done());
   EXPECT_FALSE(screen.agreed());
 }
@@ -72,7 +72,7 @@ TEST(Screens, FormTakesChoicesAndAsksWhetherTheyAreRight) {
   int64_t now = 0;
   const auto press = [&](int code) {
     screen.shown(++now);
-    screen.take(key(code, ++now), {});
+    screen.take(keyInput(code, ++now), {});
   };
   press('1');
   press('2');
@@ -92,11 +92,11 @@ TEST(Screens, StoppingIsAskedTwice) {
         std::pair{int{kKeySpace}, PauseScreen::Choice::Continue}}) {
     PauseScreen screen("");
     screen.shown(0);
-    screen.take(key(code == kKeySpace ? 's' : code, 1), {});
+    screen.take(keyInput(code == kKeySpace ? 's' : code, 1), {});
     EXPECT_FALSE(screen.done());
-    if (code != kKeySpace) screen.take(key('s', 2), {});
+    if (code != kKeySpace) screen.take(keyInput('s', 2), {});
     screen.shown(3);
-    screen.take(key(code, 4), {});
+    screen.take(keyInput(code, 4), {});
     EXPECT_TRUE(screen.done());
     EXPECT_EQ(screen.choice(), choice);
   }
@@ -106,8 +106,8 @@ TEST(Screens, OneKeyTurnsOnePageHoweverOftenItIsHit) {
   TextScreen screen({});
   screen.setTextPages(3);
   screen.shown(0);
-  screen.take(key(kKeySpace, 1), {});
-  screen.take(key(kKeySpace, 2), {});
+  screen.take(keyInput(kKeySpace, 1), {});
+  screen.take(keyInput(kKeySpace, 2), {});
   EXPECT_EQ(screen.page(3).textPages.index, 1);
 }
 

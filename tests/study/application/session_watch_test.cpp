@@ -8,20 +8,20 @@
 namespace limen::study {
 namespace {
 
-constexpr int64_t kMs = 1'000'000;
+constexpr int64_t kMillisecond = 1'000'000;
 
 TEST(SessionWatch, TakesIntervalsWithinOneShowingOnly) {
   SessionWatch watch;
   TrialResult result;
   // Two showings; intervals 16, 18 and, in the second, 17 ms. The gap between them is none.
   result.frames = {{0, 0, 0, 0, 0},
-                   {0, 0, 1, 16 * kMs, 0},
-                   {0, 0, 2, 34 * kMs, 1},
-                   {0, 1, 0, 1034 * kMs, 0},
-                   {0, 1, 1, 1051 * kMs, 0}};
+                   {0, 0, 1, 16 * kMillisecond, 0},
+                   {0, 0, 2, 34 * kMillisecond, 1},
+                   {0, 1, 0, 1034 * kMillisecond, 0},
+                   {0, 1, 1, 1051 * kMillisecond, 0}};
   Trial trial;
   watch.began(trial, 0);
-  watch.ended(result, 2000 * kMs);
+  watch.ended(result, 2000 * kMillisecond);
   const IntervalStatistics times = watch.intervals();
   EXPECT_EQ(times.count, 3);
   EXPECT_DOUBLE_EQ(times.meanMs, 17.0);
@@ -36,10 +36,10 @@ TEST(SessionWatch, TellsTheTimeLeftFromTrialsWithoutTheirBreaks) {
   watch.progress(2, 12);
   Trial trial;
   watch.began(trial, 0);
-  watch.ended({}, 4000 * kMs);
+  watch.ended({}, 4000 * kMillisecond);
   watch.rested();  // a break of a minute
-  watch.began(trial, 64'000 * kMs);
-  watch.ended({}, 70'000 * kMs);
+  watch.began(trial, 64'000 * kMillisecond);
+  watch.ended({}, 70'000 * kMillisecond);
   EXPECT_DOUBLE_EQ(watch.secondsLeft(), 50.0);  // ten trials of (4 + 6) / 2 s
 }
 

@@ -41,7 +41,7 @@ Shown showOn(const VirtualDisplay& display, const PresenterSetting& setting = {}
   return present(twoIntervals(), pictures, screen, setting);
 }
 
-ScreenEvent key(const char* name) { return {ScreenEvent::Kind::Key, name, {}, 0}; }
+ScreenEvent pressedKey(const char* name) { return {ScreenEvent::Kind::Key, name, {}, 0}; }
 
 TEST(Presenter, ShowsEveryFrameOnceInItsTurn) {
   VirtualDisplay display;
@@ -123,7 +123,7 @@ TEST(Presenter, AnswersBeforeTheQuestionAreKnownByWhenTheyCame) {
                                      {20, "answered during the blank"},
                                      {39, ""}}) {
     VirtualDisplay display;
-    display.events = {{swap, key("1")}};
+    display.events = {{swap, pressedKey("1")}};
     const Shown shown = showOn(display);
     EXPECT_TRUE(shown.valid);
     ASSERT_EQ(shown.inputs.size(), 1U);
@@ -131,13 +131,13 @@ TEST(Presenter, AnswersBeforeTheQuestionAreKnownByWhenTheyCame) {
     EXPECT_EQ(earlyAnswer(shown, isAnswer), reason);
   }
   VirtualDisplay display;
-  display.events = {{5, key("x")}};
+  display.events = {{5, pressedKey("x")}};
   EXPECT_EQ(earlyAnswer(showOn(display), isAnswer), "");
 }
 
 TEST(Presenter, AnEventMayStopTheTrial) {
   VirtualDisplay display;
-  display.events = {{5, key("escape")}};
+  display.events = {{5, pressedKey("escape")}};
   PresenterSetting setting;
   setting.stop = [](const ScreenEvent& event) {
     return event.name == "escape" ? std::string("paused in the middle") : std::string();

@@ -141,8 +141,8 @@ TEST(Interleaved, RotationGoesRoundAndSkipsTheFinished) {
   for (const ProcedureTrial& trial : run(readProcedure(twoConstants("rotation"), ""), 1, 100).trials) {
     shown.push_back(trial.stimulus);
   }
-  using Values = std::vector<double>;
-  EXPECT_THAT(shown, ElementsAre(Values{0, 1}, Values{1, 10}, Values{0, 2}, Values{1, 20}, Values{1, 30}));
+  using Answers = std::vector<double>;
+  EXPECT_THAT(shown, ElementsAre(Answers{0, 1}, Answers{1, 10}, Answers{0, 2}, Answers{1, 20}, Answers{1, 30}));
 }
 
 TEST(Interleaved, RandomOrderIsEvenAndEachGetsItsOwnTrials) {

@@ -8,7 +8,7 @@
 namespace limen::study {
 namespace {
 
-const std::string kFactors =
+const std::string kPracticeFactors =
     "factors: {distance: [4, 6, 9], kind: [wood, stone], presentation: [dynamic, static]}\n";
 
 std::map<std::map<std::string, std::string>, int> drawn(const PlannedBlock& block) {
@@ -20,7 +20,7 @@ std::map<std::map<std::string, std::string>, int> drawn(const PlannedBlock& bloc
 TEST(Practice, DrawsEvenlyFromTheConditions) {
   for (const int trials : {1, 5, 12, 24, 31}) {
     const Protocol protocol =
-        exampleProtocol(kYesNo + kBox + kFactors + "practice: {trials: " + std::to_string(trials) + "}\n");
+        exampleProtocol(kYesNo + kBox + kPracticeFactors + "practice: {trials: " + std::to_string(trials) + "}\n");
     for (uint64_t seed = 0; seed < 20; ++seed) {
       const PlannedBlock block = makePracticeRound(protocol, 0, seed, 0);
       ASSERT_EQ(block.trials.size(), static_cast<size_t>(trials));
@@ -37,7 +37,7 @@ TEST(Practice, DrawsEvenlyFromTheConditions) {
 
 TEST(Practice, HasCatchTrialsInProportion) {
   const Protocol protocol =
-      exampleProtocol(kYesNo + kBox + kFactors + "trials: {change: 3, catch: 1}\npractice: {trials: 8}\n");
+      exampleProtocol(kYesNo + kBox + kPracticeFactors + "trials: {change: 3, catch: 1}\npractice: {trials: 8}\n");
   std::set<size_t> places;
   for (uint64_t seed = 0; seed < 100; ++seed) {
     const PlannedBlock block = makePracticeRound(protocol, 0, seed, 0);

@@ -18,7 +18,7 @@
 namespace limen::study {
 namespace {
 
-constexpr glm::ivec2 kSize{96, 72};
+constexpr glm::ivec2 kPredictionSize{96, 72};
 
 class PredictionTest : public gl::GlTest {
  protected:
@@ -26,7 +26,7 @@ class PredictionTest : public gl::GlTest {
   static Image coded(const Stimulus& stimulus, int level) {
     const scene::Scene scene = scene::buildScene(stimulus.scene.name, stimulus.scene.values);
     const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, kSize, stimulus.changeAtS);
+    frame::Frame frame(context(), scene, gpuScene, kPredictionSize, stimulus.changeAtS);
     frame.setLevels(scene::uniformLevels(scene, level));
     frame.begin();
     Image image = frame.get<frame::Shaded>(frame::ShadedSetting{}).texture().read();
@@ -44,7 +44,7 @@ class PredictionTest : public gl::GlTest {
     const NamedEntry moved = sceneEntry(stimulus.scene.name, given);
     const scene::Scene scene = scene::buildScene(moved.name, moved.values);
     const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, kSize);
+    frame::Frame frame(context(), scene, gpuScene, kPredictionSize);
     const auto& info = techniques::TechniqueRegistry::instance().get("popping/lod_switch_reference");
     const auto made = info.make(ParameterValues(
         info.parameters, {{"presentation", presentation}, {"display", std::string("schwarz_2009")}}));
@@ -66,14 +66,14 @@ TEST_F(PredictionTest, IsThePredictorsWordOnThePicturesAsTheyAreShown) {
   input.actual = coded(stimulus, 0);
   input.predicted = coded(stimulus, 1);
   const perception::PoppingResult expected = perception::predictPopping(input, studyDisplay());
-  const PredictedPopping found = Predictor(context(), kSize, studyDisplay()).predict(stimulus);
+  const PredictedPopping found = Predictor(context(), kPredictionSize, studyDisplay()).predict(stimulus);
   ASSERT_GT(expected.regions.regions.size(), 0U);
   ASSERT_EQ(found.regions.size(), expected.regions.regions.size());
   EXPECT_NEAR(found.rating, expected.summary.largestRating, 1e-9);
   EXPECT_NEAR(found.detectionProbability, expected.summary.detectionProbability, 1e-12);
   EXPECT_NEAR(found.largestJnd, expected.summary.largestJnd, 1e-9);
   EXPECT_EQ(found.poppingPx, expected.summary.regionPx);
-  EXPECT_NEAR(found.coverage, double(found.poppingPx) / (kSize.x * kSize.y), 1e-12);
+  EXPECT_NEAR(found.coverage, double(found.poppingPx) / (kPredictionSize.x * kPredictionSize.y), 1e-12);
 }
 
 TEST_F(PredictionTest, AgreesWithTheTechniqueButForRoundingToCodes) {
@@ -82,7 +82,7 @@ TEST_F(PredictionTest, AgreesWithTheTechniqueButForRoundingToCodes) {
   for (const bool dynamic : {false, true}) {
     Stimulus stimulus = patchStimulus();
     stimulus.presentation = dynamic ? Presentation::Dynamic : Presentation::Static;
-    const PredictedPopping found = Predictor(context(), kSize, studyDisplay()).predict(stimulus);
+    const PredictedPopping found = Predictor(context(), kPredictionSize, studyDisplay()).predict(stimulus);
     const std::map<std::string, double> expected = technique(stimulus, dynamic ? "dynamic" : "static");
     EXPECT_NEAR(found.rating, expected.at("rating"), 0.1) << dynamic;
     EXPECT_NEAR(found.detectionProbability, expected.at("detection_probability"), 0.05);
@@ -94,7 +94,7 @@ TEST_F(PredictionTest, AgreesWithTheTechniqueButForRoundingToCodes) {
 TEST_F(PredictionTest, ACatchIsReportedAtTheGuessRate) {
   Stimulus stimulus = patchStimulus();
   stimulus.changes = false;
-  const PredictedPopping found = Predictor(context(), kSize, studyDisplay()).predict(stimulus);
+  const PredictedPopping found = Predictor(context(), kPredictionSize, studyDisplay()).predict(stimulus);
   EXPECT_TRUE(found.regions.empty());
   EXPECT_DOUBLE_EQ(found.detectionProbability, 0.0446);
   EXPECT_TRUE(std::isfinite(found.rating));
@@ -107,7 +107,7 @@ TEST_F(PredictionTest, ATechniquesChangeIsPredictedToo) {
   stimulus.after = techniqueEntry("soft_shadows/pcf", {});
   stimulus.durationS = 0.2;
   stimulus.changeAtS = 0.1;
-  Predictor predictor(context(), kSize, studyDisplay());
+  Predictor predictor(context(), kPredictionSize, studyDisplay());
   const PredictedPopping changed = predictor.predict(stimulus);
   EXPECT_GT(changed.largestJnd, 0.0);
   EXPECT_EQ(changed.coverage, changed.coverageOfObject);
@@ -128,7 +128,7 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
   std::string key;
   {
     PredictionCache cache(file);
-    Predictor predictor(context(), kSize, studyDisplay(), {}, &cache);
+    Predictor predictor(context(), kPredictionSize, studyDisplay(), {}, &cache);
     first = predictor.predict(stimulus);
     key = predictor.key(stimulus);
     Stimulus other = stimulus;
@@ -136,11 +136,11 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
     EXPECT_EQ(predictor.key(other), key);
     other.levels->before = 2;
     EXPECT_NE(predictor.key(other), key);
-    EXPECT_NE(Predictor(context(), kSize + 1, studyDisplay()).key(stimulus), key);
+    EXPECT_NE(Predictor(context(), kPredictionSize + 1, studyDisplay()).key(stimulus), key);
     perception::DisplayProfile nearer = studyDisplay();
     nearer.distanceM = 0.5;
-    EXPECT_NE(Predictor(context(), kSize, nearer).key(stimulus), key);
-    EXPECT_NE(Predictor(context(), kSize, studyDisplay(),
+    EXPECT_NE(Predictor(context(), kPredictionSize, nearer).key(stimulus), key);
+    EXPECT_NE(Predictor(context(), kPredictionSize, studyDisplay(),
                         ParameterValues(perception::poppingParameters(), {{"use_flicker", false}}))
                   .key(stimulus),
               key);
@@ -148,7 +148,7 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
   PredictionCache again(file);
   ASSERT_TRUE(again.find(key).has_value());
   EXPECT_EQ(*again.find(key), first);
-  EXPECT_EQ(Predictor(context(), kSize, studyDisplay(), {}, &again).predict(stimulus), first);
+  EXPECT_EQ(Predictor(context(), kPredictionSize, studyDisplay(), {}, &again).predict(stimulus), first);
   std::ofstream(file) << "{}";
   EXPECT_THROW(PredictionCache{file}, Error);
   std::filesystem::remove(file);
@@ -167,11 +167,11 @@ class PreparedStimulusTest : public gl::GlTest {
 
 TEST_F(PreparedStimulusTest, LayersAreTheFramesWhetherAheadOrLive) {
   const Stimulus stimulus = patchStimulus();
-  StimulusRenderer direct(context(), stimulus, kSize, studyDisplay());
-  const int64_t needed = int64_t{12} * kSize.x * kSize.y * 4;
+  StimulusRenderer direct(context(), stimulus, kPredictionSize, studyDisplay());
+  const int64_t needed = int64_t{12} * kPredictionSize.x * kPredictionSize.y * 4;
   for (const int64_t budget : {needed, needed - 1}) {
     int told = 0;
-    PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kSize, studyDisplay()),
+    PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()),
                               budget, [&](int, int all) { told += all == 12 ? 1 : 100; });
     EXPECT_EQ(prepared.ahead(), budget == needed);
     EXPECT_EQ(prepared.warning().empty(), prepared.ahead());
@@ -187,10 +187,10 @@ TEST_F(PreparedStimulusTest, LayersAreTheFramesWhetherAheadOrLive) {
 TEST_F(PreparedStimulusTest, AStaticSequenceTakesTwoLayers) {
   Stimulus stimulus = patchStimulus();
   stimulus.presentation = Presentation::Static;
-  PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kSize, studyDisplay()),
+  PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()),
                             pictureBudgetBytes());
   EXPECT_EQ(prepared.layerOfFrame(), (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(prepared.bytes(), int64_t{2} * kSize.x * kSize.y * 4);
+  EXPECT_EQ(prepared.bytes(), int64_t{2} * kPredictionSize.x * kPredictionSize.y * 4);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace limen::study {
 namespace {
 
-constexpr glm::ivec2 kSize{96, 72};
+constexpr glm::ivec2 kStimulusSize{96, 72};
 
 class StimulusRendererTest : public gl::GlTest {
  protected:
@@ -27,7 +27,7 @@ class StimulusRendererTest : public gl::GlTest {
   }
 
   /// Linear light of levels at a time, without the study: `samples` squared samples of one frame, averaged.
-  static Image light(const Stimulus& stimulus, double timeS, int level, glm::ivec2 sizePx = kSize) {
+  static Image light(const Stimulus& stimulus, double timeS, int level, glm::ivec2 sizePx = kStimulusSize) {
     const scene::Scene scene = sceneOf(stimulus);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx * stimulus.samples, timeS);
@@ -73,7 +73,7 @@ class StimulusRendererTest : public gl::GlTest {
 
 TEST_F(StimulusRendererTest, FramesAreThoseOfTheRendererAtTheirTimeAndLevel) {
   const Stimulus stimulus = patchStimulus();
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   ASSERT_EQ(renderer.frameCount(), 12);
   EXPECT_EQ(renderer.pictureCount(), 12);
   // The last frame with the coarser level, the first with the finer one, and both ends.
@@ -88,8 +88,8 @@ TEST_F(StimulusRendererTest, FramesAreThoseOfTheRendererAtTheirTimeAndLevel) {
 
 TEST_F(StimulusRendererTest, TheSameStimulusGivesTheSameBytes) {
   StageCache stages;
-  StimulusRenderer a(context(), patchStimulus(), kSize, studyDisplay(), &stages);
-  StimulusRenderer b(context(), patchStimulus(), kSize, studyDisplay(), &stages);
+  StimulusRenderer a(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
+  StimulusRenderer b(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
   EXPECT_EQ(&a.stage(), &b.stage());
   b.render(11);  // order does not matter
   EXPECT_EQ(a.readBack(3).data, b.readBack(3).data);
@@ -99,7 +99,7 @@ TEST_F(StimulusRendererTest, AStaticSequenceHasTwoPicturesOfTheTimeOfTheChange) 
   Stimulus stimulus = patchStimulus();
   stimulus.presentation = Presentation::Static;
   stimulus.sceneStartS = 0.25;
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   ASSERT_EQ(renderer.pictureCount(), 2);
   EXPECT_EQ(renderer.pictureOf(5), 0);
   EXPECT_EQ(renderer.pictureOf(6), 1);
@@ -113,20 +113,20 @@ TEST_F(StimulusRendererTest, ACatchShowsOneLevel) {
   stimulus.changes = false;
   for (const bool after : {false, true}) {
     stimulus.catchShowsAfter = after;
-    StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+    StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
     EXPECT_EQ(renderer.pictureCount(), 12);
     for (const int frame : {0, 6})
       EXPECT_LE(largestError(renderer.readBack(frame), light(stimulus, frame / 60.0, after ? 0 : 1)),
                 kRounding);
   }
   stimulus.presentation = Presentation::Static;
-  EXPECT_EQ(StimulusRenderer(context(), stimulus, kSize, studyDisplay()).pictureCount(), 1);
+  EXPECT_EQ(StimulusRenderer(context(), stimulus, kStimulusSize, studyDisplay()).pictureCount(), 1);
 }
 
 TEST_F(StimulusRendererTest, AStillCameraNeedsTwoPicturesOnly) {
   Stimulus stimulus = patchStimulus();
   stimulus.scene = sceneEntry("lod/patch", {{"distance", 4.0}, {"motion", "still"}});
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   EXPECT_EQ(renderer.pictureCount(), 2);
   EXPECT_EQ(renderer.firstFrameOf(1), 6);
 }
@@ -135,12 +135,12 @@ TEST_F(StimulusRendererTest, RowZeroIsTheTop) {
   // Of terrain under a dark sky the lower rows are the brighter ones.
   Stimulus stimulus = patchStimulus();
   stimulus.scene = sceneEntry("lod/terrain", {});
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   const Image shown = renderer.readBack(0);
   double top = 0.0, bottom = 0.0;
-  for (int x = 0; x < kSize.x; ++x) {
+  for (int x = 0; x < kStimulusSize.x; ++x) {
     top += shown.at(x, 0);
-    bottom += shown.at(x, kSize.y - 1);
+    bottom += shown.at(x, kStimulusSize.y - 1);
   }
   EXPECT_GT(bottom, 1.5 * top);
 }
@@ -152,13 +152,13 @@ TEST_F(StimulusRendererTest, VisibilityModulatesTheDirectLightOnly) {
   stimulus.durationS = 0.1;
   stimulus.changes = false;
   stimulus.samples = 1;
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   const Image shown = renderer.readBack(0);
 
   // Shares of the light apart: with ambient 0.2 and diffuse 0.8 the shadowed picture is a + v d.
   const scene::Scene scene = sceneOf(stimulus);
   const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, kSize);
+  frame::Frame frame(context(), scene, gpuScene, kStimulusSize);
   const auto hard =
       techniques::TechniqueRegistry::instance().get("soft_shadows/hard").make(stimulus.before->values);
   hard->prepare(frame);
@@ -173,7 +173,7 @@ TEST_F(StimulusRendererTest, VisibilityModulatesTheDirectLightOnly) {
               d = frame.get<frame::Shaded>(direct).texture().read();
   const std::vector<uint32_t> ids = frame.get<frame::TriangleIds>().texture().readUint();
   frame.end();
-  Image expected(kSize.x, kSize.y, 3, 0.05F);
+  Image expected(kStimulusSize.x, kStimulusSize.y, 3, 0.05F);
   int shadowed = 0;
   for (size_t i = 0; i < expected.pixels(); ++i) {
     if (ids[i] == frame::TriangleIds::kNone) continue;
@@ -190,7 +190,7 @@ TEST_F(StimulusRendererTest, AColourTechniqueIsShownAsItIs) {
   stimulus.levels.reset();
   stimulus.before = techniqueEntry("lod/finest", {{"samples", int64_t{1}}});
   stimulus.changes = false;
-  StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+  StimulusRenderer renderer(context(), stimulus, kStimulusSize, studyDisplay());
   EXPECT_EQ(renderer.pictureCount(), 12);
   EXPECT_LE(largestError(renderer.readBack(4), light(stimulus, 4 / 60.0, 0)), kRounding);
 }
@@ -239,7 +239,7 @@ TEST(StimulusFiles, AFileThatChangedSinceIsRefused) {
 TEST_F(StimulusRendererTest, WhatCannotBeShownIsRefused) {
   const auto refused = [](Stimulus stimulus) {
     try {
-      StimulusRenderer(context(), stimulus, kSize, studyDisplay());
+      StimulusRenderer(context(), stimulus, kStimulusSize, studyDisplay());
     } catch (const Error& error) {
       return !error.mend().empty();
     }

@@ -16,6 +16,9 @@ H <- 38.5 / 51; F <- 9.5 / 41; zH <- qnorm(H); zF <- qnorm(F)
 show("d' c lnbeta beta", c(zH - zF, -(zH + zF) / 2, (zF^2 - zH^2) / 2, dnorm(zH) / dnorm(zF)))
 vH <- H * (1 - H) / 50 / dnorm(zH)^2; vF <- F * (1 - F) / 40 / dnorm(zF)^2
 show("errors", c(sqrt(vH + vF), sqrt((vH + vF) / 4), sqrt(zH^2 * vH + zF^2 * vF)))
+a <- function(H, F) 0.5 + (H - F) * (1 + H - F) / (4 * H * (1 - F)); e <- 1e-5
+show("A' error", c(a(H, F), sqrt(((a(H + e, F) - a(H - e, F)) / (2 * e))^2 * H * (1 - H) / 50 +
+                                 ((a(H, F + e) - a(H, F - e)) / (2 * e))^2 * F * (1 - F) / 40)))
 show("uncorrected d'", qnorm(38 / 50) - qnorm(9 / 40))
 
 # m alternatives, by adaptive quadrature.

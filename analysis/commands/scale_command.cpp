@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen analyse scale: values of items from "which of the two?" answers.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "analysis/commands/commands.h"
+#include "analysis/commands/table_result.h"
+#include "analysis/relations/scale.h"
+#include "analysis/study/pairs.h"
+#include "base/error.h"
+
+namespace limen::analysis {
+namespace {
+
+struct ScaleOptions : StudyInput {
+  PairColumns columns;
+  ScaleSetting setting;
+  std::string plot;
+};
+
+void scaleStore(const ScaleOptions& options) {
+  const StudyAnswers study = readStudy(options);
+  const Scales found = scaleItems(readStudyPairs(study, options.columns.by), options.setting);
+  if (!options.plot.empty()) drawScales(found, options.plot);
+  printStudyResult(options, study, found, "scale");
+}
+
+void scaleTable(const ScaleOptions& options) {
+  const Table table = Table::read(options.choice.store);
+  const Scales found = scaleItems(readPairs(table, options.columns), options.setting);
+  if (!options.plot.empty()) drawScales(found, options.plot);
+  printTableResult(options, table, found, "scale");
+}
+
+}  // namespace
+
+void addScaleCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "scale", "scale values of items that were compared in pairs (Thurstone, Bradley and Terry)");
+  auto options = std::make_shared<ScaleOptions>();
+  addStudyInput(*command, *options, "DATA",
+                "CSV or TSV, columns named in the first line; or a result store with sessions");
+  PairColumns& columns = options->columns;
+  ScaleSetting& setting = options->setting;
+  command->add_option("--winner", columns.winner, "column with the item that was chosen");
+  command->add_option("--loser", columns.loser, "column with the other");
+  command->add_option("--first", columns.first, "column with the item shown first, or left");
+  command->add_option("--second", columns.second, "column with the other");
+  command->add_option("--chosen", columns.chosen, "column with the name of the one that was chosen");
+  command->add_option("--n", columns.count, "column with how many such answers a row stands for");
+  command->add_option("--by", columns.by, "columns, or a store's factors, whose values have a scale each")
+      ->delimiter(',');
+  command->add_option("--subject", columns.subject,
+                      "column with who answered: bootstrap over subjects, circular triads");
+  command->add_option("--round", columns.round,
+                      "column that tells a subject's passes through the pairs apart, for circular triads");
+  static const std::map<std::string, PairwiseModel> kModels = {
+      {"thurstone", PairwiseModel::kThurstoneMaximumLikelihood},
+      {"thurstone-ls", PairwiseModel::kThurstoneLeastSquares},
+      {"bradley-terry", PairwiseModel::kBradleyTerry}};
+  command
+      ->add_option("--model", setting.model,
+                   "thurstone (case V), thurstone-ls (by least squares) or bradley-terry (default)")
+      ->transform(CLI::CheckedTransformer(kModels));
+  static const std::map<std::string, UnboundedScale> kUnbounded = {{"refuse", UnboundedScale::kRefuse},
+                                                                   {"penalise", UnboundedScale::kPenalise}};
+  command
+      ->add_option("--unbounded", setting.unbounded,
+                   "what to do if answers put an item infinitely far away: refuse (default) or penalise")
+      ->transform(CLI::CheckedTransformer(kUnbounded));
+  command->add_option("--prior-sd", setting.priorDeviation, "of values, if they are penalised")
+      ->capture_default_str();
+  command->add_option("--reference", setting.reference, "item that is 0 on the scale");
+  command->add_option("--confidence", setting.bootstrap.level, "of the intervals")->capture_default_str();
+  command->add_option("--samples", setting.bootstrap.samples, "of the bootstrap; 0 for none")
+      ->capture_default_str();
+  command->add_option("--seed", setting.bootstrap.seed, "of the bootstrap")->capture_default_str();
+  command->add_option("--plot", options->plot, "draw into FILE.svg, .pdf or .png")->type_name("FILE");
+  command->callback([command, options] {
+    const bool store = isStudyStore(
+        *command, *options,
+        {"--winner", "--loser", "--first", "--second", "--chosen", "--n", "--subject", "--round"});
+    const ScaleSetting& chosen = options->setting;
+    checkIntervals(chosen.bootstrap.level, chosen.bootstrap.samples, true);
+    if (!(chosen.priorDeviation > 0.0 && chosen.priorDeviation < 1e6))
+      throw Error("has to be above 0", "--prior-sd", "2 is usual");
+    store ? scaleStore(*options) : scaleTable(*options);
+  });
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "analysis/statistics/interval.h"
+
+namespace limen::analysis {
+
+struct BootstrapSetting {
+  size_t samples = 2000;
+  uint64_t seed = 1;
+  double level = 0.95;
+};
+
+/// Fewer clusters than this say nothing on how clusters differ.
+inline constexpr size_t kLeastClusters = 3;
+
+struct ResampledInterval {
+  /// Percentile interval (Efron and Tibshirani 1993, chapter 13); none with too few clusters, or if the
+  /// statistic was undefined in more than half of the samples.
+  std::optional<Interval> interval;
+  size_t undefined = 0;  ///< samples without the statistic, which the interval leaves out
+};
+
+/// Statistics of the rows that are named, each once or more, in the order of the intervals asked for.
+using RowStatistics = std::function<std::vector<std::optional<double>>(const std::vector<size_t>& rows)>;
+
+/// Draws whole clusters of rows with replacement, as many as there are: rows of one cluster, such as the
+/// trials of one participant, are not independent of each other (Davison and Hinkley 1997, section 3.8).
+/// `clusters` has the number of each row's, from 0 without gaps. Same seed, same bytes.
+std::vector<ResampledInterval> resampleClusters(const std::vector<size_t>& clusters, size_t statistics,
+                                                const RowStatistics& of, const BootstrapSetting& setting);
+
+/// The interval that resampled values of a statistic leave; `values` may be empty.
+ResampledInterval percentileInterval(const std::vector<double>& values, const BootstrapSetting& setting);
+
+}  // namespace limen::analysis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Depth range of an area by the hierarchical shadow map (HSM): min/max over aligned squares. Schwarz 2009, section 4.1.
+// Smallest and largest depth over an area: the finest level at which at most 2 x 2 texels cover it.
+vec2 depthRange(Area area) {
+  const ivec2 last = area.high - 1;
+  const int extent = max(last.x - area.low.x, last.y - area.low.y);
+  int level = extent > 0 ? findMSB(extent) : 0;
+  if (any(greaterThan((last >> level) - (area.low >> level), ivec2(1)))) ++level;
+  const ivec2 a = area.low >> level, b = last >> level;
+  const float low = min(min(texelFetch(minimumMap, a, level).x, texelFetch(minimumMap, ivec2(b.x, a.y), level).x),
+                        min(texelFetch(minimumMap, ivec2(a.x, b.y), level).x, texelFetch(minimumMap, b, level).x));
+  float high;
+  if (level == 0) {
+    high = max(max(texelFetch(minimumMap, a, 0).x, texelFetch(minimumMap, ivec2(b.x, a.y), 0).x),
+               max(texelFetch(minimumMap, ivec2(a.x, b.y), 0).x, texelFetch(minimumMap, b, 0).x));
+  } else {
+    high = max(max(texelFetch(maximumMap, a, level - 1).x, texelFetch(maximumMap, ivec2(b.x, a.y), level - 1).x),
+               max(texelFetch(maximumMap, ivec2(a.x, b.y), level - 1).x, texelFetch(maximumMap, b, level - 1).x));
+  }
+  return vec2(low, high);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Texels of a level of the minimum pyramid as rectangles at one depth, backprojected onto the light. Schwarz 2009, section
+// 4.1. The including shader gathers: accumulate(low, high) takes a rectangle in unit light coordinates.
+//
+// In tangents t = x/z the backprojection of a texel edge at depth z from receiver p is, in unit light coordinates,
+//   s = z / (p_z - z) * (p_z t - p_x) / w + 1/2.
+void accumulate(vec2 low, vec2 high);
+
+// z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
+float throwOf(float z, float pz) { return z / (pz - z); }
+
+// Visibility by the micropatches of a level that lie in the area.
+float gatherOccluders(vec4 p, Area area, int level) {
+  const ivec2 low = area.low >> level, high = (area.high - 1) >> level;
+  const ivec2 count = high - low + 1;
+  if (float(count.x + 1) * float(count.y) > float(maxIterations)) {
+    pixelClass = kCutShort;
+    return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
+  }
+  const float depth = biasedDepth(p, level);
+  const vec2 perTexel = tangentSize / float(resolution) * float(1 << level);
+  // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + 1/2.
+  const vec2 scale = p.z * perTexel / lightSize;
+  const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
+  for (int y = low.y; y <= high.y; ++y) {
+    const vec2 edgesY = scale.y * vec2(float(y), float(y + 1)) + shift.y;
+#if GAP_FILL > 0
+    float left = low.x > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y), level).x : kEmptyDepth;
+    float lowerLeft = low.x > 0 && y > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y - 1), level).x : kEmptyDepth;
+#endif
+    for (int x = low.x; x <= high.x; ++x) {
+      const float z = texelFetch(minimumMap, ivec2(x, y), level).x;
+      ++fetchCount;
+#if GAP_FILL > 0
+      const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
+      ++fetchCount;
+#endif
+      if (z < depth) {
+        const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
+        const float k = throwOf(z, p.z);
+        vec2 start = k * vec2(edgesX.x, edgesY.x) + 0.5;
+        const vec2 end = k * vec2(edgesX.y, edgesY.y) + 0.5;
+#if GAP_FILL > 0
+        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * edgesX.x + 0.5);
+        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * edgesY.x + 0.5);
+#endif
+#if GAP_FILL > 1
+        if (lowerLeft < depth) {
+          const float corner = throwOf(lowerLeft, p.z);
+          start = min(start, corner * vec2(edgesX.x, edgesY.x) + 0.5);
+        }
+#endif
+        ++occluderCount;
+        // Clamped in an order that turns a NaN, were there one, into a bound.
+        const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
+        if (a.x < b.x && a.y < b.y) accumulate(a, b);
+      }
+#if GAP_FILL > 0
+      left = z;
+      lowerLeft = below;
+#endif
+    }
+    if (isSaturated()) return 0.0;
+  }
+  return gatheredVisibility();
+}
