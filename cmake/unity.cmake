@@ -4,7 +4,8 @@
 # Targets whose files repeat names by design: every registration is called kRegistered, every command has its Options.
 set(limen_separate_targets
     limen-analyse limen-study limen_lod limen_metrics_cpu limen_model_commands limen_perceive limen_perceptual_lod
-    limen_popping_techniques limen_references limen_scene limen_soft_shadows limen_ui)
+    limen_popping_techniques limen_references limen_scene limen_soft_shadows limen_study_page
+    limen_ui)
 # Files that share a name of their own with a neighbour, and may.
 set(limen_separate_files
     analysis/psychometric/log_math.cpp analysis/psychometric/objective.cpp analysis/statistics/pairwise_scaling.cpp

@@ -9,7 +9,8 @@ namespace limen::analysis {
 
 // Each adds its subcommands; their callbacks do the work and throw Error for bad input.
 
-void addSweepCommands(CLI::App& app);  ///< report, switch-distances
+void addReportCommand(CLI::App& app);  ///< report
+void addSweepCommands(CLI::App& app);  ///< switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
 void addStudyCommands(CLI::App& app);  ///< rates, validate
 void addAnovaCommand(CLI::App& app);

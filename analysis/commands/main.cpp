@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   CLI::App app("Says what sweeps and studies found. Needs no GPU.", "limen-analyse");
   app.set_version_flag("--version", limen::versionText("limen-analyse"));
   app.require_subcommand(1);
+  limen::analysis::addReportCommand(app);
   limen::analysis::addSweepCommands(app);
   limen::analysis::addFitCommand(app);
   limen::analysis::addStudyCommands(app);

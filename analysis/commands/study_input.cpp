@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/commands/study_input.h"
 
+#include <algorithm>
 #include <map>
 
 #include "analysis/data/source.h"
 #include "base/error.h"
 
 namespace limen::analysis {
+
+namespace {
+
+const std::vector<std::string>& choiceOptions() {
+  static const std::vector<std::string> kOptions = {"--protocol", "--observers", "--no-exclusions",
+                                                    "--unfinished"};
+  return kOptions;
+}
+
+}  // namespace
 
 void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
@@ -16,10 +27,16 @@ void addStudyChoice(CLI::App& command, StudyInput& input) {
   command
       .add_option("--observers", input.choice.observers,
                   "people or simulated, if the store has sessions of both")
-      ->transform(CLI::CheckedTransformer(kObservers));
+      ->transform(CLI::CheckedTransformer(kObservers))
+      ->option_text("people|simulated");
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+}
+
+bool choosesSessions(const CLI::App& command) {
+  return std::any_of(choiceOptions().begin(), choiceOptions().end(),
+                     [&](const std::string& option) { return command.count(option) > 0; });
 }
 
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
@@ -41,17 +58,19 @@ std::map<std::string, std::string> displayNames(const std::string& store, const 
   return names;
 }
 
-StudyAnswers readStudy(const StudyInput& input) {
+StudyChoice choiceOf(const StudyInput& input) {
   StudyChoice choice = input.choice;
   choice.exclusions = !input.noExclusions;
-  return readStudyAnswers(choice);
+  return choice;
 }
+
+StudyAnswers readStudy(const StudyInput& input) { return readStudyAnswers(choiceOf(input)); }
 
 bool isStudyStore(const CLI::App& command, const StudyInput& input,
                   const std::vector<std::string>& tableOptions,
                   const std::vector<std::string>& storeOptions) {
   const bool store = isDatabase(input.choice.store);
-  std::vector<std::string> ofStores = {"--protocol", "--observers", "--no-exclusions", "--unfinished"};
+  std::vector<std::string> ofStores = choiceOptions();
   ofStores.insert(ofStores.end(), storeOptions.begin(), storeOptions.end());
   for (const std::string& option : store ? tableOptions : ofStores)
     if (command.count(option) > 0)

@@ -25,6 +25,9 @@ struct StudyInput {
 
 /// Adds --protocol, --observers, --no-exclusions, --unfinished: which sessions and answers count.
 void addStudyChoice(CLI::App& command, StudyInput& input);
+/// Whether one of those was given.
+bool choosesSessions(const CLI::App& command);
+
 /// Adds the positional, the options of addStudyChoice(), --json, --csv.
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional = "store",
                    const std::string& meaning = "Result store with sessions");
@@ -32,6 +35,9 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
 /// Names of displays by hash: those of the answers and those that were predicted for.
 std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
                                                 const std::vector<store::StudyPrediction>& predictions);
+
+/// The choice with what the options say.
+StudyChoice choiceOf(const StudyInput& input);
 
 /// Throws Error as readStudyAnswers().
 StudyAnswers readStudy(const StudyInput& input);

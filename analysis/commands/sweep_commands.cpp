@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen analyse report, switch-distances: what sweeps found.
+// limen analyse switch-distances: what sweeps found.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/commands/commands.h"
 #include "analysis/output/text_output.h"
-#include "analysis/sweep/report.h"
 #include "analysis/sweep/switch_distances.h"
 #include "base/error.h"
 
 namespace limen::analysis {
 namespace {
-
-void print(const ReportResult& result, bool json) {
-  if (json) {
-    const nlohmann::json line = {
-        {"event", "report"},         {"page", result.page},
-        {"title", result.title},     {"experiment", result.hash},
-        {"runs", result.runs},       {"failed", result.failed},
-        {"missing", result.missing}, {"broken_expectations", result.brokenExpectations}};
-    std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  } else {
-    std::printf("%s\n", result.page.c_str());
-  }
-}
 
 void runSwitchDistances(const SwitchOptions& options, bool json) {
   const std::vector<SwitchReport> reports = findSwitchDistances(options);
@@ -45,31 +30,9 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
   }
 }
 
-void addReport(CLI::App& app) {
-  struct Call {
-    ReportOptions options;
-    bool json = false;
-  };
-  const auto call = std::make_shared<Call>();
-  CLI::App* report = app.add_subcommand("report", "HTML page and CSV tables of a sweep: speed against error");
-  report->add_option("STORE", call->options.storePath, "result store that limen-sweep wrote")->required();
-  report
-      ->add_option("-o,--output", call->options.folder,
-                   "folder for report.html, CSV tables, charts and pictures")
-      ->required();
-  report->add_option(
-      "--experiment", call->options.experiment,
-      "title or hash (8 digits or more) of one experiment; otherwise all of the store, each in a folder "
-      "of its own if there are several");
-  report->add_flag("--force", call->options.force,
-                   "report although runs are missing or failed; the page says so");
-  report->add_flag("--json", call->json, "print one JSON line for each page");
-  report->callback([call] {
-    for (const ReportResult& result : writeReports(call->options)) print(result, call->json);
-  });
-}
+}  // namespace
 
-void addSwitchDistances(CLI::App& app) {
+void addSweepCommands(CLI::App& app) {
   struct Call {
     SwitchOptions options;
     bool json = false;
@@ -95,13 +58,6 @@ void addSwitchDistances(CLI::App& app) {
   distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
   distances->add_flag("--json", call->json, "print one JSON line for each experiment");
   distances->callback([call] { runSwitchDistances(call->options, call->json); });
-}
-
-}  // namespace
-
-void addSweepCommands(CLI::App& app) {
-  addReport(app);
-  addSwitchDistances(app);
 }
 
 }  // namespace limen::analysis

@@ -108,6 +108,15 @@ std::string csvLine(const std::vector<std::string>& fields) {
   return out + "\n";
 }
 
+std::string counted(size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
 std::string slug(const std::string& text) {
   std::string out;
   for (const char c : text) {

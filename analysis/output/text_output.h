@@ -18,6 +18,10 @@ std::string readFileBytes(const std::string& path);                      ///< th
 void writeFileBytes(const std::string& path, const std::string& bytes);  ///< throws Error
 /// One line of CSV (RFC 4180), ended with a line feed.
 std::string csvLine(const std::vector<std::string>& fields);
+/// Number and noun: "1 run", "3 runs".
+std::string counted(size_t count, const std::string& noun);
+/// Replaces every `from` in `text`.
+void replaceAll(std::string& text, const std::string& from, const std::string& to);
 /// "Speed & <quality>" -> "speed_quality": safe as a file name.
 std::string slug(const std::string& text);
 

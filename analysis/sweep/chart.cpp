@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 
+#include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
 #include "base/error.h"
 #include "base/gnuplot.h"
@@ -20,10 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Okabe and Ito's colours (told apart with any colour vision), dark enough on white; the page's style sheet
-// gives them again for a dark page. gnuplot's point types and the page's own marker shapes go with them.
-constexpr std::array<const char*, kMarkerShapes> kColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
-                                                             "#B07C00", "#2E86C1", "#444444"};
+// gnuplot's point types and the page's own marker shapes go with kChartColours, which the page's style sheet
+// gives again for a dark page.
+static_assert(kMarkerShapes == kChartColours.size());
 constexpr std::array<int, kMarkerShapes> kPointTypes = {7, 5, 9, 13, 11, 6, 4};
 constexpr std::array<const char*, kMarkerShapes> kMarkerPaths = {
     "<circle cx='8' cy='8' r='5' fill='currentColor'/>",
@@ -88,7 +88,7 @@ std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, s
     plots += fmt::format(
         ", \\\n  '' index {0} using 1:2:3:4 with xerrorbars pt 0 lw 1.5 lc rgb '{1}'"
         ", \\\n  '' index {0} using 1:2 with points pt {2} ps 1.1 lw 1.5 lc rgb '{1}'",
-        series + 1, kColours[colourOf(series)], kPointTypes[shapeOf(series)]);
+        series + 1, kChartColours[colourOf(series)], kPointTypes[shapeOf(series)]);
   return out + "plot " + plots + "\n";
 }
 
@@ -121,11 +121,6 @@ std::string data(const Chart& chart, const ChartAxis& x, const ChartAxis& y, siz
     if (!any) out += "NaN NaN NaN NaN\n";
   }
   return out;
-}
-
-void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
 }
 
 struct Place {
@@ -209,29 +204,6 @@ std::string nameMarks(const std::string& svg, const Chart& chart, size_t seriesC
   return out;
 }
 
-// From a file of its own to a part of a page: no XML head, no titles that would pop up, ids of its own,
-// colours that follow the page.
-std::string makeInline(std::string svg, const Chart& chart) {
-  svg.erase(0, svg.find("<svg"));
-  for (size_t at; (at = svg.find("<title>")) != std::string::npos;)
-    svg.erase(at, svg.find("</title>", at) + 8 - at);
-  for (size_t at; (at = svg.find("<filter")) != std::string::npos;)
-    svg.erase(at, svg.find("</filter>", at) + 9 - at);
-  replaceAll(svg, "gpDot", chart.name + "_gpDot");
-  replaceAll(svg, "gpPt", chart.name + "_gpPt");
-  replaceAll(svg, "gnuplot_canvas", chart.name + "_canvas");
-  replaceAll(svg, "stroke='black'", "stroke='currentColor'");
-  replaceAll(svg, "fill=\"black\"", "fill=\"currentColor\"");
-  replaceAll(svg, "color=\"black\"", "");
-  replaceAll(svg, "color=\"white\"", "");
-  replaceAll(svg, "stroke='rgb(221, 221, 221)'", "class='grid'");
-  replaceAll(svg, "class='grid' class=\"gridline\"", "class='grid'");
-  svg.replace(0, 4,
-              "<svg class=\"chart\" role=\"group\" aria-label=\"" +
-                  escapeHtml(chart.title + ": " + chart.yTitle + " against " + chart.xTitle) + "\"");
-  return svg;
-}
-
 }  // namespace
 
 std::string drawChart(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount,
@@ -240,7 +212,8 @@ std::string drawChart(const Chart& chart, const ChartAxis& x, const ChartAxis& y
   writeFileBytes(base.string() + ".gp", script(chart, x, y, seriesCount));
   writeFileBytes(base.string() + ".dat", data(chart, x, y, seriesCount));
   runGnuplot(folder, chart.name + ".gp");
-  const std::string svg = makeInline(readFileBytes(base.string() + ".svg"), chart);
+  const std::string svg = inlineSvg(readFileBytes(base.string() + ".svg"), chart.name,
+                                    chart.title + ": " + chart.yTitle + " against " + chart.xTitle, "group");
   std::string out = nameMarks(svg, chart, seriesCount);
   const std::string front = fmt::format("id=\"{}_plot_1\"", chart.name);
   replaceAll(out, front, front + " class=\"front-line\"");

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 
-#include "analysis/sweep/chart.h"
+#include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
+#include "analysis/sweep/chart.h"
 #include "base/text.h"
 
 namespace limen::embedded {
@@ -81,10 +82,6 @@ std::string renderHowToRead(const Sweep& sweep, bool footUsed) {
 
 }  // namespace
 
-std::string counted(size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string withUnit(double value, const Axis& axis) {
   return formatNumber(value) + (axis.unit.empty() ? "" : " " + axis.unit);
 }
@@ -105,20 +102,13 @@ std::string renderCellName(const Sweep& sweep, const Cell& cell) {
 }
 
 std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures) {
-  std::string out =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-      escapeHtml(sweep.experiment.title) + " – Limen</title>\n<style>\n" + embedded::kReportCss +
-      "</style>\n</head>\n<body>\n<main>\n";
-  out += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +
-         renderCounter(sweep, charts) + renderPictures(sweep, pictures) + renderPasses(sweep) +
-         renderRunTable(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
-         renderHowToRead(sweep, charts.footUsed) + renderEnvironment(sweep);
-  out += "</main>\n<div id=\"tip\" role=\"status\" aria-live=\"polite\" hidden></div>\n<script>\n";
-  out += embedded::kReportJs;
-  out += "</script>\n</body>\n</html>\n";
-  return out;
+  std::string body = "<main>\n";
+  body += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +
+          renderCounter(sweep, charts) + renderPictures(sweep, pictures) + renderPasses(sweep) +
+          renderRunTable(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
+          renderHowToRead(sweep, charts.footUsed) + renderEnvironment(sweep);
+  body += "</main>\n<div id=\"tip\" role=\"status\" aria-live=\"polite\" hidden></div>\n";
+  return renderDocument(sweep.experiment.title, embedded::kReportCss, body, embedded::kReportJs);
 }
 
 }  // namespace limen::analysis

@@ -37,7 +37,5 @@ std::string renderCellName(const Sweep& sweep, const Cell& cell);
 std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval);
 /// Number with the axis' unit.
 std::string withUnit(double value, const Axis& axis);
-/// Number and noun: "1 run", "3 runs".
-std::string counted(size_t count, const std::string& noun);
 
 }  // namespace limen::analysis

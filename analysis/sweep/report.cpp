@@ -136,7 +136,7 @@ std::vector<ReportResult> writeReports(const ReportOptions& options) {
   std::vector<ReportResult> results;
   for (const Sweep& sweep : sweeps) {
     fs::path folder = options.folder;
-    if (sweeps.size() > 1)
+    if (options.ownFolders || sweeps.size() > 1)
       folder /= slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
     results.push_back(writeReport(sweep, options.storePath, folder));
   }

@@ -10,8 +10,9 @@ namespace limen::analysis {
 
 struct ReportOptions {
   std::string storePath, folder;
-  std::string experiment;  ///< title, hash or the beginning of a hash; "": every experiment of the store
-  bool force = false;      ///< go on although cells are missing or failed
+  std::string experiment;   ///< title, hash or the beginning of a hash; "": every experiment of the store
+  bool force = false;       ///< go on although cells are missing or failed
+  bool ownFolders = false;  ///< each experiment in a folder of its own, even if it is the only one
 };
 
 /// What was written for one experiment.

@@ -9,16 +9,13 @@
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/report.h"
+#include "tests/analysis/browser.h"
 #include "tests/analysis/synthetic_store.h"
 
 namespace limen::analysis {
 namespace {
 
 using testing::HasSubstr;
-
-// Runs before the page's own script, so that it sees every error of that.
-const char* const kCatchErrors =
-    "<script>window.problems=[];addEventListener('error',e=>problems.push(String(e.message)));</script>";
 
 // Uses the page as a reader would and writes what it finds into the page.
 const char* const kProbe = R"js(<script>
@@ -83,42 +80,6 @@ const char* const kProbe = R"js(<script>
 })();
 </script>)js";
 
-std::string findBrowser() {
-  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-    if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
-  return {};
-}
-
-std::string dumpDom(const std::string& browser, const TemporaryFolder& folder, const std::string& page,
-                    const std::string& size) {
-  const std::string out = folder.path("dom.html");
-  const std::string command =
-      "timeout 100 " + browser +
-      " --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-      "--disable-component-update --disable-sync --virtual-time-budget=5000 --user-data-dir=" +
-      folder.path("profile") + " --window-size=" + size + " --dump-dom 'file://" + page + "' >" + out +
-      " 2>/dev/null";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  return readFileBytes(out);
-}
-
-nlohmann::json probe(const std::string& browser, const TemporaryFolder& folder, const std::string& page,
-                     const std::string& size) {
-  std::string text = readFileBytes(page);
-  text.insert(text.find("<head>") + 6, kCatchErrors);
-  text.insert(text.rfind("</body>"), kProbe);
-  writeFileBytes(page, text);
-  const std::string dom = dumpDom(browser, folder, page, size);
-  const std::string open = "<pre id=\"probe\">";
-  const size_t begin = dom.find(open);
-  if (begin == std::string::npos) return {{"problems", {"the probe did not run"}}};
-  std::string json = dom.substr(begin + open.size(), dom.find("</pre>", begin) - begin - open.size());
-  for (const auto& [entity, letter] :
-       {std::pair<std::string, std::string>{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
-    for (size_t at; (at = json.find(entity)) != std::string::npos;) json.replace(at, entity.size(), letter);
-  return nlohmann::json::parse(json);
-}
-
 TEST(ReportPage, WorksInABrowser) {
   const std::string browser = findBrowser();
   if (browser.empty())
@@ -126,7 +87,7 @@ TEST(ReportPage, WorksInABrowser) {
   const TemporaryFolder folder;
   const size_t runs = writeLargeExperiment(folder.path("s.sqlite"), true);
   const std::string page = writeReports({folder.path("s.sqlite"), folder.path("out"), "", false}).at(0).page;
-  const nlohmann::json found = probe(browser, folder, page, "1280,1600");
+  const nlohmann::json found = probe(browser, folder, page, kProbe, "1280,1600");
 
   EXPECT_EQ(found.at("problems"), nlohmann::json::array());
   EXPECT_EQ(found.at("duplicateIds"), nlohmann::json::array());
@@ -174,7 +135,7 @@ TEST(ReportPage, DoesNotScrollSidewaysOnAPhone) {
   const TemporaryFolder folder;
   writeLargeExperiment(folder.path("s.sqlite"), true);
   const std::string page = writeReports({folder.path("s.sqlite"), folder.path("out"), "", false}).at(0).page;
-  const nlohmann::json found = probe(browser, folder, page, "500,900");
+  const nlohmann::json found = probe(browser, folder, page, kProbe, "500,900");
   EXPECT_EQ(found.at("problems"), nlohmann::json::array());
   EXPECT_EQ(found.at("sideways"), false);
 }

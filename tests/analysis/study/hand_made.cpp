@@ -64,7 +64,8 @@ std::string handMadeHash(const HandMadeTrial& trial) {
 
 void addHandMadeSession(const std::string& path, const std::string& participant, const std::string& protocol,
                         const std::vector<HandMadeTrial>& shown, const std::string& state,
-                        const std::string& name, const nlohmann::json& frontEnd) {
+                        const std::string& name, const nlohmann::json& frontEnd, const std::string& title,
+                        const std::string& display) {
   store::SessionLog log(path, false);
   store::StudySession session;
   session.participant = participant;
@@ -80,8 +81,8 @@ void addHandMadeSession(const std::string& path, const std::string& participant,
     entries.push_back(entryOf(trial, number - 1, number));
   }
   entries.back().state = state;
-  log.start(session, {protocol, "hand_made", "hand_made.yaml", "By hand", protocol},
-            {"display_hash", "desk", "name: desk", nlohmann::json::object()},
+  log.start(session, {protocol, "hand_made", "hand_made.yaml", title, protocol},
+            {"display_hash", "desk", display, nlohmann::json::object()},
             {"gpu", false, {{"front_end", frontEnd}}}, {{0, "main", "main", false, 1}}, entries);
 }
 

@@ -30,11 +30,12 @@ std::vector<HandMadeTrial> operator+(std::vector<HandMadeTrial> a, const std::ve
 /// The hash that a trial without one gets.
 std::string handMadeHash(const HandMadeTrial& trial);
 
-/// A session of such trials, by the store's own writer. The protocol's hash is its text.
+/// A session of such trials, by the store's own writer. The protocol's hash is its text; `display` a profile.
 void addHandMadeSession(const std::string& store, const std::string& participant, const std::string& protocol,
                         const std::vector<HandMadeTrial>& trials, const std::string& state = "finished",
                         const std::string& name = "1",
-                        const nlohmann::json& frontEnd = nlohmann::json::object());
+                        const nlohmann::json& frontEnd = nlohmann::json::object(),
+                        const std::string& title = "By hand", const std::string& display = "name: desk");
 
 /// A prediction for the sessions' display and a window of 1024 x 768.
 void addHandMadePrediction(const std::string& store, const std::string& stimulusHash,

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Severity of what was noticed, and how long answers took.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/output/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/statistics/summary.h"
+#include "analysis/study_page/sections.h"
+#include "base/gnuplot.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+constexpr int kBins = 24;
+
+/// What single answers are grouped by in these figures: "change, dynamic".
+std::string groupOf(const StudyAnswer& answer) {
+  return std::string(answer.change ? "change" : "no change") +
+         (answer.presentation.empty() ? "" : ", " + answer.presentation);
+}
+
+std::string outcomeOf(const StudyPart& part, const StudyAnswer& answer) {
+  if (part.asksYesNo()) return answer.outcome == 1 ? "yes" : "no";
+  if (part.isBinary()) return answer.outcome == 1 ? "right" : "wrong";
+  return "all answers";
+}
+
+/// How often each step was chosen by each group, as shares of the group.
+void addSeverity(const StudyPage& page, size_t index, PageWriter& out, std::string& csv) {
+  const StudyPart& part = page.study.plan.parts[index];
+  std::map<std::string, std::map<int, size_t>> groups;
+  int most = 0, least = 1;
+  for (const StudyAnswer& answer : page.study.answers)
+    if (answer.part == index && answer.severity) {
+      ++groups[groupOf(answer)][*answer.severity];
+      most = std::max(most, *answer.severity);
+      least = std::min(least, *answer.severity);
+    }
+  if (groups.empty()) return;
+  const PartText* text = page.text.part(part.name);
+  const std::vector<std::string> labels = text ? text->severityLabels : std::vector<std::string>{};
+  most = std::max(most, static_cast<int>(labels.size()));
+  const auto labelOf = [&](int step) {
+    return step >= 1 && step <= static_cast<int>(labels.size()) ? labels[static_cast<size_t>(step - 1)]
+                                                                : std::to_string(step);
+  };
+  Figure figure;
+  figure.name = "severity_" + page.stem(part.name);
+  figure.xTitle = "severity";
+  figure.yTitle = "share of answers (%)";
+  figure.description = "How often each step of severity was chosen, part " + part.name;
+  figure.heightPx = 260 + static_cast<int>(groups.size() + 1) / 2 * 18;
+  PageTable table;
+  table.caption = "Severity in part " + part.name + ": numbers of answers, and the mean step.";
+  table.file = "tables/severity.csv";
+  table.columns = {{"trials", false}};
+  std::vector<std::pair<double, std::string>> tics;
+  for (int step = least; step <= most; ++step) {
+    tics.emplace_back(step, labelOf(step));
+    table.columns.push_back({labelOf(step)});
+  }
+  table.columns.push_back({"mean"});
+  figure.settings =
+      namedTics("x", tics) + fmt::format("set xrange [{}:{}]\nset yrange [0:100]\n", least - 0.5, most + 0.5);
+  const double width = 0.8 / static_cast<double>(groups.size());
+  size_t number = 0;
+  for (const auto& [name, counts] : groups) {
+    double all = 0.0, sum = 0.0;
+    for (const auto& [step, count] : counts)
+      all += static_cast<double>(count), sum += step * static_cast<double>(count);
+    std::vector<std::vector<double>> rows;
+    std::vector<std::string> line = {name};
+    for (int step = least; step <= most; ++step) {
+      const auto found = counts.find(step);
+      const size_t count = found == counts.end() ? 0 : found->second;
+      const double share = 100.0 * static_cast<double>(count) / all;
+      rows.push_back({step + (static_cast<double>(number) + 0.5) * width - 0.4, share, width * 0.9,
+                      static_cast<double>(count)});
+      line.push_back(std::to_string(count));
+      csv += csvLine({part.name, name, std::to_string(step), labelOf(step), std::to_string(count)});
+    }
+    line.push_back(fixedText(sum / all, 2));
+    table.rows.push_back(line);
+    figure.plots.push_back(addBlock(figure, name + ": drawn at, share in %, width, answers", rows) +
+                           " using 1:2:3 with boxes fs solid 0.6 lw 1 " + seriesColour(number) + " title " +
+                           gnuplotQuoted(name));
+    ++number;
+  }
+  out.figure(
+      std::move(figure),
+      fmt::format(
+          "Part {}: severity of what was noticed, as shares of the answers that were asked for it.{}",
+          part.name,
+          text && !text->severityQuestion.empty() ? " Question: “" + text->severityQuestion + "”" : ""));
+  out.table(table);
+}
+
+void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out, std::string& csv) {
+  const StudyPart& part = page.study.plan.parts[index];
+  std::map<std::string, std::vector<double>> groups;
+  double least = 1e300, most = 0.0;
+  for (const StudyAnswer& answer : page.study.answers) {
+    if (answer.part != index || !(answer.reactionTimeS > 0.0) || !std::isfinite(answer.reactionTimeS))
+      continue;
+    groups[outcomeOf(part, answer)].push_back(answer.reactionTimeS);
+    least = std::min(least, answer.reactionTimeS);
+    most = std::max(most, answer.reactionTimeS);
+  }
+  if (groups.empty()) return;
+  if (most < 1.01 * least) least *= 0.5, most *= 2.0;
+  Figure figure;
+  figure.name = "reaction_times_" + page.stem(part.name);
+  figure.xTitle = "time from question to answer (s)";
+  figure.yTitle = "answers";
+  figure.heightPx = 260 + 18;
+  figure.description = "Distribution of reaction times, part " + part.name;
+  figure.settings =
+      "set logscale x\nset yrange [0:*]\nset xtics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, "
+      "1000)\n" +
+      fmt::format("set xrange [{}:{}]\n", shortestNumber(least * 0.9), shortestNumber(most * 1.1));
+  PageTable table;
+  table.caption = "Time from question to answer in part " + part.name + ", in seconds.";
+  table.file = "tables/reaction_times.csv";
+  table.columns = {{"answer", false}, {"answers"}, {"median"}, {"25 %"}, {"75 %"}, {"95 %"}, {"mean"}};
+  size_t number = 0;
+  for (const auto& [name, times] : groups) {
+    std::vector<std::vector<double>> rows;
+    const double step = std::log(most / least) / kBins;
+    std::vector<size_t> counts(kBins);
+    for (const double time : times)
+      ++counts[static_cast<size_t>(
+          std::clamp(static_cast<int>(std::log(time / least) / step), 0, kBins - 1))];
+    for (int bin = 0; bin < kBins; ++bin)
+      for (const int end : {bin, bin + 1})
+        rows.push_back({least * std::exp(end * step), static_cast<double>(counts[static_cast<size_t>(bin)])});
+    figure.plots.push_back(addBlock(figure, name + ": time in s, answers in its bin", rows) +
+                           " using 1:2 with lines title " + gnuplotQuoted(name) + " " +
+                           seriesColour(number++) + " lw 1.5");
+    const Summary summary = summarise(times);
+    table.rows.push_back({name, std::to_string(times.size()), fixedText(summary.median, 2),
+                          fixedText(quantile(times, 0.25), 2), fixedText(quantile(times, 0.75), 2),
+                          fixedText(summary.p95, 2), fixedText(summary.mean, 2)});
+    csv += csvLine({part.name, name, std::to_string(times.size()), cellText(summary.median),
+                    cellText(quantile(times, 0.25)), cellText(quantile(times, 0.75)), cellText(summary.p95),
+                    cellText(summary.mean)});
+  }
+  out.figure(std::move(figure),
+             fmt::format("Part {}: time from question to answer, in {} bins that are even in the logarithm.",
+                         part.name, kBins));
+  out.table(table);
+}
+
+}  // namespace
+
+void addAnswers(const StudyPage& page, PageWriter& out) {
+  std::string severity = csvLine({"part", "trials", "step", "label", "answers"});
+  std::string times =
+      csvLine({"part", "answer", "answers", "median_s", "quartile_1_s", "quartile_3_s", "p95_s", "mean_s"});
+  const std::string noTimes = times;
+  const bool graded = std::any_of(page.study.answers.begin(), page.study.answers.end(),
+                                  [](const StudyAnswer& answer) { return answer.severity.has_value(); });
+  out.openSection("answers", graded ? "Severity and reaction times" : "Reaction times");
+  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addSeverity(page, part, out, severity);
+  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addReactionTimes(page, part, out, times);
+  if (graded) out.file("tables/severity.csv", severity, "how often each step of severity was chosen");
+  if (times != noTimes) out.file("tables/reaction_times.csv", times, "reaction times by answer");
+  out.closeSection();
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Signal detection: d' and criterion of each observer and their means.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/output/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/study_page/sections.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+constexpr size_t kMostNames = 45;  // beyond, observers have no room for their codes
+constexpr size_t kOpenRows = 20;
+
+struct Dot {
+  std::string observer;
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Observers by their value, with the mean over them and its interval as lines.
+Figure dotFigure(const std::string& name, const std::string& yTitle, std::vector<Dot> dots,
+                 const MeanOverSubjects& mean) {
+  std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) { return a.value < b.value; });
+  Figure figure;
+  figure.name = name;
+  figure.key = false;
+  figure.xTitle = "observer";
+  figure.yTitle = yTitle;
+  figure.description = yTitle + " of each observer, from the least to the largest";
+  std::vector<std::vector<double>> rows;
+  std::vector<std::pair<double, std::string>> labels;
+  for (size_t i = 0; i < dots.size(); ++i) {
+    const auto place = static_cast<double>(i + 1);
+    rows.push_back({place, dots[i].value, dots[i].low, dots[i].high});
+    if (dots.size() <= kMostNames) labels.emplace_back(place, dots[i].observer);
+  }
+  const double end = static_cast<double>(dots.size()) + 0.5;
+  figure.settings = (labels.empty() ? "unset xtics\n" : namedTics("x", labels)) +
+                    fmt::format("set xrange [0.5:{}]\n", shortestNumber(end));
+  if (!labels.empty()) {
+    const bool dense = dots.size() > 8;
+    if (dense)
+      figure.settings += fmt::format("set xtics rotate by 90 right font ',{}'\n", dots.size() > 24 ? 6 : 8);
+    if (dense) figure.heightPx += 30;
+  }
+  if (mean.interval) {
+    const std::string band = addBlock(
+        figure, "interval of the mean: place, low, high",
+        {{0.5, mean.interval->low, mean.interval->high}, {end, mean.interval->low, mean.interval->high}});
+    figure.plots.push_back(
+        band + " using 1:2:3 with filledcurves fc rgb '#0072B2' fs transparent solid 0.12 noborder");
+  }
+  figure.plots.push_back(addBlock(figure, "mean over observers", {{0.5, mean.mean}, {end, mean.mean}}) +
+                         " using 1:2 with lines lw 1.5 " + seriesColour(0));
+  const std::string block = addBlock(figure, "place, value, interval from, to", rows);
+  figure.plots.push_back(block + " using 1:2:3:4 with yerrorbars pt 0 lw 1.2 lc rgb '#444444'");
+  figure.plots.push_back(block + " using 1:2 with points pt 7 ps 0.7 lc rgb '#444444'");
+  return figure;
+}
+
+std::string rankNote(size_t observers) {
+  return observers > kMostNames ? " Too many observers for their codes: the table has them." : "";
+}
+
+void addFigures(const StudyPage& page, const PartSensitivity& part, PageWriter& out) {
+  std::vector<Dot> dPrimes, criteria;
+  for (const SensitivityRow& row : part.rows) {
+    if (row.observer.empty()) continue;
+    if (row.yesNo) {
+      dPrimes.push_back(
+          {row.observer, row.yesNo->dPrime, row.yesNo->dPrimeInterval.low, row.yesNo->dPrimeInterval.high});
+      criteria.push_back({row.observer, row.yesNo->criterion, row.yesNo->criterionInterval.low,
+                          row.yesNo->criterionInterval.high});
+    }
+    if (row.mAfc)
+      dPrimes.push_back({row.observer, row.mAfc->dPrime, row.mAfc->low.value_or(row.mAfc->dPrime),
+                         row.mAfc->high.value_or(row.mAfc->dPrime)});
+  }
+  const std::string stem = page.stem(part.part);
+  out.html("<div class=\"figures pair\">\n");
+  if (!dPrimes.empty() && part.dPrime) {
+    const std::string how =
+        part.yesNo ? "bars are 95 % intervals after Gourevitch and Galanter"
+                   : "bars are 95 % intervals from Wilson's of the share of right answers, sides "
+                     "without bound left out";
+    out.figure(
+        dotFigure("d_prime_" + stem, "sensitivity d′", dPrimes, *part.dPrime),
+        fmt::format("Part {}: sensitivity d′ of each observer, sorted; {}. Line and band: mean over {} "
+                    "and its 95 % t interval.{}",
+                    part.part, how, counted(dPrimes.size(), "observer"), rankNote(dPrimes.size())));
+  }
+  if (!criteria.empty() && part.criterion)
+    out.figure(
+        dotFigure("criterion_" + stem, "criterion c", criteria, *part.criterion),
+        fmt::format(
+            "Part {}: criterion c of each observer, sorted, as above. Above 0: reluctant to say yes.{}",
+            part.part, rankNote(criteria.size())));
+  out.html("</div>\n");
+}
+
+std::vector<std::string> rowCells(const SensitivityRow& row, bool yesNo) {
+  const std::string name = row.observer.empty() ? "all together" : row.observer;
+  if (!yesNo) {
+    const auto bound = [](const std::optional<double>& value) { return fixedText(value, 2); };
+    return {name,
+            fmt::format("{}/{}", row.correct, row.trials),
+            percentText(static_cast<double>(row.correct) / static_cast<double>(row.trials)),
+            row.mAfc ? fixedText(row.mAfc->dPrime, 2) : "-",
+            row.mAfc ? bound(row.mAfc->low) : "-",
+            row.mAfc ? bound(row.mAfc->high) : "-"};
+  }
+  std::vector<std::string> out = {name, fmt::format("{}/{}", row.counts.hits, row.counts.signalTrials),
+                                  fmt::format("{}/{}", row.counts.falseAlarms, row.counts.noiseTrials)};
+  if (!row.yesNo) {
+    out.insert(out.end(), {"-", "-", "-", "-", "-", "-"});
+    return out;
+  }
+  const YesNoSensitivity& s = *row.yesNo;
+  out.insert(out.end(), {fixedText(s.dPrime, 2),
+                         fmt::format("{:.2f} to {:.2f}", s.dPrimeInterval.low, s.dPrimeInterval.high),
+                         fixedText(s.criterion, 2),
+                         fmt::format("{:.2f} to {:.2f}", s.criterionInterval.low, s.criterionInterval.high),
+                         fixedText(s.lnBeta, 2), fixedText(s.aPrime, 2)});
+  return out;
+}
+
+void addTables(const PartSensitivity& part, PageWriter& out) {
+  PageTable means;
+  means.caption = "Means over observers, part " + part.part + ", with 95 % t intervals.";
+  means.columns = {{"", false}, {"observers"}, {"mean"}, {"SD"}, {"95 % over observers"}};
+  const auto add = [&](const std::string& name, const std::optional<MeanOverSubjects>& mean) {
+    if (mean)
+      means.rows.push_back({name, std::to_string(mean->subjects), fixedText(mean->mean, 2),
+                            fixedText(mean->standardDeviation, 2), intervalText(mean->interval)});
+  };
+  add("sensitivity d′", part.dPrime);
+  add("criterion c", part.criterion);
+  out.table(means);
+  PageTable table;
+  table.caption = "Observers of part " + part.part +
+                  (part.yesNo ? ": d′ and criterion c with 95 % intervals, ln β, A′."
+                              : ": right answers and d′ with its 95 % interval.");
+  table.file = "tables/sensitivity.csv";
+  if (part.yesNo)
+    table.columns = {
+        {"observer", false}, {"hits"}, {"false alarms"}, {"d′"}, {"95 %"}, {"c"}, {"95 %"}, {"ln β"}, {"A′"}};
+  else
+    table.columns = {{"observer", false}, {"right"}, {"share"}, {"d′"}, {"95 % from"}, {"to"}};
+  for (const SensitivityRow& row : part.rows) table.rows.push_back(rowCells(row, part.yesNo));
+  table.folded = table.rows.size() > kOpenRows;
+  out.table(table);
+}
+
+}  // namespace
+
+void addSensitivity(const StudyPage& page, PageWriter& out) {
+  if (std::none_of(page.sensitivity.begin(), page.sensitivity.end(),
+                   [](const PartSensitivity& part) { return part.dPrime.has_value(); }))
+    return;
+  out.openSection("sensitivity", "Signal detection");
+  for (const PartSensitivity& part : page.sensitivity) {
+    if (page.sensitivity.size() > 1) out.heading("Part " + part.part);
+    if (!part.note.empty()) out.paragraph("Mind: " + part.note + ".");
+    if (part.rows.empty()) continue;
+    addFigures(page, part, out);
+    addTables(part, out);
+  }
+  out.paragraph(
+      "Equal-variance Gaussian model; rates are corrected by (k + 1/2) of (n + 1). Taken over all answers "
+      "together d′ "
+      "comes out too small where observers differ: the mean over observers is the one to report.");
+  out.file("tables/sensitivity.csv", toCsv(page.sensitivity), "sensitivity and criterion of each observer");
+  out.closeSection();
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/study/anova.h"
+#include "analysis/study/rates.h"
+#include "analysis/study/sensitivity.h"
+#include "analysis/study/validation.h"
+#include "analysis/study_page/page_writer.h"
+#include "analysis/study_page/protocol_text.h"
+#include "analysis/study_page/session_facts.h"
+#include "experiments/store/predictions.h"
+
+namespace limen::analysis {
+
+/// All that a page is made of.
+struct StudyPage {
+  StudyAnswers study;       ///< exclusions applied, unless they were refused
+  StudyAnswers everything;  ///< the same sessions, nothing excluded
+  bool exclusionsWanted = true, unfinishedWanted = false;
+  store::StudyProtocol protocol;
+  ProtocolText text;
+  SessionFacts facts;
+  StudyRates rates, allRates;  ///< of `study`, of `everything`
+  std::vector<PartAnova> anova;
+  std::vector<PartSensitivity> sensitivity;
+  std::optional<StudyValidation> validation;
+  std::string validationNote;  ///< why there is none although predictions are stored
+  ValidationSetting validationSetting;
+
+  /// Of a part, for names of files.
+  std::string stem(const std::string& part) const;
+};
+
+// Each writes its section, figures and files, or nothing if the study has nothing for it.
+void addHead(const StudyPage& page, PageWriter& out);
+void addExclusions(const StudyPage& page, PageWriter& out);
+void addRates(const StudyPage& page, PageWriter& out);
+void addAnova(const StudyPage& page, PageWriter& out);
+void addSensitivity(const StudyPage& page, PageWriter& out);
+void addValidation(const StudyPage& page, PageWriter& out);
+void addAnswers(const StudyPage& page, PageWriter& out);
+void addMethods(const StudyPage& page, PageWriter& out);
+/// Last: lists the files that the others wrote.
+void addProvenance(const StudyPage& page, PageWriter& out);
+
+// Figures that take more than a few lines.
+std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part);
+void addValidationFigures(const StudyPage& page, const PartValidation& part, PageWriter& out);
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& items);
+/// A rule of a protocol in words: "said yes in more than 25 % of the trials without a change".
+std::string ruleText(const std::string& rule, double limit);
+
+}  // namespace limen::analysis

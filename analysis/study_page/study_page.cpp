@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/study_page/study_page.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "analysis/output/page.h"
+#include "analysis/output/text_output.h"
+#include "analysis/study_page/sections.h"
+#include "analysis/study_page/staged_folder.h"
+#include "base/error.h"
+#include "base/text.h"
+
+namespace limen::embedded {
+extern const char* const kStudyPageCss;
+}  // namespace limen::embedded
+
+namespace limen::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Protocols that have a session which may count, in order of their first; or the one that was named.
+std::vector<std::string> chosenProtocols(const StudyChoice& choice) {
+  const store::SessionReader reader(choice.store);
+  std::vector<std::string> all, finished;
+  for (const store::StudySession& session : reader.sessions()) {
+    const auto note = [&](std::vector<std::string>& list) {
+      if (std::find(list.begin(), list.end(), session.protocol) == list.end())
+        list.push_back(session.protocol);
+    };
+    note(all);
+    const nlohmann::json facts = reader.environment(session.environment).facts;
+    const nlohmann::json frontEnd =
+        facts.is_object() ? facts.value("front_end", nlohmann::json::object()) : nlohmann::json::object();
+    const bool simulated = frontEnd.is_object() && frontEnd.value("simulated", false);
+    if (choice.observers == (simulated ? Observers::People : Observers::Simulated)) continue;
+    if (session.state == "finished" || choice.unfinished) note(finished);
+  }
+  // Where there is nothing to choose, or nothing that counts, the reader of answers has the word.
+  if (!choice.protocol.empty() || all.size() < 2 || finished.empty()) return {choice.protocol};
+  return finished;
+}
+
+void readValidation(StudyPage& page, const StudyChoice& choice) {
+  const std::vector<store::StudyPrediction> predictions = store::readPredictions(choice.store);
+  const bool any =
+      std::any_of(predictions.begin(), predictions.end(), [&](const store::StudyPrediction& one) {
+        return std::any_of(
+            page.study.answers.begin(), page.study.answers.end(),
+            [&](const StudyAnswer& answer) { return answer.stimulusHash == one.stimulusHash; });
+      });
+  if (!any) return;
+  const store::SessionReader reader(choice.store);
+  std::map<std::string, std::string> names;
+  const auto name = [&](const std::string& hash) {
+    if (!names.count(hash)) names[hash] = reader.display(hash).name;
+  };
+  for (const StudyAnswer& answer : page.study.answers) name(answer.displayHash);
+  for (const store::StudyPrediction& one : predictions) name(one.displayHash);
+  try {
+    page.validation = validateStudy(page.study, predictions, names, page.validationSetting);
+  } catch (const Error& error) {
+    page.validationNote = error.what();
+  }
+}
+
+StudyPage readPage(const StudyChoice& choice) {
+  StudyPage page;
+  page.exclusionsWanted = choice.exclusions;
+  page.unfinishedWanted = choice.unfinished;
+  page.study = readStudyAnswers(choice);
+  StudyChoice all = choice;
+  all.exclusions = false;
+  page.everything = readStudyAnswers(all);
+  page.protocol = store::SessionReader(choice.store).protocol(page.study.plan.hash);
+  page.text = readProtocolText(page.protocol);
+  page.facts = readSessionFacts(choice, page.study.plan.hash);
+  page.rates = studyRates(page.study);
+  page.allRates = studyRates(page.everything);
+  page.anova = studyAnova(page.study);
+  page.sensitivity = studySensitivity(page.study);
+  readValidation(page, choice);
+  return page;
+}
+
+StudyPageResult writePage(const StudyPage& page, const fs::path& folder, const fs::path& shownFolder) {
+  PageWriter out;
+  addHead(page, out);
+  addExclusions(page, out);
+  addRates(page, out);
+  addAnova(page, out);
+  addSensitivity(page, out);
+  addValidation(page, out);
+  addAnswers(page, out);
+  addMethods(page, out);
+  addProvenance(page, out);
+  fs::create_directories(folder / "figures");
+  fs::create_directories(folder / "tables");
+  for (const PageFile& file : out.files()) writeFileBytes((folder / file.path).string(), file.bytes);
+  const auto drawn = drawFigures(out.figures(), (folder / "figures").string());
+  writeFileBytes((folder / "report.html").string(),
+                 renderDocument(page.study.plan.title, embedded::kStudyPageCss,
+                                "<main class=\"study\">\n" + out.body(drawn) + "</main>\n"));
+  const StudyAnswers& study = page.study;
+  return {(shownFolder / "report.html").string(),
+          study.plan.title,
+          study.plan.hash,
+          study.observers.size(),
+          study.sessions,
+          study.answers.size(),
+          out.figures().size(),
+          study.simulated > 0};
+}
+
+}  // namespace
+
+std::string StudyPage::stem(const std::string& part) const {
+  // Names that differ in what a file's name may not hold are told apart by their place.
+  std::string own = slug(part);
+  size_t same = 0, place = 0, index = 0;
+  for (const StudyPart& one : study.plan.parts) {
+    if (slug(one.name) == own) ++same;
+    if (one.name == part) place = index;
+    ++index;
+  }
+  if (own.empty()) own = "part";
+  return same > 1 || slug(part).empty() ? own + "_" + std::to_string(place + 1) : own;
+}
+
+bool holdsSessions(const std::string& store) {
+  try {
+    return !store::SessionReader(store).sessions().empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::vector<StudyPageResult> writeStudyPages(const StudyPageOptions& options) {
+  std::vector<StudyPage> pages;
+  for (const std::string& protocol : chosenProtocols(options.choice)) {
+    StudyChoice choice = options.choice;
+    choice.protocol = protocol;
+    pages.push_back(readPage(choice));
+  }
+  const StagedFolder staged(options.folder);
+  std::vector<StudyPageResult> results;
+  for (const StudyPage& page : pages) {
+    const bool own = options.ownFolders || pages.size() > 1;
+    const fs::path below = own ? slug(page.study.plan.title) + "_" + page.study.plan.hash.substr(0, 8) : "";
+    results.push_back(writePage(page, staged.path() / below, fs::path(options.folder) / below));
+  }
+  staged.putInPlace();
+  return results;
+}
+
+}  // namespace limen::analysis
