@@ -18,8 +18,8 @@ namespace {
 /// How often each observer counts.
 using Weights = std::vector<int64_t>;
 
-AnswerCount sumOf(const ObserverCounts& counts, const Weights& weights) {
-  AnswerCount out;
+YesCount sumOf(const ObserverCounts& counts, const Weights& weights) {
+  YesCount out;
   for (const auto& [observer, count] : counts) {
     out.yes += weights[observer] * count.yes;
     out.trials += weights[observer] * count.trials;
@@ -29,15 +29,15 @@ AnswerCount sumOf(const ObserverCounts& counts, const Weights& weights) {
 
 LinkReport reportOf(const LinkData& data, const LinkReportSetting& setting, const Weights& weights) {
   LinkReport report;
-  const AnswerCount catches = sumOf(data.catches, weights);
+  const YesCount catches = sumOf(data.catches, weights);
   report.catchTrials = catches.trials;
   if (catches.trials > 0)
     report.guessFromCatch = static_cast<double>(catches.yes) / static_cast<double>(catches.trials);
   std::vector<LinkPoint> points;
   std::vector<double> predicted, constant;
-  AnswerCount all;
+  YesCount all;
   for (size_t i = 0; i < data.ratings.size(); ++i) {
-    const AnswerCount own = sumOf(data.answers[i], weights);
+    const YesCount own = sumOf(data.answers[i], weights);
     if (own.trials == 0) continue;  // none of its observers was drawn
     points.push_back({data.ratings[i], own.yes, own.trials});
     predicted.push_back(data.predicted[i]);

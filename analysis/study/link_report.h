@@ -12,11 +12,11 @@
 
 namespace limen::analysis {
 
-struct AnswerCount {
+struct YesCount {
   int64_t yes = 0, trials = 0;
 };
 /// Of each observer, by StudyAnswer::observer.
-using ObserverCounts = std::map<size_t, AnswerCount>;
+using ObserverCounts = std::map<size_t, YesCount>;
 
 /// What is compared: one entry a scenario, and the catch trials of the part.
 struct LinkData {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/analysis/expect_near.h"
 #include "tests/analysis/synthetic_store.h"
 #include "tests/run_program.h"
 
@@ -57,11 +58,6 @@ class CorrelateProgram : public testing::Test {
   }
   const TemporaryFolder folder_;
 };
-
-void expectNear(const json& found, double expected, double within = 1e-6) {
-  ASSERT_TRUE(found.is_number()) << found;
-  EXPECT_NEAR(found.get<double>(), expected, within);
-}
 
 TEST_F(CorrelateProgram, CoefficientsAreThoseOfR) {
   const json out = call(write("rates.csv", kRates) + " --x a,b,c --y rate --clamp");

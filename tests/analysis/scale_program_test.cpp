@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/analysis/expect_near.h"
 #include "tests/analysis/synthetic_store.h"
 #include "tests/run_program.h"
 
@@ -42,11 +43,6 @@ class ScaleProgram : public testing::Test {
   }
   const TemporaryFolder folder_;
 };
-
-void expectNear(const json& found, double expected, double within) {
-  ASSERT_TRUE(found.is_number()) << found;
-  EXPECT_NEAR(found.get<double>(), expected, within);
-}
 
 TEST_F(ScaleProgram, ValuesErrorsAndStepsAreThoseOfR) {
   struct Expected {

@@ -18,7 +18,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kProtocol =
+constexpr const char* kFittedProtocol =
     "task: {type: yes_no}\n"
     "factors:\n"
     "  kind: [fine, coarse]\n"
@@ -55,9 +55,9 @@ void expectBlocks(const Condition& condition, const std::vector<Counted>& expect
 }
 
 TEST_F(FittedPartsTest, BlocksOfAFactorByHand) {
-  addHandMadeSession(store(), "a", kProtocol,
+  addHandMadeSession(store(), "a", kFittedProtocol,
                      at("coarse", "8.5", 1, 3) + at("fine", "4", 2, 2) + at("fine", "4", 1, 1, false));
-  addHandMadeSession(store(), "b", kProtocol,
+  addHandMadeSession(store(), "b", kFittedProtocol,
                      at("fine", "4", 1, 2) + at("fine", "8.5", 0, 2) + at("fine", "8.5", 0, 3, false));
   const StudyAnswers study = read();
   const std::vector<FittedPart> parts = fittedParts(study, {});
@@ -91,7 +91,7 @@ TEST_F(FittedPartsTest, BlocksOfAFactorByHand) {
 
 // 1 - F of a rising Gumbel is the reversed one of the mirrored axis.
 TEST_F(FittedPartsTest, TakesTheAssumedFunctionFromTheProtocol) {
-  addHandMadeSession(store(), "a", kProtocol, at("fine", "4", 1, 2));
+  addHandMadeSession(store(), "a", kFittedProtocol, at("fine", "4", 1, 2));
   const StudyAnswers study = read();
   const std::optional<AssumedFunction>& assumed = study.plan.parts[0].assumed;
   ASSERT_TRUE(assumed);
