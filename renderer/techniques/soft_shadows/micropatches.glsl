@@ -31,6 +31,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
     for (int x = low.x; x <= high.x; ++x) {
       const float z = texelFetch(minimumMap, ivec2(x, y), level).x;
       ++fetchCount;
+      ++examinedCount;
 #if GAP_FILL > 0
       const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
       ++fetchCount;
@@ -53,7 +54,10 @@ float gatherOccluders(vec4 p, Area area, int level) {
         ++occluderCount;
         // Clamped in an order that turns a NaN, were there one, into a bound.
         const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
-        if (a.x < b.x && a.y < b.y) accumulate(a, b);
+        if (a.x < b.x && a.y < b.y) {
+          ++usedCount;
+          accumulate(a, b);
+        }
       }
 #if GAP_FILL > 0
       left = z;

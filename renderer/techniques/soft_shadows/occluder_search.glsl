@@ -2,20 +2,15 @@
 // Finds the texels of the shadow map that can matter for a receiver, and has them gathered. Schwarz 2009, sections 4.1 and
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
-layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
-layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+#include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements, budgetPerAxis;
+uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
 uniform int maxIterations;
 
 void clearGathered();
 bool isSaturated();
 float gatheredVisibility();
-
-// Texels [low, high) of level 0.
-struct Area {
-  ivec2 low, high;
-};
 
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
@@ -27,7 +22,30 @@ Area searchArea(vec4 p, float z, out bool reachesOutside) {
   return Area(ivec2(clamp(low, vec2(0.0), limit)), ivec2(clamp(high, vec2(0.0), limit)));
 }
 
-#include "renderer/techniques/soft_shadows/depth_bounds_hsm.glsl"
+// Finest level at which the area's texels, rounded outward to that level's grid, keep within the budget on both axes.
+int microOccluderLevel(Area area) {
+  const ivec2 last = area.high - 1;
+  int level = 0;
+  while (level < levels - 1) {
+    const ivec2 count = (last >> level) - (area.low >> level) + 1;
+    if (max(count.x, count.y) <= budgetPerAxis) break;
+    ++level;
+  }
+  return level;
+}
+
+// Area of which the depth range decides. A coarse micro-occluder that the search area cuts stands for texels outside of it
+// too: left out, they would make points fully lit that neighbours, with one texel of the occluder in their area, find
+// shadowed by all of it. Schwarz 2009, section 4.3.1 ("over-precision"). Tiles of the HSM are whole ones at any level that a
+// budget of 4 or more leads to.
+Area queriedArea(Area area) {
+#ifdef GROW
+  const int level = microOccluderLevel(area);
+  return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
+#else
+  return area;
+#endif
+}
 
 // Narrows the search area of a receiver, or finds that it needs none: false, with the visibility that is known then.
 bool findArea(vec4 p, out Area area, out float visibility) {
@@ -44,8 +62,9 @@ bool findArea(vec4 p, out Area area, out float visibility) {
       if (reachesOutside) pixelClass = kOutside;
       return false;
     }
-    const vec2 range = depthRange(area);
-    fetchCount += 8u;
+    const bool rough = i < roughQueries;
+    const vec2 range = depthRange(queriedArea(area), rough);
+    fetchCount = 1u + boundFetches;
     if (range.x >= biasedDepth(p, 0)) return false;
     // All texels block: neighbouring texels are taken as one surface.
     if (range.y < biasedDepth(p, 0) && !reachesOutside) {
@@ -53,22 +72,11 @@ bool findArea(vec4 p, out Area area, out float visibility) {
       visibility = 0.0;
       return false;
     }
-    if (i >= refinements || range.x <= nearest) break;
-    nearest = range.x;
+    // Unless the next query is a better one, it would get the same answer.
+    if (i >= refinements || (range.x <= nearest && rough == (i + 1 < roughQueries))) break;
+    nearest = max(nearest, range.x);
   }
   return true;
-}
-
-// Finest level at which the area's texels, rounded outward to that level's grid, keep within the budget on both axes.
-int microOccluderLevel(Area area) {
-  const ivec2 last = area.high - 1;
-  int level = 0;
-  while (level < levels - 1) {
-    const ivec2 count = (last >> level) - (area.low >> level) + 1;
-    if (max(count.x, count.y) <= budgetPerAxis) break;
-    ++level;
-  }
-  return level;
 }
 
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
@@ -81,5 +89,6 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   clearGathered();
   const int level = microOccluderLevel(area);
   levelUsed = uint(level);
+  areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
   return gatherOccluders(p, area, level);
 }

@@ -26,7 +26,7 @@ const Registered<TechniqueInfo> kRegistered{
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Backprojection>(values); },
      .errorBound = {},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = OccluderSearch::counterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -40,7 +40,7 @@ const Registered<TechniqueInfo> kRegistered{
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Bitmask>(values); },
      .errorBound = {},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = OccluderSearch::counterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques
