@@ -3,18 +3,26 @@
 
 #include <cmath>
 
+#include "base/error.h"
+
 namespace limen::techniques {
 namespace {
 
-gl::ShaderDefines withGapFill(const ParameterValues& values, gl::ShaderDefines defines) {
-  const std::string& fill = values.text("gap_fill");
+constexpr const char* kDefaultGapFill = "left_bottom";
+
+gl::ShaderDefines withOccluders(const ParameterValues& values, gl::ShaderDefines defines) {
+  const std::string &fill = values.text("gap_fill"), &occluders = values.text("occluders");
   defines["GAP_FILL"] = fill == "none" ? "0" : fill == "left_bottom" ? "1" : "2";
+  defines["OCCLUDERS"] = occluders == "micropatches" ? "0"
+                         : occluders == "microquads" ? "1"
+                         : occluders == "contours"   ? "3"
+                                                     : "2";
   return defines;
 }
 
 }  // namespace
 
-std::vector<Parameter> OccluderSearch::searchParameters() {
+std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string> occluders) {
   // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
   // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
   // own.
@@ -25,18 +33,30 @@ std::vector<Parameter> OccluderSearch::searchParameters() {
   all.push_back(integerParameter("refinements", 2, 0, 3, "",
                                  "Times that the search area is narrowed by its depth range",
                                  "Schwarz 2009, section 4.1"));
-  all.push_back(choiceParameter("gap_fill", "left_bottom", {"none", "left_bottom", "diagonal"},
+  all.push_back(choiceParameter("gap_fill", kDefaultGapFill, {"none", "left_bottom", "diagonal"},
                                 "Neighbours to which a micropatch is stretched to close gaps",
                                 "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)"));
+  all.push_back(choiceParameter("occluders", "micropatches", std::move(occluders),
+                                "What is made of texels that block: rectangles at one depth, a mesh between "
+                                "their centres, that with triangles where three of four block, or contours",
+                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.4.5"));
   return all;
+}
+
+void OccluderSearch::checkSearch(const ParameterValues& values) {
+  if (values.text("occluders") != "micropatches" && values.text("gap_fill") != kDefaultGapFill)
+    throw Error("'gap_fill' stretches micropatches; there are none, and no gaps", "gap_fill",
+                "leave it out, or give occluders: micropatches");
 }
 
 OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
                                gl::ShaderDefines defines)
     : VisibilityTechnique(values, std::move(shader), std::move(pass),
-                          withGapFill(values, std::move(defines))),
+                          withOccluders(values, std::move(defines))),
       budget_(static_cast<int>(values.integer("budget"))),
-      refinements_(static_cast<int>(values.integer("refinements"))) {}
+      refinements_(static_cast<int>(values.integer("refinements"))) {
+  checkSearch(values);
+}
 
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
