@@ -11,7 +11,7 @@ const float kFarthest = 2048.0;  // light's extents; 2^28 steps where 32 samples
 
 ivec2 toSteps(vec2 place, int side) {
   // In an order that turns a NaN, were there one, into a bound.
-  const vec2 bounded = min(max(place, vec2(-1e15)), vec2(1e15)), fromCentre = bounded - 0.5;
+  const vec2 bounded = min(max(place, vec2(-1e30)), vec2(1e30)), fromCentre = bounded - 0.5;
   const float farthest = max(abs(fromCentre.x), abs(fromCentre.y));
   const vec2 pulled = farthest > kFarthest ? fromCentre * (kFarthest / farthest) + 0.5 : bounded;
   return ivec2(roundEven(pulled * float(side * kSteps)));

@@ -35,15 +35,15 @@ ivec2 samplesUpTo(vec2 v, float n, float offset) {
 }
 
 #if PATTERN == 0
-layout(binding = 6) uniform usampler2DArray rectangles;
+layout(binding = 6) uniform usampler2DArray rectangleMasks;
 
 // Bounds are rounded to the table's steps, those of two rectangles at one edge alike.
 void addToMask(vec2 low, vec2 high) {
   const ivec2 first = ivec2(roundEven(low * float(RECTANGLES))), end = ivec2(roundEven(high * float(RECTANGLES)));
   for (int layer = 0; layer < MASK_WORDS / 4; ++layer) {
-    const uvec4 outside = texelFetch(rectangles, ivec3(end.x, first.y, layer), 0) |
-                          texelFetch(rectangles, ivec3(first.x, end.y, layer), 0);
-    const uvec4 inside = texelFetch(rectangles, ivec3(end, layer), 0) & ~outside;
+    const uvec4 outside = texelFetch(rectangleMasks, ivec3(end.x, first.y, layer), 0) |
+                          texelFetch(rectangleMasks, ivec3(first.x, end.y, layer), 0);
+    const uvec4 inside = texelFetch(rectangleMasks, ivec3(end, layer), 0) & ~outside;
     for (int i = 0; i < 4; ++i) mask[4 * layer + i] |= inside[i];
   }
 }
