@@ -199,7 +199,8 @@ class Microquads : public TechniqueTest {
 
   static std::map<std::string, scene::Scene> scenes() {
     std::map<std::string, scene::Scene> out;
-    for (const char* name : {"sphere_grid", "box_under_light", "two_boxes"}) out[name] = makeScene(name);
+    for (const char* name : {"sphere_grid", "box_under_light"}) out[name] = makeScene(name);
+    out["two_boxes"] = makeScene("two_boxes", {{"light_size", 3.0}});
     out["tilted_card"] = tiltedCard();
     return out;
   }
