@@ -176,6 +176,17 @@ void Texture::write(const Image& image, int level) const {
                       image.data.data());
 }
 
+void Texture::writeUint(const std::vector<uint32_t>& texels, int layer) const {
+  const FormatFacts facts = factsOf(format_);
+  assert(facts.type == GL_UNSIGNED_INT && layer < std::max(layers_, 1) &&
+         texels.size() == static_cast<size_t>(sizePx_.x) * sizePx_.y * facts.channels);
+  if (layers_ > 0)
+    glTextureSubImage3D(id_, 0, 0, 0, layer, sizePx_.x, sizePx_.y, 1, facts.external, GL_UNSIGNED_INT,
+                        texels.data());
+  else
+    glTextureSubImage2D(id_, 0, 0, 0, sizePx_.x, sizePx_.y, facts.external, GL_UNSIGNED_INT, texels.data());
+}
+
 Framebuffer::Framebuffer(const std::vector<const Texture*>& colours, const Texture* depth) {
   glCreateFramebuffers(1, &id_);
   std::vector<GLenum> buffers;

@@ -65,6 +65,8 @@ class Texture {
   Image readLayer(int layer, int level = 0) const;
   std::vector<uint32_t> readUint(int level = 0) const;
   void write(const Image& image, int level = 0) const;
+  /// Unsigned formats only: all channels of the finest level of one layer (0 where there are none).
+  void writeUint(const std::vector<uint32_t>& texels, int layer = 0) const;
 
  private:
   uint32_t id_ = 0;

@@ -6,12 +6,12 @@
 //   s = z / (p_z - z) * (p_z t - p_x) / w + 1/2.
 void accumulate(vec2 low, vec2 high);
 
-// z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
-float throwOf(float z, float pz) { return z / (pz - z); }
+Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 
 // Visibility by the micropatches of a level that lie in the area.
 float gatherOccluders(vec4 p, Area area, int level) {
-  const ivec2 low = area.low >> level, high = (area.high - 1) >> level;
+  const Range range = occluderRange(area, level);
+  const ivec2 low = range.low, high = range.high;
   const ivec2 count = high - low + 1;
   if (float(count.x + 1) * float(count.y) > float(maxIterations)) {
     pixelClass = kCutShort;

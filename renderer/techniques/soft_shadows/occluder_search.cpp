@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "renderer/frame/multi_scale_map.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
 
 namespace limen::techniques {
 namespace {
+
+constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
+                     *kDefaultSamples = "one_then_four";
 
 Structure structureOf(const std::string& name) {
   return name == "none"       ? Structure::None
@@ -21,8 +25,12 @@ Structure structureOf(const std::string& name) {
 bool hasLayers(Structure structure) { return structure >= Structure::Mssm; }
 
 gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines defines) {
-  const std::string& fill = values.text("gap_fill");
+  const std::string &fill = values.text("gap_fill"), &occluders = values.text("occluders");
   defines["GAP_FILL"] = fill == "none" ? "0" : fill == "left_bottom" ? "1" : "2";
+  defines["OCCLUDERS"] = occluders == "micropatches" ? "0"
+                         : occluders == "microquads" ? "1"
+                         : occluders == "contours"   ? "3"
+                                                     : "2";
   const Structure structure = structureOf(values.text("structure"));
   defines[structure == Structure::None  ? "STRUCTURE_NONE"
           : structure == Structure::Hsm ? "STRUCTURE_HSM"
@@ -38,7 +46,7 @@ int roughQueries(const std::string& samples) { return samples == "one" ? 1000 : 
 
 }  // namespace
 
-std::vector<Parameter> OccluderSearch::searchParameters() {
+std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string> occluders) {
   // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
   // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
   // own.
@@ -54,10 +62,10 @@ std::vector<Parameter> OccluderSearch::searchParameters() {
                       "What finds the depth range of a search area: nothing, hierarchical shadow map, "
                       "multi-scale shadow map, N-buffer, Y shadow map",
                       "Schwarz 2009, sections 4.1 and 4.3; N-buffer: Décoret 2005"));
-  all.push_back(choiceParameter("ysm_base", "256", {"64", "128", "256", "512"},
+  all.push_back(choiceParameter("ysm_base", kDefaultBase, {"64", "128", "256", "512"},
                                 "Texels along a side of the Y shadow map's layers, at most the map's",
                                 "Schwarz 2009, section 4.3.2"));
-  all.push_back(choiceParameter("range_samples", "one_then_four", {"one", "one_then_four", "four"},
+  all.push_back(choiceParameter("range_samples", kDefaultSamples, {"one", "one_then_four", "four"},
                                 "Squares that answer a depth range in the structures with layers: one around "
                                 "the area, four at its corners, or one for the first range of a pixel",
                                 "Schwarz 2009, section 4.3.1 (one_then_four)"));
@@ -65,10 +73,30 @@ std::vector<Parameter> OccluderSearch::searchParameters() {
                                  "Structures with layers take whole micro-occluders of the level that the "
                                  "budget leads to; without, a seam stands where pixels become fully lit",
                                  "Schwarz 2009, section 4.3.1"));
-  all.push_back(choiceParameter("gap_fill", "left_bottom", {"none", "left_bottom", "diagonal"},
+  all.push_back(choiceParameter("gap_fill", kDefaultGapFill, {"none", "left_bottom", "diagonal"},
                                 "Neighbours to which a micropatch is stretched to close gaps",
                                 "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)"));
+  all.push_back(choiceParameter("occluders", "micropatches", std::move(occluders),
+                                "What is made of texels that block: rectangles at one depth, a mesh between "
+                                "their centres, that with triangles where three of four block, or contours",
+                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.4.5"));
   return all;
+}
+
+void OccluderSearch::checkSearch(const ParameterValues& values) {
+  if (values.text("occluders") != "micropatches" && values.text("gap_fill") != kDefaultGapFill)
+    throw Error("'gap_fill' stretches micropatches; there are none, and no gaps", "gap_fill",
+                "leave it out, or give occluders: micropatches");
+  const Structure structure = structureOf(values.text("structure"));
+  if (structure != Structure::Ysm && values.text("ysm_base") != kDefaultBase)
+    throw Error("'ysm_base' is about the Y shadow map, and there is none", "ysm_base",
+                "leave it out, or give structure: ysm");
+  if (!hasLayers(structure) && values.text("range_samples") != kDefaultSamples)
+    throw Error("'range_samples' is about structures with layers, and there are none", "range_samples",
+                "leave it out, or give structure: mssm, n_buffer or ysm");
+  if (!hasLayers(structure) && !values.boolean("growth"))
+    throw Error("'growth' is about structures with layers, and there are none", "growth",
+                "leave it out, or give structure: mssm, n_buffer or ysm");
 }
 
 OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
@@ -80,7 +108,9 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
       structure_(structureOf(values.text("structure"))),
       base_(structure_ == Structure::Ysm
                 ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
-                : mapSettings().resolution) {}
+                : mapSettings().resolution) {
+  checkSearch(values);
+}
 
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());

@@ -2,6 +2,7 @@
 // Finds the texels of the shadow map that can matter for a receiver, and has them gathered. Schwarz 2009, sections 4.1 and
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
+// OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours.
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements, budgetPerAxis;
 uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
@@ -12,22 +13,38 @@ void clearGathered();
 bool isSaturated();
 float gatheredVisibility();
 
+// Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
+#if OCCLUDERS == 0
+const float kAreaBorder = 0.0;
+#else
+const float kAreaBorder = 0.5;
+#endif
+
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
   const vec2 centre = p.xy / p.z;
   const vec2 halfSize = 0.5 * lightSize * max(1.0 / z - 1.0 / p.z, 0.0);
-  const vec2 low = floor(mapTexel(centre - halfSize)), high = ceil(mapTexel(centre + halfSize));
+  const vec2 low = floor(mapTexel(centre - halfSize) - kAreaBorder);
+  const vec2 high = ceil(mapTexel(centre + halfSize) + kAreaBorder);
   reachesOutside = any(lessThan(low, vec2(0.0))) || any(greaterThan(high, vec2(float(resolution))));
   const vec2 limit = vec2(float(resolution));
   return Area(ivec2(clamp(low, vec2(0.0), limit)), ivec2(clamp(high, vec2(0.0), limit)));
 }
 
-// Finest level at which the area's texels, rounded outward to that level's grid, keep within the budget on both axes.
+// Micro-occluders of a level, from `low` to `high`; none if `high` is below `low`.
+struct Range {
+  ivec2 low, high;
+};
+
+// Those that may matter for an area, rounded outward to the level's grid.
+Range occluderRange(Area area, int level);
+
+// Finest level at which the area's micro-occluders keep within the budget on both axes.
 int microOccluderLevel(Area area) {
-  const ivec2 last = area.high - 1;
   int level = 0;
   while (level < levels - 1) {
-    const ivec2 count = (last >> level) - (area.low >> level) + 1;
+    const Range range = occluderRange(area, level);
+    const ivec2 count = range.high - range.low + 1;
     if (max(count.x, count.y) <= budgetPerAxis) break;
     ++level;
   }
@@ -79,7 +96,16 @@ bool findArea(vec4 p, out Area area, out float visibility) {
   return true;
 }
 
+// z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
+float throwOf(float z, float pz) { return z / (pz - z); }
+
+#if OCCLUDERS == 0
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
+#elif OCCLUDERS == 3
+#include "renderer/techniques/soft_shadows/contours.glsl"
+#else
+#include "renderer/techniques/soft_shadows/microquads.glsl"
+#endif
 
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;

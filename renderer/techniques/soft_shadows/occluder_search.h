@@ -9,11 +9,15 @@ namespace limen::techniques {
 enum class Structure { None, Hsm, Mssm, NBuffer, Ysm };
 
 /// Base of the techniques that backproject the shadow map's texels onto the light: finds the texels that can
-/// matter for a receiver by an acceleration structure and loops over them as micropatches. What a micropatch
-/// does to the visibility is the shader's own (area, bitmask). Source: Schwarz 2009, sections 4.1 to 4.3.
+/// matter for a receiver by an acceleration structure and loops over them as micro-occluders. What a
+/// micro-occluder does to the visibility is the shader's own (area, bitmask). Source: Schwarz 2009,
+/// sections 4.1 to 4.4.
 class OccluderSearch : public VisibilityTechnique {
  public:
-  static std::vector<Parameter> searchParameters();
+  /// `occluders` are the kinds that the shader can gather.
+  static std::vector<Parameter> searchParameters(std::vector<std::string> occluders);
+  /// Throws Error where values of these parameters do not go together.
+  static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique, and structure_bytes: the minimum/maximum pyramid, of which every
   /// structure needs the minimum for micro-occluders, and the layers on top of it.
   static std::vector<std::string> counterNames();
