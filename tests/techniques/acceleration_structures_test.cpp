@@ -58,9 +58,11 @@ class AccelerationStructures : public TechniqueTest {
   /// A texel blocks a point if its depth is smaller, in float as in double: no biases. The hybrid's layers
   /// have a quarter of the map's resolution.
   static Given unbiased(const std::string& structure, const std::string& gapFill = "none") {
-    return {
-        {"structure", structure}, {"resolution", std::string("256")}, {"budget", int64_t{0}}, {"bias", 0.0},
-        {"slope_bias", 0.0},      {"ysm_base", std::string("64")},    {"gap_fill", gapFill}};
+    Given given = {{"structure", structure}, {"resolution", std::string("256")},
+                   {"budget", int64_t{0}},   {"bias", 0.0},
+                   {"slope_bias", 0.0},      {"gap_fill", gapFill}};
+    if (structure == "ysm") given["ysm_base"] = std::string("64");
+    return given;
   }
 
   /// Narrows the cut of the pyramid from point to light until its nearest texel no longer lets it shrink.
