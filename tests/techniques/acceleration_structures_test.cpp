@@ -137,12 +137,12 @@ TEST_F(AccelerationStructures, CallOnlyThoseLitOrInUmbraThatAre) {
 // visibility is taken as 0: true where their patches leave no gap, that is when they are stretched in all
 // three directions.
 TEST_F(AccelerationStructures, LeaveVisibilityAsItIsWithoutThem) {
-  struct Case {
+  struct Judged {
     const char* technique;
     double step;  // the least amount by which rounding can change visibility
   };
-  for (const Case& tried :
-       {Case{"soft_shadows/backprojection", 1e-5}, Case{"soft_shadows/bitmask", 1.0 / 256.0}})
+  for (const Judged& tried :
+       {Judged{"soft_shadows/backprojection", 1e-5}, Judged{"soft_shadows/bitmask", 1.0 / 256.0}})
     for (const char* name : {"sphere_grid", "comb", "two_boxes"}) {
       const scene::Scene scene = makeScene(name);
       for (const char* fill : {"none", "left_bottom", "diagonal"}) {

@@ -13,7 +13,7 @@
 namespace limen::techniques {
 namespace {
 
-struct Structure {
+struct Tested {
   const char* name;
   gl::ShaderDefines defines;
   bool hasLayers;
@@ -21,8 +21,8 @@ struct Structure {
   bool isHybrid = false;
 };
 
-const std::vector<Structure>& structures() {
-  static const std::vector<Structure> kAll = {
+const std::vector<Tested>& testedStructures() {
+  static const std::vector<Tested> kAll = {
       {"hsm", {{"STRUCTURE_HSM", "1"}}, false},
       {"ysm", {{"STRUCTURE_YSM", "1"}}, true, false, true},
       {"n_buffer", {{"STRUCTURE_WINDOWS", "1"}, {"CORNER", "1"}}, true, true},
@@ -33,7 +33,7 @@ const std::vector<Structure>& structures() {
 class DepthBounds : public TechniqueTest {
  protected:
   /// What `structure` says of each area (low.x, low.y, high.x, high.y; high exclusive).
-  static std::vector<glm::vec2> ask(const Structure& structure, const Image& map,
+  static std::vector<glm::vec2> ask(const Tested& structure, const Image& map,
                                     const std::vector<glm::ivec4>& areas, bool rough) {
     const frame::DepthPyramid pyramid(map);
     const gl::Buffer in(areas), out(static_cast<int64_t>(areas.size()) * 8, nullptr);
@@ -62,7 +62,7 @@ class DepthBounds : public TechniqueTest {
 
   /// Texels that each area's range speaks for, found without knowing how: in a map that grows along one axis
   /// the range's ends name the first and the last column, in one that grows along the other the rows.
-  static std::vector<double> texelsSpokenFor(const Structure& structure, int resolution,
+  static std::vector<double> texelsSpokenFor(const Tested& structure, int resolution,
                                              const std::vector<glm::ivec4>& areas, bool rough) {
     Image columns(resolution, resolution, 1), rows(resolution, resolution, 1);
     for (int y = 0; y < resolution; ++y)
@@ -137,7 +137,7 @@ TEST_F(DepthBounds, HoldEveryTexelOfTheAreaAndNothingThatTheMapLacks) {
   for (const int resolution : {1, 2, 8, 64}) {
     const std::vector<glm::ivec4> areas = areasOf(resolution);
     for (const auto& [name, map] : mapsOf(resolution))
-      for (const Structure& structure : structures())
+      for (const Tested& structure : testedStructures())
         for (const bool rough : {false, true}) {
           const std::vector<glm::vec2> ranges = ask(structure, map, areas, rough);
           const glm::vec2 whole = frame::rangeOf(map, {0, 0}, {resolution, resolution});
@@ -164,7 +164,7 @@ TEST_F(DepthBounds, FourSquaresAreExactForAreasThatTheyTile) {
   const int resolution = 64;
   const std::vector<glm::ivec4> areas = areasOf(resolution);
   const Image map = mapsOf(resolution).at("random");
-  for (const Structure& structure : structures()) {
+  for (const Tested& structure : testedStructures()) {
     if (!structure.hasLayers || structure.isHybrid) continue;
     const std::vector<glm::vec2> ranges = ask(structure, map, areas, false);
     int tiled = 0;
@@ -187,8 +187,8 @@ TEST_F(DepthBounds, FourSquaresAreExactForAreasThatTheyTile) {
 TEST_F(DepthBounds, TheMultiScaleMapIsNoLooserThanTheNBufferAndTighterAtTheLowerBorders) {
   const int resolution = 64;
   const std::vector<glm::ivec4> areas = areasOf(resolution);
-  const std::vector<double> corner = texelsSpokenFor(structures()[2], resolution, areas, true),
-                            centre = texelsSpokenFor(structures()[3], resolution, areas, true);
+  const std::vector<double> corner = texelsSpokenFor(testedStructures()[2], resolution, areas, true),
+                            centre = texelsSpokenFor(testedStructures()[3], resolution, areas, true);
   int tighter = 0;
   for (size_t i = 0; i < areas.size(); ++i) {
     ASSERT_LE(centre[i], corner[i]);
@@ -206,7 +206,7 @@ TEST_F(DepthBounds, LoosenessFallsFromPyramidOverHybridToMultiScaleMap) {
   const int resolution = 64;
   const std::vector<glm::ivec4> areas = areasOf(resolution);
   std::map<std::string, double> loose;
-  for (const Structure& structure : structures())
+  for (const Tested& structure : testedStructures())
     for (const bool rough : {false, true}) {
       const std::vector<double> spokenFor = texelsSpokenFor(structure, resolution, areas, rough);
       double sum = 0.0;
