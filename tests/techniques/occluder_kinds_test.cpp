@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which values of the parameters about occluders go together, and all kinds of occluders on scenes made to
 // break them.
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "tests/techniques/technique_fixture.h"
 
@@ -79,6 +82,30 @@ Kinds kinds() {
                           {"pattern", std::string(pattern)}}});
   }
   return out;
+}
+
+TEST_F(OccluderKinds, LoopsThatTheDriverLeavesEarlyAreNoResult) {
+  if (!context().device().software) GTEST_SKIP() << "only software renderers leave loops";
+  // A light over all of the map: 511 x 511 cells, of which llvmpipe would visit a quarter.
+  const scene::Scene scene = makeScene("box_under_light", {{"light_size", 10.0}});
+  for (const Kinds::value_type& kind :
+       {Kinds::value_type{"soft_shadows/backprojection", {{"occluders", std::string("microquads")}}},
+        {"soft_shadows/backprojection", {{"occluders", std::string("contours")}}},
+        {"soft_shadows/bitmask",
+         {{"occluders", std::string("microquads")}, {"quad_mask", std::string("arithmetic")}}}}) {
+    Given given = kind.second;
+    given["resolution"] = std::string("512");
+    given["budget"] = int64_t{0};
+    const Rendered rendered = render(scene, kind.first, given, {16, 12});
+    EXPECT_TRUE(std::any_of(rendered.product.data.begin(), rendered.product.data.end(),
+                            [](float value) { return std::isnan(value); }));
+    try {
+      render(scene, kind.first, given, {16, 12}, true);
+      ADD_FAILURE() << kind.first << " counts";
+    } catch (const Error& error) {
+      EXPECT_NE(error.mend().find("'budget'"), std::string::npos);
+    }
+  }
 }
 
 TEST_F(OccluderKinds, HardScenesStayFiniteAndBounded) {

@@ -72,7 +72,8 @@ class Bitmask : public OccluderSearch {
         seed_(values.integer("pattern_seed")),
         halfSpaceSize_(values.text("quad_mask") == "half_space_table" ? std::stoi(values.text("table_size"))
                                                                       : 0),
-        rectangleSize_(isGridPattern(pattern_) ? 0 : std::stoi(values.text("rectangle_table"))) {
+        rectangleSize_(
+            isGridPattern(pattern_) || halfSpaceSize_ > 0 ? 0 : std::stoi(values.text("rectangle_table"))) {
     check(values);
   }
 
