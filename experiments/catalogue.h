@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,6 +23,8 @@ struct CatalogueEntry {
   bool reference = false;          ///< made to be compared with
   bool onCpu = false;
   std::vector<std::string> counters;  ///< names that its runs may have beside the common ones
+  std::function<void(const ParameterValues&)>
+      check;  ///< throws Error if values do not go together; null: all do
 
   // Metrics only.
   std::string unit;

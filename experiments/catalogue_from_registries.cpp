@@ -26,6 +26,7 @@ Catalogue catalogueFromRegistries() {
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
     entry.counters = info.counters;
+    entry.check = info.check;
   }
   for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
     CatalogueEntry& entry = out.metrics[name];

@@ -149,6 +149,7 @@ class Planner {
         }
         Variant variant{
             {entry.name, info.version, ParameterValues(info.parameters, given)}, {}, {}, {}, index};
+        if (!goTogether(info, variant.choice.values, entry.mark)) break;
         describeValues(variant, info.parameters);
         const auto [first, fresh] = seen.emplace(variant.identity.dump(), entry.mark);
         if (!fresh && first->second.line >= 0) {
@@ -163,6 +164,16 @@ class Planner {
     }
     setLabels(out);
     return out;
+  }
+
+  bool goTogether(const CatalogueEntry& info, const ParameterValues& values, Mark mark) {
+    try {
+      if (info.check) info.check(values);
+      return true;
+    } catch (const Error& error) {
+      problems_.add(mark, error.message(), error.mend());
+      return false;
+    }
   }
 
   void describeValues(Variant& variant, const std::vector<Parameter>& declared) const {

@@ -3,10 +3,13 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "base/error.h"
 
 namespace limen::gl {
 namespace {
@@ -73,6 +76,14 @@ Texture::Texture(Format format, glm::ivec2 sizePx, int levels, int layers, Sampl
     glTextureStorage3D(id_, levels, facts.internal, sizePx.x, sizePx.y, layers);
   else
     glTextureStorage2D(id_, levels, facts.internal, sizePx.x, sizePx.y);
+  const GLenum error = glGetError();
+  if (error == GL_OUT_OF_MEMORY || error == GL_INVALID_VALUE) {
+    glDeleteTextures(1, &id_);
+    throw Error("the device cannot hold a texture of " + std::to_string(sizePx.x) + " x " +
+                    std::to_string(sizePx.y) + (layers > 0 ? " x " + std::to_string(layers) : "") +
+                    " texels (" + std::to_string(bytes() >> 20) + " MiB)",
+                {}, "choose a smaller size");
+  }
   const GLint magnify = sampling == Sampling::Linear ? GL_LINEAR : GL_NEAREST;
   const GLint minify = levels == 1                    ? magnify
                        : sampling == Sampling::Linear ? GL_LINEAR_MIPMAP_LINEAR
@@ -135,6 +146,17 @@ Image Texture::read(int level) const {
   return image;
 }
 
+Image Texture::readLayer(int layer, int level) const {
+  const FormatFacts facts = factsOf(format_);
+  assert(facts.type == GL_FLOAT && layer < layers_);
+  const glm::ivec2 size = levelSize(sizePx_, level);
+  Image image(size.x, size.y, facts.channels);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  glGetTextureSubImage(id_, level, 0, 0, layer, size.x, size.y, 1, facts.external, GL_FLOAT,
+                       static_cast<GLsizei>(image.data.size() * sizeof(float)), image.data.data());
+  return image;
+}
+
 std::vector<uint32_t> Texture::readUint(int level) const {
   const FormatFacts facts = factsOf(format_);
   assert(facts.type == GL_UNSIGNED_INT && layers_ == 0);
@@ -152,6 +174,17 @@ void Texture::write(const Image& image, int level) const {
          levelSize(sizePx_, level) == glm::ivec2(image.width, image.height));
   glTextureSubImage2D(id_, level, 0, 0, image.width, image.height, facts.external, GL_FLOAT,
                       image.data.data());
+}
+
+void Texture::writeUint(const std::vector<uint32_t>& texels, int layer) const {
+  const FormatFacts facts = factsOf(format_);
+  assert(facts.type == GL_UNSIGNED_INT && layer < std::max(layers_, 1) &&
+         texels.size() == static_cast<size_t>(sizePx_.x) * sizePx_.y * facts.channels);
+  if (layers_ > 0)
+    glTextureSubImage3D(id_, 0, 0, 0, layer, sizePx_.x, sizePx_.y, 1, facts.external, GL_UNSIGNED_INT,
+                        texels.data());
+  else
+    glTextureSubImage2D(id_, 0, 0, 0, sizePx_.x, sizePx_.y, facts.external, GL_UNSIGNED_INT, texels.data());
 }
 
 Framebuffer::Framebuffer(const std::vector<const Texture*>& colours, const Texture* depth) {

@@ -38,6 +38,7 @@ enum class Access { Read, Write, ReadWrite };
 /// Immutable 2D texture or, with layers > 0, 2D array.
 class Texture {
  public:
+  /// Throws Error where the device cannot hold it.
   Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0,
           Sampling sampling = Sampling::Nearest);
   ~Texture();
@@ -60,8 +61,12 @@ class Texture {
 
   /// Waits for the GPU. Float formats only; row 0 is the top.
   Image read(int level = 0) const;
+  /// One layer of an array.
+  Image readLayer(int layer, int level = 0) const;
   std::vector<uint32_t> readUint(int level = 0) const;
   void write(const Image& image, int level = 0) const;
+  /// Unsigned formats only: all channels of the finest level of one layer (0 where there are none).
+  void writeUint(const std::vector<uint32_t>& texels, int layer = 0) const;
 
  private:
   uint32_t id_ = 0;

@@ -49,8 +49,8 @@ class Technique {
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
-  /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size. Made
-  /// outside the timed frames, after render(); may wait for the GPU.
+  /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size.
+  /// Made outside the timed frames, after render(); may wait for the GPU.
   virtual std::map<std::string, Image> pictures() const { return {}; }
 };
 
@@ -74,6 +74,9 @@ struct TechniqueInfo {
   std::function<double(const ParameterValues&)> errorBound;
   /// Names of all that count() may return: expectations and report axes may name them.
   std::vector<std::string> counters = {};
+  /// Throws Error if the values do not go together, so that a sweep refuses them before anything runs; null:
+  /// all do.
+  std::function<void(const ParameterValues&)> check = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
 

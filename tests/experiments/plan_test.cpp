@@ -173,5 +173,23 @@ TEST(Plan, CountsWithoutOverflowBeforeExpanding) {
   }
 }
 
+TEST(Plan, RefusesValuesThatDoNotGoTogetherWithLineAndMend) {
+  Catalogue catalogue = fakeCatalogue();
+  catalogue.techniques["soft/bitmask"].check = [](const ParameterValues& values) {
+    if (values.text("pattern") == "jittered_16" && values.integer("samples") == 16)
+      throw Error("16 samples cannot be jittered", "pattern", "give more samples");
+  };
+  EXPECT_EQ(planOf(validDescriptor(), catalogue).runs.size(), 10U);
+  const std::string jittered =
+      replaced(validDescriptor(), "samples: [8, 16, 32]", "samples: [8, 16, 32], pattern: jittered_16");
+  try {
+    planOf(jittered, catalogue);
+    FAIL() << "planned";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("d.yaml:7"));
+    EXPECT_THAT(error.what(), HasSubstr("16 samples cannot be jittered; give more samples"));
+  }
+}
+
 }  // namespace
 }  // namespace limen::experiments

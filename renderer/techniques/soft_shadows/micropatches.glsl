@@ -6,12 +6,12 @@
 //   s = z / (p_z - z) * (p_z t - p_x) / w + 1/2.
 void accumulate(vec2 low, vec2 high);
 
-// z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
-float throwOf(float z, float pz) { return z / (pz - z); }
+Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 
 // Visibility by the micropatches of a level that lie in the area.
 float gatherOccluders(vec4 p, Area area, int level) {
-  const ivec2 low = area.low >> level, high = (area.high - 1) >> level;
+  const Range range = occluderRange(area, level);
+  const ivec2 low = range.low, high = range.high;
   const ivec2 count = high - low + 1;
   if (float(count.x + 1) * float(count.y) > float(maxIterations)) {
     pixelClass = kCutShort;
@@ -31,6 +31,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
     for (int x = low.x; x <= high.x; ++x) {
       const float z = texelFetch(minimumMap, ivec2(x, y), level).x;
       ++fetchCount;
+      ++examinedCount;
 #if GAP_FILL > 0
       const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
       ++fetchCount;
@@ -53,7 +54,10 @@ float gatherOccluders(vec4 p, Area area, int level) {
         ++occluderCount;
         // Clamped in an order that turns a NaN, were there one, into a bound.
         const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
-        if (a.x < b.x && a.y < b.y) accumulate(a, b);
+        if (a.x < b.x && a.y < b.y) {
+          ++usedCount;
+          accumulate(a, b);
+        }
       }
 #if GAP_FILL > 0
       left = z;

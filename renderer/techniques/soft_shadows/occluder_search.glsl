@@ -2,9 +2,10 @@
 // Finds the texels of the shadow map that can matter for a receiver, and has them gathered. Schwarz 2009, sections 4.1 and
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
-layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
-layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+// OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours.
+#include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements, budgetPerAxis;
+uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
 uniform int maxIterations;
 
@@ -12,22 +13,56 @@ void clearGathered();
 bool isSaturated();
 float gatheredVisibility();
 
-// Texels [low, high) of level 0.
-struct Area {
-  ivec2 low, high;
-};
+// Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
+#if OCCLUDERS == 0
+const float kAreaBorder = 0.0;
+#else
+const float kAreaBorder = 0.5;
+#endif
 
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
   const vec2 centre = p.xy / p.z;
   const vec2 halfSize = 0.5 * lightSize * max(1.0 / z - 1.0 / p.z, 0.0);
-  const vec2 low = floor(mapTexel(centre - halfSize)), high = ceil(mapTexel(centre + halfSize));
+  const vec2 low = floor(mapTexel(centre - halfSize) - kAreaBorder);
+  const vec2 high = ceil(mapTexel(centre + halfSize) + kAreaBorder);
   reachesOutside = any(lessThan(low, vec2(0.0))) || any(greaterThan(high, vec2(float(resolution))));
   const vec2 limit = vec2(float(resolution));
   return Area(ivec2(clamp(low, vec2(0.0), limit)), ivec2(clamp(high, vec2(0.0), limit)));
 }
 
-#include "renderer/techniques/soft_shadows/depth_bounds_hsm.glsl"
+// Micro-occluders of a level, from `low` to `high`; none if `high` is below `low`.
+struct Range {
+  ivec2 low, high;
+};
+
+// Those that may matter for an area, rounded outward to the level's grid.
+Range occluderRange(Area area, int level);
+
+// Finest level at which the area's micro-occluders keep within the budget on both axes.
+int microOccluderLevel(Area area) {
+  int level = 0;
+  while (level < levels - 1) {
+    const Range range = occluderRange(area, level);
+    const ivec2 count = range.high - range.low + 1;
+    if (max(count.x, count.y) <= budgetPerAxis) break;
+    ++level;
+  }
+  return level;
+}
+
+// Area of which the depth range decides. A coarse micro-occluder that the search area cuts stands for texels outside of it
+// too: left out, they would make points fully lit that neighbours, with one texel of the occluder in their area, find
+// shadowed by all of it. Schwarz 2009, section 4.3.1 ("over-precision"). Tiles of the HSM are whole ones at any level that a
+// budget of 4 or more leads to.
+Area queriedArea(Area area) {
+#ifdef GROW
+  const int level = microOccluderLevel(area);
+  return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
+#else
+  return area;
+#endif
+}
 
 // Narrows the search area of a receiver, or finds that it needs none: false, with the visibility that is known then.
 bool findArea(vec4 p, out Area area, out float visibility) {
@@ -44,8 +79,9 @@ bool findArea(vec4 p, out Area area, out float visibility) {
       if (reachesOutside) pixelClass = kOutside;
       return false;
     }
-    const vec2 range = depthRange(area);
-    fetchCount += 8u;
+    const bool rough = i < roughQueries;
+    const vec2 range = depthRange(queriedArea(area), rough);
+    fetchCount = 1u + boundFetches;
     if (range.x >= biasedDepth(p, 0)) return false;
     // All texels block: neighbouring texels are taken as one surface.
     if (range.y < biasedDepth(p, 0) && !reachesOutside) {
@@ -53,25 +89,23 @@ bool findArea(vec4 p, out Area area, out float visibility) {
       visibility = 0.0;
       return false;
     }
-    if (i >= refinements || range.x <= nearest) break;
-    nearest = range.x;
+    // Unless the next query is a better one, it would get the same answer.
+    if (i >= refinements || (range.x <= nearest && rough == (i + 1 < roughQueries))) break;
+    nearest = max(nearest, range.x);
   }
   return true;
 }
 
-// Finest level at which the area's texels, rounded outward to that level's grid, keep within the budget on both axes.
-int microOccluderLevel(Area area) {
-  const ivec2 last = area.high - 1;
-  int level = 0;
-  while (level < levels - 1) {
-    const ivec2 count = (last >> level) - (area.low >> level) + 1;
-    if (max(count.x, count.y) <= budgetPerAxis) break;
-    ++level;
-  }
-  return level;
-}
+// z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
+float throwOf(float z, float pz) { return z / (pz - z); }
 
+#if OCCLUDERS == 0
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
+#elif OCCLUDERS == 3
+#include "renderer/techniques/soft_shadows/contours.glsl"
+#else
+#include "renderer/techniques/soft_shadows/microquads.glsl"
+#endif
 
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;
@@ -81,5 +115,6 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   clearGathered();
   const int level = microOccluderLevel(area);
   levelUsed = uint(level);
+  areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
   return gatherOccluders(p, area, level);
 }

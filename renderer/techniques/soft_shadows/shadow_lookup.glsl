@@ -8,6 +8,7 @@ layout(binding = 0) uniform sampler2D receivers;
 layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
 layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
+layout(binding = 2, rgba32ui) uniform writeonly uimage2D outSearch;
 #endif
 
 uniform ivec2 sizePx;
@@ -21,6 +22,8 @@ const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside 
 
 // Classes and work of this pixel; the compiler removes them where nobody counts.
 uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed = 0u;
+// Texels of level 0 in the search area; micro-occluders that were looked at, and those that covered any of the light.
+uint areaTexels = 0u, examinedCount = 0u, usedCount = 0u;
 
 // Position of a point in the map, in texels of level 0.
 vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * float(resolution); }
@@ -40,6 +43,7 @@ void store(ivec2 pixel, float visibility) {
   imageStore(outVisibility, pixel, vec4(visibility));
 #ifdef COUNT
   imageStore(outCounts, pixel, uvec4(pixelClass, occluderCount, fetchCount, levelUsed));
+  imageStore(outSearch, pixel, uvec4(areaTexels, examinedCount, usedCount, 0u));
 #endif
 }
 

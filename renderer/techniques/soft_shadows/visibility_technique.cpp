@@ -13,20 +13,11 @@
 namespace limen::techniques {
 namespace {
 
-/// Values of the first count channel, as in shadow_lookup.glsl.
-enum PixelClass : uint32_t {
-  NotReceiver = 0,
-  Lit = 1,
-  Umbra = 2,
-  Processed = 3,
-  Outside = 4,
-  CutShort = 5,
-  ClassCount = 6
-};
-
-std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
+/// `counts` and `search` as store() in shadow_lookup.glsl writes them.
+std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::vector<uint32_t>& search) {
   std::array<double, ClassCount> pixels{};
   double occluders = 0.0, occludersSquared = 0.0, fetches = 0.0, allFetches = 0.0, levels = 0.0;
+  double areaTexels = 0.0, examined = 0.0, used = 0.0;
   for (size_t i = 0; i < counts.size(); i += 4) {
     pixels.at(counts[i]) += 1.0;
     allFetches += counts[i + 2];
@@ -35,6 +26,9 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
     occludersSquared += double(counts[i + 1]) * counts[i + 1];
     fetches += counts[i + 2];
     levels += counts[i + 3];
+    areaTexels += search[i];
+    examined += search[i + 1];
+    used += search[i + 2];
   }
   const double all = static_cast<double>(counts.size()) / 4.0;
   if (pixels[CutShort] > 0.0)
@@ -50,6 +44,8 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts) {
           {"fetches_per_px", perProcessed(fetches), "", true},
           {"micro_occluders_per_px", mean, "", true},
           {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
+          {"search_area_texels", perProcessed(areaTexels), "", true},
+          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0, "", false},
           {"level_mean", perProcessed(levels), "", false},
           {"receivers_share", share(receivers), "", false},
           {"lit_share", share(pixels[Lit]), "", false},
@@ -105,7 +101,7 @@ const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   return map.frustum();
 }
 
-void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts) {
+void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const CountImages* counts) {
   const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
   const frame::LightFrustum& frustum = bindMap(frame);
   const auto scope = frame.passes().open(pass_);
@@ -121,14 +117,17 @@ void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, c
   configure(program);
   receivers.bindTexture(0);
   visibility_->bindImage(0, gl::Access::Write);
-  if (counts) counts->bindImage(1, gl::Access::Write);
+  if (counts) {
+    counts->work.bindImage(1, gl::Access::Write);
+    counts->search.bindImage(2, gl::Access::Write);
+  }
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 std::vector<std::string> VisibilityTechnique::counterNames() {
   std::vector<std::string> out;
-  for (const Counter& counter : summarise({})) out.push_back(counter.name);
+  for (const Counter& counter : summarise({}, {})) out.push_back(counter.name);
   return out;
 }
 
@@ -137,11 +136,13 @@ void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nu
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
   gl::ShaderDefines defines = defines_;
   defines["COUNT"] = "1";
-  const gl::Texture counts(gl::Format::RGBA32UI, frame.sizePx());
+  const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
+                           gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
   frame.begin();
   run(frame, frame.context().programs().compute(shader_, defines), &counts);
   frame.end();
-  return summarise(counts.readUint());
+  counted_ = {frame.sizePx(), counts.work.readUint(), counts.search.readUint()};
+  return summarise(counted_.work, counted_.search);
 }
 
 }  // namespace limen::techniques

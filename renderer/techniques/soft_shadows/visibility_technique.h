@@ -9,17 +9,38 @@
 
 namespace limen::techniques {
 
+/// Values of the first count channel, as in shadow_lookup.glsl.
+enum PixelClass : uint32_t {
+  NotReceiver = 0,
+  Lit = 1,
+  Umbra = 2,
+  Processed = 3,
+  Outside = 4,
+  CutShort = 5,
+  ClassCount = 6
+};
+
 /// Base of the soft-shadow techniques that read one shadow map: a compute pass over the receivers into a
 /// visibility image. The shader includes shadow_lookup.glsl, which declares what this class binds:
 ///   texture unit 0: receivers; unit 1: linear shadow map, unless bindMap() binds something else
-///   image unit 0: visibility; unit 1, where COUNT is defined: class and work of each pixel (rgba32ui)
+///   image unit 0: visibility; units 1 and 2, where COUNT is defined: class, work and search of each pixel
+///   (rgba32ui)
 class VisibilityTechnique : public Technique {
  public:
   void prepare(frame::Frame& frame) override;
   void render(frame::Frame& frame) override;
   const gl::Texture& product() const override { return *visibility_; }
-  /// Shares of lit, umbra, processed and outside pixels; micro-occluders and fetches per processed pixel.
+  /// Shares of lit, umbra, processed and outside pixels; micro-occluders, fetches and texels searched per
+  /// processed pixel; the share of micro-occluders that were looked at for nothing.
   std::vector<Counter> count(frame::Frame& frame) override;
+
+  /// What count() read, four figures a pixel: class, micro-occluders, fetches, level; and search area in
+  /// texels, micro-occluders looked at, those that covered any of the light. Empty before count().
+  struct Counted {
+    glm::ivec2 sizePx{0};
+    std::vector<uint32_t> work, search;
+  };
+  const Counted& counted() const { return counted_; }
 
   /// Names of what count() returns.
   static std::vector<std::string> counterNames();
@@ -38,8 +59,11 @@ class VisibilityTechnique : public Technique {
   virtual void configure(const gl::Program& program) const = 0;
 
  private:
+  struct CountImages {
+    gl::Texture work, search;
+  };
   /// `counts` is null in a plain frame.
-  void run(frame::Frame& frame, const gl::Program& program, const gl::Texture* counts);
+  void run(frame::Frame& frame, const gl::Program& program, const CountImages* counts);
 
   frame::ShadowMapSettings map_;
   double bias_, slopeBias_, maxSlope_;
@@ -47,6 +71,7 @@ class VisibilityTechnique : public Technique {
   gl::ShaderDefines defines_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> visibility_;
+  Counted counted_;
 };
 
 }  // namespace limen::techniques

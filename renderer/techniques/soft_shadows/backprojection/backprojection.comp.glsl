@@ -6,5 +6,45 @@ float occludedArea = 0.0;
 
 void clearGathered() {}
 void accumulate(vec2 low, vec2 high) { occludedArea += (high.x - low.x) * (high.y - low.y); }
-bool isSaturated() { return occludedArea >= 1.0; }
-float gatheredVisibility() { return 1.0 - min(occludedArea, 1.0); }
+
+// Clamped in an order that turns a NaN, were there one, into a bound.
+vec2 clampToLight(vec2 s) { return min(max(s, vec2(0.0)), vec2(1.0)); }
+
+// Both triangles' signed areas at once; along which diagonal they are cut does not matter. Clamping moves a corner the
+// same way for all quads that share it, so that neither gaps nor overlaps arise.
+void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) {
+  const vec2 ac = clampToLight(c) - clampToLight(a), bd = clampToLight(d) - clampToLight(b);
+  const float area = 0.5 * (ac.x * bd.y - ac.y * bd.x);
+#ifdef SIGNED_AREAS
+  occludedArea += area;
+#else
+  occludedArea += abs(area);
+#endif
+}
+
+#if OCCLUDERS == 3
+// Area of the light to the left of an edge, up to the light's side x = 0 and signed: the integral of x clamped to the light
+// along the edge's part with y on the light. Over a closed contour it adds up to the area within.
+void accumulateEdge(vec2 from, vec2 to) {
+  const float start = clamp(from.y, 0.0, 1.0), end = clamp(to.y, 0.0, 1.0);
+  if (start == end) return;
+  const float run = (to.x - from.x) / (to.y - from.y);
+  const float startX = from.x + (start - from.y) * run, endX = from.x + (end - from.y) * run;
+  const float low = min(startX, endX), high = max(startX, endX);
+  const float lowIn = clamp(low, 0.0, 1.0), highIn = clamp(high, 0.0, 1.0);
+  // Share of the way beyond x = 1, and within.
+  float mean = 0.5 * (lowIn + highIn);
+  if (high - low > 1e-6)
+    mean = (max(high, 1.0) - max(low, 1.0) + (highIn - lowIn) * mean) / (high - low);
+  occludedArea += (end - start) * mean;
+}
+#endif
+
+bool isSaturated() {
+#if defined(SIGNED_AREAS) || OCCLUDERS == 3
+  return false;  // what is still to come may take away
+#else
+  return occludedArea >= 1.0;
+#endif
+}
+float gatheredVisibility() { return 1.0 - clamp(occludedArea, 0.0, 1.0); }

@@ -2,6 +2,10 @@
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
+#if OCCLUDERS > 0
+#include "renderer/techniques/soft_shadows/bitmask/quad_mask.glsl"
+void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d); }
+#endif
 
 void clearGathered() { clearMask(); }
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }

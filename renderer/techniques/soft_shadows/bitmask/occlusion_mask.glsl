@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bit for each light sample, set once an occluder covers the sample. Schwarz 2009, section 4.2.
-// PATTERN: 8, 16 or 32 for a regular grid of that many samples a side; 160 for the jittered 16 x 16 grid.
+// PATTERN: 8, 16 or 32 for a regular grid of that many samples a side; 160 for the jittered 16 x 16 grid; 0 for SAMPLES
+// that lie anywhere, whose masks stand in a table of RECTANGLES steps on either axis (rectangle_table.h).
 //
 // A rectangle (x0, y0, x1, y1) covers the samples with x0 < s <= x1 and likewise in y, so rectangles that share an
 // edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4); here the fraction is compared instead,
 // because that sum rounds, and a bound just below a sample would then count as on it.
-#if PATTERN == 8
+#if PATTERN == 0
+#define MASK_WORDS (SAMPLES / 32)
+#elif PATTERN == 8
 #define MASK_WORDS 2
 #define SAMPLES 64
 #elif PATTERN == 32
@@ -31,7 +34,20 @@ ivec2 samplesUpTo(vec2 v, float n, float offset) {
   return ivec2(whole) + ivec2(greaterThanEqual(scaled - whole, vec2(offset)));
 }
 
-#if PATTERN == 160
+#if PATTERN == 0
+layout(binding = 6) uniform usampler2DArray rectangleMasks;
+
+// Bounds are rounded to the table's steps, those of two rectangles at one edge alike.
+void addToMask(vec2 low, vec2 high) {
+  const ivec2 first = ivec2(roundEven(low * float(RECTANGLES))), end = ivec2(roundEven(high * float(RECTANGLES)));
+  for (int layer = 0; layer < MASK_WORDS / 4; ++layer) {
+    const uvec4 outside = texelFetch(rectangleMasks, ivec3(end.x, first.y, layer), 0) |
+                          texelFetch(rectangleMasks, ivec3(first.x, end.y, layer), 0);
+    const uvec4 inside = texelFetch(rectangleMasks, ivec3(end, layer), 0) & ~outside;
+    for (int i = 0; i < 4; ++i) mask[4 * layer + i] |= inside[i];
+  }
+}
+#elif PATTERN == 160
 // Sample (i, j) at x = (i + (j even ? 1/4 : 3/4)) / 16, y = (j + (i even ? 3/4 : 1/4)) / 16.
 void addToMask(vec2 low, vec2 high) {
   const ivec2 lowQuarter = samplesUpTo(low, 16.0, 0.25), highQuarter = samplesUpTo(high, 16.0, 0.25);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/multi_scale_map.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "base/error.h"
+
+namespace limen::frame {
+namespace {
+
+constexpr const char* kShader = "renderer/frame/multi_scale_map.comp.glsl";
+
+int log2Of(int powerOfTwo) {
+  assert(std::has_single_bit(static_cast<unsigned>(powerOfTwo)));
+  return std::countr_zero(static_cast<unsigned>(powerOfTwo));
+}
+
+gl::Texture allocate(int resolution, int layers) {
+  try {
+    return {gl::Format::RG32F, glm::ivec2(resolution), 1, layers};
+  } catch (const Error& error) {
+    throw Error("the multi-scale layers do not fit: " + error.message(), {},
+                "choose a smaller map, or structure ysm, which needs them at its base resolution only");
+  }
+}
+
+/// Where, along an axis, the two windows of the layer below lie that make up one of layer `layer`.
+glm::ivec2 sourceOffsets(WindowAnchor anchor, int layer) {
+  if (anchor == WindowAnchor::Corner) return {0, 1 << (layer - 1)};
+  return layer == 1 ? glm::ivec2(-1, 0) : glm::ivec2(-(1 << (layer - 2)), 1 << (layer - 2));
+}
+
+}  // namespace
+
+MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor)
+    : resolution_(resolution),
+      layers_(std::max(log2Of(resolution), 1)),
+      anchor_(anchor),
+      first_(context.programs().compute(kShader, {{"FROM_PYRAMID", "1"}})),
+      next_(context.programs().compute(kShader)),
+      texture_(allocate(resolution, layers_)) {}
+
+void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
+  texture_.bindImage(0, gl::Access::Write);
+  for (int layer = 1; layer <= layers_; ++layer) {
+    const gl::Program& program = layer == 1 ? first_ : next_;
+    if (layer == 1) {
+      minimum.bindTexture(0);
+      maximum.bindTexture(1);
+      program.set("sourceLevel", level);
+    } else {
+      texture_.bindTexture(0);
+    }
+    program.set("layer", layer);
+    program.set("resolution", resolution_);
+    program.set("offsets", sourceOffsets(anchor_, layer));
+    program.dispatch(glm::ivec2(resolution_));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+}
+
+MultiScaleMap::MultiScaleMap(Frame& frame, MultiScaleSettings settings)
+    : settings_(settings),
+      baseLevel_(log2Of(settings.map.resolution) - log2Of(settings.base)),
+      layers_(frame.context(), settings.base, settings.anchor),
+      pass_(settings.anchor == WindowAnchor::Corner ? "frame/n_buffer" : "frame/multi_scale_map") {
+  assert(baseLevel_ >= 0);
+  frame.passes().setBytesHeld(pass_, layers_.texture().bytes());
+}
+
+void MultiScaleMap::make(Frame& frame) {
+  const auto& pyramid = frame.get<MinMaxPyramid>(settings_.map);
+  const auto scope = frame.passes().open(pass_);
+  layers_.build(pyramid.minimum(), pyramid.maximum(), baseLevel_);
+}
+
+}  // namespace limen::frame

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/image.h"
+#include "renderer/techniques/soft_shadows/visibility_technique.h"
+
+namespace limen::techniques {
+
+/// Processed pixels by the size of their search area: blue for 10 texels or less, green for 400, red for 6000
+/// or more, on a logarithmic scale (Schwarz 2009, figure 4.10). Lit pixels are light grey, those in umbra
+/// dark grey, those that look past the map yellowish; black is no receiver.
+Image searchAreaPicture(const VisibilityTechnique::Counted& counted);
+
+/// Processed pixels by the level that their micro-occluders come from: from blue for level 0 to red for level
+/// 5 and coarser (figure 4.11). Other pixels as above.
+Image levelPicture(const VisibilityTechnique::Counted& counted);
+
+}  // namespace limen::techniques
