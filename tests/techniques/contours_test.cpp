@@ -12,7 +12,7 @@ namespace limen::techniques {
 namespace {
 
 constexpr double kLightHeight = 2.0, kLightSize = 0.4;
-constexpr int kResolution = 64;
+constexpr int kContourMapSize = 64;
 
 /// A level card over [low, high] in world x and z.
 struct Card {
@@ -37,7 +37,7 @@ class Contours : public TechniqueTest {
   }
 
   static Rendered shadows(const scene::Scene& scene, Given given) {
-    given["resolution"] = std::to_string(kResolution);
+    given["resolution"] = std::to_string(kContourMapSize);
     given["budget"] = int64_t{0};
     return render(scene, "soft_shadows/backprojection", given, {64, 48});
   }
@@ -78,7 +78,7 @@ TEST_F(Contours, OfARectangleEncloseItMovedInwards) {
   // corner, of legs of (1 - t) / 2 texels.
   const Card card{{-0.3, -0.2}, {0.3, 0.2}};
   const scene::Scene scene = sceneOf({card});
-  const glm::dvec2 texel = (card.high - card.low) / double(kResolution - 2);
+  const glm::dvec2 texel = (card.high - card.low) / double(kContourMapSize - 2);
   const glm::dvec2 texelOnLight = texel * (kLightHeight / card.height / kLightSize);
   for (const double inset : {0.0, 0.5, 1.0}) {
     const Card moved{card.low + 0.5 * inset * texel, card.high - 0.5 * inset * texel};

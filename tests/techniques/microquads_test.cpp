@@ -13,7 +13,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr double kBias = 1e-4, kSlopeBias = 2.0, kMaxSlope = 10.0;
+constexpr double kQuadBias = 1e-4, kQuadSlopeBias = 2.0, kMaxSlope = 10.0;
 
 using Corners = std::vector<glm::dvec2>;
 
@@ -56,8 +56,8 @@ struct MeshTwin {
     const glm::dvec2 tangents = frustum.high - frustum.low;
     const double slope = std::min(double(receivers.at(px, py, 3)), kMaxSlope * p.z);
     const double limit =
-        p.z - kBias * p.z -
-        kSlopeBias * slope * std::max(tangents.x, tangents.y) / resolution * double(1 << level);
+        p.z - kQuadBias * p.z -
+        kQuadSlopeBias * slope * std::max(tangents.x, tangents.y) / resolution * double(1 << level);
     for (int y = 0; y + 1 < map.height; ++y)
       for (int x = 0; x + 1 < map.width; ++x) {
         Corners corners;
