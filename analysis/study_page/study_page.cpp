@@ -59,6 +59,8 @@ void readValidation(StudyPage& page, const StudyChoice& choice) {
   };
   for (const StudyAnswer& answer : page.study.answers) name(answer.displayHash);
   for (const store::StudyPrediction& one : predictions) name(one.displayHash);
+  // The page shows no interval of the link, whose bootstrap takes half a minute.
+  page.validationSetting.samples = 0;
   try {
     page.validation = validateStudy(page.study, predictions, names, page.validationSetting);
   } catch (const Error& error) {
