@@ -40,8 +40,8 @@ std::string readme(const std::vector<ExportedSession>& sessions) {
   out += std::to_string(subjects.size()) + " participants, " + std::to_string(sessions.size()) +
          " sittings, written by " + versionText("limen-study") + ".\n\n";
   out +=
-      "A row is a trial that was put on the screen. Take those with counts = 1 for results: practice has "
-      "practice = 1,\n"
+      "A row is a trial that was put on the screen. Take those with counts = 1 and practice = 0 for "
+      "results;\n"
       "trials whose frames came late have valid = 0 and were shown again. Times count from the start of the "
       "sitting.\n"
       "Participants are named by pseudonyms, ages by bins; no times of day are given.\n\n";
