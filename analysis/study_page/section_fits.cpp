@@ -22,19 +22,23 @@ constexpr size_t kOpenFits = 20;
 constexpr FitParameter kShownParameters[] = {FitParameter::Threshold, FitParameter::Width,
                                              FitParameter::Guess, FitParameter::Lapse};
 
-std::string finiteText(double value) { return std::isfinite(value) ? formatNumber(value) : "-"; }
+std::string estimateText(FitParameter parameter, double value) {
+  const bool rate = parameter == FitParameter::Guess || parameter == FitParameter::Lapse;
+  if (!std::isfinite(value)) return "-";
+  return rate ? fixedText(value, 3) : formatNumber(value);
+}
 
-std::string boundsText(const std::optional<FitInterval>& interval) {
+std::string boundsText(FitParameter parameter, const std::optional<FitInterval>& interval) {
   if (!interval) return "-";
-  return finiteText(interval->low) + (interval->lowOpen ? kBoundMark : "") + " to " +
-         finiteText(interval->high) + (interval->highOpen ? kBoundMark : "");
+  return estimateText(parameter, interval->low) + (interval->lowOpen ? kBoundMark : "") + " to " +
+         estimateText(parameter, interval->high) + (interval->highOpen ? kBoundMark : "");
 }
 
 std::string fitTableCaption(const FitAnswer& answer) {
   const FitSettings& settings = answer.fit.settings;
   return fmt::format(
       "Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, 95 % "
-      "profile intervals. {} ends at a bound of the fit: the data set no limit on that side.",
+      "profile intervals. {}: at a bound of the fit, the data set no limit on that side.",
       answer.level, answer.part, shortestNumber(settings.thresholdLevel),
       settings.logarithmic() ? " in units of ln " + answer.level : "", kBoundMark);
 }
@@ -59,11 +63,11 @@ PageTable fitTable(const FitAnswer& answer) {
     std::vector<std::string> row = {fit.name.empty() ? "all" : fit.name, std::to_string(fit.trials)};
     for (const FitParameter parameter : kShownParameters) {
       const size_t i = indexOf(parameter);
-      row.push_back(finiteText(fit.values[i]) + (fit.atBound[i] != 0 ? kBoundMark : ""));
-      row.push_back(answer.intervals ? boundsText(answer.intervals->conditions[c][i]) : "-");
+      row.push_back(estimateText(parameter, fit.values[i]) + (fit.atBound[i] != 0 ? kBoundMark : ""));
+      row.push_back(answer.intervals ? boundsText(parameter, answer.intervals->conditions[c][i]) : "-");
     }
-    // Rounding leaves a saturated fit a deviance like 1e-14.
-    row.push_back(fixedText(fit.deviance < 5e-3 ? 0.0 : fit.deviance, 2));
+    // Rounding can leave a fit that meets all answers a little below 0.
+    row.push_back(std::isfinite(fit.deviance) ? fixedText(std::max(fit.deviance, 0.0), 2) : "-");
     table.rows.push_back(std::move(row));
   }
   table.folded = table.rows.size() > kOpenFits;
@@ -110,8 +114,7 @@ void addFitFigure(const StudyPage& page, const StudyPart& part, const FitAnswer&
   figure.yTitle = part.asksYesNo() ? "reported a change (%)" : "right answers (%)";
   figure.description =
       figure.yTitle + " against " + answer.level + " with fitted functions, part " + part.name;
-  figure.widthPx = 620;
-  figure.heightPx = 380 + static_cast<int>((chart.series.size() + 1) / 2) * 18;
+  figure.heightPx += static_cast<int>(chart.series.size()) * 18;
   figure.key = chart.series.size() > 1;
   figure.settings = fmt::format("set xrange [{}:{}]\nset yrange [0:102]\nset ytics 20\n",
                                 shortestNumber(chart.low), shortestNumber(chart.high)) +
@@ -122,7 +125,7 @@ void addFitFigure(const StudyPage& page, const StudyPart& part, const FitAnswer&
     ++number;
   }
   if (figure.plots.empty()) return;
-  out.figure(figure, fmt::format("Part {}: answers and fitted psychometric functions of {}. Crosses: "
+  out.figure(figure, fmt::format("Part {}: answers and fitted psychometric functions of {}. Bars: "
                                  "thresholds with 95 % profile intervals.{}",
                                  part.name, answer.level,
                                  chart.blanks ? " Open points at the edge: trials without a stimulus." : ""));
@@ -176,7 +179,8 @@ std::string fitMethods(const StudyPage& page) {
     const FitSettings& settings = part.answer->fit.settings;
     out += fmt::format(
         "Psychometric functions P = guess + (1 - guess - lapse) F of {}{} ({} F, {} on a {} axis; {}) were "
-        "fitted by {} with Limen {} to answers pooled over observers; thresholds are at F = {}, 95 % "
+        "fitted by {} with Limen {} to answers pooled over observers; thresholds are at F = {}, widths from "
+        "0.05 to 0.95, 95 % "
         "intervals are those of the profile likelihood. ",
         part.answer->level, page.fits.size() > 1 ? ", part " + part.part : "", sigmoidText(settings),
         settings.falling ? "falling" : "rising", settings.logarithmic() ? "logarithmic" : "linear",

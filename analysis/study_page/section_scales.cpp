@@ -28,6 +28,10 @@ std::string intervalKind(const ItemScale& scale) {
                                                  : "95 % intervals of a bootstrap over observers";
 }
 
+std::string twoDigits(const std::optional<Interval>& interval) {
+  return interval ? fmt::format("{:.2f} to {:.2f}", interval->low, interval->high) : "-";
+}
+
 void addScaleFigure(const StudyPage& page, const PartScale& part, PageWriter& out) {
   const ItemScale& scale = *part.scale;
   Figure figure;
@@ -64,11 +68,9 @@ PageTable itemTable(const PartScale& part) {
   table.file = kScaleFile;
   table.columns = {{"item", false}, {"chosen"}, {"value"}, {"error"}, {"95 % (z)"}, {"95 % (bootstrap)"}};
   for (const ScaledItem& item : part.scale->items)
-    table.rows.push_back(
-        {item.name, fmt::format("{}/{}", item.chosen, item.judged), fixedText(item.value, 2),
-         fixedText(item.standardError, 2),
-         item.interval ? fmt::format("{:.2f} to {:.2f}", item.interval->low, item.interval->high) : "-",
-         intervalText(boundsOf(item.bootstrap))});
+    table.rows.push_back({item.name, fmt::format("{}/{}", item.chosen, item.judged), fixedText(item.value, 2),
+                          fixedText(item.standardError, 2), twoDigits(item.interval),
+                          twoDigits(boundsOf(item.bootstrap))});
   if (part.scale->bootstrap == ScaleBootstrap::None) {
     table.columns.pop_back();
     for (std::vector<std::string>& row : table.rows) row.pop_back();
@@ -83,15 +85,22 @@ PageTable stepTable(const PartScale& part) {
   table.columns = {{"upper", false}, {"lower", false}, {"difference"}, {"95 % (z)"}, {"z"}, {"p"},
                    {"p (Holm)"},     {"preferred"}};
   for (const ItemStep& step : part.scale->steps)
-    table.rows.push_back({step.upper, step.lower, fixedText(step.difference, 2),
-                          fmt::format("{:.2f} to {:.2f}", step.interval.low, step.interval.high),
+    table.rows.push_back({step.upper, step.lower, fixedText(step.difference, 2), twoDigits(step.interval),
                           fixedText(step.z, 2), pText(step.p), pText(step.holm),
                           percentText(step.preferred)});
   return table;
 }
 
-std::vector<std::string> remarksOnScale(const ItemScale& scale) {
-  std::vector<std::string> out = scale.notes;
+std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& scale) {
+  std::vector<std::string> out = scale.notes, pooled;
+  for (const StudyFactor& factor : part.factors)
+    if (factor.name != "item_a" && factor.name != "item_b") pooled.push_back(factor.name);
+  if (!pooled.empty()) out.push_back("pooled over " + join(pooled));
+  if (scale.subjects > 1)
+    out.push_back(fmt::format(
+        "standard errors, z and p take all judgements of {} observers as independent, which makes them too "
+        "small{}",
+        scale.subjects, scale.bootstrap == ScaleBootstrap::None ? "" : "; the bootstrap draws observers"));
   if (!scale.fit.note.empty()) out.push_back("penalised: " + scale.fit.note);
   if (scale.penalised > 0)
     out.push_back(fmt::format("{} samples of the bootstrap were unbounded, and penalised", scale.penalised));
@@ -154,7 +163,9 @@ void addScales(const StudyPage& page, PageWriter& out) {
     addScaleFigure(page, part, out);
     out.table(itemTable(part));
     out.table(stepTable(part));
-    out.list(remarksOnScale(*part.scale));
+    const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
+                                  [&](const StudyPart& one) { return one.name == part.part; });
+    out.list(remarksOnScale(*own, *part.scale));
   }
   const Scales all = scalesOf(page);
   if (!all.groups.empty()) out.file(kScaleFile, toCsv(all), "scale values of items compared in pairs");
