@@ -28,8 +28,11 @@ std::string intervalKind(const ItemScale& scale) {
                                                  : "95 % intervals of a bootstrap over observers";
 }
 
+/// "-" for one of no width, too: it comes of data without spread and is no certainty.
 std::string twoDigits(const std::optional<Interval>& interval) {
-  return interval ? fmt::format("{:.2f} to {:.2f}", interval->low, interval->high) : "-";
+  return interval && interval->low < interval->high
+             ? fmt::format("{:.2f} to {:.2f}", interval->low, interval->high)
+             : "-";
 }
 
 void addScaleFigure(const StudyPage& page, const PartScale& part, PageWriter& out) {
@@ -98,8 +101,8 @@ std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& 
   if (!pooled.empty()) out.push_back("pooled over " + join(pooled));
   if (scale.subjects > 1)
     out.push_back(fmt::format(
-        "standard errors, z and p take all judgements of {} observers as independent, which makes them too "
-        "small{}",
+        "standard errors and z tests take all judgements of {} observers as independent, which makes errors "
+        "and p too small{}",
         scale.subjects, scale.bootstrap == ScaleBootstrap::None ? "" : "; the bootstrap draws observers"));
   if (!scale.fit.note.empty()) out.push_back("penalised: " + scale.fit.note);
   if (scale.penalised > 0)
