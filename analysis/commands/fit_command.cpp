@@ -9,6 +9,7 @@
 #include "analysis/commands/study_input.h"
 #include "analysis/fits/fit_options.h"
 #include "analysis/study/fitted_parts.h"
+#include "analysis/study/part_fits.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -23,25 +24,6 @@ struct Call {
   bool json = false, csv = false;
 };
 
-/// What was not typed is what the protocol says.
-FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const FittedPart& fitted) {
-  FitOptions own = typed;
-  own.level = fitted.variable;
-  own.task = nameOf(fitted.task);
-  if (fitted.guess) own.fixed.push_back("guess=" + shortestNumber(*fitted.guess));
-  const auto fill = [](std::string& option, const std::string& value) {
-    if (option.empty()) option = value;
-  };
-  if (part.assumed && part.assumed->variable == fitted.variable) {
-    fill(own.sigmoid, part.assumed->sigmoid);
-    fill(own.axis, part.assumed->axis);
-    fill(own.direction, part.assumed->direction);
-    if (!own.thresholdLevel) own.thresholdLevel = part.assumed->level;
-  }
-  fill(own.direction, "auto");
-  return own;
-}
-
 void fitStore(Call& call) {
   call.parts.variable = call.options.level;
   call.parts.guessFromCatch = call.guess == "catch";
@@ -50,12 +32,7 @@ void fitStore(Call& call) {
   if (!call.plot.empty() && parts.size() > 1)
     throw Error("is one picture, and several parts are fitted", "--plot", "name one with --part");
   std::vector<FitAnswer> answers;
-  for (const FittedPart& part : parts) {
-    const StudyPart& own = study.plan.parts[part.part];
-    answers.push_back(answerFit(optionsOf(call.options, own, part), part.conditions));
-    answers.back().part = own.name;
-    answers.back().notes = part.notes;
-  }
+  for (const FittedPart& part : parts) answers.push_back(fitPart(study, part, call.options));
   if (!call.plot.empty()) drawFit(answers.front(), call.plot);
   if (call.json) {
     nlohmann::json out = headJson(study);

@@ -39,22 +39,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Axes and numeric factors, which a function may be fitted of.
-std::vector<std::string> candidatesOf(const StudyPart& part) {
-  std::vector<std::string> out;
-  for (const std::string& axis : part.axes)
-    if (!axis.empty()) out.push_back(axis);
-  for (const StudyFactor& factor : part.factors)
-    if (isNumeric(factor)) out.push_back(factor.name);
-  return out;
-}
-
 std::string variableOf(const StudyPart& part, const std::string& wanted) {
   const std::string where = "part " + part.name;
   if (!part.isBinary())
     throw Error("its task '" + part.task + "' has no answers that are right or wrong, yes or no", where,
                 "name another part with --part");
-  const std::vector<std::string> candidates = candidatesOf(part);
+  const std::vector<std::string> candidates = numericVariables(part);
   if (!wanted.empty()) {
     if (contains(candidates, wanted)) return wanted;
     const bool factor = contains(namesOf(part.factors), wanted);
@@ -213,6 +203,15 @@ FittedPart fittedPart(const StudyAnswers& study, size_t index, const std::string
 }
 
 }  // namespace
+
+std::vector<std::string> numericVariables(const StudyPart& part) {
+  std::vector<std::string> out;
+  for (const std::string& axis : part.axes)
+    if (!axis.empty()) out.push_back(axis);
+  for (const StudyFactor& factor : part.factors)
+    if (isNumeric(factor)) out.push_back(factor.name);
+  return out;
+}
 
 std::vector<FittedPart> fittedParts(const StudyAnswers& study, const FittedPartsChoice& choice) {
   const std::vector<StudyPart>& parts = study.plan.parts;

@@ -29,6 +29,9 @@ struct FittedPart {
   std::vector<std::string> notes;     ///< what whoever reads a fit has to know of the answers
 };
 
+/// Numeric variables of a part: axes of its procedure, and factors all of whose levels are numbers.
+std::vector<std::string> numericVariables(const StudyPart& part);
+
 /// Each part of a study with yes/no, interval or alternative tasks and a numeric variable: the values that
 /// its procedure asked for, or a factor all of whose levels are numbers. Unless named, the variable is the
 /// procedure's only axis, that of the protocol's `simulation:` block, or the only such factor. Answers to one

@@ -76,6 +76,7 @@ std::string analyses(const StudyPage& page) {
            "(Hautus 1995)" +
            (yesNo ? " and 95 % intervals of observers after Gourevitch and Galanter (1967)" : "") +
            "; means over observers have t intervals. ";
+  out += fitMethods(page) + scaleMethods(page);
   if (page.validation) {
     const ValidationSetting& setting = page.validationSetting;
     out += fmt::format(
@@ -92,7 +93,11 @@ std::string analyses(const StudyPage& page) {
                          : std::string(" and a fitted lapse rate");
     out += "; each scenario was predicted by the link fitted to all others. ";
   }
-  return out + "No result on this page rests on random numbers.";
+  const bool drawn = std::any_of(page.scales.begin(), page.scales.end(), [](const PartScale& part) {
+    return part.scale && part.scale->bootstrap != ScaleBootstrap::None;
+  });
+  return out + (drawn ? "No other result on this page rests on random numbers."
+                      : "No result on this page rests on random numbers.");
 }
 
 std::string software(const StudyPage& page) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "analysis/study/anova.h"
+#include "analysis/study/part_fits.h"
+#include "analysis/study/part_scales.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/sensitivity.h"
 #include "analysis/study/validation.h"
@@ -27,6 +29,8 @@ struct StudyPage {
   StudyRates rates, allRates;  ///< of `study`, of `everything`
   std::vector<PartAnova> anova;
   std::vector<PartSensitivity> sensitivity;
+  std::vector<PartFit> fits;
+  std::vector<PartScale> scales;
   std::optional<StudyValidation> validation;
   std::string validationNote;  ///< why there is none although predictions are stored
   ValidationSetting validationSetting;
@@ -41,6 +45,8 @@ void addExclusions(const StudyPage& page, PageWriter& out);
 void addRates(const StudyPage& page, PageWriter& out);
 void addAnova(const StudyPage& page, PageWriter& out);
 void addSensitivity(const StudyPage& page, PageWriter& out);
+void addFits(const StudyPage& page, PageWriter& out);
+void addScales(const StudyPage& page, PageWriter& out);
 void addValidation(const StudyPage& page, PageWriter& out);
 void addAnswers(const StudyPage& page, PageWriter& out);
 void addMethods(const StudyPage& page, PageWriter& out);
@@ -50,6 +56,10 @@ void addProvenance(const StudyPage& page, PageWriter& out);
 // Figures that take more than a few lines.
 std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part);
 void addValidationFigures(const StudyPage& page, const PartValidation& part, PageWriter& out);
+
+// What the methods say of them, "" if there are none.
+std::string fitMethods(const StudyPage& page);
+std::string scaleMethods(const StudyPage& page);
 
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& items);

@@ -83,6 +83,8 @@ StudyPage readPage(const StudyChoice& choice) {
   page.allRates = studyRates(page.everything);
   page.anova = studyAnova(page.study);
   page.sensitivity = studySensitivity(page.study);
+  page.fits = studyFits(page.study, choice.store);
+  page.scales = studyScales(page.study);
   readValidation(page, choice);
   return page;
 }
@@ -94,6 +96,8 @@ StudyPageResult writePage(const StudyPage& page, const fs::path& folder, const f
   addRates(page, out);
   addAnova(page, out);
   addSensitivity(page, out);
+  addFits(page, out);
+  addScales(page, out);
   addValidation(page, out);
   addAnswers(page, out);
   addMethods(page, out);

@@ -57,7 +57,7 @@ const std::vector<Module>& modules() {
        false},
       {"analysis/study_page",
        {"base", "experiments/store", "analysis/statistics", "analysis/psychometric", "analysis/output",
-        "analysis/groups", "analysis/study"},
+        "analysis/fits", "analysis/groups", "analysis/relations", "analysis/study"},
        false},
       {"analysis/commands",
        {"base", "experiments/store", "analysis/statistics", "analysis/psychometric", "analysis/output",

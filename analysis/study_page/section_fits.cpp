@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Psychometric functions of parts with a numeric variable.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/fits/fit_chart.h"
+#include "analysis/output/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/psychometric/coverage.h"
+#include "analysis/study_page/sections.h"
+#include "base/build_facts.h"
+#include "base/gnuplot.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+constexpr const char* kBoundMark = "*";
+constexpr size_t kOpenFits = 20;
+constexpr FitParameter kShownParameters[] = {FitParameter::Threshold, FitParameter::Width,
+                                             FitParameter::Guess, FitParameter::Lapse};
+
+std::string estimateText(FitParameter parameter, double value) {
+  const bool rate = parameter == FitParameter::Guess || parameter == FitParameter::Lapse;
+  if (!std::isfinite(value)) return "-";
+  return rate ? fixedText(value, 3) : formatNumber(value);
+}
+
+std::string boundsText(FitParameter parameter, const std::optional<FitInterval>& interval) {
+  if (!interval) return "-";
+  return estimateText(parameter, interval->low) + (interval->lowOpen ? kBoundMark : "") + " to " +
+         estimateText(parameter, interval->high) + (interval->highOpen ? kBoundMark : "");
+}
+
+std::string fitTableCaption(const FitAnswer& answer) {
+  const FitSettings& settings = answer.fit.settings;
+  return fmt::format(
+      "Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, 95 % "
+      "profile intervals. {}: at a bound of the fit, the data set no limit on that side.",
+      answer.level, answer.part, shortestNumber(settings.thresholdLevel),
+      settings.logarithmic() ? " in units of ln " + answer.level : "", kBoundMark);
+}
+
+PageTable fitTable(const FitAnswer& answer) {
+  PageTable table;
+  table.caption = fitTableCaption(answer);
+  table.file = "tables/psychometric.csv";
+  table.columns = {{"condition", false},
+                   {"trials"},
+                   {"threshold"},
+                   {"95 %"},
+                   {"width"},
+                   {"95 %"},
+                   {"guess"},
+                   {"95 %"},
+                   {"lapse"},
+                   {"95 %"},
+                   {"deviance"}};
+  for (size_t c = 0; c < answer.fit.conditions.size(); ++c) {
+    const ConditionFit& fit = answer.fit.conditions[c];
+    std::vector<std::string> row = {fit.name.empty() ? "all" : fit.name, std::to_string(fit.trials)};
+    for (const FitParameter parameter : kShownParameters) {
+      const size_t i = indexOf(parameter);
+      row.push_back(estimateText(parameter, fit.values[i]) + (fit.atBound[i] != 0 ? kBoundMark : ""));
+      row.push_back(answer.intervals ? boundsText(parameter, answer.intervals->conditions[c][i]) : "-");
+    }
+    // Rounding can leave a fit that meets all answers a little below 0.
+    row.push_back(std::isfinite(fit.deviance) ? fixedText(std::max(fit.deviance, 0.0), 2) : "-");
+    table.rows.push_back(std::move(row));
+  }
+  table.folded = table.rows.size() > kOpenFits;
+  return table;
+}
+
+double percentOf(double share) { return 100.0 * std::clamp(share, 0.0, 1.0); }
+
+void addSeries(const FitSeries& series, size_t number, Figure& figure) {
+  const std::string name = series.name.empty() ? "all" : series.name;
+  std::vector<std::vector<double>> full, open, curve;
+  for (const FitPoint& point : series.points)
+    (point.blank ? open : full)
+        .push_back({point.level, percentOf(point.share), static_cast<double>(point.trials)});
+  for (const auto& [x, share] : series.curve) curve.push_back({x, percentOf(share)});
+  figure.plots.push_back(addBlock(figure, name + ": level, fitted in %", curve) + " using 1:2 with lines " +
+                         (series.name.empty() ? "notitle" : "title " + gnuplotQuoted(series.name)) + " " +
+                         seriesLook(number));
+  if (!full.empty())
+    figure.plots.push_back(addBlock(figure, name + ": level, answers in %, trials", full) +
+                           " using 1:2 with points notitle " + seriesLook(number));
+  if (!open.empty())
+    figure.plots.push_back(addBlock(figure, name + ": edge, answers without a stimulus in %, trials", open) +
+                           " using 1:2 with points notitle pt 6 ps 0.8 " + seriesColour(number));
+  figure.plots.push_back(addBlock(figure, name + ": threshold, fitted in %, interval from, to",
+                                  {{series.threshold, percentOf(series.thresholdShare), series.interval.low,
+                                    series.interval.high}}) +
+                         " using 1:2:3:4 with xerrorbars notitle pt 2 ps 0.7 lw 1.2 " + seriesColour(number));
+}
+
+bool isDrawable(const FitSeries& series) {
+  return std::isfinite(series.threshold) && std::isfinite(series.thresholdShare) &&
+         std::isfinite(series.interval.low) && std::isfinite(series.interval.high) &&
+         std::all_of(series.curve.begin(), series.curve.end(), [](const std::array<double, 2>& place) {
+           return std::isfinite(place[0]) && std::isfinite(place[1]);
+         });
+}
+
+void addFitFigure(const StudyPage& page, const StudyPart& part, const FitAnswer& answer, PageWriter& out) {
+  const FitChart chart = chartOf(answer);
+  Figure figure;
+  figure.name = "psychometric_" + page.stem(part.name);
+  figure.xTitle = answer.level;
+  figure.yTitle = part.asksYesNo() ? "reported a change (%)" : "right answers (%)";
+  figure.description =
+      figure.yTitle + " against " + answer.level + " with fitted functions, part " + part.name;
+  figure.heightPx += static_cast<int>(chart.series.size()) * 18;
+  figure.key = chart.series.size() > 1;
+  figure.settings = fmt::format("set xrange [{}:{}]\nset yrange [0:102]\nset ytics 20\n",
+                                shortestNumber(chart.low), shortestNumber(chart.high)) +
+                    (chart.logarithmic ? "set logscale x\n" + chart.xTics : "");
+  size_t number = 0;
+  for (const FitSeries& series : chart.series) {
+    if (isDrawable(series)) addSeries(series, number, figure);
+    ++number;
+  }
+  if (figure.plots.empty()) return;
+  out.figure(figure, fmt::format("Part {}: answers and fitted psychometric functions of {}. Bars: "
+                                 "thresholds with 95 % profile intervals.{}",
+                                 part.name, answer.level,
+                                 chart.blanks ? " Open points at the edge: trials without a stimulus." : ""));
+}
+
+std::vector<std::string> remarksOn(const FitAnswer& answer) {
+  std::vector<std::string> out = answer.notes;
+  if (answer.intervals) {
+    const FitIntervals& intervals = *answer.intervals;
+    for (const std::string& note :
+         coverageNotes(intervals.method, answer.parametric, answer.fit.settings.task))
+      out.push_back(note);
+    out.insert(out.end(), intervals.warnings.begin(), intervals.warnings.end());
+  }
+  for (const ConditionFit& fit : answer.fit.conditions)
+    for (const std::string& warning : fit.warnings)
+      out.push_back((fit.name.empty() ? "" : fit.name + ": ") + warning);
+  return out;
+}
+
+std::string sigmoidText(const FitSettings& settings) {
+  std::string out = psychometrics::nameOf(settings.sigmoid);
+  std::replace(out.begin(), out.end(), '_', ' ');
+  for (const auto& [plain, proper] :
+       {std::pair{"weibull", "Weibull"}, {"gumbel", "Gumbel"}, {"student t", "Student's t"}})
+    replaceAll(out, plain, proper);
+  return out;
+}
+
+/// How guess and lapse rates came about.
+std::string ratesText(const FitSettings& settings) {
+  const auto fixed = [&](FitParameter parameter) { return settings.fixed[indexOf(parameter)]; };
+  std::string out;
+  if (settings.task.kind == FitTask::Kind::ForcedChoice)
+    out = fmt::format("guess rate 1/{}", settings.task.alternatives);
+  else if (const auto guess = fixed(FitParameter::Guess))
+    out = "guess rate " + shortestNumber(*guess);
+  else
+    out = "guess rate fitted up to " + shortestNumber(settings.guessMost);
+  const auto lapse = fixed(FitParameter::Lapse);
+  return out + (lapse ? ", lapse rate " + shortestNumber(*lapse)
+                      : ", lapse rate fitted up to " + shortestNumber(settings.lapseMost));
+}
+
+}  // namespace
+
+std::string fitMethods(const StudyPage& page) {
+  std::string out;
+  for (const PartFit& part : page.fits) {
+    if (!part.answer) continue;
+    const FitSettings& settings = part.answer->fit.settings;
+    out += fmt::format(
+        "Psychometric functions P = guess + (1 - guess - lapse) F of {}{} ({} F, {} on a {} axis; {}) were "
+        "fitted by {} with Limen {} to answers pooled over observers; thresholds are at F = {}, widths from "
+        "0.05 to 0.95, 95 % "
+        "intervals are those of the profile likelihood. ",
+        part.answer->level, page.fits.size() > 1 ? ", part " + part.part : "", sigmoidText(settings),
+        settings.falling ? "falling" : "rising", settings.logarithmic() ? "logarithmic" : "linear",
+        ratesText(settings),
+        settings.method == FitMethod::MaximumLikelihood ? "maximum likelihood" : "maximum a posteriori",
+        projectVersion(), shortestNumber(settings.thresholdLevel));
+  }
+  return out;
+}
+
+void addFits(const StudyPage& page, PageWriter& out) {
+  if (page.fits.empty()) return;
+  out.openSection("psychometric", "Psychometric functions");
+  std::vector<FitAnswer> answers;
+  for (const PartFit& part : page.fits) {
+    if (page.fits.size() > 1) out.heading("Part " + part.part);
+    if (!part.answer) {
+      out.paragraph("Part " + part.part + " was not fitted: " + part.note + ".");
+      continue;
+    }
+    const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
+                                  [&](const StudyPart& one) { return one.name == part.part; });
+    addFitFigure(page, *own, *part.answer, out);
+    out.table(fitTable(*part.answer));
+    out.list(remarksOn(*part.answer));
+    answers.push_back(*part.answer);
+  }
+  if (!answers.empty())
+    out.file("tables/psychometric.csv", toCsv(answers), "parameters of the psychometric functions");
+  out.closeSection();
+}
+
+}  // namespace limen::analysis

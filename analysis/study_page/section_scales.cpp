@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Items that were compared in pairs: their values on a scale.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/output/text_output.h"
+#include "analysis/output/text_table.h"
+#include "analysis/relations/relation_text.h"
+#include "analysis/study_page/sections.h"
+#include "base/build_facts.h"
+#include "base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+constexpr const char* kScaleFile = "tables/scales.csv";
+
+/// What the figure's bars are: the bootstrap's intervals where there are any.
+std::optional<Interval> shownInterval(const ScaledItem& item) {
+  const std::optional<Interval> drawn = boundsOf(item.bootstrap);
+  return drawn ? drawn : item.interval;
+}
+
+std::string intervalKind(const ItemScale& scale) {
+  return scale.bootstrap == ScaleBootstrap::None ? "95 % intervals, value ± z standard errors"
+                                                 : "95 % intervals of a bootstrap over observers";
+}
+
+/// "-" for one of no width, too: it comes of data without spread and is no certainty.
+std::string twoDigits(const std::optional<Interval>& interval) {
+  return interval && interval->low < interval->high
+             ? fmt::format("{:.2f} to {:.2f}", interval->low, interval->high)
+             : "-";
+}
+
+void addScaleFigure(const StudyPage& page, const PartScale& part, PageWriter& out) {
+  const ItemScale& scale = *part.scale;
+  Figure figure;
+  figure.name = "scale_" + page.stem(part.part);
+  figure.key = false;
+  figure.xTitle = "scale value";
+  figure.description = "scale values of the items of part " + part.part + ", the highest at the top";
+  figure.heightPx = 120 + 36 * static_cast<int>(scale.items.size());
+  std::vector<std::vector<double>> rows;
+  std::vector<std::pair<double, std::string>> labels;
+  double place = static_cast<double>(scale.items.size());
+  for (const ScaledItem& item : scale.items) {
+    const Interval bar = shownInterval(item).value_or(Interval{item.value, item.value});
+    labels.emplace_back(place, item.name);
+    rows.push_back({item.value, place, bar.low, bar.high});
+    place -= 1.0;
+  }
+  const double top = static_cast<double>(scale.items.size()) + 0.5;
+  figure.settings = namedTics("y", labels) + fmt::format("set yrange [0.5:{}]\n", shortestNumber(top)) +
+                    "set offsets graph 0.05, graph 0.05, 0, 0\n";
+  figure.plots.push_back(addBlock(figure, "zero, which values sum to", {{0.0, 0.5}, {0.0, top}}) +
+                         " using 1:2 with lines " + kReferenceLook);
+  figure.plots.push_back(addBlock(figure, "value, place, interval from, to", rows) +
+                         " using 1:2:3:4 with xerrorbars pt 7 ps 0.8 lw 1.5 " + seriesColour(0));
+  out.figure(figure,
+             fmt::format("Part {}: scale values of the items; bars are {}.", part.part, intervalKind(scale)));
+}
+
+PageTable itemTable(const PartScale& part) {
+  PageTable table;
+  table.caption = fmt::format(
+      "Items of part {}: values on Bradley and Terry's scale, which sum to 0; 1 apart, {} prefer the upper.",
+      part.part, percentText(predictPreference(part.setting.model, 1.0)));
+  table.file = kScaleFile;
+  table.columns = {{"item", false}, {"chosen"}, {"value"}, {"error"}, {"95 % (z)"}, {"95 % (bootstrap)"}};
+  for (const ScaledItem& item : part.scale->items)
+    table.rows.push_back({item.name, fmt::format("{}/{}", item.chosen, item.judged), fixedText(item.value, 2),
+                          fixedText(item.standardError, 2), twoDigits(item.interval),
+                          twoDigits(boundsOf(item.bootstrap))});
+  if (part.scale->bootstrap == ScaleBootstrap::None) {
+    table.columns.pop_back();
+    for (std::vector<std::string>& row : table.rows) row.pop_back();
+  }
+  return table;
+}
+
+PageTable stepTable(const PartScale& part) {
+  PageTable table;
+  table.caption = "Neighbours on the scale of part " + part.part +
+                  ": differences with 95 % intervals from standard errors, p of no difference.";
+  table.columns = {{"upper", false}, {"lower", false}, {"difference"}, {"95 % (z)"}, {"z"}, {"p"},
+                   {"p (Holm)"},     {"preferred"}};
+  for (const ItemStep& step : part.scale->steps)
+    table.rows.push_back({step.upper, step.lower, fixedText(step.difference, 2), twoDigits(step.interval),
+                          fixedText(step.z, 2), pText(step.p), pText(step.holm),
+                          percentText(step.preferred)});
+  return table;
+}
+
+std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& scale) {
+  std::vector<std::string> out = scale.notes, pooled;
+  for (const StudyFactor& factor : part.factors)
+    if (factor.name != "item_a" && factor.name != "item_b") pooled.push_back(factor.name);
+  if (!pooled.empty()) out.push_back("pooled over " + join(pooled));
+  if (scale.subjects > 1)
+    out.push_back(fmt::format(
+        "standard errors and z tests take all judgements of {} observers as independent, which makes errors "
+        "and p too small{}",
+        scale.subjects, scale.bootstrap == ScaleBootstrap::None ? "" : "; the bootstrap draws observers"));
+  if (!scale.fit.note.empty()) out.push_back("penalised: " + scale.fit.note);
+  if (scale.penalised > 0)
+    out.push_back(fmt::format("{} samples of the bootstrap were unbounded, and penalised", scale.penalised));
+  if (scale.skipped > 0)
+    out.push_back(fmt::format("{} samples of the bootstrap did not connect all items, and were left out",
+                              scale.skipped));
+  if (scale.fit.devianceP)
+    out.push_back(fmt::format("goodness of fit: deviance {:.2f} with {} degrees of freedom, p = {}",
+                              scale.fit.deviance, scale.fit.df, pText(scale.fit.devianceP)));
+  if (scale.firstChosen)
+    out.push_back(fmt::format("shown first and chosen: {} of {}, {} (95 % {})", scale.firstChosen->successes,
+                              scale.firstChosen->trials, percentText(scale.firstChosen->rate),
+                              intervalText(scale.firstChosen->wilson, true)));
+  return out;
+}
+
+/// CSV of all parts in one, each as `limen analyse scale` writes it.
+Scales scalesOf(const StudyPage& page) {
+  Scales out;
+  for (const PartScale& part : page.scales) {
+    if (!part.scale) continue;
+    out.setting = part.setting;
+    out.groups.push_back(*part.scale);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string scaleMethods(const StudyPage& page) {
+  std::string out;
+  for (const PartScale& part : page.scales) {
+    if (!part.scale) continue;
+    const BootstrapSetting& bootstrap = part.setting.bootstrap;
+    out += fmt::format(
+        "Items compared in pairs{} were scaled by the model of Bradley and Terry (1952), by maximum "
+        "likelihood with Limen {} and with values that sum to 0, from judgements pooled over observers; ",
+        page.scales.size() > 1 ? ", part " + part.part : "", projectVersion());
+    out += part.scale->bootstrap == ScaleBootstrap::None
+               ? std::string("95 % intervals are values ± 1.96 standard errors")
+               : fmt::format(
+                     "95 % intervals are from standard errors and percentiles of a bootstrap over "
+                     "observers ({} samples, seed {})",
+                     bootstrap.samples, bootstrap.seed);
+    out += part.scale->steps.size() > 1 ? "; neighbours were compared by z tests, p corrected after Holm. "
+                                        : "; the two items were compared by a z test. ";
+  }
+  return out;
+}
+
+void addScales(const StudyPage& page, PageWriter& out) {
+  if (page.scales.empty()) return;
+  out.openSection("scales", "Comparisons in pairs");
+  for (const PartScale& part : page.scales) {
+    if (page.scales.size() > 1) out.heading("Part " + part.part);
+    if (!part.scale) {
+      out.paragraph("Part " + part.part + " has no scale: " + part.note + ".");
+      continue;
+    }
+    addScaleFigure(page, part, out);
+    out.table(itemTable(part));
+    out.table(stepTable(part));
+    const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
+                                  [&](const StudyPart& one) { return one.name == part.part; });
+    out.list(remarksOnScale(*own, *part.scale));
+  }
+  const Scales all = scalesOf(page);
+  if (!all.groups.empty()) out.file(kScaleFile, toCsv(all), "scale values of items compared in pairs");
+  out.closeSection();
+}
+
+}  // namespace limen::analysis
