@@ -130,7 +130,8 @@ TEST(FitIntervals, BootstrapOfAStepSaysNothingAndTheProfileLeavesItOpen) {
       bootstrapIntervals(data, fit, bootstrap(data, fit, {50, 1, true, 2}), false, 0.95);
   for (const auto& interval : none.conditions[0]) EXPECT_FALSE(interval);
   EXPECT_EQ(none.warnings.size(), 1u);
-  for (const auto& interval : laplaceIntervals(data, fit, 0.95).conditions[0]) EXPECT_FALSE(interval);
+  const FitIntervals laplace = laplaceIntervals(data, fit, 0.95);
+  for (const auto& interval : laplace.conditions[0]) EXPECT_FALSE(interval);
   const auto profile = profileIntervals(data, fit, 0.95).conditions[0];
   ASSERT_TRUE(profile[0] && profile[1]);
   EXPECT_LT(profile[0]->low, 2.2);
