@@ -103,8 +103,9 @@ TEST(StudyPage, ReadsWellOnWideAndNarrowScreens) {
   const nlohmann::json found = probe(browser, folder, result.page, kStudyProbe, "1280,1600");
   EXPECT_EQ(found.at("problems"), nlohmann::json::array());
   EXPECT_EQ(found.at("duplicateIds"), nlohmann::json::array());
-  EXPECT_EQ(found.at("sections"), nlohmann::json({"exclusions", "rates", "anova", "sensitivity", "validation",
-                                                  "answers", "methods", "data"}));
+  EXPECT_EQ(found.at("sections"),
+            nlohmann::json({"exclusions", "rates", "anova", "sensitivity", "psychometric", "validation",
+                            "answers", "methods", "data"}));
   EXPECT_EQ(found.at("figures"), result.figures);
   EXPECT_EQ(found.at("drawn"), result.figures);
   EXPECT_EQ(found.at("captions"), result.figures);
