@@ -6,8 +6,8 @@
 namespace limen::frame {
 namespace {
 
-constexpr int kQueueCapacity =
-    1 << 18;  // runs of pixels of large triangles; more are rasterised where they are found
+/// Bands of rows of large triangles; more are rasterised where they are found, one invocation each.
+constexpr int kQueueCapacity = 1 << 19;
 constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
 

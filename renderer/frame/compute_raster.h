@@ -32,7 +32,7 @@ Raster chosenRaster(Raster raster, const gl::Context& context);
 /// weights of the point seen. Triangles that share an edge compute it from the same numbers, so there are no
 /// cracks; there is no clipping, since a triangle that reaches behind the eye needs none. Two-dimensional
 /// homogeneous rasterisation is due to Olano and Greer 1997. Small triangles take one invocation each; large
-/// ones are cut into runs of pixels for groups.
+/// ones are cut into bands of rows for groups, which visit no more of a row than the triangle can cover.
 class ComputeRaster {
  public:
   ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds);
