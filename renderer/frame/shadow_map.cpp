@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <bit>
 #include <cassert>
 
@@ -16,17 +17,29 @@ int levelCount(int resolution) {
 
 }  // namespace
 
-ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster) {
+ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster, bool withIds) {
   if (chosenRaster(raster, context) == Raster::Compute) {
-    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), false);
+    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), withIds);
     return;
   }
   gl::Texture depth(gl::Format::Depth32F, glm::ivec2(resolution));
-  const std::vector<std::string> shaders = {"renderer/frame/shadow.vert.glsl",
-                                            "renderer/frame/shadow.frag.glsl"};
-  gl::Framebuffer framebuffer({}, &depth);
-  hardware_.reset(
-      new HardwareTarget{context.programs().get(shaders), std::move(depth), std::move(framebuffer)});
+  std::optional<gl::Texture> ids;
+  if (withIds) ids.emplace(gl::Format::R32UI, glm::ivec2(resolution));
+  const std::vector<std::string> shaders =
+      withIds
+          ? std::vector<std::string>{"renderer/frame/triangle_ids.vert.glsl",
+                                     "renderer/frame/triangle_ids.frag.glsl"}
+          : std::vector<std::string>{"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"};
+  std::vector<const gl::Texture*> colours;
+  if (ids) colours.push_back(&*ids);
+  gl::Framebuffer framebuffer(colours, &depth);
+  hardware_.reset(new HardwareTarget{context.programs().get(shaders), std::move(depth), std::move(ids),
+                                     std::move(framebuffer)});
+}
+
+int64_t ShadowRaster::bytes() const {
+  if (compute_) return compute_->bytes();
+  return hardware_->depth.bytes() + (hardware_->ids ? hardware_->ids->bytes() : 0);
 }
 
 void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
@@ -39,6 +52,8 @@ void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
   hardware_->framebuffer.bind();
   constexpr GLfloat kFar = 0.0F;
   glClearBufferfv(GL_DEPTH, 0, &kFar);
+  constexpr std::array<GLuint, 4> kNoTriangle = {0xffffffffU, 0, 0, 0};
+  if (hardware_->ids) glClearBufferuiv(GL_COLOR, 0, kNoTriangle.data());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDisable(GL_CULL_FACE);

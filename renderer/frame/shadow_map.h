@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "renderer/frame/compute_raster.h"
@@ -37,16 +38,19 @@ class LightCasters {
 /// Depth image of the scene from a point of the light: near / z, 0 where nothing is.
 class ShadowRaster {
  public:
-  ShadowRaster(gl::Context& context, int resolution, Raster raster);
+  /// `withIds`: and which triangle each texel sees.
+  ShadowRaster(gl::Context& context, int resolution, Raster raster, bool withIds = false);
   void draw(Frame& frame, const LightFrustum& frustum) const;
   /// One channel of 32-bit float, to be read by texelFetch.
   const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
-  int64_t bytes() const { return hardware_ ? hardware_->depth.bytes() : compute_->bytes(); }
+  const gl::Texture& ids() const { return hardware_ ? *hardware_->ids : compute_->ids(); }  ///< R32UI
+  int64_t bytes() const;
 
  private:
   struct HardwareTarget {
     const gl::Program& program;
     gl::Texture depth;
+    std::optional<gl::Texture> ids;
     gl::Framebuffer framebuffer;
   };
   std::unique_ptr<HardwareTarget> hardware_;

@@ -36,17 +36,17 @@ float gatherOccluders(vec4 p, Area area, int level) {
       const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
       ++fetchCount;
 #endif
-      if (z < depth) {
+      if (blocks(z, ivec2(x, y), level, depth)) {
         const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
         const float k = throwOf(z, p.z);
         vec2 start = k * vec2(edgesX.x, edgesY.x) + 0.5;
         const vec2 end = k * vec2(edgesX.y, edgesY.y) + 0.5;
 #if GAP_FILL > 0
-        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * edgesX.x + 0.5);
-        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * edgesY.x + 0.5);
+        if (blocks(left, ivec2(x - 1, y), level, depth)) start.x = min(start.x, throwOf(left, p.z) * edgesX.x + 0.5);
+        if (blocks(below, ivec2(x, y - 1), level, depth)) start.y = min(start.y, throwOf(below, p.z) * edgesY.x + 0.5);
 #endif
 #if GAP_FILL > 1
-        if (lowerLeft < depth) {
+        if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, depth)) {
           const float corner = throwOf(lowerLeft, p.z);
           start = min(start, corner * vec2(edgesX.x, edgesY.x) + 0.5);
         }

@@ -2,7 +2,7 @@
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
-#if OCCLUDERS > 0
+#if OCCLUDERS == 1 || OCCLUDERS == 2
 #include "renderer/techniques/soft_shadows/bitmask/quad_mask.glsl"
 void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d); }
 #endif

@@ -42,7 +42,7 @@ void check(const ParameterValues& values) {
   OccluderSearch::checkSearch(values);
   const std::string &occluders = values.text("occluders"), &mask = values.text("quad_mask"),
                     &pattern = values.text("pattern");
-  if (occluders == "micropatches" && mask != "approximate")
+  if (!occluders.starts_with("microquads") && mask != "approximate")
     throw Error("'quad_mask' is about microquads, and there are none", "quad_mask",
                 "leave it out, or give occluders: microquads");
   if (occluders == "microquads_microtris" && mask == "approximate")
@@ -102,7 +102,7 @@ class Bitmask : public OccluderSearch {
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> all =
-      OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris"});
+      OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris", "microrects"});
   all.push_back(
       choiceParameter("pattern", "jittered_16", lightSamplePatterns(),
                       "Light samples: regular grids, 16 x 16 in rotated pairs, or places without a grid",
