@@ -11,7 +11,7 @@
 namespace limen::frame {
 
 ShadowTriangles::ShadowTriangles(Frame& frame, ShadowMapSettings settings)
-    : raster_(frame.context(), settings.resolution, settings.raster, true),
+    : raster_(frame.context(), settings.resolution, settings.raster, ShadowRaster::Extra::Ids),
       frustum_(LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution)),
       pass_("frame/shadow_triangles") {
   frame.passes().setBytesHeld(pass_, raster_.bytes());
@@ -19,7 +19,7 @@ ShadowTriangles::ShadowTriangles(Frame& frame, ShadowMapSettings settings)
 
 void ShadowTriangles::make(Frame& frame) {
   const auto scope = frame.passes().open(pass_);
-  raster_.draw(frame, frustum_);
+  raster_.draw(frame, frame.geometry(), frustum_);
 }
 
 BiasLevels::BiasLevels(gl::Context& context, int resolution)

@@ -59,14 +59,14 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const ivec4 bounds = rectBounds(ivec2(x, y), level);
         const vec2 lowEdge = scale * vec2(bounds.xy) + shift, highEdge = scale * vec2(bounds.zw) + shift;
         const float k = throwOf(z, p.z);
-        vec2 start = k * lowEdge + 0.5;
-        const vec2 end = k * highEdge + 0.5;
+        vec2 start = k * lowEdge + eyeOnLight;
+        const vec2 end = k * highEdge + eyeOnLight;
 #if GAP_FILL > 0
-        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * lowEdge.x + 0.5);
-        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * lowEdge.y + 0.5);
+        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * lowEdge.x + eyeOnLight.x);
+        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
 #if GAP_FILL > 1
-        if (lowerLeft < depth) start = min(start, throwOf(lowerLeft, p.z) * lowEdge + 0.5);
+        if (lowerLeft < depth) start = min(start, throwOf(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
         ++occluderCount;
         // Clamped in an order that turns a NaN, were there one, into a bound.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "renderer/frame/multi_scale_map.h"
@@ -132,17 +133,19 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
   levels_ = pyramid.levels();
-  structureBytes_ = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   coarse_.make(frame, mapSettings());
   biasForm_.make(frame, mapSettings());
+  int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   if (hasLayers(structure_)) {
     const auto& layers = frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
     layers.texture().bindTexture(3);
     baseLevel_ = layers.baseLevel();
-    structureBytes_ += layers.texture().bytes();
+    bytes += layers.texture().bytes();
   }
+  structureBytes_.resize(maps().size());
+  structureBytes_[currentMap()] = bytes;
   // Last, since making the inputs binds textures too.
   coarse_.bind();
   biasForm_.bind();
@@ -173,7 +176,8 @@ std::vector<std::string> OccluderSearch::counterNames() {
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   std::vector<Counter> all = VisibilityTechnique::count(frame);
-  all.push_back({"structure_bytes", static_cast<double>(structureBytes_), "byte", true});
+  const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
+  all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
   all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes()), "byte", true});
   return all;
 }
