@@ -108,6 +108,13 @@ void Program::dispatch(glm::ivec2 size, glm::ivec2 localSize) const {
   glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
 }
 
+void Program::dispatchIndirect(const Buffer& arguments) const {
+  use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.id());
+  glDispatchComputeIndirect(0);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
 const Program& ProgramCache::get(const std::vector<std::string>& paths, const ShaderDefines& defines) {
   std::string key;
   for (const std::string& path : paths) key += path + "\n";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/gl/buffer.h"
 #include "renderer/gl/shader_source.h"
 
 namespace limen::gl {
@@ -36,6 +37,9 @@ class Program {
 
   /// Runs a compute program over at least `size` invocations, given its local size.
   void dispatch(glm::ivec2 size, glm::ivec2 localSize = {8, 8}) const;
+  /// Runs a compute program over the groups that the three first words of `arguments` count. Whoever wrote
+  /// them puts a barrier with GL_COMMAND_BARRIER_BIT in between.
+  void dispatchIndirect(const Buffer& arguments) const;
 
  private:
   int location(const char* name) const;
