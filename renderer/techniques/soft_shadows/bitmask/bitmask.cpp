@@ -42,12 +42,22 @@ gl::ShaderDefines definesOf(const ParameterValues& values) {
 
 }  // namespace
 
+void Bitmask::checkKept(const ParameterValues& values, const std::string& why) {
+  const std::string& levels = values.text("levels");
+  if (values.text("passes") != "single")
+    throw Error(why + ", which is one pass's work", "passes", "leave it out, or give one map of one colour");
+  if (levels != "finest_within" && levels != "coarsest_over")
+    throw Error(why + ", and 'levels: " + levels + "' blends what masks come to", "levels",
+                "give levels: finest_within, or one map of one colour");
+}
+
 void Bitmask::checkValues(const ParameterValues& values) {
   OccluderSearch::checkSearch(values);
   LightMaps::check(values);
   if (values.text("maps") != "centre" && values.text("bias_form") == "stored")
     throw Error("'bias_form: stored' knows the map from the light's centre alone", "bias_form",
                 "give another form, or maps: centre");
+  if (values.text("maps") != "centre") checkKept(values, "several maps are joined mask by mask");
   const std::string &occluders = values.text("occluders"), &mask = values.text("quad_mask"),
                     &pattern = values.text("pattern");
   if (!occluders.starts_with("microquads") && mask != "approximate")

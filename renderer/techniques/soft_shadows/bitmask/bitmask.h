@@ -22,6 +22,8 @@ class Bitmask : public OccluderSearch {
   explicit Bitmask(const ParameterValues& values) : Bitmask(values, false) {}
 
   static std::vector<Parameter> parameters();
+  /// Throws Error where values ask for what masks that are kept cannot have; `why` they are kept begins it.
+  static void checkKept(const ParameterValues& values, const std::string& why);
   /// Throws Error where values do not go together.
   static void checkValues(const ParameterValues& values);
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
