@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "renderer/frame/g_buffer.h"
 #include "renderer/frame/multi_scale_map.h"
+#include "renderer/techniques/soft_shadows/quality/quality_counters.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
 
 namespace limen::techniques {
@@ -13,6 +15,8 @@ namespace {
 
 constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
+constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
+const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
 
 Structure structureOf(const std::string& name) {
   return name == "none"       ? Structure::None
@@ -38,6 +42,16 @@ gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines de
                                         : "STRUCTURE_WINDOWS"] = "1";
   if (structure == Structure::NBuffer) defines["CORNER"] = "1";
   if (hasLayers(structure) && values.boolean("growth")) defines["GROW"] = "1";
+  if (hasBudgetMap(values)) defines["BUDGET_MAP"] = "1";
+  LevelOfQuality(values).define(defines);
+  return defines;
+}
+
+const gl::ShaderDefines kGatherDefines = {{"SPLIT_GATHER", "1"}};
+
+gl::ShaderDefines classifyDefines(bool smooths) {
+  gl::ShaderDefines defines = {{"SPLIT_CLASSIFY", "1"}};
+  if (smooths) defines["SMOOTH"] = "1";
   return defines;
 }
 
@@ -80,6 +94,8 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
                                 "What is made of texels that block: rectangles at one depth, a mesh between "
                                 "their centres, that with triangles where three of four block, or contours",
                                 "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.4.5"));
+  for (const std::vector<Parameter>& more : {LevelOfQuality::parameters(), budgetParameters()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
@@ -97,6 +113,8 @@ void OccluderSearch::checkSearch(const ParameterValues& values) {
   if (!hasLayers(structure) && !values.boolean("growth"))
     throw Error("'growth' is about structures with layers, and there are none", "growth",
                 "leave it out, or give structure: mssm, n_buffer or ysm");
+  LevelOfQuality::check(values);
+  checkBudget(values);
 }
 
 OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
@@ -108,7 +126,9 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
       structure_(structureOf(values.text("structure"))),
       base_(structure_ == Structure::Ysm
                 ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
-                : mapSettings().resolution) {
+                : mapSettings().resolution),
+      quality_(values),
+      budgets_(makeBudgetDriver(values)) {
   checkSearch(values);
 }
 
@@ -116,15 +136,22 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
   levels_ = pyramid.levels();
   structureBytes_ = pyramid.minimum().bytes() + pyramid.maximum().bytes();
+  const frame::MultiScaleMap* layers = nullptr;
   if (hasLayers(structure_)) {
-    const auto& layers = frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
+    layers = &frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
-    layers.texture().bindTexture(3);
-    baseLevel_ = layers.baseLevel();
-    structureBytes_ += layers.texture().bytes();
+    baseLevel_ = layers->baseLevel();
+    structureBytes_ += layers->texture().bytes();
   }
+  const gl::Texture* depth = nullptr;
+  if (split_ && smooths())
+    depth = &frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture();
+  if (budgets_) budgetMap_ = &budgets_->make(frame);
   // Last, since making the inputs binds textures too.
+  if (layers) layers->texture().bindTexture(3);
+  if (budgetMap_) budgetMap_->bindTexture(kBudgetUnit);
+  if (depth) depth->bindTexture(kCameraDepthUnit);
   pyramid.minimum().bindTexture(1);
   pyramid.maximum().bindTexture(2);
   maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
@@ -139,18 +166,74 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("baseLevel", baseLevel_);
   program.set("budgetPerAxis",
               budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));
+  quality_.configure(program);
+}
+
+void OccluderSearch::preparePasses(frame::Frame& frame) {
+  if (budgets_) budgets_->prepare(frame);
+  if (!quality_.splits()) {
+    VisibilityTechnique::preparePasses(frame);
+    return;
+  }
+  split_.emplace(frame, smooths());
+  classify_ = &program(frame, false, classifyDefines(smooths()));
+  gather_ = &program(frame, false, kGatherDefines);
+  if (smooths()) smooth_ = &frame.context().programs().compute(kSmoothShader);
+  frame.passes().setBytesHeld(passName() + "/classify", product().bytes() + split_->bytes());
+}
+
+void OccluderSearch::runPasses(frame::Frame& frame, const PassInputs& inputs) {
+  if (split_)
+    runSplit(frame, inputs);
+  else
+    VisibilityTechnique::runPasses(frame, inputs);
+  if (budgets_) budgets_->finish(frame, split_ ? &split_->work() : nullptr);
+}
+
+void OccluderSearch::runSplit(frame::Frame& frame, const PassInputs& inputs) {
+  const bool counting = inputs.counts != nullptr;
+  {
+    const auto scope = frame.passes().open(passName() + "/classify");
+    const gl::Program& classify = counting ? program(frame, true, classifyDefines(smooths())) : *classify_;
+    bindPass(frame, classify, inputs);
+    split_->bindForClassify();
+    classify.dispatch(frame.sizePx());
+    SplitSearch::makeVisible();
+  }
+  if (smooths()) {
+    const auto scope = frame.passes().open(passName() + "/smooth");
+    quality_.configureSmoothing(*smooth_);
+    split_->smooth(*smooth_);
+  }
+  const auto scope = frame.passes().open(passName() + "/gather");
+  const gl::Program& gather = counting ? program(frame, true, kGatherDefines) : *gather_;
+  bindPass(frame, gather, inputs);
+  split_->bindForGather();
+  split_->dispatchOverList(gather);
+  SplitSearch::makeVisible();
 }
 
 std::vector<std::string> OccluderSearch::counterNames() {
   std::vector<std::string> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
+  for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
   return names;
 }
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   std::vector<Counter> all = VisibilityTechnique::count(frame);
   all.push_back({"structure_bytes", static_cast<double>(structureBytes_), "byte", true});
+  const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
+  for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
+    all.push_back(std::move(counter));
   return all;
+}
+
+std::map<std::string, const gl::Texture*> OccluderSearch::debugViews() const {
+  std::map<std::string, const gl::Texture*> views;
+  if (split_) views = {{"search_areas", &split_->areas()}, {"levels", &split_->levels()}};
+  if (budgetMap_) views["budget_map"] = budgetMap_;
+  return views;
 }
 
 std::map<std::string, Image> OccluderSearch::pictures() const {

@@ -4,7 +4,7 @@
 // file of occluders asks for.
 // OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours.
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
-uniform int levels, refinements, budgetPerAxis;
+uniform int levels, refinements;
 uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
 uniform int maxIterations;
@@ -39,17 +39,10 @@ struct Range {
 // Those that may matter for an area, rounded outward to the level's grid.
 Range occluderRange(Area area, int level);
 
-// Finest level at which the area's micro-occluders keep within the budget on both axes.
-int microOccluderLevel(Area area) {
-  int level = 0;
-  while (level < levels - 1) {
-    const Range range = occluderRange(area, level);
-    const ivec2 count = range.high - range.low + 1;
-    if (max(count.x, count.y) <= budgetPerAxis) break;
-    ++level;
-  }
-  return level;
-}
+// Visibility by the micro-occluders of a level that lie in the area.
+float gatherOccluders(vec4 p, Area area, int level);
+
+#include "renderer/techniques/soft_shadows/quality/level_of_quality.glsl"
 
 // Area of which the depth range decides. A coarse micro-occluder that the search area cuts stands for texels outside of it
 // too: left out, they would make points fully lit that neighbours, with one texel of the occluder in their area, find
@@ -57,7 +50,7 @@ int microOccluderLevel(Area area) {
 // budget of 4 or more leads to.
 Area queriedArea(Area area) {
 #ifdef GROW
-  const int level = microOccluderLevel(area);
+  const int level = int(ceil(levelOfArea(area)));
   return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
 #else
   return area;
@@ -107,14 +100,14 @@ float throwOf(float z, float pz) { return z / (pz - z); }
 #include "renderer/techniques/soft_shadows/microquads.glsl"
 #endif
 
+#if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
+#include "renderer/techniques/soft_shadows/quality/split_search.glsl"
+#else
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;
   float visibility;
+  readBudget(pixel);
   if (!findArea(p, area, visibility)) return visibility;
-  pixelClass = kProcessed;
-  clearGathered();
-  const int level = microOccluderLevel(area);
-  levelUsed = uint(level);
-  areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
-  return gatherOccluders(p, area, level);
+  return visibilityAt(p, area, qualityLevel(p, area), pixel);
 }
+#endif

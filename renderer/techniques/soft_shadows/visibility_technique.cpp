@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -25,7 +26,7 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::v
     occluders += counts[i + 1];
     occludersSquared += double(counts[i + 1]) * counts[i + 1];
     fetches += counts[i + 2];
-    levels += counts[i + 3];
+    levels += std::bit_cast<float>(search[i + 3]);
     areaTexels += search[i];
     examined += search[i + 1];
     used += search[i + 2];
@@ -90,9 +91,21 @@ std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlope
 }
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
-  program_ = &frame.context().programs().compute(shader_, defines_);
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
+  preparePasses(frame);
+}
+
+void VisibilityTechnique::preparePasses(frame::Frame& frame) {
+  program_ = &program(frame, false);
   frame.passes().setBytesHeld(pass_, visibility_->bytes());
+}
+
+const gl::Program& VisibilityTechnique::program(frame::Frame& frame, bool counting,
+                                                const gl::ShaderDefines& more) const {
+  gl::ShaderDefines defines = defines_;
+  defines.insert(more.begin(), more.end());
+  if (counting) defines["COUNT"] = "1";
+  return frame.context().programs().compute(shader_, defines);
 }
 
 const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
@@ -101,10 +114,9 @@ const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   return map.frustum();
 }
 
-void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const CountImages* counts) {
-  const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
-  const frame::LightFrustum& frustum = bindMap(frame);
-  const auto scope = frame.passes().open(pass_);
+void VisibilityTechnique::bindPass(frame::Frame& frame, const gl::Program& program,
+                                   const PassInputs& inputs) const {
+  const frame::LightFrustum& frustum = inputs.frustum;
   program.set("sizePx", frame.sizePx());
   program.set("tangentLow", glm::vec2(frustum.low));
   program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
@@ -115,14 +127,26 @@ void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, c
   program.set("slopeBias", static_cast<float>(slopeBias_));
   program.set("maxSlope", static_cast<float>(maxSlope_));
   configure(program);
-  receivers.bindTexture(0);
+  inputs.receivers.bindTexture(0);
   visibility_->bindImage(0, gl::Access::Write);
-  if (counts) {
-    counts->work.bindImage(1, gl::Access::Write);
-    counts->search.bindImage(2, gl::Access::Write);
+  if (inputs.counts) {
+    inputs.counts->work.bindImage(1, gl::Access::ReadWrite);
+    inputs.counts->search.bindImage(2, gl::Access::Write);
   }
-  program.dispatch(frame.sizePx());
+}
+
+void VisibilityTechnique::runPasses(frame::Frame& frame, const PassInputs& inputs) {
+  const auto scope = frame.passes().open(pass_);
+  const gl::Program& chosen = inputs.counts ? program(frame, true) : *program_;
+  bindPass(frame, chosen, inputs);
+  chosen.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
+  const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
+  const frame::LightFrustum& frustum = bindMap(frame);
+  runPasses(frame, {receivers, frustum, counts});
 }
 
 std::vector<std::string> VisibilityTechnique::counterNames() {
@@ -131,15 +155,13 @@ std::vector<std::string> VisibilityTechnique::counterNames() {
   return out;
 }
 
-void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
+void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }
 
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
-  gl::ShaderDefines defines = defines_;
-  defines["COUNT"] = "1";
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                            gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
   frame.begin();
-  run(frame, frame.context().programs().compute(shader_, defines), &counts);
+  run(frame, &counts);
   frame.end();
   counted_ = {frame.sizePx(), counts.work.readUint(), counts.search.readUint()};
   return summarise(counted_.work, counted_.search);
