@@ -28,6 +28,8 @@ class LightCasters {
   /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are cut
   /// off.
   LightFrustum fit(glm::dvec2 offset, int resolution) const;
+  /// Light-space z of the farthest caster; 0 if none is before the light.
+  double farthest() const { return farthest_; }
 
  private:
   std::vector<glm::dvec3> vertices_;  // three a triangle
