@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "base/error.h"
@@ -24,6 +25,20 @@ gl::Texture allocateSliceMips(const OcclusionSliceSettings& settings) {
   }
 }
 
+/// Light-space z of the farthest point of what casts shadows; 0 if none is before the light.
+double farthestCaster(const scene::Scene& scene) {
+  const glm::dmat4 toLight = scene.lights.at(0).toLightSpace();
+  double farthest = 0.0;
+  for (const scene::Part& part : scene.parts) {
+    if (part.receiverOnly) continue;
+    for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i)
+      for (int corner = 0; corner < 3; ++corner)
+        farthest = std::max(
+            farthest, (toLight * glm::dvec4(scene.mesh.positions[scene.mesh.triangles[i][corner]], 1.0)).z);
+  }
+  return farthest;
+}
+
 }  // namespace
 
 std::string OcclusionSliceSettings::key() const {
@@ -41,11 +56,10 @@ OcclusionSlices::OcclusionSlices(Frame& frame, OcclusionSliceSettings settings)
       bits_(gl::Format::R32UI, glm::ivec2(settings.resolution)),
       target_(gl::Format::R8, glm::ivec2(settings.resolution)),
       framebuffer_({&target_}, nullptr) {
-  const LightCasters casters(frame.scene());
-  frustum_ = casters.fit(glm::dvec2(0.0), settings.resolution);
+  frustum_ = LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution);
   begin_ = frustum_.near;
   // The farthest caster itself, for all rounding, belongs to the last slice.
-  const double end = std::max(casters.farthest(), begin_) * (1.0 + 1e-5);
+  const double end = std::max(farthestCaster(frame.scene()), begin_) * (1.0 + 1e-5);
   depth_ = (end - begin_) / settings.slices;
   if (settings.prefilter == Prefilter::Sums) {
     sums_.emplace(frame.context(), settings.resolution, settings.slices, 1, SumForm::Fixed);
