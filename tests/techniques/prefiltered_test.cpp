@@ -66,9 +66,13 @@ TEST_F(Prefiltered, FormulasHoldForAnyWindowOfTwoDepths) {
     ASSERT_NEAR(results[i].x, chebyshevBound(w.x, w.y, w.z, w.w, kMinVariance), tolerance) << i;
     // A bound from above, whatever the receiver's depth, and the truth where it stands at the farther one.
     ASSERT_GE(results[i].x, exact - tolerance) << i;
-    if (i % 3 == 0) ASSERT_NEAR(results[i].x, exact, tolerance + kMinVariance / 0.01) << i;
+    if (i % 3 == 0) {
+      ASSERT_NEAR(results[i].x, exact, tolerance + kMinVariance / 0.01) << i;
+    }
     // Beyond both all is blocked, and light bleeds through nonetheless.
-    if (i % 3 == 2 && w.z > 0.1 && w.z < 0.9) ASSERT_GT(results[i].x, 0.01) << i;
+    if (i % 3 == 2 && w.z > 0.1 && w.z < 0.9) {
+      ASSERT_GT(results[i].x, 0.01) << i;
+    }
     // Eight terms with weights that add up to 1.3, of products of two sines and cosines each, wrong by 2^-20
     // at most.
     const double series = w.z * stepSeries(w.x - w.w, kTerms) + (1.0 - w.z) * stepSeries(w.y - w.w, kTerms);
@@ -78,7 +82,9 @@ TEST_F(Prefiltered, FormulasHoldForAnyWindowOfTwoDepths) {
     const auto clear = [&](double t) {
       return std::abs(t) >= 0.5 / kTerms && std::abs(t) <= 1.0 - 0.5 / kTerms;
     };
-    if (clear(w.x - w.w) && clear(w.y - w.w)) ASSERT_NEAR(results[i].y, exact, 0.1) << i;
+    if (clear(w.x - w.w) && clear(w.y - w.w)) {
+      ASSERT_NEAR(results[i].y, exact, 0.1) << i;
+    }
   }
 }
 
