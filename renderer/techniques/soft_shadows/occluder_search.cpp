@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "renderer/frame/multi_scale_map.h"
@@ -11,6 +12,7 @@
 namespace limen::techniques {
 namespace {
 
+constexpr double kDefaultSlopeBias = 2.0;
 constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
 
@@ -27,17 +29,23 @@ bool hasLayers(Structure structure) { return structure >= Structure::Mssm; }
 gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines defines) {
   const std::string &fill = values.text("gap_fill"), &occluders = values.text("occluders");
   defines["GAP_FILL"] = fill == "none" ? "0" : fill == "left_bottom" ? "1" : "2";
-  defines["OCCLUDERS"] = occluders == "micropatches" ? "0"
-                         : occluders == "microquads" ? "1"
-                         : occluders == "contours"   ? "3"
-                                                     : "2";
+  defines["OCCLUDERS"] = occluders == "micropatches"          ? "0"
+                         : occluders == "microquads"          ? "1"
+                         : occluders == "contours"            ? "3"
+                         : occluders == "microrects"          ? "4"
+                         : occluders == "morphing_microquads" ? "5"
+                                                              : "2";
+  for (const auto& [name, value] : BiasForm(values).defines()) defines[name] = value;
   const Structure structure = structureOf(values.text("structure"));
   defines[structure == Structure::None  ? "STRUCTURE_NONE"
           : structure == Structure::Hsm ? "STRUCTURE_HSM"
           : structure == Structure::Ysm ? "STRUCTURE_YSM"
                                         : "STRUCTURE_WINDOWS"] = "1";
   if (structure == Structure::NBuffer) defines["CORNER"] = "1";
-  if (hasLayers(structure) && values.boolean("growth")) defines["GROW"] = "1";
+  // With one level for all pixels, what it makes of the shadow is the question: no pixel may escape it by
+  // texels that are finer.
+  if ((hasLayers(structure) && values.boolean("growth")) || CoarseOccluders(values).isFixed())
+    defines["GROW"] = "1";
   return defines;
 }
 
@@ -50,8 +58,8 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
   // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
   // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
   // own.
-  std::vector<Parameter> all = commonParameters(2.0);
-  all.push_back(integerParameter("budget", 256, 0, 1 << 24, "",
+  std::vector<Parameter> all = commonParameters(kDefaultSlopeBias);
+  all.push_back(integerParameter("budget", kDefaultBudget, 0, 1 << 24, "",
                                  "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
                                  "Schwarz 2009, sections 4.1 and 4.5"));
   all.push_back(integerParameter("refinements", 2, 0, 3, "",
@@ -76,17 +84,25 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
   all.push_back(choiceParameter("gap_fill", kDefaultGapFill, {"none", "left_bottom", "diagonal"},
                                 "Neighbours to which a micropatch is stretched to close gaps",
                                 "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)"));
+  const bool morphing =
+      std::find(occluders.begin(), occluders.end(), "morphing_microquads") != occluders.end();
   all.push_back(choiceParameter("occluders", "micropatches", std::move(occluders),
                                 "What is made of texels that block: rectangles at one depth, a mesh between "
-                                "their centres, that with triangles where three of four block, or contours",
-                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.4.5"));
+                                "their centres, that with triangles where three of four block, contours, "
+                                "rectangles of their own extents, or a mesh between two levels",
+                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2"));
+  for (Parameter& parameter : CoarseOccluders::parameters(morphing)) all.push_back(std::move(parameter));
+  for (Parameter& parameter : BiasForm::parameters()) all.push_back(std::move(parameter));
   return all;
 }
 
 void OccluderSearch::checkSearch(const ParameterValues& values) {
-  if (values.text("occluders") != "micropatches" && values.text("gap_fill") != kDefaultGapFill)
-    throw Error("'gap_fill' stretches micropatches; there are none, and no gaps", "gap_fill",
+  const std::string& occluders = values.text("occluders");
+  if (occluders != "micropatches" && occluders != "microrects" && values.text("gap_fill") != kDefaultGapFill)
+    throw Error("'gap_fill' stretches micropatches and microrects; there are none, and no gaps", "gap_fill",
                 "leave it out, or give occluders: micropatches");
+  CoarseOccluders::check(values);
+  BiasForm::check(values, kDefaultSlopeBias);
   const Structure structure = structureOf(values.text("structure"));
   if (structure != Structure::Ysm && values.text("ysm_base") != kDefaultBase)
     throw Error("'ysm_base' is about the Y shadow map, and there is none", "ysm_base",
@@ -106,6 +122,8 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
       refinements_(static_cast<int>(values.integer("refinements"))),
       roughQueries_(roughQueries(values.text("range_samples"))),
       structure_(structureOf(values.text("structure"))),
+      coarse_(values),
+      biasForm_(values),
       base_(structure_ == Structure::Ysm
                 ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
                 : mapSettings().resolution) {
@@ -115,16 +133,22 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
   levels_ = pyramid.levels();
-  structureBytes_ = pyramid.minimum().bytes() + pyramid.maximum().bytes();
+  coarse_.make(frame, mapSettings());
+  biasForm_.make(frame, mapSettings());
+  int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   if (hasLayers(structure_)) {
     const auto& layers = frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
     layers.texture().bindTexture(3);
     baseLevel_ = layers.baseLevel();
-    structureBytes_ += layers.texture().bytes();
+    bytes += layers.texture().bytes();
   }
+  structureBytes_.resize(maps().size());
+  structureBytes_[currentMap()] = bytes;
   // Last, since making the inputs binds textures too.
+  coarse_.bind();
+  biasForm_.bind();
   pyramid.minimum().bindTexture(1);
   pyramid.maximum().bindTexture(2);
   maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
@@ -132,6 +156,8 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
 }
 
 void OccluderSearch::configure(const gl::Program& program) const {
+  coarse_.configure(program);
+  biasForm_.configure(program);
   program.set("levels", levels_);
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
@@ -144,12 +170,15 @@ void OccluderSearch::configure(const gl::Program& program) const {
 std::vector<std::string> OccluderSearch::counterNames() {
   std::vector<std::string> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
+  names.emplace_back("occluder_bytes");
   return names;
 }
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   std::vector<Counter> all = VisibilityTechnique::count(frame);
-  all.push_back({"structure_bytes", static_cast<double>(structureBytes_), "byte", true});
+  const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
+  all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
+  all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes()), "byte", true});
   return all;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "renderer/techniques/soft_shadows/bias_form.h"
+#include "renderer/techniques/soft_shadows/coarse_occluders.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
@@ -19,7 +21,8 @@ class OccluderSearch : public VisibilityTechnique {
   /// Throws Error where values of these parameters do not go together.
   static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique, and structure_bytes: the minimum/maximum pyramid, of which every
-  /// structure needs the minimum for micro-occluders, and the layers on top of it.
+  /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together; and
+  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone.
   static std::vector<std::string> counterNames();
 
   std::vector<Counter> count(frame::Frame& frame) override;
@@ -35,9 +38,11 @@ class OccluderSearch : public VisibilityTechnique {
  private:
   int budget_, refinements_, roughQueries_;
   Structure structure_;
+  CoarseOccluders coarse_;
+  BiasForm biasForm_;
   int base_;  // resolution of the layers
   int levels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
-  int64_t structureBytes_ = 0;
+  std::vector<int64_t> structureBytes_;  // of each map
 };
 
 }  // namespace limen::techniques
