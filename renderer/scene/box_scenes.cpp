@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.h"
+#include "base/text.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 
@@ -6,13 +8,19 @@ namespace limen::scene {
 namespace {
 
 /// The light is wider than the box and straight above it: from the light's centre only the box's top is seen,
-/// from its rim the sides shadow more. A single shadow map from the centre misses that.
+/// from its rim the sides shadow more. A single shadow map from the centre misses that, and where the box
+/// hovers it misses the umbra below.
 Scene buildBoxUnderLight(const ParameterValues& values) {
-  const double height = values.real("box_height");
+  constexpr double kHeightOfLight = 3.2;
+  const double foot = values.real("clearance"), top = foot + values.real("box_height");
+  if (top >= kHeightOfLight)
+    throw Error("the box reaches up to " + shortestNumber(top) + " m, and the light is at " +
+                    shortestNumber(kHeightOfLight) + " m",
+                "box_under_light", "lower 'box_height' or 'clearance'");
   Scene scene;
   addGround(scene, 12.0);
-  addPart(scene, "box", box({-0.5, 0.0, -0.5}, {0.5, height, 0.5}), {0.7F, 0.5F, 0.35F});
-  scene.lights = {lightTowards({0.0, 3.2, 0.0}, glm::dvec3(0.0), {2.0, 2.0})};
+  addPart(scene, "box", box({-0.5, foot, -0.5}, {0.5, top, 0.5}), {0.7F, 0.5F, 0.35F});
+  scene.lights = {lightTowards({0.0, kHeightOfLight, 0.0}, glm::dvec3(0.0), {2.0, 2.0})};
   setStillCamera(scene, orbitCamera({0.0, 0.3, 0.0}, 5.2, 25.0, 40.0));
   return scene;
 }
@@ -49,7 +57,9 @@ const Registered<SceneInfo> kBoxUnderLight{
               .summary = "Box below a larger light: a shadow map from the centre sees only its top",
               .source = "Schwarz 2009, Fig. 4.3",
               .parameters = {realParameter("box_height", 1.0, 0.05, 2.0, "m",
-                                           "Height of the box; the light is at 3.2 m")},
+                                           "Height of the box; the light is at 3.2 m"),
+                             realParameter("clearance", 0.0, 0.0, 2.0, "m",
+                                           "Height of the box's underside above the ground")},
               .build = buildBoxUnderLight}};
 
 const Registered<SceneInfo> kTwoBoxes{SceneInfo{
