@@ -3,7 +3,7 @@
 #ifdef BITMASK
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 #else
-float hiddenArea;
+float hiddenArea = 0.0;
 #endif
 
 layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
@@ -40,8 +40,6 @@ void addTile(vec2 low, vec2 high, float z, vec4 p) {
 float visibilityOf(vec4 p, ivec2 pixel) {
 #ifdef BITMASK
   clearMask();
-#else
-  hiddenArea = 0.0;
 #endif
   const int root = levels - 1;
   const float depth = biasedDepth(p, finestLevel);
