@@ -18,6 +18,11 @@ layout(std430, binding = 3) buffer Queue {
   uvec2 runs[];  // triangle, first pixel of the run in its bounding box
 };
 
+#ifdef PEEL
+layout(binding = 0) uniform sampler2D previousDepth;
+uniform float peelBias;
+#endif
+
 uniform mat4 anchorToClip;
 uniform float near;
 uniform ivec2 sizePx;
@@ -98,6 +103,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   precise const float distance = (u * t.a.z + v * t.b.z + w * t.c.z) / sum;
   if (!(distance >= near)) return;
   precise const float depth = near / distance;
+#ifdef PEEL
+  // Reversed depth: what lies behind is smaller.
+  if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
+#endif
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
   const int at = pixel.y * sizePx.x + pixel.x;
 #ifdef IDS

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "renderer/frame/multi_scale_map.h"
@@ -115,15 +116,17 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
   levels_ = pyramid.levels();
-  structureBytes_ = pyramid.minimum().bytes() + pyramid.maximum().bytes();
+  int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   if (hasLayers(structure_)) {
     const auto& layers = frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
     layers.texture().bindTexture(3);
     baseLevel_ = layers.baseLevel();
-    structureBytes_ += layers.texture().bytes();
+    bytes += layers.texture().bytes();
   }
+  structureBytes_.resize(maps().size());
+  structureBytes_[currentMap()] = bytes;
   // Last, since making the inputs binds textures too.
   pyramid.minimum().bindTexture(1);
   pyramid.maximum().bindTexture(2);
@@ -149,7 +152,8 @@ std::vector<std::string> OccluderSearch::counterNames() {
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   std::vector<Counter> all = VisibilityTechnique::count(frame);
-  all.push_back({"structure_bytes", static_cast<double>(structureBytes_), "byte", true});
+  const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
+  all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
   return all;
 }
 

@@ -22,8 +22,9 @@ const float kAreaBorder = 0.5;
 
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
-  const vec2 centre = p.xy / p.z;
-  const vec2 halfSize = 0.5 * lightSize * max(1.0 / z - 1.0 / p.z, 0.0);
+  const float perLength = max(1.0 / z - 1.0 / p.z, 0.0);
+  const vec2 centre = p.xy / p.z + (0.5 - eyeOnLight) * lightSize * perLength;
+  const vec2 halfSize = 0.5 * lightSize * perLength;
   const vec2 low = floor(mapTexel(centre - halfSize) - kAreaBorder);
   const vec2 high = ceil(mapTexel(centre + halfSize) + kAreaBorder);
   reachesOutside = any(lessThan(low, vec2(0.0))) || any(greaterThan(high, vec2(float(resolution))));

@@ -19,7 +19,7 @@ class OccluderSearch : public VisibilityTechnique {
   /// Throws Error where values of these parameters do not go together.
   static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique, and structure_bytes: the minimum/maximum pyramid, of which every
-  /// structure needs the minimum for micro-occluders, and the layers on top of it.
+  /// structure needs the minimum for micro-occluders, and the layers on top of it; of all maps together.
   static std::vector<std::string> counterNames();
 
   std::vector<Counter> count(frame::Frame& frame) override;
@@ -37,7 +37,7 @@ class OccluderSearch : public VisibilityTechnique {
   Structure structure_;
   int base_;  // resolution of the layers
   int levels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
-  int64_t structureBytes_ = 0;
+  std::vector<int64_t> structureBytes_;  // of each map
 };
 
 }  // namespace limen::techniques

@@ -15,6 +15,7 @@ uniform ivec2 sizePx;
 uniform vec2 tangentLow, tangentSize;  // x/z, y/z at the map's lower edge, and the map's extents
 uniform float near;
 uniform vec2 lightSize;  // full extents
+uniform vec2 eyeOnLight;  // place that the map is seen from and receivers are relative to, in unit light coordinates
 uniform int resolution;
 uniform float bias, slopeBias, maxSlope;
 
