@@ -91,17 +91,8 @@ void TriangleBitmask::prepare(frame::Frame& frame) {
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
   frame.passes().setBytesHeld(kPass, visibility_->bytes());
 
-  const std::vector<glm::dvec2> samples = lightSamples(pattern_);
-  std::vector<uint32_t> shape(samples.size() / 32, 0U);
-  lightSamples_ = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    if (!frame.scene().lights.at(0).contains(samples[i])) continue;
-    shape[i / 32] |= 1U << (i % 32);
-    ++lightSamples_;
-  }
-  if (lightSamples_ == 0)
-    throw Error("no light sample of '" + pattern_ + "' lies on the light", "pattern",
-                "give a pattern with more samples");
+  const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(pattern_));
+  lightSamples_ = bitCount(shape);
   lightShape_.emplace(shape);
 
   auto [corners, reach] = lightSpaceTriangles(frame);
