@@ -9,6 +9,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D receivers;
 layout(binding = 1) uniform usampler2D triangleIds;
 layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+// Of the scene's triangles: unit normal and n . q on the plane; no normal where a triangle has no area. Worked out in double
+// precision: corners rounded to float would turn a sliver.
+layout(std430, binding = 2) readonly buffer Planes { vec4 planes[]; };
 layout(std430, binding = 3) readonly buffer LightShape { uint lightShape[MASK_WORDS]; };  // samples that lie on the light
 #ifdef COUNT
 layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
@@ -16,7 +19,8 @@ layout(std430, binding = 4) writeonly buffer Masks { uint outMasks[]; };
 #endif
 
 uniform ivec2 sizePx;
-uniform vec2 lightSize;  // this and what the buffers hold: shares of `reach`
+uniform vec2 lightSize;  // all lengths are shares of `reach`
+uniform vec3 eye;
 uniform float reach, planeTolerance, lightMargin;
 uniform int lightSamples, maxIterations;
 uniform uint triangleCount;
@@ -70,18 +74,11 @@ void main() {
   if (receiver.w >= 0.0) {
     vec3 p = receiver.xyz / reach;
     const uint own = texelFetch(triangleIds, pixel, 0).x;
-    const uint place = own < triangleCount ? places[own] : kNowhere;
-    if (place != kNowhere) {
-      const Triangle t = triangles[place];
-      const vec3 n = exactCross(t.b - t.a, t.c - t.a);
-      const float area = length(n);
-      if (area > 0.0) {
-        // Onto the surface's plane: the rounding of the position must not put a point beneath its neighbours.
-        vec3 normal = n / area;
-        p -= normal * dot(normal, p - t.a);
-        if (dot(normal, p) > 0.0) normal = -normal;  // receivers face the light's centre
-        hideBehind(normal, p);
-      }
+    const vec4 plane = own < triangleCount ? planes[own] : vec4(0.0);
+    if (plane.xyz != vec3(0.0)) {
+      // Onto the surface's plane: the rounding of the position must not put a point beneath its neighbours.
+      p -= plane.xyz * (dot(plane.xyz, p) - plane.w);
+      hideBehind(dot(plane.xyz, eye - p) < 0.0 ? -plane.xyz : plane.xyz, p);
     }
     const bool complete = gatherTriangles(p, own);
     visibility = float(SAMPLES - samplesCovered()) / float(lightSamples);

@@ -34,27 +34,40 @@ constexpr float kPlaneTolerance = 0x1p-21F;
 /// As references::kLightMargin: what lies in the light's plane up to rounding hides nothing.
 constexpr float kLightMargin = 1e-6F;
 
-/// The scene's triangles in light space, in shares of the largest finite coordinate, which is returned too.
-std::pair<std::vector<Corners3>, double> lightSpaceTriangles(frame::Frame& frame) {
+/// The scene's triangles in light space, in shares of the largest finite coordinate.
+struct LightSpaceTriangles {
+  std::vector<Corners3> corners;
+  std::vector<glm::vec4> planes;  ///< unit normal, and its product with a point of the plane; 0: no area
+  double reach = 0.0;
+};
+
+LightSpaceTriangles lightSpaceTriangles(frame::Frame& frame) {
   const scene::Scene& scene = frame.scene();
   const glm::dvec3 anchor = frame.gpuScene().anchor();
   const glm::dmat4 toLight = scene.lights.at(0).toLightSpace(anchor);
-  std::vector<glm::dvec3> corners;
-  corners.reserve(scene.mesh.positions.size());
-  double reach = 0.0;
+  LightSpaceTriangles out;
+  std::vector<glm::dvec3> places;
+  places.reserve(scene.mesh.positions.size());
   for (const glm::dvec3& position : scene.mesh.positions) {
     // From the float positions that everything else is drawn with.
-    corners.emplace_back(toLight * glm::dvec4(glm::vec3(position - anchor), 1.0));
+    places.emplace_back(toLight * glm::dvec4(glm::vec3(position - anchor), 1.0));
     for (int axis = 0; axis < 3; ++axis)
-      if (std::isfinite(corners.back()[axis])) reach = std::max(reach, std::abs(corners.back()[axis]));
+      if (std::isfinite(places.back()[axis])) out.reach = std::max(out.reach, std::abs(places.back()[axis]));
   }
-  if (!(reach > 0.0)) reach = 1.0;
-  std::vector<Corners3> out;
-  out.reserve(scene.mesh.triangles.size());
-  for (const glm::uvec3& triangle : scene.mesh.triangles)
-    out.push_back({glm::vec3(corners[triangle.x] / reach), glm::vec3(corners[triangle.y] / reach),
-                   glm::vec3(corners[triangle.z] / reach)});
-  return {std::move(out), reach};
+  if (!(out.reach > 0.0)) out.reach = 1.0;
+  out.corners.reserve(scene.mesh.triangles.size());
+  out.planes.reserve(scene.mesh.triangles.size());
+  for (const glm::uvec3& triangle : scene.mesh.triangles) {
+    const glm::dvec3 a = places[triangle.x] / out.reach, b = places[triangle.y] / out.reach,
+                     c = places[triangle.z] / out.reach;
+    out.corners.push_back({glm::vec3(a), glm::vec3(b), glm::vec3(c)});
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double length = glm::length(n);
+    out.planes.push_back(length > 0.0 && std::isfinite(length)
+                             ? glm::vec4(n / length, glm::dot(n / length, a))
+                             : glm::vec4(0.0F));
+  }
+  return out;
 }
 
 std::vector<Counter> summariseTriangles(const std::vector<uint32_t>& counts) {
@@ -95,12 +108,12 @@ void TriangleBitmask::prepare(frame::Frame& frame) {
   lightSamples_ = bitCount(shape);
   lightShape_.emplace(shape);
 
-  auto [corners, reach] = lightSpaceTriangles(frame);
-  reach_ = reach;
-  triangleCount_ = static_cast<uint32_t>(corners.size());
-  const TriangleBvh bvh = buildTriangleBvh(corners);
-  nodes_.emplace(bvh.nodes), triangles_.emplace(bvh.triangles), places_.emplace(bvh.places);
-  frame.passes().setBytesHeld(kBvhPass, nodes_->bytes() + triangles_->bytes() + places_->bytes());
+  const LightSpaceTriangles scene = lightSpaceTriangles(frame);
+  reach_ = scene.reach;
+  triangleCount_ = static_cast<uint32_t>(scene.corners.size());
+  const TriangleBvh bvh = buildTriangleBvh(scene.corners);
+  nodes_.emplace(bvh.nodes), triangles_.emplace(bvh.triangles), planes_.emplace(scene.planes);
+  frame.passes().setBytesHeld(kBvhPass, nodes_->bytes() + triangles_->bytes() + planes_->bytes());
 }
 
 void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const Work* work) {
@@ -109,6 +122,9 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
   const auto scope = frame.passes().open(kPass);
   program.set("sizePx", frame.sizePx());
   program.set("lightSize", glm::vec2(frame.scene().lights[0].size / reach_));
+  const glm::dmat4 toLight = frame.scene().lights[0].toLightSpace(frame.gpuScene().anchor());
+  program.set("eye",
+              glm::vec3(toLight * glm::inverse(frame.anchorToCamera()) * glm::dvec4(0, 0, 0, 1) / reach_));
   program.set("reach", static_cast<float>(reach_));
   program.set("planeTolerance", kPlaneTolerance);
   program.set("lightMargin", kLightMargin);
@@ -119,7 +135,7 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
   ids.bindTexture(1);
   nodes_->bindStorage(0);
   triangles_->bindStorage(1);
-  places_->bindStorage(2);
+  planes_->bindStorage(2);
   lightShape_->bindStorage(3);
   visibility_->bindImage(0, gl::Access::Write);
   if (work) {
@@ -153,7 +169,7 @@ std::vector<Counter> TriangleBitmask::count(frame::Frame& frame) {
   masks_ = work.masks.read<uint32_t>();
   std::vector<Counter> all = summariseTriangles(work.counts.readUint());
   all.push_back({"structure_bytes",
-                 static_cast<double>(nodes_->bytes() + triangles_->bytes() + places_->bytes()), "byte",
+                 static_cast<double>(nodes_->bytes() + triangles_->bytes() + planes_->bytes()), "byte",
                  true});
   return all;
 }

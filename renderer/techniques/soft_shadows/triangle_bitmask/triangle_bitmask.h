@@ -36,7 +36,7 @@ class TriangleBitmask : public Technique {
   gl::ShaderDefines defines_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> visibility_;
-  std::optional<gl::Buffer> nodes_, triangles_, places_, lightShape_;
+  std::optional<gl::Buffer> nodes_, triangles_, planes_, lightShape_;
   int lightSamples_ = 0;
   uint32_t triangleCount_ = 0;
   double reach_ = 1.0;

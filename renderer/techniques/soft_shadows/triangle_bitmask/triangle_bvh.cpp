@@ -33,7 +33,6 @@ class BvhBuilder {
       }
       if (finite) order_.push_back(i);
     }
-    out_.places.assign(given.size(), TriangleBvh::kNowhere);
   }
 
   TriangleBvh build() && {
@@ -57,7 +56,6 @@ class BvhBuilder {
           static_cast<uint32_t>(out_.triangles.size() * 8) + static_cast<uint32_t>(end - first);
       for (size_t i = first; i < end; ++i) {
         const Corners3& corners = given_[order_[i]];
-        out_.places[order_[i]] = static_cast<uint32_t>(out_.triangles.size());
         out_.triangles.push_back({corners[0], order_[i], corners[1], 0, corners[2], 0});
       }
     } else {

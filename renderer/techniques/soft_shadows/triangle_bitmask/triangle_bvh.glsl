@@ -16,9 +16,6 @@ struct Triangle {
 };
 layout(std430, binding = 0) readonly buffer Nodes { Node nodes[]; };
 layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
-layout(std430, binding = 2) readonly buffer Places { uint places[]; };  // of the scene's triangles
-
-const uint kNowhere = 0xffffffffu;
 
 // True if a box may meet the pyramid from p to the light, which stands between z = 0 and p.z: on each axis its two sides
 // are linear in z. `slack` covers rounding.

@@ -29,11 +29,9 @@ struct TriangleBvh {
     uint32_t padding1 = 0;
   };
   static constexpr uint32_t kLeaf = 4;  ///< most triangles of a leaf
-  static constexpr uint32_t kNowhere = 0xffffffffU;
 
   std::vector<Node> nodes;          ///< at least one
   std::vector<Triangle> triangles;  ///< in the order of the leaves
-  std::vector<uint32_t> places;     ///< of each given triangle in `triangles`; kNowhere: left out
 };
 static_assert(sizeof(TriangleBvh::Node) == 32 && sizeof(TriangleBvh::Triangle) == 48);
 
