@@ -61,9 +61,10 @@ class MicrorectLevels {
 
 struct MicrorectSettings {
   ShadowMapSettings map;
-  MergeMetric metric = MergeMetric::Absolute;
+  MergeRule rule{};
   std::string key() const {
-    return map.key() + (metric == MergeMetric::Relative ? "/relative" : "/absolute");
+    return map.key() + (rule.metric == MergeMetric::Relative ? "/relative" : "/absolute") +
+           (rule.diagonal == DiagonalMerge::Nearest ? "/nearest" : "/contained");
   }
 };
 

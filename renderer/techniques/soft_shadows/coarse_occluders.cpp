@@ -73,6 +73,9 @@ void CoarseOccluders::check(const ParameterValues& values) {
   if (morphing && level != kByBudget)
     throw Error("'fixed_level' is whole, and morphing microquads lie between levels", "fixed_level",
                 "leave it out and give 'morph_level'");
+  if ((morphing || level != kByBudget) && values.integer("budget") != kDefaultBudget)
+    throw Error("'budget' leads to a level for each pixel, and here all have one level", "budget",
+                morphing ? "leave it out" : "leave it out, or leave out 'fixed_level'");
   if (values.has("morph_level")) {
     const double morph = values.real("morph_level");
     if (!morphing && morph != kDefaultMorph)
