@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kClosedParts = {
     {"sphere_grid", {"spheres"}},
     {"street_light", {"pole", "wood"}},
     {"textured_ground", {"rails", "balls"}},
+    {"textured_light", {"sphere", "cone"}},
     {"two_boxes", {"low_box", "high_box"}},
     {"two_colour_light", {"sphere", "cone"}}};
 
