@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> kClosedParts = {
     {"foliage", {"wood"}},
     {"pole", {"pole"}},
     {"sphere_grid", {"spheres"}},
+    {"textured_light", {"sphere", "cone"}},
     {"two_boxes", {"low_box", "high_box"}},
     {"two_colour_light", {"sphere", "cone"}}};
 
