@@ -272,7 +272,7 @@ TEST_F(MultisampleShadows, InterpolationErrsLessThanTheCentreOnTwigsAndPoles) {
     return render(scene, "soft_shadows/multisample", given, sizePx, counting);
   };
   const Rendered all = made({{"method", std::string("per_sample")}}, true);
-  const Rendered interpolated = made({}, true), centre = made({{"method", std::string("centre")}});
+  const Rendered interpolated = made({}, true), centre = made({{"method", std::string("centre")}}, true);
   double interpolationError = 0.0, centreError = 0.0;
   for (size_t i = 0; i < all.product.data.size(); ++i) {
     interpolationError += std::abs(double(interpolated.product.data[i]) - all.product.data[i]);
@@ -281,6 +281,10 @@ TEST_F(MultisampleShadows, InterpolationErrsLessThanTheCentreOnTwigsAndPoles) {
   EXPECT_LT(interpolationError, centreError);
   EXPECT_GT(interpolated.counter("complex_share"), 0.0);
   EXPECT_LT(interpolated.counter("complex_share"), 0.5);
+  // Both see the same pixels; only one of the two looks for better.
+  EXPECT_EQ(interpolated.counter("complex_share"), centre.counter("complex_share"));
+  EXPECT_LT(interpolated.counter("orphan_share"), centre.counter("orphan_share"));
+  EXPECT_EQ(centre.counter("borrowed_share"), 0.0);
   // One point a pixel against four.
   EXPECT_LE(interpolated.counter("inner_evaluations_per_px"), 1.0);
   EXPECT_GT(all.counter("inner_evaluations_per_px"), 3.0 * interpolated.counter("inner_evaluations_per_px"));
