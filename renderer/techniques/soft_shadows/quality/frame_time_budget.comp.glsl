@@ -23,6 +23,7 @@ void main() {
 #endif
   float root = max(whole * rootScale, min(leastRoot, whole));
   // The other way round than elsewhere, so that what levels make of the same numbers does not go along with this.
-  if (dithers && rootScale < 1.0) root = min(floor(root + ditherThreshold(pixel.yx)), whole);
+  if (dithers && rootScale < 1.0)
+    root = min(floor(root) + (fract(root) > ditherThreshold(pixel.yx) ? 1.0 : 0.0), whole);
   imageStore(outBudget, pixel, vec4(root * root));
 }

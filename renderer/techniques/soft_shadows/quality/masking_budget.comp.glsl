@@ -56,7 +56,8 @@ void main() {
   }
   const float contrast = mean > 0.0 ? sqrt(squares / count) / mean : 0.0;
   const float masked = clamp((contrast - lowContrast) / (highContrast - lowContrast), 0.0, 1.0);
-  const float root = mix(mostRoot, leastRoot, masked);
+  // Not mix(), which may miss a root that both ends share.
+  const float root = mostRoot + (leastRoot - mostRoot) * masked;
   imageStore(outBudget, pixel, vec4(root * root));
 }
 #endif
