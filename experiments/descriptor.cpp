@@ -12,6 +12,7 @@
 #include "base/value_reader.h"
 #include "experiments/expectation_reader.h"
 #include "experiments/measurement_name.h"
+#include "experiments/published.h"
 
 namespace limen::experiments {
 namespace {
@@ -69,7 +70,7 @@ class Reader {
     problems_.throwIfAny();
     checkKeys(root, "descriptor",
               {"title", "question", "source", "features", "scenes", "techniques", "reference", "image",
-               "timing", "metrics", "report", "expect", "artefacts"});
+               "timing", "metrics", "report", "expect", "artefacts", "published"});
     readWords(root);
     if (const YamlNode* node = root.find("features")) readFeatures(*node);
     out_.scenes = readEntries(root, "scenes", "scene", catalogue_.scenes);
@@ -83,6 +84,8 @@ class Reader {
     readReport(root.find("report"));
     if (const YamlNode* node = root.find("expect"))
       out_.expectations = readExpectations(*node, out_, catalogue_, imageParameters(), problems_);
+    if (const YamlNode* node = root.find("published"))
+      out_.published = readPublished(*node, out_, catalogue_, imageParameters(), problems_);
     problems_.throwIfAny();
     out_.fileHashes = files_.hashes();
     out_.filesAsNamed = files_.asNamed();

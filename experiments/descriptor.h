@@ -60,6 +60,25 @@ struct ExpectationStatement {
   Mark mark;
 };
 
+/// A table that somebody printed, to stand beside what the sweep measures.
+struct PublishedTable {
+  struct Row {
+    std::string name;
+    std::vector<std::optional<double>> values;  ///< one for each column
+    std::string technique, scene;               ///< "" for any
+    Selection where;
+    std::string relativeTo;           ///< name of the row that ratios are taken to; "": none
+    std::vector<std::string> passes;  ///< whose times are summed; empty: the table's `measure` counts
+    Mark mark;
+  };
+  std::string title, source, device, note, unit;
+  std::vector<std::string> columns;
+  std::string measure;
+  std::vector<std::string> passes;
+  std::vector<Row> rows;
+  Mark mark;
+};
+
 /// An experiment as its author wrote it, checked against the catalogue.
 struct Descriptor {
   std::string path, text, hash;  ///< hash: SHA-256 of the text
@@ -74,6 +93,7 @@ struct Descriptor {
   std::vector<std::string> metricNames;  ///< of the measurements that `metrics` give, in the same order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;
+  std::vector<PublishedTable> published;
   std::map<std::string, std::string>
       fileHashes;  ///< resolved path of each named file -> SHA-256 of its content
   std::map<std::string, std::string> filesAsNamed;  ///< resolved path -> path as the descriptor gives it

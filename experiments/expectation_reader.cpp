@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "base/value_reader.h"
+#include "experiments/selection_reader.h"
 
 namespace limen::experiments {
 namespace {
@@ -36,22 +36,11 @@ std::string statementText(const ExpectationStatement& statement) {
   return out;
 }
 
-class Reader {
+class Reader : private SelectionReader {
  public:
   Reader(const Descriptor& descriptor, const Catalogue& catalogue,
          const std::vector<Parameter>& imageParameters, Problems& problems)
-      : catalogue_(catalogue),
-        imageParameters_(imageParameters),
-        problems_(problems),
-        files_(descriptor.path),
-        values_(problems, files_) {
-    for (const Entry& entry : descriptor.techniques) addOnce(techniques_, entry.name);
-    for (const Entry& entry : descriptor.scenes) addOnce(scenes_, entry.name);
-    quantities_ = descriptor.metricNames;
-    quantities_.insert(quantities_.end(), catalogue.measurements.begin(), catalogue.measurements.end());
-    const std::vector<std::string> counters = counterNames(catalogue, techniques_);
-    quantities_.insert(quantities_.end(), counters.begin(), counters.end());
-  }
+      : SelectionReader(descriptor, catalogue, imageParameters, problems) {}
 
   std::vector<ExpectationStatement> readAll(const YamlNode& node) {
     std::vector<ExpectationStatement> out;
@@ -65,76 +54,6 @@ class Reader {
   }
 
  private:
-  static void addOnce(std::vector<std::string>& list, const std::string& name) {
-    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
-  }
-
-  void checkKeys(const YamlNode& map, const char* what, const std::vector<std::string>& known) {
-    for (const auto& [key, value] : map.members)
-      if (std::find(known.begin(), known.end(), key.text) == known.end())
-        problems_.add(key.mark, fmt::format("unknown key '{}' of {}", YamlNode(key).text, what),
-                      suggest(key.text, known));
-  }
-
-  std::string readName(const YamlNode& map, const char* key, const std::vector<std::string>& known,
-                       const char* what) {
-    const YamlNode* node = map.find(key);
-    if (!node) return {};
-    const auto name = values_.text(*node, key);
-    if (!name) return {};
-    if (std::find(known.begin(), known.end(), *name) != known.end()) return *name;
-    problems_.add(node->mark, fmt::format("'{}' is no {} of this descriptor", *name, what),
-                  suggest(*name, known));
-    return {};
-  }
-
-  /// Declarations that `name` may mean for runs of `technique` (any if empty) in `scene`, nearest meaning
-  /// first.
-  std::vector<const Parameter*> declarations(const std::string& technique, const std::string& scene,
-                                             const std::string& name, std::vector<std::string>& known) const {
-    std::vector<const Parameter*> out;
-    const auto take = [&](const std::vector<Parameter>& parameters) {
-      for (const Parameter& parameter : parameters) {
-        if (parameter.name == name) out.push_back(&parameter);
-        addOnce(known, parameter.name);
-      }
-    };
-    for (const std::string& candidate : techniques_)
-      if (technique.empty() || technique == candidate) take(catalogue_.techniques.at(candidate).parameters);
-    for (const std::string& candidate : scenes_)
-      if (scene.empty() || scene == candidate) take(catalogue_.scenes.at(candidate).parameters);
-    take(imageParameters_);
-    return out;
-  }
-
-  Selection readWhere(const YamlNode& map, const std::string& technique, const std::string& scene) {
-    Selection out;
-    const YamlNode* node = map.find("where");
-    if (!node) return out;
-    if (node->kind != Kind::Map || node->members.empty()) {
-      problems_.add(node->mark, "'where' is " + (node->kind == Kind::Map ? "empty" : node->describe()),
-                    "write it as a map: {parameter: value}");
-      return out;
-    }
-    for (const auto& [key, value] : node->members) {
-      std::vector<std::string> known;
-      const auto candidates = declarations(technique, scene, key.text, known);
-      if (candidates.empty()) {
-        problems_.add(
-            key.mark,
-            fmt::format("no technique or scene meant here has a parameter '{}'", YamlNode(key).text),
-            suggest(key.text, known));
-        continue;
-      }
-      const auto fitting = std::find_if(
-          candidates.begin(), candidates.end(),
-          [&node = value](const Parameter* parameter) { return ValueReader::fits(node, *parameter); });
-      if (const auto read = values_.value(value, fitting == candidates.end() ? *candidates[0] : **fitting))
-        out[key.text] = *read;
-    }
-    return out;
-  }
-
   void readRelation(const YamlNode& item, ExpectationStatement& statement) {
     int relations = 0;
     for (const auto& [key, relation] :
@@ -187,13 +106,6 @@ class Reader {
     statement.text = statementText(statement);
     return statement;
   }
-
-  const Catalogue& catalogue_;
-  const std::vector<Parameter>& imageParameters_;
-  Problems& problems_;
-  FileFinder files_;
-  ValueReader values_;
-  std::vector<std::string> techniques_, scenes_, quantities_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/problems.h"
 #include "base/text.h"
 #include "experiments/expectation.h"
+#include "experiments/published.h"
 
 namespace limen::experiments {
 namespace {
@@ -103,6 +104,7 @@ class Planner {
         plan.groups.emplace_back(begin, plan.runs.size());
       }
     resolve(descriptor_.expectations, plan.runs, problems_);
+    plan.published = resolvePublished(descriptor_.published, plan.runs, problems_);
     problems_.throwIfAny();
     return plan;
   }

@@ -20,10 +20,11 @@ struct Plan {
   std::vector<PlannedRun> runs;
   /// Runs that share scene and image size follow one another; [begin, end) of each such group.
   std::vector<std::pair<size_t, size_t>> groups;
+  nlohmann::json published = nlohmann::json::array();  ///< see published.h
 };
 
 /// Throws Error naming file and line: too many runs (counted before anything is expanded), a run planned
-/// twice, an expectation that no planned run matches.
+/// twice, an expectation or a row of a published table that no planned run matches.
 Plan makePlan(const Descriptor& descriptor, const Catalogue& catalogue);
 
 /// Runs whose key falls to shard `index` of `count` (index from 1), as a mask over plan.runs. Every run falls

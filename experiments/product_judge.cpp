@@ -12,14 +12,15 @@
 namespace limen::experiments {
 namespace {
 
-/// What a person looks at: the scene's colour with the visibility applied, or the colour product itself.
-Image composed(const Image& product, const Image& shading) {
+/// What a person looks at: the scene's colour with the visibility, or that of each channel, applied (as if
+/// the light were white as a whole), or the colour product itself.
+Image composed(const Image& product, const Image& shading, bool isShare) {
   Image out(product.width, product.height, 3);
+  const auto channels = static_cast<size_t>(product.channels);
   for (size_t i = 0; i < out.pixels(); ++i)
     for (size_t c = 0; c < 3; ++c) {
-      const float value = product.channels == 1 ? product.data[i] * shading.data[3 * i + c]
-                                                : product.data[i * static_cast<size_t>(product.channels) + c];
-      out.data[3 * i + c] = value;
+      const float value = product.data[i * channels + (channels == 1 ? 0 : c)];
+      out.data[3 * i + c] = isShare ? value * shading.data[3 * i + c] : value;
     }
   return out;
 }
@@ -30,7 +31,8 @@ Image productPicture(const PlannedRun& run, const Image& product, const Image& s
   if (info.product == techniques::ProductKind::Threshold) return perception::thresholdPicture(product);
   if (info.product == techniques::ProductKind::JndMap)
     return perception::errorPicture(product, kJndPictureWhite);
-  return perception::displayPicture(composed(product, shading));
+  const bool isShare = product.channels == 1 || info.product == techniques::ProductKind::LightColour;
+  return perception::displayPicture(composed(product, shading, isShare));
 }
 
 }  // namespace

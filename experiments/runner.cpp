@@ -194,6 +194,7 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   experiment.descriptor = descriptor.text;
   experiment.features = descriptor.features;
   experiment.report = descriptor.report;
+  if (!plan.published.empty()) experiment.report["published"] = plan.published;
   std::vector<store::PlanEntry> entries;
   for (const PlannedRun& run : plan.runs)
     entries.push_back({run.key, run.technique.name, run.scene.name, run.label});

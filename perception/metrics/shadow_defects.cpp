@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Defects of visibility images that a mean error hides: leaks, acne and banding.
+// Defects of visibility images that a mean error hides: leaks, acne, gaps at contacts and banding.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/row_sums.h"
@@ -11,6 +12,8 @@ namespace {
 
 constexpr double kUmbraBelow = 0.02;  ///< reference visibility that counts as full shadow
 constexpr double kLeakAbove = 0.05;   ///< excess of light in full shadow that counts as a leak
+constexpr double kShadowBelow = 0.5;  ///< reference visibility that counts as shadow beside a contact
+constexpr double kGapAbove = 0.25;    ///< excess of light there that counts as a gap
 constexpr double kAcneBelow = 0.98;   ///< visibility of a fully lit point that counts as acne
 
 bool leaks(double reference, double error) { return reference < kUmbraBelow && error > kLeakAbove; }
@@ -41,6 +44,33 @@ MetricResult shareWith(const ComparisonInput& input, const std::string& metric, 
   if (result.judgedPixels > 0) result.value = count / static_cast<double>(result.judgedPixels);
   result.map = std::move(map);
   result.mapName = metric;
+  return result;
+}
+
+/// Longest run of pixels in a row or column that are too light where the reference has shadow. A shadow that
+/// a bias detaches from its caster leaves one as long as the gap, however small a share of the image that is.
+MetricResult measureContactGap(const ComparisonInput& input, const ParameterValues&) {
+  const Comparison pair(input, "contact_gap", Region::Receivers);
+  pair.requireVisibility("contact_gap");
+  MetricResult result;
+  result.judgedPixels = pair.judgedPixels();
+  const auto isGap = [&](int x, int y) {
+    if (!pair.judges(x, y) || !(pair.reference().at(x, y) < kShadowBelow)) return false;
+    return !std::isfinite(pair.test().at(x, y)) || pair.error(x, y, 0) > kGapAbove;
+  };
+  int longest = 0;
+  std::vector<int> column(static_cast<size_t>(pair.width()), 0);
+  for (int y = 0; y < pair.height(); ++y) {
+    int row = 0;
+    for (int x = 0; x < pair.width(); ++x) {
+      int& above = column[static_cast<size_t>(x)];
+      const bool gap = isGap(x, y);
+      row = gap ? row + 1 : 0;
+      above = gap ? above + 1 : 0;
+      longest = std::max({longest, row, above});
+    }
+  }
+  result.value = longest;
   return result;
 }
 
@@ -90,6 +120,18 @@ MetricInfo acneMetric() {
   return info;
 }
 
+MetricInfo contactGapMetric() {
+  MetricInfo info;
+  info.name = "contact_gap";
+  info.summary =
+      "longest run of pixels in a row or column that are in shadow (reference below 0.5) and get over 0.25 "
+      "too "
+      "much light: how far shadows stand off their casters";
+  info.unit = "px";
+  info.compare = &measureContactGap;
+  return info;
+}
+
 MetricInfo bandStepMetric() {
   MetricInfo info;
   info.name = "band_step";
@@ -104,6 +146,7 @@ MetricInfo bandStepMetric() {
 
 const Registered<MetricInfo> kLeaks{leaksMetric()};
 const Registered<MetricInfo> kAcne{acneMetric()};
+const Registered<MetricInfo> kContactGap{contactGapMetric()};
 const Registered<MetricInfo> kBandStep{bandStepMetric()};
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
-// Without LARGE: an invocation a triangle; those with many pixels are queued in runs. With LARGE: the queue, a
-// group a run.
+// Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
+// group a band.
 #include "renderer/frame/scene_buffers.glsl"
 
 layout(local_size_x = 64) in;
@@ -15,8 +15,13 @@ layout(std430, binding = 4) buffer Depths { uint depths[]; };
 layout(std430, binding = 3) buffer Queue {
   uint queued;
   uint padding[3];
-  uvec2 runs[];  // triangle, first pixel of the run in its bounding box
+  uvec2 bands[];  // triangle, first row of the band in its bounding box
 };
+
+#ifdef PEEL
+layout(binding = 0) uniform sampler2D previousDepth;
+uniform float peelBias;
+#endif
 
 uniform mat4 anchorToClip;
 uniform float near;
@@ -27,8 +32,9 @@ uniform int rangeCount;      // 0: the triangles from 0 on
 // As TriangleRanges has them: first triangle of a range, and the triangles up to its end.
 layout(std430, binding = 6) readonly buffer Ranges { uvec2 ranges[]; };
 
-const int kSmall = 32;   // pixels of a bounding box that one invocation takes on
-const int kRun = 1024;   // pixels of a run
+const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
+const int kBandPixels = 16384;                     // of a bounding box, in a band
+const int kFewestBandRows = 4, kMostBandRows = 32;  // but so many rows it has; see rowsOfBand
 
 struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
@@ -98,6 +104,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   precise const float distance = (u * t.a.z + v * t.b.z + w * t.c.z) / sum;
   if (!(distance >= near)) return;
   precise const float depth = near / distance;
+#ifdef PEEL
+  // Reversed depth: what lies behind is smaller.
+  if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
+#endif
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
   const int at = pixel.y * sizePx.x + pixel.x;
 #ifdef IDS
@@ -107,29 +117,87 @@ void shade(Triangle t, uint index, ivec2 pixel) {
 #endif
 }
 
-// Pixels [first, end) of the bounding box, every `stride`-th from `start`; one division a run, none a pixel.
-void shadeRun(Triangle t, uint index, int first, int end, int start, int stride) {
-  int x = (first + start) % t.size.x, y = (first + start) / t.size.x;
-  const int stepX = stride % t.size.x, stepY = stride / t.size.x;
-  for (int i = first + start; i < end; i += stride) {
-    shade(t, index, t.low + ivec2(x, y));
-    x += stepX;
-    y += stepY;
-    if (x >= t.size.x) {
-      x -= t.size.x;
-      ++y;
-    }
+int rowsOfBand(Triangle t) { return clamp(kBandPixels / t.size.x, kFewestBandRows, kMostBandRows); }
+
+// Half-line of pixel positions in a row on which an edge's product u = first - x * second is not below `-slack`.
+void cutSpan(float first, float second, float slack, inout float low, inout float high) {
+  if (second > 0.0)
+    high = min(high, (first + slack) / second);
+  else if (second < 0.0)
+    low = max(low, (first + slack) / second);
+  else if (first + slack < 0.0)
+    high = low - 1.0;
+}
+
+// Pixels of a row, from its bounding box's left side, among which are all that the triangle covers: [low, high]. A thin
+// triangle covers little of its box. The products of shade() are linear along a row; `slack` bounds their rounding.
+ivec2 rowSpan(Triangle t, int row) {
+  const float y = -2.0 * (float(row) + 0.5) / float(sizePx.y) + 1.0;
+  const float ay = t.a.y - y * t.a.z, by = t.b.y - y * t.b.z, cy = t.c.y - y * t.c.z;
+  const vec3 first = vec3(t.b.x * cy - by * t.c.x, t.c.x * ay - cy * t.a.x, t.a.x * by - ay * t.b.x);
+  const vec3 second = vec3(t.b.z * cy - by * t.c.z, t.c.z * ay - cy * t.a.z, t.a.z * by - ay * t.b.z);
+  const vec3 reach = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  const vec3 slack = 1e-6 * (reach.yzx * height.zxy + height.yzx * reach.zxy);
+  const vec2 limit = vec2(-1.0, 1.0);
+  vec2 positive = limit, negative = limit;
+  for (int i = 0; i < 3; ++i) {
+    cutSpan(first[i], second[i], slack[i], positive.x, positive.y);
+    cutSpan(-first[i], -second[i], slack[i], negative.x, negative.y);
+  }
+  // Either may be empty: low above high. A NaN stands for "anywhere" only if the box says so.
+  vec2 span = vec2(1.0, -1.0);
+  if (!(positive.x > positive.y)) span = positive;
+  if (!(negative.x > negative.y)) span = span.x > span.y ? negative : vec2(min(span.x, negative.x), max(span.y, negative.y));
+  if (span.x > span.y) return ivec2(0, -1);
+  const vec2 at = (span * 0.5 + 0.5) * float(sizePx.x) - 0.5;
+  const ivec2 pixels = ivec2(floor(at.x) - 1.0, ceil(at.y) + 1.0) - t.low.x;
+  return clamp(pixels, ivec2(0, -1), ivec2(t.size.x, t.size.x - 1));
+}
+
+// Rows [first, end) of the bounding box by one invocation.
+void shadeRows(Triangle t, uint index, int first, int end) {
+  for (int y = first; y < end; ++y) {
+    const ivec2 span = rowSpan(t, t.low.y + y);
+    for (int x = span.x; x <= span.y; ++x) shade(t, index, t.low + ivec2(x, y));
   }
 }
 
 #ifdef LARGE
+shared int spanStarts[kMostBandRows], pixelsUpTo[kMostBandRows];
+
+// Rows of a band by a group: their spans one after another, so that lanes take neighbouring pixels.
+void shadeBand(Triangle t, uint index, int first, int end) {
+  const int lane = int(gl_LocalInvocationID.x), rows = end - first;
+  barrier();  // the band before has been shaded
+  if (lane < kMostBandRows) {
+    const ivec2 span = lane < rows ? rowSpan(t, t.low.y + first + lane) : ivec2(0, -1);
+    spanStarts[lane] = span.x;
+    pixelsUpTo[lane] = max(span.y - span.x + 1, 0);
+  }
+  barrier();
+  for (int step = 1; step < kMostBandRows; step *= 2) {
+    const int before = lane >= step && lane < kMostBandRows ? pixelsUpTo[lane - step] : 0;
+    barrier();
+    if (lane < kMostBandRows) pixelsUpTo[lane] += before;
+    barrier();
+  }
+  const int pixels = pixelsUpTo[kMostBandRows - 1];
+  int row = 0;
+  for (int i = lane; i < pixels; i += 64) {
+    while (pixelsUpTo[row] <= i) ++row;
+    const int inRow = i - (row > 0 ? pixelsUpTo[row - 1] : 0);
+    shade(t, index, t.low + ivec2(spanStarts[row] + inRow, first + row));
+  }
+}
+
 void main() {
   const uint count = min(queued, QUEUE_CAPACITY);
   for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
-    const uint index = runs[item].x;
+    const uint index = bands[item].x;
     const Triangle t = load(index);
-    const int first = int(runs[item].y);
-    shadeRun(t, index, first, min(first + kRun, t.size.x * t.size.y), int(gl_LocalInvocationID.x), 64);
+    const int first = int(bands[item].y);
+    shadeBand(t, index, first, min(first + rowsOfBand(t), t.size.y));
   }
 }
 #else
@@ -152,17 +220,18 @@ void main() {
   if (gl_GlobalInvocationID.x >= (1u << 20) || drawn >= triangleCount) return;
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
-  const int pixels = t.size.x * t.size.y;
-  if (pixels <= kSmall) {
-    shadeRun(t, index, 0, pixels, 0, 1);
+  if (t.size.x * t.size.y <= kSmall) {
+    for (int y = 0; y < t.size.y; ++y)
+      for (int x = 0; x < t.size.x; ++x) shade(t, index, t.low + ivec2(x, y));
     return;
   }
-  for (int first = 0; first < pixels; first += kRun) {
-    const uint slot = atomicAdd(queued, 1u);
-    if (slot < QUEUE_CAPACITY)
-      runs[slot] = uvec2(index, uint(first));
+  const int rows = rowsOfBand(t);
+  const uint slot = atomicAdd(queued, uint((t.size.y + rows - 1) / rows));
+  for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {
+    if (slot + uint(band) < QUEUE_CAPACITY)
+      bands[slot + uint(band)] = uvec2(index, uint(first));
     else
-      shadeRun(t, index, first, min(first + kRun, pixels), 0, 1);
+      shadeRows(t, index, first, min(first + rows, t.size.y));
   }
 }
 #endif

@@ -6,15 +6,16 @@
 namespace limen::frame {
 namespace {
 
-constexpr int kQueueCapacity =
-    1 << 18;  // runs of pixels of large triangles; more are rasterised where they are found
+/// Bands of rows of large triangles; more are rasterised where they are found, one invocation each.
+constexpr int kQueueCapacity = 1 << 19;
 constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
 
-const gl::Program& program(gl::Context& context, bool large, bool ids) {
+const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels) {
   gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"}};
   if (large) defines["LARGE"] = "1";
   if (ids) defines["IDS"] = "1";
+  if (peels) defines["PEEL"] = "1";
   return context.programs().compute("renderer/frame/compute_raster.comp.glsl", defines);
 }
 
@@ -25,9 +26,9 @@ Raster chosenRaster(Raster raster, const gl::Context& context) {
   return context.device().software ? Raster::Hardware : Raster::Compute;
 }
 
-ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds)
-    : smallDepth_(program(context, false, false)),
-      largeDepth_(program(context, true, false)),
+ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels)
+    : smallDepth_(program(context, false, false, peels)),
+      largeDepth_(program(context, true, false, peels)),
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
                                          withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
@@ -38,8 +39,8 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withI
   queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (!withIds) return;
-  smallIds_ = &program(context, false, true);
-  largeIds_ = &program(context, true, true);
+  smallIds_ = &program(context, false, true, peels);
+  largeIds_ = &program(context, true, true, peels);
   ids_.emplace(gl::Format::R32UI, sizePx);
   idBits_.emplace(depthBits_.bytes(), nullptr);
   idBits_->clearUint(kNoTriangle);
@@ -58,17 +59,20 @@ void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uin
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near) const {
+void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
+                         const DepthPeel& peel) const {
   geometry.bindStorage(0);
   if (geometry.ranges) geometry.ranges->ranges().bindStorage(6);
   queue_.bindStorage(3);
   depthBits_.bindStorage(4);
   depth_.bindImage(0, gl::Access::Write);
+  if (peel.previous) peel.previous->bindTexture(0);
   for (const gl::Program* each : {&smallDepth_, &largeDepth_, smallIds_, largeIds_}) {
     if (!each) continue;
     each->set("anchorToClip", clip);
     each->set("near", static_cast<float>(near));
     each->set("sizePx", depth_.sizePx());
+    each->set("peelBias", static_cast<float>(peel.bias));
     each->set("triangleCount", geometry.triangleCount());
     each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
   }

@@ -23,6 +23,12 @@ enum class Raster {
 /// 2048; on llvmpipe compute is many times slower.
 Raster chosenRaster(Raster raster, const gl::Context& context);
 
+/// Depth peeling: keeps what lies behind another depth image of the same view (Everitt 2001).
+struct DepthPeel {
+  const gl::Texture* previous = nullptr;  ///< near / distance, 0: nothing there, and nothing behind
+  double bias = 0.0;  ///< share of the distance by which what is kept lies farther, at least
+};
+
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
 /// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views
 /// without a far plane.
@@ -32,13 +38,14 @@ Raster chosenRaster(Raster raster, const gl::Context& context);
 /// weights of the point seen. Triangles that share an edge compute it from the same numbers, so there are no
 /// cracks; there is no clipping, since a triangle that reaches behind the eye needs none. Two-dimensional
 /// homogeneous rasterisation is due to Olano and Greer 1997. Small triangles take one invocation each; large
-/// ones are cut into runs of pixels for groups.
+/// ones are cut into bands of rows for groups, which visit no more of a row than the triangle can cover.
 class ComputeRaster {
  public:
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds);
+  /// `peels`: draw() is given what to peel off.
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels = false);
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
-  void draw(const Geometry& geometry, const glm::mat4& clip, double near) const;
+  void draw(const Geometry& geometry, const glm::mat4& clip, double near, const DepthPeel& peel = {}) const;
 
   const gl::Texture& depth() const { return depth_; }  ///< R32F
   const gl::Texture& ids() const { return *ids_; }     ///< R32UI

@@ -24,10 +24,11 @@ glm::dmat4 LightFrustum::clipFromLight() const {
   return clip;
 }
 
-LightCasters::LightCasters(const scene::Scene& scene) {
+LightCasters::LightCasters(const scene::Scene& scene, int chosen) {
   const glm::dmat4 toLight = scene.lights.at(0).toLightSpace();
-  for (const scene::Part& part : scene.parts) {
-    if (part.receiverOnly) continue;
+  for (size_t number = 0; number < scene.parts.size(); ++number) {
+    const scene::Part& part = scene.parts[number];
+    if (part.receiverOnly || (chosen >= 0 && static_cast<size_t>(chosen) != number)) continue;
     for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i)
       for (int corner = 0; corner < 3; ++corner) {
         const glm::dvec3 position = scene.mesh.positions[scene.mesh.triangles[i][corner]];

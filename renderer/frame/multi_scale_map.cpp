@@ -67,7 +67,8 @@ MultiScaleMap::MultiScaleMap(Frame& frame, MultiScaleSettings settings)
     : settings_(settings),
       baseLevel_(log2Of(settings.map.resolution) - log2Of(settings.base)),
       layers_(frame.context(), settings.base, settings.anchor),
-      pass_(settings.anchor == WindowAnchor::Corner ? "frame/n_buffer" : "frame/multi_scale_map") {
+      pass_((settings.anchor == WindowAnchor::Corner ? "frame/n_buffer" : "frame/multi_scale_map") +
+            settings.map.name()) {
   assert(baseLevel_ >= 0);
   frame.passes().setBytesHeld(pass_, layers_.texture().bytes());
 }

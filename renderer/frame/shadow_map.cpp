@@ -3,8 +3,11 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <bit>
 #include <cassert>
+
+#include "base/text.h"
 
 namespace limen::frame {
 namespace {
@@ -16,56 +19,113 @@ int levelCount(int resolution) {
 
 }  // namespace
 
-ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster) {
+std::string ShadowMapSettings::name() const {
+  std::string out;
+  if (eye != glm::dvec2(0.5)) out += "/eye_" + shortestNumber(eye.x) + "_" + shortestNumber(eye.y);
+  if (part >= 0) out += "/part_" + std::to_string(part);
+  if (extent != 1.0) out += "/extent_" + shortestNumber(extent);
+  if (layer > 0) {
+    out += "/layer_" + std::to_string(layer);
+    if (peelBias != ShadowMapSettings{}.peelBias) out += "/behind_" + shortestNumber(peelBias);
+  }
+  return out;
+}
+
+ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster, Extra extra) {
+  const bool withIds = extra == Extra::Ids, peels = extra == Extra::Peels;
   if (chosenRaster(raster, context) == Raster::Compute) {
-    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), false);
+    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), withIds, peels);
     return;
   }
   gl::Texture depth(gl::Format::Depth32F, glm::ivec2(resolution));
-  const std::vector<std::string> shaders = {"renderer/frame/shadow.vert.glsl",
-                                            "renderer/frame/shadow.frag.glsl"};
-  gl::Framebuffer framebuffer({}, &depth);
-  hardware_.reset(
-      new HardwareTarget{context.programs().get(shaders), std::move(depth), std::move(framebuffer)});
+  std::optional<gl::Texture> ids;
+  if (withIds) ids.emplace(gl::Format::R32UI, glm::ivec2(resolution));
+  const std::vector<std::string> shaders =
+      withIds
+          ? std::vector<std::string>{"renderer/frame/triangle_ids.vert.glsl",
+                                     "renderer/frame/triangle_ids.frag.glsl"}
+          : std::vector<std::string>{"renderer/frame/shadow.vert.glsl", "renderer/frame/shadow.frag.glsl"};
+  std::vector<const gl::Texture*> colours;
+  if (ids) colours.push_back(&*ids);
+  gl::Framebuffer framebuffer(colours, &depth);
+  const gl::ShaderDefines defines = peels ? gl::ShaderDefines{{"PEEL", "1"}} : gl::ShaderDefines{};
+  hardware_.reset(new HardwareTarget{context.programs().get(shaders, defines), std::move(depth),
+                                     std::move(ids), std::move(framebuffer)});
 }
 
-void ShadowRaster::draw(Frame& frame, const LightFrustum& frustum) const {
+int64_t ShadowRaster::bytes() const {
+  if (compute_) return compute_->bytes();
+  return hardware_->depth.bytes() + (hardware_->ids ? hardware_->ids->bytes() : 0);
+}
+
+void ShadowRaster::draw(Frame& frame, const Geometry& geometry, const LightFrustum& frustum,
+                        const DepthPeel& peel) const {
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   const glm::mat4 clip(frustum.clipFromLight() * toLight);
   if (compute_) {
-    compute_->draw(frame.geometry(), clip, frustum.near);
+    compute_->draw(geometry, clip, frustum.near, peel);
     return;
   }
   hardware_->framebuffer.bind();
   constexpr GLfloat kFar = 0.0F;
   glClearBufferfv(GL_DEPTH, 0, &kFar);
+  constexpr std::array<GLuint, 4> kNoTriangle = {0xffffffffU, 0, 0, 0};
+  if (hardware_->ids) glClearBufferuiv(GL_COLOR, 0, kNoTriangle.data());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDisable(GL_CULL_FACE);
   hardware_->program.use();
   hardware_->program.set("anchorToClip", clip);
-  frame.geometry().draw();
+  if (peel.previous) {
+    peel.previous->bindTexture(0);
+    hardware_->program.set("peelBias", static_cast<float>(peel.bias));
+  }
+  geometry.draw();
   glDisable(GL_DEPTH_TEST);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
-    : raster_(frame.context(), settings.resolution, settings.raster),
-      frustum_(LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution)),
-      pass_("frame/shadow_raster") {
+    : settings_(settings),
+      raster_(frame.context(), settings.resolution, settings.raster,
+              settings.layer > 0 ? ShadowRaster::Extra::Peels : ShadowRaster::Extra::None),
+      pass_("frame/shadow_raster" + settings.name()) {
+  const scene::Scene& scene = frame.scene();
+  frustum_ = LightCasters(scene, settings.part)
+                 .fit((settings.eye - 0.5) * scene.lights.at(0).size, settings.resolution);
+  if (settings.extent != 1.0) {
+    const glm::dvec2 middle = glm::clamp(glm::dvec2(0.0), frustum_.low, frustum_.high);
+    frustum_.low = glm::mix(middle, frustum_.low, settings.extent);
+    frustum_.high = glm::mix(middle, frustum_.high, settings.extent);
+  }
+  if (settings.part >= 0) {
+    const scene::Part& part = scene.parts.at(static_cast<size_t>(settings.part));
+    part_ = std::make_unique<TriangleRanges>(1);
+    part_->set({{part.firstTriangle, part.triangleCount}});
+  }
   frame.passes().setBytesHeld(pass_, raster_.bytes());
 }
 
 void ShadowDepth::make(Frame& frame) {
+  DepthPeel peel;
+  if (settings_.layer > 0) {
+    // The layers of a smaller frustum are peeled off one another too, so that texels have one ray throughout.
+    ShadowMapSettings nearer = settings_;
+    --nearer.layer;
+    peel = {&frame.get<ShadowDepth>(nearer).depth(), settings_.peelBias};
+  }
+  Geometry geometry = frame.geometry();
+  // A part's triangles are those of its finest level.
+  if (part_) geometry.ranges = part_.get();
   const auto scope = frame.passes().open(pass_);
-  raster_.draw(frame, frustum_);
+  raster_.draw(frame, geometry, frustum_, peel);
 }
 
 ShadowMap::ShadowMap(Frame& frame, ShadowMapSettings settings)
     : settings_(settings),
       program_(frame.context().programs().compute("renderer/frame/linear_depth.comp.glsl")),
       linear_(gl::Format::R32F, glm::ivec2(settings.resolution)),
-      pass_("frame/shadow_map") {
+      pass_("frame/shadow_map" + settings.name()) {
   frame.passes().setBytesHeld(pass_, linear_.bytes());
 }
 
@@ -89,7 +149,7 @@ MinMaxPyramid::MinMaxPyramid(Frame& frame, ShadowMapSettings settings)
       minimum_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution)),
       maximum_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
                std::max(levelCount(settings.resolution) - 1, 1)),
-      pass_("frame/min_max_pyramid") {
+      pass_("frame/min_max_pyramid" + settings.name()) {
   frame.passes().setBytesHeld(pass_, minimum_.bytes() + maximum_.bytes());
 }
 

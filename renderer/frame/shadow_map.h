@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/frame/compute_raster.h"
@@ -22,7 +24,8 @@ struct LightFrustum {
 /// Casters of a scene in the space of its first light, from which frusta are fitted.
 class LightCasters {
  public:
-  explicit LightCasters(const scene::Scene& scene);
+  /// `part` of Scene::parts alone, if it is not negative.
+  explicit LightCasters(const scene::Scene& scene, int part = -1);
   /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from
   /// `offset`, with a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees
   /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are cut
@@ -37,31 +40,50 @@ class LightCasters {
 /// Depth image of the scene from a point of the light: near / z, 0 where nothing is.
 class ShadowRaster {
  public:
-  ShadowRaster(gl::Context& context, int resolution, Raster raster);
-  void draw(Frame& frame, const LightFrustum& frustum) const;
+  /// What else a texel gets, or how it is chosen.
+  enum class Extra {
+    None,
+    Ids,   ///< which triangle each texel sees
+    Peels  ///< the nearest surface behind another image of the same frustum
+  };
+  ShadowRaster(gl::Context& context, int resolution, Raster raster, Extra extra = Extra::None);
+  /// `geometry`: as a rule the frame's. `peel` exactly if the raster was made to peel.
+  void draw(Frame& frame, const Geometry& geometry, const LightFrustum& frustum,
+            const DepthPeel& peel = {}) const;
   /// One channel of 32-bit float, to be read by texelFetch.
   const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
-  int64_t bytes() const { return hardware_ ? hardware_->depth.bytes() : compute_->bytes(); }
+  const gl::Texture& ids() const { return hardware_ ? *hardware_->ids : compute_->ids(); }  ///< R32UI
+  int64_t bytes() const;
 
  private:
   struct HardwareTarget {
     const gl::Program& program;
     gl::Texture depth;
+    std::optional<gl::Texture> ids;
     gl::Framebuffer framebuffer;
   };
   std::unique_ptr<HardwareTarget> hardware_;
   std::unique_ptr<ComputeRaster> compute_;
 };
 
+/// Which map, of those that one light can have. Source: Schwarz 2009, section 4.2.2.
 struct ShadowMapSettings {
   int resolution = 1024;  ///< texels a side; a power of two
   Raster raster = Raster::Auto;
-  std::string key() const {
-    return std::to_string(resolution) + "/" + std::to_string(static_cast<int>(raster));
-  }
+  glm::dvec2 eye{0.5};     ///< the point that the map is seen from, unit light coordinates
+  int layer = 0;           ///< surfaces peeled off: the map shows what lies behind as many
+  double peelBias = 1e-5;  ///< what lies behind a surface is farther than it by more than this share
+  /// Extent of the frustum as a share of the fitted one, around the direction of the light's axis, or the
+  /// nearest one that the fitted frustum holds.
+  double extent = 1.0;
+  int part = -1;  ///< of Scene::parts: alone in the map; -1: all of the scene
+  std::string key() const { return std::to_string(resolution) + "/" + std::to_string(int(raster)) + name(); }
+  /// What tells the map from the usual one, in names of passes: "" or "/layer_1", "/part_2",
+  /// "/eye_0.25_0.75".
+  std::string name() const;
 };
 
-/// Raster from the centre of the light.
+/// One view, as settings say.
 class ShadowDepth : public FrameInput {
  public:
   static constexpr const char* kName = "shadow_depth";
@@ -71,8 +93,10 @@ class ShadowDepth : public FrameInput {
   const LightFrustum& frustum() const { return frustum_; }
 
  private:
+  ShadowMapSettings settings_;
   ShadowRaster raster_;
   LightFrustum frustum_;
+  std::unique_ptr<TriangleRanges> part_;  // null: all of the scene
   std::string pass_;
 };
 

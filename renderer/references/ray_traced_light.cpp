@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "renderer/references/counter_random.h"
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
@@ -16,20 +17,6 @@ namespace {
 
 using techniques::Counter;
 using techniques::TechniqueInfo;
-
-/// Counter-based random numbers (the finaliser of SplitMix64): a sample depends on seed, pixel and number
-/// alone.
-uint64_t mix(uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
-glm::dvec2 uniform2(uint64_t seed, uint64_t pixel, uint64_t sample) {
-  const uint64_t bits = mix(mix(mix(seed) ^ pixel) ^ sample);
-  return {double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffU) * 0x1p-32};
-}
 
 int strataPerAxis(const ParameterValues& values) {
   if (values.text("pattern") != "stratified") return 0;
@@ -113,12 +100,7 @@ class RayTracedLight : public techniques::Technique {
   Image visibility_;
 };
 
-/// Hoeffding (1963): the mean of N independent values in [0, 1] leaves its expectation by more than e with a
-/// probability of at most 2 exp(-2 N e^2). The values need not be alike, so stratification only makes the
-/// bound more careful.
-double halfWidth(const ParameterValues& values) {
-  return std::sqrt(std::log(2.0 / 0.001) / (2.0 * double(values.integer("samples"))));
-}
+double halfWidth(const ParameterValues& values) { return hoeffdingHalfWidth(values.integer("samples")); }
 
 const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .name = "soft_shadows/ray_traced",

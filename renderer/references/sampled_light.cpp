@@ -66,7 +66,7 @@ class SampledLight : public techniques::Technique {
       accumulate_->set("bias", bias_);
       accumulate_->set("slopeBias", slopeBias_);
       for (const frame::LightFrustum& frustum : frusta_) {
-        raster_->draw(frame, frustum);
+        raster_->draw(frame, frame.geometry(), frustum);
         receivers.bindTexture(0);
         normals.bindTexture(1);
         raster_->depth().bindTexture(2);

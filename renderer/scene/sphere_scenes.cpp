@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 
@@ -43,6 +45,36 @@ Scene buildTwoColourLight(const ParameterValues& values) {
   return scene;
 }
 
+/// A picture without any symmetry: a bright letter F on two ramps. Seven columns by nine rows, the first row
+/// at the bottom.
+glm::vec3 pictureAt(glm::dvec2 unit) {
+  constexpr std::array<const char*, 9> kRows = {".......", "..#....", "..#....", "..#....", "..####.",
+                                                "..#....", "..#....", "..#####", "......."};
+  const auto column = static_cast<size_t>(unit.x * 7.0), row = static_cast<size_t>(unit.y * 9.0);
+  const bool letter = kRows.at(row)[column] == '#';
+  return letter ? glm::vec3(1.0F, 0.85F, 0.2F) : glm::vec3(0.1F + 0.3F * unit.x, 0.05F, 0.2F + 0.6F * unit.y);
+}
+
+/// The light is a picture of square cells.
+Scene buildTexturedLight(const ParameterValues& values) {
+  const auto cells = static_cast<int>(values.integer("cells"));
+  Scene scene;
+  addGround(scene, 9.0);
+  addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, 16), {0.75F, 0.75F, 0.75F});
+  addPart(scene, "cone", frustum({0.55, 0.0, -0.1}, {0.55, 1.0, -0.1}, 0.35, 0.0, 64), {0.75F, 0.75F, 0.75F});
+  frameStanding(scene, 1.0, 1.0);
+  AreaLight& light = scene.lights[0];
+  light.size = {0.8, 0.8};
+  light.parts.clear();
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const glm::dvec2 low = glm::dvec2(i, j) / double(cells),
+                       high = glm::dvec2(i + 1, j + 1) / double(cells);
+      light.parts.push_back({{low, {high.x, low.y}, high, {low.x, high.y}}, pictureAt(0.5 * (low + high))});
+    }
+  return scene;
+}
+
 const Registered<SceneInfo> kSphereGrid{SceneInfo{
     .name = "sphere_grid",
     .version = 1,
@@ -62,6 +94,14 @@ const Registered<SceneInfo> kTwoColourLight{SceneInfo{
     .source = "stand-in for Schwarz 2009, Fig. 4.4",
     .parameters = {integerParameter("tessellation", 16, 1, 48, "segments", "Segments in a quarter circle")},
     .build = buildTwoColourLight}};
+
+const Registered<SceneInfo> kTexturedLight{SceneInfo{
+    .name = "textured_light",
+    .version = 1,
+    .summary = "Sphere and cone under a light that shows a picture",
+    .source = "Schwarz 2009, section 4.2.2",
+    .parameters = {integerParameter("cells", 8, 2, 32, "cells", "Cells of the picture along a side")},
+    .build = buildTexturedLight}};
 
 }  // namespace
 }  // namespace limen::scene

@@ -11,6 +11,8 @@ std::string toText(ProductKind kind) {
       return "colour";
     case ProductKind::Threshold:
       return "threshold";
+    case ProductKind::LightColour:
+      return "light_colour";
     case ProductKind::JndMap:
       return "jnd_map";
   }

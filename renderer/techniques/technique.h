@@ -16,11 +16,14 @@ namespace limen::techniques {
 
 /// What a technique makes. Products of one kind can be compared.
 enum class ProductKind {
-  Visibility,  ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
-               ///< receivers
-  Colour,      ///< RGBA32F, linear radiance, alpha 1
-  Threshold,   ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
-  JndMap       ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
+  Visibility,   ///< R32F, share of the light's area seen from each pixel's surface point, 0..1; 1 outside
+                ///< receivers
+  Colour,       ///< RGBA32F, linear radiance, alpha 1
+  Threshold,    ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
+  LightColour,  ///< RGBA32F, share of the light's radiance, meant over its area, that each pixel's surface
+                ///< point sees, channel by channel: 0..1, 1 outside receivers and in channels that the
+                ///< light has not; alpha 1
+  JndMap        ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
 };
 std::string toText(ProductKind kind);
 

@@ -32,6 +32,24 @@ TEST(Acne, CountsDarkSpotsInFullLightOnly) {
   EXPECT_FLOAT_EQ(result.map->at(2, 0), 1.0F);
 }
 
+// In row 1: lit where there is shadow in pixels 1 to 3, then half-lit (excess 0.2: none), then 5, which is
+// lit in the reference too. Column 2 goes on in row 2: runs of 3 and 2.
+TEST(ContactGap, IsTheLongestRunOfTooLightPixelsInShadow) {
+  const Image reference = makeImage(6, 3, 1,
+                                    {0.6F, 0.6F, 0.6F, 0.6F, 0.6F, 0.6F,   //
+                                     0.0F, 0.0F, 0.3F, 0.49F, 0.3F, 1.0F,  //
+                                     0.0F, 0.0F, 0.1F, 0.0F, 0.0F, 0.0F});
+  const Image test = makeImage(6, 3, 1,
+                               {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F,  //
+                                0.1F, 1.0F, 0.6F, 0.8F, 0.5F, 1.0F,  //
+                                0.0F, 0.0F, 0.4F, 0.0F, 0.0F, 0.0F});
+  EXPECT_EQ(valueOf("contact_gap", test, reference), 3.0);
+  const Image upright = makeImage(1, 4, 1, {0.0F, 1.0F, kNan, 1.0F}), shadow(1, 4, 1, 0.0F);
+  EXPECT_EQ(valueOf("contact_gap", upright, shadow), 3.0);
+  const Image mask = makeImage(1, 4, 1, {1, 1, 0, 1});
+  EXPECT_EQ(measure("contact_gap", pairOf(upright, shadow, &mask)).value, 1.0);
+}
+
 TEST(ShadowDefects, NonFiniteValuesAreDefects) {
   const Image test = makeImage(2, 1, 1, {kNan, kNan}), reference = makeImage(2, 1, 1, {0.0F, 1.0F});
   EXPECT_DOUBLE_EQ(valueOf("leaks", test, reference), 0.5);
@@ -40,7 +58,7 @@ TEST(ShadowDefects, NonFiniteValuesAreDefects) {
 
 TEST(ShadowDefects, NoReceiversNoDefects) {
   const Image test(2, 2, 1, 0.5F), reference(2, 2, 1, 0.0F), mask(2, 2, 1, 0.0F);
-  for (const char* name : {"leaks", "acne", "band_step", "seam_step"}) {
+  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "seam_step"}) {
     const MetricResult result = measure(name, pairOf(test, reference, &mask));
     EXPECT_EQ(result.value, 0.0) << name;
     EXPECT_EQ(result.judgedPixels, 0) << name;
@@ -49,7 +67,7 @@ TEST(ShadowDefects, NoReceiversNoDefects) {
 
 TEST(ShadowDefects, ColourProductsAreRefused) {
   const Image colour(2, 2, 4, 0.5F);
-  for (const char* name : {"leaks", "acne", "band_step", "seam_step"})
+  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "seam_step"})
     EXPECT_THROW(valueOf(name, colour, colour), Error) << name;
 }
 

@@ -21,7 +21,8 @@ TEST_F(OccluderKinds, CombinationsWithoutMeaningAreRefused) {
     Given given;
     const char* named;
   };
-  const std::string quads = "microquads", both = "microquads_microtris", table = "half_space_table";
+  const std::string quads = "microquads", both = "microquads_microtris", table = "half_space_table",
+                    rects = "microrects", stored = "stored", morphing = "morphing_microquads";
   const std::vector<Case> cases = {
       {"soft_shadows/bitmask", {{"occluders", both}}, "quad_mask"},
       {"soft_shadows/bitmask", {{"quad_mask", table}}, "quad_mask"},
@@ -36,7 +37,27 @@ TEST_F(OccluderKinds, CombinationsWithoutMeaningAreRefused) {
       {"soft_shadows/bitmask", {{"rectangle_table", std::string("64")}}, "rectangle_table"},
       {"soft_shadows/bitmask", {{"pattern_seed", int64_t{2}}}, "pattern_seed"},
       {"soft_shadows/backprojection", {{"contour_inset", 0.5}}, "contour_inset"},
-      {"soft_shadows/backprojection", {{"quad_area", std::string("signed")}}, "quad_area"}};
+      {"soft_shadows/backprojection", {{"quad_area", std::string("signed")}}, "quad_area"},
+      {"soft_shadows/bitmask", {{"merge_metric", std::string("relative")}}, "merge_metric"},
+      {"soft_shadows/bitmask",
+       {{"fixed_level", int64_t{7}}, {"resolution", std::string("64")}},
+       "fixed_level"},
+      {"soft_shadows/bitmask", {{"fixed_level", int64_t{2}}, {"budget", int64_t{25}}}, "budget"},
+      {"soft_shadows/bitmask", {{"occluders", rects}, {"quad_mask", table}}, "quad_mask"},
+      {"soft_shadows/bitmask", {{"occluders", rects}, {"bias_form", stored}}, "bias_form"},
+      {"soft_shadows/bitmask", {{"bias_form", stored}, {"slope_bias", 1.0}}, "slope_bias"},
+      {"soft_shadows/bitmask", {{"bias_form", std::string("constant")}, {"max_slope", 1.0}}, "max_slope"},
+      {"soft_shadows/bitmask", {{"bias_form", stored}, {"bias_growth", 3.0}}, "bias_growth"},
+      {"soft_shadows/bitmask", {{"stored_scale", 2.0}}, "stored_scale"},
+      {"soft_shadows/backprojection", {{"morph_level", 1.0}}, "morph_level"},
+      {"soft_shadows/backprojection",
+       {{"occluders", morphing}, {"morph_level", 6.5}, {"resolution", std::string("64")}},
+       "morph_level"},
+      {"soft_shadows/backprojection", {{"occluders", morphing}, {"fixed_level", int64_t{1}}}, "fixed_level"},
+      {"soft_shadows/backprojection", {{"occluders", morphing}, {"bias_form", stored}}, "bias_form"},
+      {"soft_shadows/backprojection",
+       {{"occluders", morphing}, {"gap_fill", std::string("none")}},
+       "gap_fill"}};
   for (const Case& one : cases) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(one.technique);
     const ParameterValues values(info.parameters, one.given);
@@ -69,6 +90,14 @@ Kinds kinds() {
                     {"occluders", both},
                     {"quad_mask", std::string("half_space_table")}}});
   }
+  const std::string rects = "microrects", morphing = "morphing_microquads", stored = "stored";
+  out.push_back({"soft_shadows/backprojection", {{"occluders", rects}}});
+  out.push_back({"soft_shadows/backprojection", {{"occluders", morphing}}});
+  out.push_back({"soft_shadows/bitmask", {{"occluders", rects}, {"merge_metric", std::string("relative")}}});
+  out.push_back({"soft_shadows/bitmask", {{"bias_form", std::string("per_level")}}});
+  for (const std::string& occluders : {std::string("micropatches"), quads})
+    out.push_back(
+        {"soft_shadows/bitmask", {{"occluders", occluders}, {"bias_form", stored}, {"stored_scale", 0.0}}});
   for (const std::string& occluders : {quads, both}) {
     for (const char* area : {"absolute", "signed"})
       out.push_back(
@@ -122,6 +151,11 @@ TEST_F(OccluderKinds, HardScenesStayFiniteAndBounded) {
         Given all = kind;
         all.insert(corner.begin(), corner.end());
         all.emplace("resolution", std::string("64"));
+        // What a kind has nothing to do with it refuses.
+        if (all.count("bias_form") != 0) all.erase("slope_bias");
+        if (all.count("occluders") != 0 &&
+            all["occluders"] == ParameterValue(std::string("morphing_microquads")))
+          all.erase("budget");
         const Rendered rendered = render(scene, technique, all, {16, 12});
         for (const float value : rendered.product.data)
           ASSERT_TRUE(value >= 0.0F && value <= 1.0F)

@@ -3,7 +3,8 @@
 // 4.1. The including shader gathers: accumulate(low, high) takes a rectangle in unit light coordinates.
 //
 // In tangents t = x/z the backprojection of a texel edge at depth z from receiver p is, in unit light coordinates,
-//   s = z / (p_z - z) * (p_z t - p_x) / w + 1/2.
+//   s = z / (p_z - z) * (p_z t - p_x) / w + e,
+// e being the map's eye in these coordinates, to which p is relative; 1/2 in the light's centre.
 void accumulate(vec2 low, vec2 high);
 
 Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
@@ -19,7 +20,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   const float depth = biasedDepth(p, level);
   const vec2 perTexel = tangentSize / float(resolution) * float(1 << level);
-  // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + 1/2.
+  // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + eyeOnLight.
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   for (int y = low.y; y <= high.y; ++y) {
@@ -36,19 +37,21 @@ float gatherOccluders(vec4 p, Area area, int level) {
       const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
       ++fetchCount;
 #endif
-      if (z < depth) {
+      if (blocks(z, ivec2(x, y), level, depth)) {
         const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
         const float k = throwOf(z, p.z);
-        vec2 start = k * vec2(edgesX.x, edgesY.x) + 0.5;
-        const vec2 end = k * vec2(edgesX.y, edgesY.y) + 0.5;
+        vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
+        const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL > 0
-        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * edgesX.x + 0.5);
-        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * edgesY.x + 0.5);
+        if (blocks(left, ivec2(x - 1, y), level, depth))
+          start.x = min(start.x, throwOf(left, p.z) * edgesX.x + eyeOnLight.x);
+        if (blocks(below, ivec2(x, y - 1), level, depth))
+          start.y = min(start.y, throwOf(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL > 1
-        if (lowerLeft < depth) {
+        if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, depth)) {
           const float corner = throwOf(lowerLeft, p.z);
-          start = min(start, corner * vec2(edgesX.x, edgesY.x) + 0.5);
+          start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
         }
 #endif
         ++occluderCount;

@@ -4,7 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "renderer/frame/g_buffer.h"
@@ -15,6 +17,7 @@
 namespace limen::techniques {
 namespace {
 
+constexpr double kDefaultSlopeBias = 2.0;
 constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
 constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
@@ -33,17 +36,23 @@ bool hasLayers(Structure structure) { return structure >= Structure::Mssm; }
 gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines defines) {
   const std::string &fill = values.text("gap_fill"), &occluders = values.text("occluders");
   defines["GAP_FILL"] = fill == "none" ? "0" : fill == "left_bottom" ? "1" : "2";
-  defines["OCCLUDERS"] = occluders == "micropatches" ? "0"
-                         : occluders == "microquads" ? "1"
-                         : occluders == "contours"   ? "3"
-                                                     : "2";
+  defines["OCCLUDERS"] = occluders == "micropatches"          ? "0"
+                         : occluders == "microquads"          ? "1"
+                         : occluders == "contours"            ? "3"
+                         : occluders == "microrects"          ? "4"
+                         : occluders == "morphing_microquads" ? "5"
+                                                              : "2";
+  for (const auto& [name, value] : BiasForm(values).defines()) defines[name] = value;
   const Structure structure = structureOf(values.text("structure"));
   defines[structure == Structure::None  ? "STRUCTURE_NONE"
           : structure == Structure::Hsm ? "STRUCTURE_HSM"
           : structure == Structure::Ysm ? "STRUCTURE_YSM"
                                         : "STRUCTURE_WINDOWS"] = "1";
   if (structure == Structure::NBuffer) defines["CORNER"] = "1";
-  if (hasLayers(structure) && values.boolean("growth")) defines["GROW"] = "1";
+  // With one level for all pixels, what it makes of the shadow is the question: no pixel may escape it by
+  // texels that are finer.
+  if ((hasLayers(structure) && values.boolean("growth")) || CoarseOccluders(values).isFixed())
+    defines["GROW"] = "1";
   if (hasBudgetMap(values)) defines["BUDGET_MAP"] = "1";
   LevelOfQuality(values).define(defines);
   return defines;
@@ -66,8 +75,8 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
   // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
   // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
   // own.
-  std::vector<Parameter> all = commonParameters(2.0);
-  all.push_back(integerParameter("budget", 256, 0, 1 << 24, "",
+  std::vector<Parameter> all = commonParameters(kDefaultSlopeBias);
+  all.push_back(integerParameter("budget", kDefaultBudget, 0, 1 << 24, "",
                                  "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
                                  "Schwarz 2009, sections 4.1 and 4.5"));
   all.push_back(integerParameter("refinements", 2, 0, 3, "",
@@ -92,19 +101,26 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
   all.push_back(choiceParameter("gap_fill", kDefaultGapFill, {"none", "left_bottom", "diagonal"},
                                 "Neighbours to which a micropatch is stretched to close gaps",
                                 "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)"));
+  const bool morphing =
+      std::find(occluders.begin(), occluders.end(), "morphing_microquads") != occluders.end();
   all.push_back(choiceParameter("occluders", "micropatches", std::move(occluders),
                                 "What is made of texels that block: rectangles at one depth, a mesh between "
-                                "their centres, that with triangles where three of four block, or contours",
-                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.4.5"));
-  for (const std::vector<Parameter>& more : {LevelOfQuality::parameters(), budgetParameters()})
+                                "their centres, that with triangles where three of four block, contours, "
+                                "rectangles of their own extents, or a mesh between two levels",
+                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2"));
+  for (const std::vector<Parameter>& more : {CoarseOccluders::parameters(morphing), BiasForm::parameters(),
+                                             LevelOfQuality::parameters(), budgetParameters()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
 void OccluderSearch::checkSearch(const ParameterValues& values) {
-  if (values.text("occluders") != "micropatches" && values.text("gap_fill") != kDefaultGapFill)
-    throw Error("'gap_fill' stretches micropatches; there are none, and no gaps", "gap_fill",
+  const std::string& occluders = values.text("occluders");
+  if (occluders != "micropatches" && occluders != "microrects" && values.text("gap_fill") != kDefaultGapFill)
+    throw Error("'gap_fill' stretches micropatches and microrects; there are none, and no gaps", "gap_fill",
                 "leave it out, or give occluders: micropatches");
+  CoarseOccluders::check(values);
+  BiasForm::check(values, kDefaultSlopeBias);
   const Structure structure = structureOf(values.text("structure"));
   if (structure != Structure::Ysm && values.text("ysm_base") != kDefaultBase)
     throw Error("'ysm_base' is about the Y shadow map, and there is none", "ysm_base",
@@ -115,6 +131,10 @@ void OccluderSearch::checkSearch(const ParameterValues& values) {
   if (!hasLayers(structure) && !values.boolean("growth"))
     throw Error("'growth' is about structures with layers, and there are none", "growth",
                 "leave it out, or give structure: mssm, n_buffer or ysm");
+  if (CoarseOccluders(values).isFixed() && values.text("levels") != "finest_within")
+    throw Error(
+        "one level for all pixels is given, and 'levels: " + values.text("levels") + "' would choose others",
+        "levels", "leave it out, or leave out fixed_level and morphing microquads");
   LevelOfQuality::check(values);
   checkBudget(values);
 }
@@ -126,6 +146,8 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
       refinements_(static_cast<int>(values.integer("refinements"))),
       roughQueries_(roughQueries(values.text("range_samples"))),
       structure_(structureOf(values.text("structure"))),
+      coarse_(values),
+      biasForm_(values),
       base_(structure_ == Structure::Ysm
                 ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
                 : mapSettings().resolution),
@@ -137,23 +159,28 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
   levels_ = pyramid.levels();
-  structureBytes_ = pyramid.minimum().bytes() + pyramid.maximum().bytes();
+  coarse_.make(frame, mapSettings());
+  biasForm_.make(frame, mapSettings());
+  int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   const frame::MultiScaleMap* layers = nullptr;
   if (hasLayers(structure_)) {
     layers = &frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
     baseLevel_ = layers->baseLevel();
-    structureBytes_ += layers->texture().bytes();
+    bytes += layers->texture().bytes();
   }
+  structureBytes_.resize(maps().size());
+  structureBytes_[currentMap()] = bytes;
   const gl::Texture* depth = nullptr;
   if (split_ && smooths())
     depth = &frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture();
-  if (budgets_) budgetMap_ = &budgets_->make(frame);
   // Last, since making the inputs binds textures too.
   if (layers) layers->texture().bindTexture(3);
   if (budgetMap_) budgetMap_->bindTexture(kBudgetUnit);
   if (depth) depth->bindTexture(kCameraDepthUnit);
+  coarse_.bind();
+  biasForm_.bind();
   pyramid.minimum().bindTexture(1);
   pyramid.maximum().bindTexture(2);
   maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
@@ -161,6 +188,8 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
 }
 
 void OccluderSearch::configure(const gl::Program& program) const {
+  coarse_.configure(program);
+  biasForm_.configure(program);
   program.set("levels", levels_);
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
@@ -194,21 +223,27 @@ void OccluderSearch::preparePasses(frame::Frame& frame) {
   frame.passes().setBytesHeld(passName() + "/classify", product().bytes() + split_->bytes());
 }
 
-void OccluderSearch::runPasses(frame::Frame& frame, const PassInputs& inputs) {
-  if (split_)
-    runSplit(frame, inputs);
-  else
-    VisibilityTechnique::runPasses(frame, inputs);
-  // Frames that count take longer than those they stand for.
-  if (budgets_ && !inputs.counts) budgets_->finish(frame, split_ ? &split_->work() : nullptr);
+void OccluderSearch::makeInputs(frame::Frame& frame) {
+  if (budgets_) budgetMap_ = &budgets_->make(frame);
 }
 
-void OccluderSearch::runSplit(frame::Frame& frame, const PassInputs& inputs) {
-  const bool counting = inputs.counts != nullptr;
+void OccluderSearch::runPasses(frame::Frame& frame, const CountImages* counts) {
+  // Frames that count take longer than those they stand for.
+  BudgetDriver* steered = counts ? nullptr : budgets_.get();
+  if (steered) steered->begin();
+  if (split_)
+    runSplit(frame, counts);
+  else
+    VisibilityTechnique::runPasses(frame, counts);
+  if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
+}
+
+void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
+  assert(maps().size() == 1);  // see checkValues() of the techniques with several
   {
     const auto scope = frame.passes().open(passName() + "/classify");
-    const gl::Program& classify = counting ? program(frame, true, classifyDefines(smooths())) : *classify_;
-    bindPass(frame, classify, inputs);
+    const gl::Program& classify = counts ? program(frame, true, classifyDefines(smooths())) : *classify_;
+    bindPass(frame, classify, counts);
     split_->bindForClassify();
     classify.dispatch(frame.sizePx());
     SplitSearch::makeVisible();
@@ -219,16 +254,18 @@ void OccluderSearch::runSplit(frame::Frame& frame, const PassInputs& inputs) {
     split_->smooth(*smooth_);
   }
   const auto scope = frame.passes().open(passName() + "/gather");
-  const gl::Program& gather = counting ? program(frame, true, kGatherDefines) : *gather_;
-  bindPass(frame, gather, inputs);
+  const gl::Program& gather = counts ? program(frame, true, kGatherDefines) : *gather_;
+  bindPass(frame, gather, counts);
   split_->bindForGather();
   split_->dispatchOverList(gather);
   SplitSearch::makeVisible();
+  if (counts) addCounts(*counts);
 }
 
 std::vector<std::string> OccluderSearch::counterNames() {
   std::vector<std::string> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
+  names.emplace_back("occluder_bytes");
   for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
   for (const BudgetDriverInfo& driver : budgetDrivers())
     names.insert(names.end(), driver.counters.begin(), driver.counters.end());
@@ -237,7 +274,9 @@ std::vector<std::string> OccluderSearch::counterNames() {
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   std::vector<Counter> all = VisibilityTechnique::count(frame);
-  all.push_back({"structure_bytes", static_cast<double>(structureBytes_), "byte", true});
+  const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
+  all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
+  all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes()), "byte", true});
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
   for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
     all.push_back(std::move(counter));

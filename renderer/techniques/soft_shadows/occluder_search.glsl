@@ -2,9 +2,10 @@
 // Finds the texels of the shadow map that can matter for a receiver, and has them gathered. Schwarz 2009, sections 4.1 and
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
-// OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours.
+// OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours, 4 microrects, 5 morphing microquads.
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements;
+uniform int fixedLevel;  // of all micro-occluders; below 0: by the budget
 uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
 uniform int maxIterations;
@@ -14,7 +15,7 @@ bool isSaturated();
 float gatheredVisibility();
 
 // Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
-#if OCCLUDERS == 0
+#if OCCLUDERS == 0 || OCCLUDERS == 4
 const float kAreaBorder = 0.0;
 #else
 const float kAreaBorder = 0.5;
@@ -22,8 +23,9 @@ const float kAreaBorder = 0.5;
 
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
-  const vec2 centre = p.xy / p.z;
-  const vec2 halfSize = 0.5 * lightSize * max(1.0 / z - 1.0 / p.z, 0.0);
+  const float perLength = max(1.0 / z - 1.0 / p.z, 0.0);
+  const vec2 centre = p.xy / p.z + (0.5 - eyeOnLight) * lightSize * perLength;
+  const vec2 halfSize = 0.5 * lightSize * perLength;
   const vec2 low = floor(mapTexel(centre - halfSize) - kAreaBorder);
   const vec2 high = ceil(mapTexel(centre + halfSize) + kAreaBorder);
   reachesOutside = any(lessThan(low, vec2(0.0))) || any(greaterThan(high, vec2(float(resolution))));
@@ -44,12 +46,20 @@ float gatherOccluders(vec4 p, Area area, int level);
 
 #include "renderer/techniques/soft_shadows/quality/level_of_quality.glsl"
 
+#if OCCLUDERS == 4 || OCCLUDERS == 5
+// Texels that micro-occluders in range may be made of; these may lie anywhere about their own one.
+Area areaOfRange(Range range, int level);
+#endif
+
 // Area of which the depth range decides. A coarse micro-occluder that the search area cuts stands for texels outside of it
 // too: left out, they would make points fully lit that neighbours, with one texel of the occluder in their area, find
 // shadowed by all of it. Schwarz 2009, section 4.3.1 ("over-precision"). Tiles of the HSM are whole ones at any level that a
 // budget of 4 or more leads to.
 Area queriedArea(Area area) {
-#ifdef GROW
+#if OCCLUDERS == 4 || OCCLUDERS == 5
+  const int level = int(ceil(levelOfArea(area)));
+  return areaOfRange(occluderRange(area, level), level);
+#elif defined(GROW)
   const int level = int(ceil(levelOfArea(area)));
   return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
 #else
@@ -76,12 +86,14 @@ bool findArea(vec4 p, out Area area, out float visibility) {
     const vec2 range = depthRange(queriedArea(area), rough);
     fetchCount = 1u + boundFetches;
     if (range.x >= biasedDepth(p, 0)) return false;
-    // All texels block: neighbouring texels are taken as one surface.
+    // All texels block: neighbouring texels are taken as one surface. Biases of their own may lie below any such range.
+#ifndef BIAS_STORED
     if (range.y < biasedDepth(p, 0) && !reachesOutside) {
       pixelClass = kUmbra;
       visibility = 0.0;
       return false;
     }
+#endif
     // Unless the next query is a better one, it would get the same answer.
     if (i >= refinements || (range.x <= nearest && rough == (i + 1 < roughQueries))) break;
     nearest = max(nearest, range.x);
@@ -92,10 +104,30 @@ bool findArea(vec4 p, out Area area, out float visibility) {
 // z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
 float throwOf(float z, float pz) { return z / (pz - z); }
 
+#ifdef BIAS_STORED
+layout(binding = 9) uniform sampler2D texelBiases;
+uniform float storedScale;
+#endif
+
+// Whether depth z of a texel of a level blocks a receiver of biased depth `depth`.
+bool blocks(float z, ivec2 texel, int level, float depth) {
+#ifdef BIAS_STORED
+  if (!(z < depth)) return false;
+  ++fetchCount;
+  return z + storedScale * texelFetch(texelBiases, texel, level).x < depth;
+#else
+  return z < depth;
+#endif
+}
+
 #if OCCLUDERS == 0
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
 #elif OCCLUDERS == 3
 #include "renderer/techniques/soft_shadows/contours.glsl"
+#elif OCCLUDERS == 4
+#include "renderer/techniques/soft_shadows/microrects.glsl"
+#elif OCCLUDERS == 5
+#include "renderer/techniques/soft_shadows/morphing_quads.glsl"
 #else
 #include "renderer/techniques/soft_shadows/microquads.glsl"
 #endif

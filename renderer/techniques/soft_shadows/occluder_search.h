@@ -2,7 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "renderer/techniques/soft_shadows/bias_form.h"
+#include "renderer/techniques/soft_shadows/coarse_occluders.h"
 #include "renderer/techniques/soft_shadows/quality/budget_driver.h"
 #include "renderer/techniques/soft_shadows/quality/level_of_quality.h"
 #include "renderer/techniques/soft_shadows/quality/split_search.h"
@@ -24,7 +27,8 @@ class OccluderSearch : public VisibilityTechnique {
   /// Throws Error where values of these parameters do not go together.
   static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique; structure_bytes: the minimum/maximum pyramid, of which every
-  /// structure needs the minimum for micro-occluders, and the layers on top of it; and those of
+  /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together;
+  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; and those of
   /// quality_counters.h.
   static std::vector<std::string> counterNames();
 
@@ -46,18 +50,21 @@ class OccluderSearch : public VisibilityTechnique {
   const frame::LightFrustum& bindMap(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
   void preparePasses(frame::Frame& frame) override;
-  void runPasses(frame::Frame& frame, const PassInputs& inputs) override;
+  void makeInputs(frame::Frame& frame) override;
+  void runPasses(frame::Frame& frame, const CountImages* counts) override;
 
  private:
   /// Levels are smoothed, and there is something to smooth.
   bool smooths() const { return quality_.smoothingRadius() > 0 && (budget_ > 0 || budgets_); }
-  void runSplit(frame::Frame& frame, const PassInputs& inputs);
+  void runSplit(frame::Frame& frame, const CountImages* counts);
 
   int budget_, refinements_, roughQueries_;
   Structure structure_;
+  CoarseOccluders coarse_;
+  BiasForm biasForm_;
   int base_;  // resolution of the layers
   int levels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
-  int64_t structureBytes_ = 0;
+  std::vector<int64_t> structureBytes_;  // of each map
   LevelOfQuality quality_;
   std::unique_ptr<BudgetDriver> budgets_;   // null: the same budget for all pixels
   const gl::Texture* budgetMap_ = nullptr;  // of this frame

@@ -15,6 +15,7 @@ uniform ivec2 sizePx;
 uniform vec2 tangentLow, tangentSize;  // x/z, y/z at the map's lower edge, and the map's extents
 uniform float near;
 uniform vec2 lightSize;  // full extents
+uniform vec2 eyeOnLight;  // place that the map is seen from and receivers are relative to, in unit light coordinates
 uniform int resolution;
 uniform float bias, slopeBias, maxSlope;
 
@@ -35,10 +36,22 @@ vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * floa
 float boundedSlope(vec4 receiver) { return min(receiver.w, maxSlope * receiver.z); }
 
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
-// change of the receiver's own plane over `slopeBias` texels (the slope sums both axes).
+// change of the receiver's own plane over `slopeBias` texels (the slope sums both axes). BIAS_BY_LEVEL: a constant that grows
+// with the level by a factor, instead. BIAS_STORED: texels bring what they need beyond the constant (blocks()).
+#ifdef BIAS_BY_LEVEL
+uniform float biasGrowth;
+#endif
 float biasedDepth(vec4 receiver, int level) {
+#if defined(BIAS_BY_LEVEL)
+  float share = bias;
+  for (int i = 0; i < level; ++i) share *= biasGrowth;
+  return receiver.z - share * receiver.z;
+#elif defined(BIAS_STORED)
+  return receiver.z - bias * receiver.z;
+#else
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
   return receiver.z - bias * receiver.z - slopeBias * boundedSlope(receiver) * texel;
+#endif
 }
 
 void store(ivec2 pixel, float visibility) {

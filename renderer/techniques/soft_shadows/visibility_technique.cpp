@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/receivers_from.h"
 
 namespace limen::techniques {
 namespace {
@@ -61,11 +63,16 @@ frame::Raster rasterOf(const std::string& name) {
                              : frame::Raster::Hardware;
 }
 
+const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
+  return eye == glm::dvec2(0.5) ? frame.get<frame::Receivers>().texture()
+                                : frame.get<frame::ReceiversFrom>(frame::EyeSetting{eye}).texture();
+}
+
 }  // namespace
 
 VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                                          gl::ShaderDefines defines)
-    : map_{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))},
+    : maps_{{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))}},
       bias_(values.real("bias")),
       slopeBias_(values.real("slope_bias")),
       maxSlope_(values.real("max_slope")),
@@ -109,44 +116,56 @@ const gl::Program& VisibilityTechnique::program(frame::Frame& frame, bool counti
 }
 
 const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
-  const auto& map = frame.get<frame::ShadowMap>(map_);
+  const auto& map = frame.get<frame::ShadowMap>(mapSettings());
   map.texture().bindTexture(1);
   return map.frustum();
 }
 
 void VisibilityTechnique::bindPass(frame::Frame& frame, const gl::Program& program,
-                                   const PassInputs& inputs) const {
-  const frame::LightFrustum& frustum = inputs.frustum;
+                                   const CountImages* counts) {
+  const frame::LightFrustum& frustum = bindMap(frame);
+  const glm::dvec2 lightSize = frame.scene().lights[0].size, eye = mapSettings().eye;
   program.set("sizePx", frame.sizePx());
   program.set("tangentLow", glm::vec2(frustum.low));
   program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
   program.set("near", static_cast<float>(frustum.near));
-  program.set("lightSize", glm::vec2(frame.scene().lights[0].size));
-  program.set("resolution", map_.resolution);
+  program.set("lightSize", glm::vec2(lightSize));
+  program.set("eyeOnLight", glm::vec2(eye));
+  program.set("resolution", mapSettings().resolution);
   program.set("bias", static_cast<float>(bias_));
   program.set("slopeBias", static_cast<float>(slopeBias_));
   program.set("maxSlope", static_cast<float>(maxSlope_));
   configure(program);
-  inputs.receivers.bindTexture(0);
+  receiversOf(frame, eye).bindTexture(0);
   visibility_->bindImage(0, gl::Access::Write);
-  if (inputs.counts) {
-    inputs.counts->work.bindImage(1, gl::Access::ReadWrite);
-    inputs.counts->search.bindImage(2, gl::Access::Write);
-  }
+  if (!counts) return;
+  counts->work.bindImage(1, gl::Access::ReadWrite);
+  counts->search.bindImage(2, gl::Access::Write);
 }
 
-void VisibilityTechnique::runPasses(frame::Frame& frame, const PassInputs& inputs) {
+void VisibilityTechnique::runPasses(frame::Frame& frame, const CountImages* counts) {
   const auto scope = frame.passes().open(pass_);
-  const gl::Program& chosen = inputs.counts ? program(frame, true) : *program_;
-  bindPass(frame, chosen, inputs);
-  chosen.dispatch(frame.sizePx());
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  const gl::Program& chosen = counts ? program(frame, true) : *program_;
+  for (current_ = 0; current_ < maps_.size(); ++current_) {
+    if (!readsMap(frame, current_)) continue;
+    bindPass(frame, chosen, counts);
+    chosen.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    if (counts) addCounts(*counts);
+  }
+  current_ = 0;
 }
 
 void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
-  const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
-  const frame::LightFrustum& frustum = bindMap(frame);
-  runPasses(frame, {receivers, frustum, counts});
+  makeInputs(frame);
+  for (current_ = 0; current_ < maps_.size(); ++current_)
+    if (readsMap(frame, current_)) {
+      bindMap(frame);
+      receiversOf(frame, mapSettings().eye);
+    }
+  current_ = 0;
+  runPasses(frame, counts);
+  finish(frame);
 }
 
 std::vector<std::string> VisibilityTechnique::counterNames() {
@@ -157,13 +176,34 @@ std::vector<std::string> VisibilityTechnique::counterNames() {
 
 void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }
 
+void VisibilityTechnique::addCounts(const CountImages& counts) {
+  std::vector<uint32_t> work = counts.work.readUint(), search = counts.search.readUint();
+  if (counted_.work.empty()) {
+    counted_.work = std::move(work);
+    counted_.search = std::move(search);
+    return;
+  }
+  // A pixel is what the map that had the most to do made of it; later maps need not see everything.
+  const auto rank = [](uint32_t kind) {
+    constexpr std::array<int, ClassCount> kRank = {0, 1, 3, 4, 2, 5};
+    return kRank.at(kind);
+  };
+  for (size_t i = 0; i < work.size(); i += 4) {
+    const uint32_t kind = work[i] == Outside ? uint32_t{Lit} : work[i];
+    if (rank(kind) > rank(counted_.work[i])) counted_.work[i] = kind;
+    for (size_t channel = 1; channel < 3; ++channel) counted_.work[i + channel] += work[i + channel];
+    counted_.work[i + 3] = std::max(counted_.work[i + 3], work[i + 3]);
+    for (size_t channel = 0; channel < 3; ++channel) counted_.search[i + channel] += search[i + channel];
+  }
+}
+
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                            gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
+  counted_ = {frame.sizePx(), {}, {}};
   frame.begin();
   run(frame, &counts);
   frame.end();
-  counted_ = {frame.sizePx(), counts.work.readUint(), counts.search.readUint()};
   return summarise(counted_.work, counted_.search);
 }
 

@@ -20,9 +20,9 @@ enum PixelClass : uint32_t {
   ClassCount = 6
 };
 
-/// Base of the soft-shadow techniques that read one shadow map: a compute pass over the receivers into a
-/// visibility image, or several passes where the technique splits them. The shader includes
-/// shadow_lookup.glsl, which declares what this class binds:
+/// Base of the soft-shadow techniques that read a shadow map, or several one after another: a compute pass
+/// over the receivers into a visibility image, or several passes where the technique splits them. The shader
+/// includes shadow_lookup.glsl, which declares what this class binds:
 ///   texture unit 0: receivers; unit 1: linear shadow map, unless bindMap() binds something else
 ///   image unit 0: visibility; units 1 and 2, where COUNT is defined: class, work and search of each pixel
 ///   (rgba32ui)
@@ -54,7 +54,19 @@ class VisibilityTechnique : public Technique {
   VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                       gl::ShaderDefines defines = {});
 
-  const frame::ShadowMapSettings& mapSettings() const { return map_; }
+  /// Of the map that is read at present.
+  const frame::ShadowMapSettings& mapSettings() const { return maps_[current_]; }
+  /// Number of the map that is read at present, from 0 on.
+  size_t currentMap() const { return current_; }
+  const std::vector<frame::ShadowMapSettings>& maps() const { return maps_; }
+  /// Has several maps read one after another, a dispatch each, which the shader joins; at least one.
+  void setMaps(std::vector<frame::ShadowMapSettings> maps) { maps_ = std::move(maps); }
+  /// Whether the present frame reads a map.
+  virtual bool readsMap(const frame::Frame&, size_t) const { return true; }
+  /// After the last map; opens its own passes.
+  virtual void finish(frame::Frame&) {}
+  /// Adds to what the shader is compiled with; before prepare() of this class.
+  void define(const std::string& name, const std::string& value) { defines_[name] = value; }
   /// Makes and binds the map, from texture unit 1; returns its frustum.
   virtual const frame::LightFrustum& bindMap(frame::Frame& frame);
   /// Sets the technique's own uniforms.
@@ -63,28 +75,28 @@ class VisibilityTechnique : public Technique {
   struct CountImages {
     gl::Texture work, search;
   };
-  /// What the passes of one frame read, and `counts`, null in a plain frame.
-  struct PassInputs {
-    const gl::Texture& receivers;
-    const frame::LightFrustum& frustum;
-    const CountImages* counts;
-  };
   /// Compiles and allocates what runPasses() needs in a plain frame, and states the bytes held.
   virtual void preparePasses(frame::Frame& frame);
-  /// Opens the technique's passes and fills the product.
-  virtual void runPasses(frame::Frame& frame, const PassInputs& inputs);
+  /// Before the first map: inputs that are made once a frame, in passes of their own.
+  virtual void makeInputs(frame::Frame&) {}
+  /// Opens the technique's passes and fills the product; all inputs have been made. Whoever overrides it
+  /// calls addCounts() once the map's pixels are counted. `counts` is null in a plain frame.
+  virtual void runPasses(frame::Frame& frame, const CountImages* counts);
 
   const std::string& passName() const { return pass_; }
   /// The technique's shader; compiles it the first time.
   const gl::Program& program(frame::Frame& frame, bool counting, const gl::ShaderDefines& more = {}) const;
-  /// Sets and binds all that shadow_lookup.glsl declares.
-  void bindPass(frame::Frame& frame, const gl::Program& program, const PassInputs& inputs) const;
+  /// Sets and binds all that shadow_lookup.glsl declares, of the map that is read at present.
+  void bindPass(frame::Frame& frame, const gl::Program& program, const CountImages* counts);
+  /// Adds what the passes over a map counted.
+  void addCounts(const CountImages& counts);
 
  private:
   /// `counts` is null in a plain frame.
   void run(frame::Frame& frame, const CountImages* counts);
 
-  frame::ShadowMapSettings map_;
+  std::vector<frame::ShadowMapSettings> maps_;
+  size_t current_ = 0;
   double bias_, slopeBias_, maxSlope_;
   std::string shader_, pass_;
   gl::ShaderDefines defines_;

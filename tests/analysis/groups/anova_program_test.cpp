@@ -144,13 +144,7 @@ TEST_F(AnovaProgram, CountsSingleTrialsAndValuesAgree) {
 
 TEST_F(AnovaProgram, StoreAndItsExportAgree) {
   const std::string store = folder_.path("s.sqlite");
-  ASSERT_EQ(
-      runProgram("limen-study simulate experiment_1 --observers 8 --seed 3 --quiet --store " + store).code,
-      0);
-  const ProgramRun exported =
-      runProgram("limen-study export " + store + " -o " + folder_.path("out") + " --codes");
-  ASSERT_EQ(exported.code, 0) << exported.text;
-  const std::string trials = exportedTrials(folder_.path("out"));
+  const std::string trials = exportedStudy(store, "--observers 8 --seed 3");
   const json ofStore = analyse("anova --ranks --no-exclusions " + store).at("anova").at(0);
   const json ofTable =
       analyse(

@@ -44,8 +44,14 @@ class GroupProgram : public testing::Test {
     ASSERT_TRUE(value.is_number()) << value << " for " << expected;
     EXPECT_NEAR(value.get<double>(), expected, tolerance * std::max(1.0, std::abs(expected)));
   }
-  /// The table of trials in a folder that `limen-study export` wrote.
-  static std::string exportedTrials(const std::string& folder) {
+  /// Simulates experiment_1 into `store` and exports it; the path of the table of trials.
+  std::string exportedStudy(const std::string& store, const std::string& observersAndSeed) const {
+    const ProgramRun simulated =
+        runProgram("limen-study simulate experiment_1 " + observersAndSeed + " --quiet --store " + store);
+    EXPECT_EQ(simulated.code, 0) << simulated.text;
+    const std::string folder = folder_.path("out");
+    const ProgramRun exported = runProgram("limen-study export " + store + " -o " + folder + " --codes");
+    EXPECT_EQ(exported.code, 0) << exported.text;
     for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
       if (file.path().filename() == "trials.csv") return file.path().string();
     ADD_FAILURE() << "no trials.csv in " << folder;

@@ -102,15 +102,12 @@ TEST_F(SdtProgram, AlternativesAreThoseOfR) {
 
 TEST_F(SdtProgram, StoreAndItsExportAgree) {
   const std::string store = folder_.path("s.sqlite");
-  ASSERT_EQ(
-      runProgram("limen-study simulate experiment_1 --observers 4 --seed 5 --quiet --store " + store).code,
-      0);
+  const std::string trials = exportedStudy(store, "--observers 4 --seed 5");
   const json part = analyse("sdt --no-exclusions " + store).at("sdt").at(0);
   EXPECT_EQ(part.at("rows").size(), 5U);
   EXPECT_TRUE(part.at("rows").at(0).contains("a_prime_interval"));
-  ASSERT_EQ(runProgram("limen-study export " + store + " -o " + folder_.path("out") + " --codes").code, 0);
   const json table =
-      analyse("sdt " + exportedTrials(folder_.path("out")) +
+      analyse("sdt " + trials +
               " --outcome outcome --signal change --where counts=1 --where practice=0 --subject subject")
           .at("sdt")
           .at(0);

@@ -22,7 +22,7 @@ gl::ShaderDefines definesOf(const ParameterValues& values) {
 void check(const ParameterValues& values) {
   OccluderSearch::checkSearch(values);
   const std::string& occluders = values.text("occluders");
-  if (!occluders.starts_with("microquads") && values.text("quad_area") != kDefaultQuadArea)
+  if (occluders.find("microquads") == std::string::npos && values.text("quad_area") != kDefaultQuadArea)
     throw Error("'quad_area' is about microquads, and there are none", "quad_area",
                 "leave it out, or give occluders: microquads");
   if (occluders != "contours" && values.real("contour_inset") != kDefaultInset)
@@ -51,7 +51,8 @@ class Backprojection : public OccluderSearch {
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> all =
-      OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris", "contours"});
+      OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris", "contours",
+                                        "microrects", "morphing_microquads"});
   all.push_back(choiceParameter(
       "quad_area", kDefaultQuadArea, {"absolute", "signed"},
       "Area that a microquad adds: its size, or with the sign of its orientation, so that folds cancel",

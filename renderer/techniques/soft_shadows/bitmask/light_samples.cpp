@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 
+#include <bit>
 #include <random>
+
+#include "base/error.h"
 
 namespace limen::techniques {
 namespace {
@@ -54,6 +57,22 @@ std::vector<glm::dvec2> lightSamples(const std::string& pattern, int64_t seed) {
     samples.push_back(stratified ? glm::dvec2(i % side + x, i / side + y) / double(side) : glm::dvec2(x, y));
   }
   return samples;
+}
+
+std::vector<uint32_t> lightMask(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples) {
+  std::vector<uint32_t> mask(samples.size() / 32, 0);
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (light.contains(samples[i])) mask[i / 32] |= 1U << (i % 32);
+  if (bitCount(mask) == 0)
+    throw Error("none of the " + std::to_string(samples.size()) + " light samples lies on the light",
+                "pattern", "give a pattern of more samples");
+  return mask;
+}
+
+int bitCount(const std::vector<uint32_t>& mask) {
+  int count = 0;
+  for (const uint32_t word : mask) count += std::popcount(word);
+  return count;
 }
 
 }  // namespace limen::techniques

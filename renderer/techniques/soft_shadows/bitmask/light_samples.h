@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/scene.h"
+
 namespace limen::techniques {
 
 /// Names of the patterns of light samples, those on grids first.
@@ -17,5 +19,11 @@ bool isGridPattern(const std::string& pattern);
 /// number of words of 32 bits, at most 1024. Grids come in rows of ascending y, each of ascending x. `seed`
 /// decides random and stratified patterns. Source: Schwarz 2009, section 4.2.1.
 std::vector<glm::dvec2> lightSamples(const std::string& pattern, int64_t seed = 1);
+
+/// Mask of the samples that lie on a light which need not fill its bounding rectangle: bit b of the words is
+/// sample b. Throws Error if there are none. Source: Schwarz 2009, section 4.2.2.
+std::vector<uint32_t> lightMask(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples);
+/// Bits that are set.
+int bitCount(const std::vector<uint32_t>& mask);
 
 }  // namespace limen::techniques

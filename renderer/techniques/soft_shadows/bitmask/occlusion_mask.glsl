@@ -21,8 +21,25 @@
 
 uint mask[MASK_WORDS];
 
+// SHAPED_LIGHT: the light does not fill its rectangle, and LIGHT_SAMPLES of the samples lie on it, those whose bits are
+// set in lightMask. The others count as covered from the start, so that a mask is full once the light is. Schwarz 2009,
+// section 4.2.2.
+#ifdef SHAPED_LIGHT
+layout(std430, binding = 0) readonly buffer LightMask { uint lightMask[MASK_WORDS]; };
+#else
+#define LIGHT_SAMPLES SAMPLES
+#endif
+
 void clearMask() {
+#ifdef SHAPED_LIGHT
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = ~lightMask[i];
+#else
   for (int i = 0; i < MASK_WORDS; ++i) mask[i] = 0u;
+#endif
+}
+
+void coverAll() {
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = 0xffffffffu;
 }
 
 // Bits [low, high), high <= 32; empty if high <= low. A shift by 32 is undefined, which bitfieldInsert avoids.
@@ -87,6 +104,9 @@ int samplesCovered() {
   for (int i = 0; i < MASK_WORDS; ++i) covered += bitCount(mask[i]);
   return covered;
 }
+
+// Share of the light's samples that are not covered.
+float visibleShare() { return float(SAMPLES - samplesCovered()) / float(LIGHT_SAMPLES); }
 
 bool allCovered() {
   uint all = 0xffffffffu;

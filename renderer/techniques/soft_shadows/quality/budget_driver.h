@@ -30,8 +30,11 @@ class BudgetDriver {
   /// returns.
   virtual const gl::Texture& make(frame::Frame& frame) = 0;
 
+  /// Called right before the technique's own passes, shadow maps and what is made of them being there. Calls
+  /// of begin() and finish() come in pairs, outside of any pass; not in frames that count their work.
+  virtual void begin() {}
   /// Called once the frame's visibility is there, outside of any pass, for drivers that steer by what it
-  /// took; not in frames that count their work. `work` is the list of processed pixels (split_search.h),
+  /// took. `work` is the list of processed pixels (split_search.h),
   /// whose word 3 is their number; null in the single pass. Must not wait for the GPU.
   virtual void finish(frame::Frame& /*frame*/, const gl::Buffer* /*work*/) {}
 

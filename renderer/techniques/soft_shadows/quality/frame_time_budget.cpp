@@ -52,21 +52,23 @@ class FrameTimeBudget : public BudgetDriver {
     const gl::Texture* base = base_ ? &base_->make(frame) : nullptr;
     for (const FrameStopwatch::Sample& sample : stopwatch_->collect())
       controller_.observe(sample.tag, sample.ms);
-    const double scale = controller_.scale();
-    {
-      const auto scope = frame.passes().open("soft_shadows/scaled_budgets");
-      program_->set("sizePx", frame.sizePx());
-      program_->set("baseRoot", range_.mostRoot());
-      program_->set("leastRoot", range_.leastRoot());
-      program_->set("rootScale", static_cast<float>(std::sqrt(scale)));
-      program_->set("dithers", dithers_ ? 1 : 0);
-      if (base) base->bindTexture(0);
-      map_->bindImage(0, gl::Access::Write);
-      program_->dispatch(frame.sizePx());
-      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    }
-    stopwatch_->start(scale);
+    scale_ = controller_.scale();
+    const auto scope = frame.passes().open("soft_shadows/scaled_budgets");
+    program_->set("sizePx", frame.sizePx());
+    program_->set("baseRoot", range_.mostRoot());
+    program_->set("leastRoot", range_.leastRoot());
+    program_->set("rootScale", static_cast<float>(std::sqrt(scale_)));
+    program_->set("dithers", dithers_ ? 1 : 0);
+    if (base) base->bindTexture(0);
+    map_->bindImage(0, gl::Access::Write);
+    program_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return *map_;
+  }
+
+  void begin() override {
+    if (base_) base_->begin();
+    stopwatch_->start(scale_);
   }
 
   void finish(frame::Frame& frame, const gl::Buffer* work) override {
@@ -93,6 +95,7 @@ class FrameTimeBudget : public BudgetDriver {
   bool dithers_;
   int settleFrames_;
   FrameTimeController controller_;
+  double scale_ = 1.0;                  // of this frame
   std::unique_ptr<BudgetDriver> base_;  // null: the same budget for all pixels
   std::optional<FrameStopwatch> stopwatch_;
   std::optional<gl::Texture> map_;

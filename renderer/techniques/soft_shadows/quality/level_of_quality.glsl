@@ -26,6 +26,7 @@ void readBudget(ivec2 pixel) {
 
 // Finest level at which the area's micro-occluders keep within the budget on both axes.
 int finestLevelWithin(Area area) {
+  if (fixedLevel >= 0) return min(fixedLevel, levels - 1);
   int level = 0;
   while (level < levels - 1) {
     const Range range = occluderRange(area, level);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/image_file.h"
-
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -10,9 +8,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/image_codec/functions.h"
 #include "base/text.h"
 
-namespace limen {
+namespace limen::codec {
 namespace {
 
 struct Channels {
@@ -122,10 +121,6 @@ Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::s
 
 }  // namespace
 
-std::string ImageFile::kind() const {
-  return std::to_string(bits) + (integer ? "-bit " : "-bit float ") + format;
-}
-
 ImageFile readImageFile(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw Error("no such image '" + path + "'", {}, "check the path");
@@ -182,4 +177,4 @@ ImageFile readImageFile(const std::string& path) {
   return file;
 }
 
-}  // namespace limen
+}  // namespace limen::codec

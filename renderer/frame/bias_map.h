@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "renderer/frame/shadow_map.h"
+
+namespace limen::frame {
+
+/// Which triangle each texel of the shadow map sees. The map is rasterised once more for it: techniques that
+/// need no ids should not pay for them.
+class ShadowTriangles : public FrameInput {
+ public:
+  static constexpr const char* kName = "shadow_triangles";
+  ShadowTriangles(Frame& frame, ShadowMapSettings settings);
+  void make(Frame& frame) override;
+  const gl::Texture& ids() const { return raster_.ids(); }  ///< R32UI, 0xffffffff: none
+  const LightFrustum& frustum() const { return frustum_; }
+
+ private:
+  ShadowRaster raster_;
+  LightFrustum frustum_;
+  std::string pass_;
+};
+
+/// Depth bias b and height h of each texel of each level of the minimum pyramid: a texel at depth z stands
+/// for a part of a surface within [z - h, z + b]. Source: Schwarz 2009, section 4.5.4.
+///
+/// At level 0 h is b, the change of depth from the texel's centre to its farthest corner on the plane of the
+/// triangle that it sees. A texel of a coarser level is folded from the four below, nearest first (the thesis
+/// does not say in which order): where ranges of depth overlap, the farther part is taken for the same
+/// surface and the range is widened to hold it; where they do not, it is left to be shadowed by the nearer.
+class BiasLevels {
+ public:
+  /// `resolution` is a power of two.
+  BiasLevels(gl::Context& context, int resolution);
+  /// Makes the coarser levels from level 0 of biases() and the levels of `minimum`. Ranges that miss each
+  /// other by `tolerance` of their depth, which rounding does, overlap.
+  void aggregate(const gl::Texture& minimum, float tolerance) const;
+  const gl::Texture& biases() const { return biases_; }  ///< RG32F: b, h, in units of z
+  int64_t bytes() const { return biases_.bytes(); }
+
+ private:
+  int resolution_;
+  const gl::Program& program_;
+  gl::Texture biases_;
+};
+
+struct BiasSettings {
+  ShadowMapSettings map;
+  float maxSlope =
+      10.0F;  ///< of depth, relative to it and to the light-space tangent: slopes are cut off here
+  float tolerance = 1e-4F;  ///< of aggregate()
+  std::string key() const;
+};
+
+/// Biases of the shadow map, in passes of their own.
+class BiasMap : public FrameInput {
+ public:
+  static constexpr const char* kName = "bias_map";
+  BiasMap(Frame& frame, BiasSettings settings);
+  void make(Frame& frame) override;
+  const BiasLevels& levels() const { return levels_; }
+
+ private:
+  BiasSettings settings_;
+  const gl::Program& slopes_;
+  BiasLevels levels_;
+  std::string pass_;
+};
+
+}  // namespace limen::frame

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One level of microrects from the level below. Schwarz 2009, section 4.5.2. Every other microrect on both axes is kept; the
+// first pass has each kept one take what it wants of its neighbours up the axes, the second one what is left of those down
+// them. The letters are those of the thesis's figure 4.27, for the one kept at A:
+//   G H I
+//   D E F
+//   A B C
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D minimumMap;    // its level 0 is the shadow map
+layout(binding = 1) uniform sampler2D rectDepths;    // its level i is level i + 1 of the microrects
+layout(binding = 2) uniform usampler2D rectExtents;
+#ifdef FIRST_PASS
+layout(binding = 0, rgba16ui) uniform writeonly uimage2D outMerged;
+#else
+layout(binding = 3) uniform usampler2D merged;
+layout(binding = 0, r32f) uniform writeonly image2D outDepths;
+layout(binding = 1, rgba16ui) uniform writeonly uimage2D outExtents;
+#endif
+uniform int sourceLevel, size;  // level below; microrects along a side of the level that is made
+
+// An extent takes 12 bits for the largest map of 4096; the first pass says in the top bits of x, y and z whether a
+// microrect took its B, D and E.
+const uint kTaken = 0x8000u, kExtentMask = 0x7fffu;
+
+float depthAt(ivec2 at) {
+  return sourceLevel == 0 ? texelFetch(minimumMap, at, 0).x : texelFetch(rectDepths, at, sourceLevel - 1).x;
+}
+
+// Texels of level 0, all four bounds inclusive.
+struct Box {
+  ivec2 low, high;
+};
+
+Box boxAt(ivec2 at) {
+  const ivec2 reference = at << sourceLevel;
+  if (sourceLevel == 0) return Box(reference, reference);
+  const ivec4 extent = ivec4(texelFetch(rectExtents, at, sourceLevel - 1));
+  return Box(reference - extent.xy, reference + extent.zw);
+}
+
+void take(inout Box box, ivec2 at) {
+  const Box other = boxAt(at);
+  box.low = min(box.low, other.low);
+  box.high = max(box.high, other.high);
+}
+
+// Extents around the reference texel of the microrect kept at `at`.
+uvec4 extentsOf(Box box, ivec2 at) {
+  const ivec2 reference = at << sourceLevel;
+  return uvec4(reference - box.low, box.high - reference);
+}
+
+#ifdef FIRST_PASS
+// Whether what lies between two kept microrects is nearer in depth to the first one. With a tie the second one gets it.
+bool prefers(float own, float between, float other) {
+#ifdef RELATIVE
+  // |own - between| / min(own, between), and likewise for the other, without a division that devices round differently.
+  precise float toOwn = abs(between - own) * min(between, other);
+  precise float toOther = abs(between - other) * min(between, own);
+#else
+  precise float toOwn = abs(between - own);
+  precise float toOther = abs(between - other);
+#endif
+  return toOwn < toOther;
+}
+
+void main() {
+  const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, ivec2(size)))) return;
+  const ivec2 kept = 2 * at;
+  const bool lastColumn = at.x == size - 1, lastRow = at.y == size - 1;
+  const float own = depthAt(kept);
+  Box box = boxAt(kept);
+  const bool takesB =
+      lastColumn || prefers(own, depthAt(kept + ivec2(1, 0)), depthAt(kept + ivec2(2, 0)));
+  const bool takesD = lastRow || prefers(own, depthAt(kept + ivec2(0, 1)), depthAt(kept + ivec2(0, 2)));
+  if (takesB) take(box, kept + ivec2(1, 0));
+  if (takesD) take(box, kept + ivec2(0, 1));
+  const Box diagonal = boxAt(kept + 1);
+  const bool takesE = lastColumn || lastRow ||
+                      (all(greaterThanEqual(diagonal.low, box.low)) && all(lessThanEqual(diagonal.high, box.high)));
+  if (takesE) take(box, kept + 1);
+  uvec4 result = extentsOf(box, kept);
+  if (takesB) result.x |= kTaken;
+  if (takesD) result.y |= kTaken;
+  if (takesE) result.z |= kTaken;
+  imageStore(outMerged, at, result);
+}
+#else
+void main() {
+  const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, ivec2(size)))) return;
+  const ivec2 kept = 2 * at, reference = kept << sourceLevel;
+  const uvec4 first = texelFetch(merged, at, 0);
+  const ivec4 extent = ivec4(first & kExtentMask);
+  Box box = Box(reference - extent.xy, reference + extent.zw);
+  float depth = depthAt(kept);
+  if ((first.x & kTaken) != 0u) depth = min(depth, depthAt(kept + ivec2(1, 0)));
+  if ((first.y & kTaken) != 0u) depth = min(depth, depthAt(kept + ivec2(0, 1)));
+  if ((first.z & kTaken) != 0u) depth = min(depth, depthAt(kept + 1));
+  // F of the one below, H of the one to the left, E of the one at the lower left.
+  const ivec2 offsets[3] = ivec2[3](ivec2(0, -1), ivec2(-1, 0), ivec2(-1, -1));
+  for (int i = 0; i < 3; ++i) {
+    const ivec2 neighbour = at + offsets[i];
+    if (any(lessThan(neighbour, ivec2(0)))) continue;
+    const uvec4 theirs = texelFetch(merged, neighbour, 0);
+    const uint taken = i == 0 ? theirs.y : i == 1 ? theirs.x : theirs.z;
+    if ((taken & kTaken) != 0u) continue;
+    take(box, kept + offsets[i]);
+    depth = min(depth, depthAt(kept + offsets[i]));
+  }
+  imageStore(outDepths, at, vec4(depth));
+  imageStore(outExtents, at, extentsOf(box, kept));
+}
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/microrect_map.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace limen::frame {
+namespace {
+
+constexpr const char* kMicrorectShader = "renderer/frame/microrect_map.comp.glsl";
+
+const gl::Program& passOf(gl::Context& context, const char* pass, MergeMetric metric) {
+  gl::ShaderDefines defines = {{pass, "1"}};
+  if (metric == MergeMetric::Relative) defines["RELATIVE"] = "1";
+  return context.programs().compute(kMicrorectShader, defines);
+}
+
+int levelsAbove(int resolution) {
+  assert(std::has_single_bit(static_cast<unsigned>(resolution)));
+  return std::bit_width(static_cast<unsigned>(resolution)) - 1;
+}
+
+}  // namespace
+
+MicrorectLevels::MicrorectLevels(gl::Context& context, int resolution, MergeMetric metric)
+    : resolution_(resolution),
+      levels_(levelsAbove(resolution)),
+      first_(passOf(context, "FIRST_PASS", metric)),
+      second_(passOf(context, "SECOND_PASS", metric)),
+      depths_(gl::Format::R32F, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
+      extents_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
+      merged_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1))) {}
+
+void MicrorectLevels::build(const gl::Texture& minimum) const {
+  minimum.bindTexture(0);
+  depths_.bindTexture(1);
+  extents_.bindTexture(2);
+  merged_.bindTexture(3);
+  for (int level = 1; level <= levels_; ++level) {
+    const int size = resolution_ >> level;
+    for (const gl::Program* program : {&first_, &second_}) {
+      program->set("sourceLevel", level - 1);
+      program->set("size", size);
+      if (program == &first_) {
+        merged_.bindImage(0, gl::Access::Write);
+      } else {
+        depths_.bindImage(0, gl::Access::Write, level - 1);
+        extents_.bindImage(1, gl::Access::Write, level - 1);
+      }
+      program->dispatch(glm::ivec2(size));
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
+  }
+}
+
+MicrorectMap::MicrorectMap(Frame& frame, MicrorectSettings settings)
+    : settings_(settings),
+      levels_(frame.context(), settings.map.resolution, settings.metric),
+      pass_("frame/microrect_map") {
+  frame.passes().setBytesHeld(pass_, levels_.bytes());
+}
+
+void MicrorectMap::make(Frame& frame) {
+  const auto& pyramid = frame.get<MinMaxPyramid>(settings_.map);
+  const auto scope = frame.passes().open(pass_);
+  levels_.build(pyramid.minimum());
+}
+
+}  // namespace limen::frame

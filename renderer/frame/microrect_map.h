@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "renderer/frame/shadow_map.h"
+
+namespace limen::frame {
+
+/// By which difference of depth a microrect prefers one neighbour to another. Schwarz 2009, section 4.5.2,
+/// takes the plain one; a share of the nearer depth keeps choices the same where a scene is farther off.
+enum class MergeMetric { Absolute, Relative };
+
+/// Microrects of the levels above the shadow map: rectangles of texels of level 0, one for each texel of a
+/// level, of which neither size nor place is fixed. Source: Schwarz 2009, sections 4.5.1 and 4.5.2.
+///
+/// Microrect (x, y) of level i has its reference texel at (x, y) 2^i. It reaches from there by k_- texels
+/// down and k_+ up on either axis, each at most 2^i - 1, so that it holds its own reference texel and no
+/// other one of the level. At level 0 microrects are the texels: nothing is stored for it, and level i is
+/// level i - 1 of the textures. A map of one texel has no other level.
+///
+/// The thesis names two passes a level and leaves open what becomes of a diagonal neighbour that lies in the
+/// last row or column: here the microrect at its lower left takes it, since nobody else can.
+class MicrorectLevels {
+ public:
+  /// `resolution` is a power of two.
+  MicrorectLevels(gl::Context& context, int resolution, MergeMetric metric);
+  /// From level 0 of `minimum`, R32F and of the map's resolution.
+  void build(const gl::Texture& minimum) const;
+  /// R32F: smallest depth of what a microrect was merged from.
+  const gl::Texture& depths() const { return depths_; }
+  /// RGBA16UI: k_-x, k_-y, k_+x, k_+y in texels of level 0.
+  const gl::Texture& extents() const { return extents_; }
+  /// Levels that are stored; the textures of a map of one texel have one that is never written.
+  int levels() const { return levels_; }
+  /// 12 bytes a microrect, and 8 for each of level 1 while it is made: 6 MiB for a map of 1024 x 1024.
+  int64_t bytes() const { return depths_.bytes() + extents_.bytes() + merged_.bytes(); }
+
+ private:
+  int resolution_, levels_;
+  const gl::Program &first_, &second_;
+  gl::Texture depths_, extents_, merged_;
+};
+
+struct MicrorectSettings {
+  ShadowMapSettings map;
+  MergeMetric metric = MergeMetric::Absolute;
+  std::string key() const {
+    return map.key() + (metric == MergeMetric::Relative ? "/relative" : "/absolute");
+  }
+};
+
+/// Microrects of the shadow map, in a pass of their own.
+class MicrorectMap : public FrameInput {
+ public:
+  static constexpr const char* kName = "microrect_map";
+  MicrorectMap(Frame& frame, MicrorectSettings settings);
+  void make(Frame& frame) override;
+  const MicrorectLevels& levels() const { return levels_; }
+
+ private:
+  MicrorectSettings settings_;
+  MicrorectLevels levels_;
+  std::string pass_;
+};
+
+}  // namespace limen::frame

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D receivers;
+layout(binding = 1) uniform sampler2D normals;
+layout(binding = 0, rgba32f) uniform writeonly image2D outReceivers;
+
+uniform ivec2 sizePx;
+uniform mat3 anchorToLight;  // directions
+uniform vec2 eye;            // on the light's plane
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  vec4 receiver = texelFetch(receivers, pixel, 0);
+  if (receiver.w >= 0.0) {
+    const vec3 n = anchorToLight * texelFetch(normals, pixel, 0).xyz;
+    const vec3 p = receiver.xyz - vec3(eye, 0.0);
+    // As in g_buffer.comp.glsl: on the plane n.q = n.p depth is n.p / n.(u, v, 1).
+    const float along = -dot(n, p / p.z);
+    const float slope = along > 0.0 ? p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6) : 1e6 * p.z;
+    receiver = vec4(p, min(slope, 1e6 * p.z));
+  }
+  imageStore(outReceivers, pixel, receiver);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "base/text.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::frame {
+
+/// A point of the light, unit light coordinates.
+struct EyeSetting {
+  glm::dvec2 eye{0.5};
+  std::string name() const { return "/eye_" + shortestNumber(eye.x) + "_" + shortestNumber(eye.y); }
+  std::string key() const { return name(); }
+};
+
+/// The receivers as a shadow map from another point of the light needs them. RGBA32F: xyz = position in light
+/// space, relative to that point; w as in Receivers, the slope being that seen from there (1e6 times the
+/// depth where the surface is turned away from that point).
+class ReceiversFrom : public FrameInput {
+ public:
+  static constexpr const char* kName = "receivers_from";
+  ReceiversFrom(Frame& frame, EyeSetting setting);
+  void make(Frame& frame) override;
+  const gl::Texture& texture() const { return texture_; }
+
+ private:
+  EyeSetting setting_;
+  const gl::Program& program_;
+  gl::Texture texture_;
+};
+
+}  // namespace limen::frame

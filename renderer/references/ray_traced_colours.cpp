@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shadow rays from every surface point to points on each part of a coloured light: what share of the light's
+// radiance the true geometry lets through, channel by channel, known up to sampling.
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "renderer/references/counter_random.h"
+#include "renderer/references/embree_scene.h"
+#include "renderer/references/light_shape.h"
+#include "renderer/references/parallel.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::references {
+namespace {
+
+using techniques::Counter;
+using techniques::TechniqueInfo;
+
+constexpr const char* kColours = "soft_shadows/ray_traced_colours";
+
+int sideOf(const ParameterValues& values) {
+  const int64_t samples = values.integer("samples");
+  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
+  if (side * side != samples)
+    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kColours,
+                "give " + std::to_string(side * side));
+  return static_cast<int>(side);
+}
+
+/// A part of the light, sampled by itself: its visibility has the same bound as that of a light of one
+/// colour, and with it the mean that weighs the parts by what they emit.
+struct EmittingPart {
+  LightShapeMap map;
+  glm::dvec3 share;  ///< of all that the light emits
+};
+
+std::vector<EmittingPart> partsOf(const scene::AreaLight& light) {
+  std::vector<EmittingPart> parts;
+  glm::dvec3 sum(0.0);
+  for (const scene::LightPart& part : light.parts) {
+    scene::AreaLight alone = light;
+    double area = light.area();
+    if (!part.outline.empty()) {
+      if (light.shape != scene::LightShape::Rectangle)
+        throw Error("a light that is no rectangle has parts, whose common shapes are not known", kColours,
+                    "give light_shape: rectangle");
+      alone.shape = scene::LightShape::Polygon;
+      alone.outline = part.outline;
+      area = alone.area();
+    }
+    parts.push_back({LightShapeMap(alone), glm::dvec3(part.radiance) * area});
+    sum += parts.back().share;
+  }
+  for (EmittingPart& part : parts)
+    for (int channel = 0; channel < 3; ++channel)
+      part.share[channel] = sum[channel] > 0.0 ? part.share[channel] / sum[channel] : 0.0;
+  return parts;
+}
+
+class RayTracedColours : public techniques::Technique {
+ public:
+  explicit RayTracedColours(const ParameterValues& values)
+      : side_(sideOf(values)), seed_(static_cast<uint64_t>(values.integer("seed"))) {}
+
+  void prepare(frame::Frame& frame) override {
+    parts_ = partsOf(frame.scene().lights.at(0));
+    triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
+    tracer_.emplace(*triangles_);
+    product_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    colour_ = Image(frame.sizePx().x, frame.sizePx().y, 4);
+    frame.passes().setBytesHeld("ray_traced_colours/upload", product_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    const std::vector<ReceiverPoint> points = readReceiverPoints(frame, *triangles_);
+    {
+      const auto scope = frame.passes().open("ray_traced_colours/trace");
+      trace(frame, points);
+    }
+    const auto scope = frame.passes().open("ray_traced_colours/upload");
+    product_->write(colour_);
+  }
+
+  const gl::Texture& product() const override { return *product_; }
+
+  std::vector<Counter> count(frame::Frame&) override {
+    return {{"rays_per_receiver", double(side_) * side_ * double(parts_.size()), ""},
+            {"rays", double(rays_), ""}};
+  }
+
+ private:
+  void trace(const frame::Frame& frame, const std::vector<ReceiverPoint>& points) {
+    const scene::AreaLight& light = frame.scene().lights.at(0);
+    const glm::dvec3 anchor = frame.gpuScene().anchor();
+    glm::dvec3 absent(1.0);
+    for (const EmittingPart& part : parts_) absent -= part.share;
+    std::fill(colour_.data.begin(), colour_.data.end(), 1.0F);
+    std::atomic<int64_t> rays = 0;
+    parallelFor(points.size(), [&](size_t, size_t first, size_t last) {
+      int64_t cast = 0;
+      for (size_t i = first; i < last; ++i) {
+        const ReceiverPoint& point = points[i];
+        // A channel of which the light has nothing lacks nothing.
+        glm::dvec3 colour = glm::dvec3(glm::greaterThan(absent, glm::dvec3(0.5)));
+        for (size_t part = 0; part < parts_.size(); ++part) {
+          int seen = 0;
+          for (int sample = 0; sample < side_ * side_; ++sample) {
+            const glm::dvec2 place =
+                (glm::dvec2(sample % side_, sample / side_) +
+                 uniform2(seed_, point.pixel, part << 32U | static_cast<uint64_t>(sample))) /
+                double(side_);
+            const glm::dvec3 to = light.point(parts_[part].map(place)) - anchor;
+            // A surface is opaque: what lies behind its plane is hidden, whether or not the body is closed.
+            if (!(glm::dot(point.normal, to - point.position) > 0.0)) continue;
+            ++cast;
+            seen += !tracer_->occluded(point, to);
+          }
+          colour += parts_[part].share * (double(seen) / (double(side_) * side_));
+        }
+        for (size_t channel = 0; channel < 3; ++channel)
+          colour_.data[4 * point.pixel + channel] = static_cast<float>(colour[int(channel)]);
+      }
+      rays += cast;
+    });
+    rays_ = rays;
+  }
+
+  int side_;
+  uint64_t seed_;
+  int64_t rays_ = 0;
+  std::vector<EmittingPart> parts_;
+  std::optional<Triangles> triangles_;
+  std::optional<EmbreeScene> tracer_;
+  std::optional<gl::Texture> product_;
+  Image colour_;
+};
+
+double colourHalfWidth(const ParameterValues& values) {
+  return hoeffdingHalfWidth(values.integer("samples"));
+}
+
+const Registered<TechniqueInfo> kRegisteredColours{TechniqueInfo{
+    .name = kColours,
+    .version = 1,
+    .summary = "Share of a coloured light's radiance by shadow rays to each of its parts (Embree)",
+    .source = "Schwarz 2009, section 3.3",
+    .product = techniques::ProductKind::LightColour,
+    .parameters = {integerParameter("samples", 256, 4, 65536, "rays",
+                                    "Shadow rays to each part of the light; a square number"),
+                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the points on the light")},
+    .needs = {"area_light"},
+    .reference = true,
+    .onCpu = true,
+    .make = [](const ParameterValues& values) { return std::make_unique<RayTracedColours>(values); },
+    .errorBound = colourHalfWidth,
+    .counters = {"rays_per_receiver", "rays"}}};
+
+}  // namespace
+}  // namespace limen::references
