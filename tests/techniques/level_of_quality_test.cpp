@@ -115,6 +115,11 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     EXPECT_TRUE(sameBits(single.visibility.data, split.visibility.data));
     EXPECT_EQ(single.counted.work, split.counted.work);
     EXPECT_EQ(single.counted.search, split.counted.search);
+    const Graded ordered =
+        grade(scene, tried.technique,
+              with(given, {{"passes", text("split")}, {"work_order", text("loop_length")}}), tried.sizePx);
+    EXPECT_TRUE(sameBits(single.visibility.data, ordered.visibility.data));
+    EXPECT_EQ(single.counted.work, ordered.counted.work);
     if (tried.sizePx.x < 16) continue;
     std::array<int, ClassCount> pixels{};
     for (size_t i = 0; i < single.visibility.pixels(); ++i) ++pixels.at(single.kind(i));
@@ -456,6 +461,7 @@ TEST_F(LevelsOfQuality, RefusesWhatDoesNotGoTogether) {
   EXPECT_EQ(refused({{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}}), "");
   EXPECT_EQ(refused({{"smoothing_radius", int64_t{3}}}), "smoothing_radius");
   EXPECT_EQ(refused({{"blend_width", 0.2}}), "blend_width");
+  EXPECT_EQ(refused({{"work_order", text("loop_length")}}), "work_order");
   EXPECT_EQ(refused({{"smoothing_sigma", 1.0}}), "smoothing_sigma");
   EXPECT_EQ(refused({{"depth_threshold", 0.5}}), "depth_threshold");
   EXPECT_EQ(refused({{"level_source", text("filtered_depth")}}), "level_source");

@@ -22,6 +22,7 @@ constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
 constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
 const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
+const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
 Structure structureOf(const std::string& name) {
   return name == "none"       ? Structure::None
@@ -216,10 +217,15 @@ void OccluderSearch::preparePasses(frame::Frame& frame) {
     VisibilityTechnique::preparePasses(frame);
     return;
   }
-  split_.emplace(frame, smooths());
+  split_.emplace(frame, smooths(), quality_.orders());
   classify_ = &program(frame, false, classifyDefines(smooths()));
   gather_ = &program(frame, false, kGatherDefines);
-  if (smooths()) smooth_ = &frame.context().programs().compute(kSmoothShader);
+  gl::ProgramCache& programs = frame.context().programs();
+  if (smooths()) smooth_ = &programs.compute(kSmoothShader);
+  if (quality_.orders()) {
+    countBins_ = &programs.compute(kOrderShader);
+    scatter_ = &programs.compute(kOrderShader, {{"SCATTER", "1"}});
+  }
   frame.passes().setBytesHeld(passName() + "/classify", product().bytes() + split_->bytes());
 }
 
@@ -252,6 +258,10 @@ void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
     const auto scope = frame.passes().open(passName() + "/smooth");
     quality_.configureSmoothing(*smooth_);
     split_->smooth(*smooth_);
+  }
+  if (quality_.orders()) {
+    const auto scope = frame.passes().open(passName() + "/order");
+    split_->order(*countBins_, *scatter_);
   }
   const auto scope = frame.passes().open(passName() + "/gather");
   const gl::Program& gather = counts ? program(frame, true, kGatherDefines) : *gather_;

@@ -70,6 +70,7 @@ class OccluderSearch : public VisibilityTechnique {
   const gl::Texture* budgetMap_ = nullptr;  // of this frame
   std::optional<SplitSearch> split_;        // empty: a single pass
   const gl::Program *classify_ = nullptr, *smooth_ = nullptr, *gather_ = nullptr;
+  const gl::Program *countBins_ = nullptr, *scatter_ = nullptr;
 };
 
 }  // namespace limen::techniques

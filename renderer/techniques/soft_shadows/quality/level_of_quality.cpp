@@ -9,7 +9,8 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kSplit = "split", *kFinestWithin = "finest_within", *kCoarsestOver = "coarsest_over",
-                     *kNarrowBlend = "narrow_blend", *kDither = "dither", *kFiltered = "filtered_depth";
+                     *kNarrowBlend = "narrow_blend", *kDither = "dither", *kFiltered = "filtered_depth",
+                     *kDefaultOrder = "tiles";
 constexpr int64_t kDefaultRadius = 5;
 constexpr double kDefaultWidth = 0.1, kDefaultSigma = 3.0, kDefaultThreshold = 0.02;
 
@@ -54,6 +55,9 @@ void LevelOfQuality::check(const ParameterValues& values) {
   const std::string& levels = values.text("levels");
   const bool hard = isHard(values), splits = values.text("passes") == kSplit;
   const int64_t radius = values.integer("smoothing_radius");
+  if (!splits && values.text("work_order") != kDefaultOrder)
+    throw Error("'work_order' is about a list of pixels, and a single pass has none", "work_order",
+                "leave it out, or give passes: split");
   if (levels == kFinestWithin && values.text("level_source") == kFiltered)
     throw Error("'level_source: filtered_depth' makes a real level, and finest_within counts", "level_source",
                 "give levels: blend, or another choice that takes a real level");
@@ -84,6 +88,7 @@ LevelOfQuality::Levels LevelOfQuality::levelsOf(const ParameterValues& values) {
 
 LevelOfQuality::LevelOfQuality(const ParameterValues& values)
     : splits_(values.text("passes") == kSplit),
+      orders_(values.text("work_order") != kDefaultOrder),
       filtered_(values.text("level_source") == kFiltered),
       levels_(levelsOf(values)),
       smoothingRadius_(isHard(values) ? 0 : static_cast<int>(values.integer("smoothing_radius"))),

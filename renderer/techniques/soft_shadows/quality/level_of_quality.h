@@ -21,6 +21,8 @@ class LevelOfQuality {
 
   /// Classify, smooth and gather in passes of their own.
   bool splits() const { return splits_; }
+  /// The list of pixels is put in the order of their loops' lengths.
+  bool orders() const { return orders_; }
   /// Half of the filter's support in pixels, without its middle; 0: levels are not smoothed.
   int smoothingRadius() const { return smoothingRadius_; }
   /// Adds to `defines` what level_of_quality.glsl reads.
@@ -34,7 +36,7 @@ class LevelOfQuality {
   enum class Levels { FinestWithin, CoarsestOver, Blend, NarrowBlend, Dither };
   static Levels levelsOf(const ParameterValues& values);
 
-  bool splits_, filtered_;
+  bool splits_, orders_, filtered_;
   Levels levels_;
   int smoothingRadius_;
   double blendWidth_, sigma_, depthThreshold_;

@@ -14,8 +14,8 @@ namespace limen::techniques {
 /// processing, which the GPU fills and dispatches over without the host knowing its length.
 class SplitSearch {
  public:
-  /// `smooths`: room for smoothing levels.
-  SplitSearch(frame::Frame& frame, bool smooths);
+  /// `smooths`, `orders`: room for smoothing levels, and for ordering the list.
+  SplitSearch(frame::Frame& frame, bool smooths, bool orders);
 
   /// Empties the list. Then bind for the pass that fills it, which makeVisible() ends.
   void bindForClassify() const;
@@ -23,7 +23,10 @@ class SplitSearch {
   void bindForGather() const;
   /// Both axes in turn, in the list's pixels; `program` is smooth_levels.comp.glsl, otherwise configured.
   void smooth(const gl::Program& program) const;
-  /// Runs `program`, whose groups have 64 invocations, over the list.
+  /// Lets what follows go over the list in the order of the loops' lengths; the programs are both forms of
+  /// order_work.comp.glsl.
+  void order(const gl::Program& count, const gl::Program& scatter) const;
+  /// Runs `program`, whose groups have 64 invocations, over the list that bindForGather() has bound.
   void dispatchOverList(const gl::Program& program) const;
   /// Lets later passes see what the last one wrote.
   static void makeVisible();
@@ -40,7 +43,14 @@ class SplitSearch {
  private:
   gl::Texture areas_, levels_;
   std::optional<gl::Texture> halfSmoothed_;
+  /// Another list, in order, and its bins.
+  struct Order {
+    gl::Buffer list, bins, emptyBins;
+  };
+  void dispatch(const gl::Program& program, const gl::Buffer& list) const;
+
   gl::Buffer emptyHeader_, work_;
+  std::optional<Order> order_;
 };
 
 }  // namespace limen::techniques
