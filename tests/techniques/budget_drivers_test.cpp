@@ -352,6 +352,7 @@ TEST_F(BudgetDrivers, RefuseWhatDoesNotGoTogether) {
   EXPECT_EQ(refused(driver("uniform", {{"perceptual_error", 0.1}})), "perceptual_error");
   EXPECT_EQ(refused(driver("frame_time", {{"frame_time_base", named("painted")}})), "painted_file");
   EXPECT_EQ(refused(driver("frame_time", {{"budget", int64_t{9}}})), "frame_time_budget");
+  EXPECT_EQ(refused(driver("masking", {{"fixed_level", int64_t{2}}})), "budget_map");
   EXPECT_EQ(refused(driver("frame_time")), "");
 }
 

@@ -136,6 +136,9 @@ void OccluderSearch::checkSearch(const ParameterValues& values) {
     throw Error(
         "one level for all pixels is given, and 'levels: " + values.text("levels") + "' would choose others",
         "levels", "leave it out, or leave out fixed_level and morphing microquads");
+  if (CoarseOccluders(values).isFixed() && hasBudgetMap(values))
+    throw Error("one level for all pixels is given, and a map of budgets would choose others", "budget_map",
+                "leave it out, or leave out fixed_level and morphing microquads");
   LevelOfQuality::check(values);
   checkBudget(values);
 }
