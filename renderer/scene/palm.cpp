@@ -143,7 +143,7 @@ Scene buildPalm(const ParameterValues& values) {
   addPart(scene, "leaves", leaves, {0.22F, 0.42F, 0.13F});
   addPart(scene, "creature", creature(static_cast<int>(values.integer("leg_pairs"))), {0.45F, 0.5F, 0.42F});
   scene.lights = {lightTowards({-2.6, 5.2, 1.8}, {0.0, 0.8, 0.1}, glm::dvec2(0.4))};
-  setStillCamera(scene, orbitCamera({0.1, 0.65, 0.1}, 5.0, 14.0, 30.0));
+  setStillCamera(scene, orbitCamera({0.1, 0.6, 0.1}, 5.2, 14.0, 37.0));
   return scene;
 }
 

@@ -140,7 +140,7 @@ TEST_F(MultisampleResolve, IsTheRuleOnRandomDepthsAndVisibilities) {
 TEST_F(MultisampleResolve, GivesAnEdgeTheShareOfSamplesOnEitherSide) {
   constexpr std::array<glm::vec2, kSamples> kPlaces = {glm::vec2(0.375F, 0.125F), glm::vec2(0.875F, 0.375F),
                                                        glm::vec2(0.125F, 0.625F), glm::vec2(0.625F, 0.875F)};
-  MultisampleView view({24, 16});
+  MultisampleView view({24, 30});
   std::vector<double> share(view.samples.size());
   const auto isNear = [](glm::vec2 place) { return place.x + 0.3F * place.y < 13.2F; };
   for (int y = 0; y < view.sizePx.y; ++y)

@@ -116,8 +116,8 @@ TEST_F(SparseVisibility, UpsamplingKeepsAConstantWhateverTheSurface) {
     });
     for (size_t i = 0; i < out.visibility.data.size(); ++i) {
       // 0: no receiver; 3: no sample in reach. A mean of four equal values rounds three times each in the two
-      // sums, and once in the quotient.
-      const bool known = out.classes[i] == 1 || out.classes[i] == 2;
+      // sums, and in the quotient.
+      const bool known = out.classes[i] != 0 && out.classes[i] != 3;
       EXPECT_NEAR(out.visibility.data[i], known ? 0.3F : 1.0F, 0.3 * 8.0 * 0x1p-24) << factor;
     }
   }
@@ -125,7 +125,7 @@ TEST_F(SparseVisibility, UpsamplingKeepsAConstantWhateverTheSurface) {
 
 TEST_F(SparseVisibility, UpsamplingIsExactForLinearVisibilityOnATiltedPlane) {
   const glm::ivec2 sizePx(45, 31);
-  const glm::vec3 normal = glm::normalize(glm::vec3(0.5F, 0.7F, 0.5F));
+  const glm::vec3 normal = glm::normalize(glm::vec3(0.2F, 0.5F, 0.8F));
   const auto seen = [&](glm::ivec2 at) {
     const float depth = -2.0F * normal.z / glm::dot(normal, rayOf(at, sizePx));
     return SeenPixel{
@@ -137,7 +137,7 @@ TEST_F(SparseVisibility, UpsamplingIsExactForLinearVisibilityOnATiltedPlane) {
     for (int y = 0; y < sizePx.y; ++y)
       for (int x = 0; x < sizePx.x; ++x) {
         const auto i = static_cast<size_t>(y * sizePx.x + x);
-        EXPECT_EQ(out.classes[i], 1U);
+        EXPECT_TRUE(out.classes[i] == 1 || out.classes[i] == 4) << out.classes[i];
         // Distances from the plane are rounding, about 1e-6 of some 3 units, and the weight is 1 - 2 (d /
         // (0.02 z))^2: less than 1e-8 off. What remains is the rounding of places up to 45 in steps of at
         // least 2, 45
@@ -149,7 +149,8 @@ TEST_F(SparseVisibility, UpsamplingIsExactForLinearVisibilityOnATiltedPlane) {
 
 TEST_F(SparseVisibility, UpsamplingMixesNothingAcrossAnEdgeInDepth) {
   // 3 units against 2 are apart by 1, tolerated is 0.02 * 3 = 0.06: the weight is exactly 0. A pixel finds
-  // its own surface among the 16 samples around it, since the edge is straight.
+  // its own surface among the samples around it, since the edge is straight. A quotient of equal numbers may
+  // be off by the 2.5 units that GLSL grants a division.
   const glm::ivec2 sizePx(40, 30);
   const auto seen = [](glm::ivec2 at) {
     const bool near = 2 * at.x + at.y < 50;
@@ -157,17 +158,28 @@ TEST_F(SparseVisibility, UpsamplingMixesNothingAcrossAnEdgeInDepth) {
   };
   for (const int factor : {2, 4, 8}) {
     const Upsampled out = upsample(sizePx, factor, seen);
-    int fallbacks = 0;
     for (int y = 0; y < sizePx.y; ++y)
-      for (int x = 0; x < sizePx.x; ++x) {
-        const auto i = static_cast<size_t>(y * sizePx.x + x);
-        EXPECT_EQ(out.visibility.data[i], seen({x, y}).visibility) << factor << " " << x << " " << y;
-        fallbacks += out.classes[i] == 2;
-      }
-    // Corners of a cell that the edge cuts off are there, and few.
-    EXPECT_GT(fallbacks, 0) << factor;
-    EXPECT_LT(fallbacks, 40 * 30 / 10) << factor;
+      for (int x = 0; x < sizePx.x; ++x)
+        EXPECT_NEAR(out.visibility.data[static_cast<size_t>(y * sizePx.x + x)], seen({x, y}).visibility,
+                    2.5 * 0x1p-23)
+            << factor << " " << x << " " << y;
   }
+}
+
+TEST_F(SparseVisibility, UpsamplingGivesASurfaceWithoutSamplesTheNearestInDepthAndSaysSo) {
+  // A line one pixel wide between two columns of samples, nearer to the surface on its left.
+  const glm::ivec2 sizePx(40, 30);
+  const auto seen = [](glm::ivec2 at) {
+    const float depth = at.x < 13 ? 2.0F : at.x == 13 ? 2.4F : 3.0F;
+    return SeenPixel{depth, {0.0F, 0.0F, 1.0F}, at.x < 13 ? 0.25F : 1.0F};
+  };
+  const Upsampled out = upsample(sizePx, 4, seen);
+  for (int y = 0; y < sizePx.y; ++y)
+    for (int x = 0; x < sizePx.x; ++x) {
+      const auto i = static_cast<size_t>(y * sizePx.x + x);
+      EXPECT_EQ(out.classes[i] == 2, x == 13) << x << " " << y;
+      if (x == 13) EXPECT_EQ(out.visibility.data[i], 0.25F);
+    }
 }
 
 TEST_F(SparseVisibility, EveryPixelAskedForIsTheInnerTechniqueBitForBit) {
@@ -185,7 +197,7 @@ TEST_F(SparseVisibility, EveryPixelAskedForIsTheInnerTechniqueBitForBit) {
       given.insert(base.begin(), base.end());
       const Rendered sparse = render(scene, "soft_shadows/sparse", given, sizePx, true);
       EXPECT_EQ(sparse.product.data, full.product.data) << name << " " << inner;
-      EXPECT_EQ(sparse.counter("evaluated_share"), 1.0) << name << " " << inner;
+      EXPECT_DOUBLE_EQ(sparse.counter("evaluated_share"), 1.0) << name << " " << inner;
       EXPECT_EQ(sparse.counter("fallback_share"), 0.0) << name << " " << inner;
     }
   }

@@ -125,11 +125,11 @@ void Bitmask::prepare(frame::Frame& frame) {
 }
 
 void Bitmask::chooseMaps(const frame::Frame& frame) {
-  const size_t updates = lightMaps_.updates();
-  const bool keeps = hasMasks_ && updates > 0 && updates < isDue_.size() && keptForS_ == frame.timeS();
+  const size_t due = mapsAtRest();
+  const bool keeps = hasMasks_ && due < isDue_.size() && keptForS_ == frame.timeS();
   isDue_.assign(isDue_.size(), !keeps);
-  for (size_t i = 0; keeps && i < updates; ++i) isDue_[(nextUpdate_ + i) % isDue_.size()] = true;
-  if (keeps) nextUpdate_ = (nextUpdate_ + updates) % isDue_.size();
+  for (size_t i = 0; keeps && i < due; ++i) isDue_[(nextUpdate_ + i) % isDue_.size()] = true;
+  if (keeps) nextUpdate_ = (nextUpdate_ + due) % isDue_.size();
   hasMasks_ = true;
   keptForS_ = frame.timeS();
 }
@@ -175,6 +175,11 @@ std::vector<std::string> Bitmask::counterNames() {
   return names;
 }
 
+size_t Bitmask::mapsAtRest() const {
+  const bool inTurn = lightMaps_.perObject() && lightMaps_.updates() > 0;
+  return inTurn ? std::min(lightMaps_.updates(), maps().size()) : maps().size();
+}
+
 int Bitmask::mapsWithCasters(frame::Frame& frame) const {
   int count = 0;
   for (const frame::ShadowMapSettings& map : maps()) {
@@ -185,11 +190,10 @@ int Bitmask::mapsWithCasters(frame::Frame& frame) const {
 }
 
 std::vector<Counter> Bitmask::count(frame::Frame& frame) {
-  const auto read = std::count(isDue_.begin(), isDue_.end(), true);
   // Of a whole image, however few objects the last frame looked at.
   isDue_.assign(isDue_.size(), true);
   std::vector<Counter> all = OccluderSearch::count(frame);
-  all.push_back({"maps_read", double(read), "maps", true});
+  all.push_back({"maps_read", double(mapsAtRest()), "maps", true});
   all.push_back({"maps_with_casters", double(mapsWithCasters(frame)), "maps", false});
   all.push_back({"mask_bytes", masks_ ? double(masks_->bytes()) : 0.0, "byte", true});
   return all;

@@ -51,6 +51,8 @@ class Bitmask : public OccluderSearch {
  private:
   /// Decides which maps the frame reads.
   void chooseMaps(const frame::Frame& frame);
+  /// Maps that a frame reads while the camera rests.
+  size_t mapsAtRest() const;
   /// Maps that see anything at all. Waits for the GPU.
   int mapsWithCasters(frame::Frame& frame) const;
 

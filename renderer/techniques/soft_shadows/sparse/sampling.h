@@ -28,7 +28,7 @@ enum SampleClass : uint32_t {
   Interpolated = 1,
   NearestInDepth = 2,  ///< no sample lies on its surface
   NoSample = 3,        ///< no sample in reach: taken as lit
-  OwnSample = 4,       ///< adaptive mode: the point was asked for
+  OwnSample = 4,       ///< it is a point that was asked for
   SampleClassCount = 5
 };
 

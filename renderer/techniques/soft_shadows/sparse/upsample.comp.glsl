@@ -22,7 +22,7 @@ uniform vec2 firstPlace, placeStep, lastPlace;
 uniform vec2 rayScale;
 
 const float kLeastWeight = 1e-4;  // below it, weights say that no sample lies on the pixel's surface
-const uint kOther = 0u, kInterpolated = 1u, kFallback = 2u, kAlone = 3u;
+const uint kOther = 0u, kInterpolated = 1u, kFallback = 2u, kAlone = 3u, kOwn = 4u;
 
 vec2 placeOf(ivec2 sampled) { return min(firstPlace + vec2(sampled) * placeStep, lastPlace); }
 
@@ -53,9 +53,14 @@ void main() {
     const float bilinear = ((i & 1) == 0 ? 1.0 - t.x : t.x) * ((i & 2) == 0 ? 1.0 - t.y : t.y);
     if (texelFetch(gridReceivers, at, 0).w < 0.0) continue;
     const vec3 other = placeRay(placeOf(at), rayScale, sizePx) * texelFetch(gridDepths, at, 0).x;
-    const float weight = bilinear * depthWeight(planeDistance(point, normal, other)) *
-                         normalWeight(normal, cameraNormal(texelFetch(gridNormals, at, 0)));
-    sum += weight * texelFetch(gridVisibility, at, 0).x;
+    const float near = depthWeight(planeDistance(point, normal, other)), visibility = texelFetch(gridVisibility, at, 0).x;
+    if (bilinear == 1.0 && near > 0.0) {
+      // The sample is this pixel's own: no weight may round it.
+      store(pixel, visibility, kOwn);
+      return;
+    }
+    const float weight = bilinear * near * normalWeight(normal, cameraNormal(texelFetch(gridNormals, at, 0)));
+    sum += weight * visibility;
     total += weight;
   }
   if (total > kLeastWeight) {
