@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -134,6 +136,9 @@ void OccluderSearch::checkSearch(const ParameterValues& values) {
     throw Error(
         "one level for all pixels is given, and 'levels: " + values.text("levels") + "' would choose others",
         "levels", "leave it out, or leave out fixed_level and morphing microquads");
+  if (CoarseOccluders(values).isFixed() && hasBudgetMap(values))
+    throw Error("one level for all pixels is given, and a map of budgets would choose others", "budget_map",
+                "leave it out, or leave out fixed_level and morphing microquads");
   LevelOfQuality::check(values);
   checkBudget(values);
 }
@@ -199,6 +204,16 @@ void OccluderSearch::configure(const gl::Program& program) const {
   quality_.configure(program);
 }
 
+void OccluderSearch::prepare(frame::Frame& frame) {
+  VisibilityTechnique::prepare(frame);
+  for (int i = 0; budgets_ && i < budgets_->settleFrames(); ++i) {
+    frame.begin();
+    render(frame);
+    frame.end();
+    glFinish();
+  }
+}
+
 void OccluderSearch::preparePasses(frame::Frame& frame) {
   if (budgets_) budgets_->prepare(frame);
   if (!quality_.splits()) {
@@ -222,11 +237,14 @@ void OccluderSearch::makeInputs(frame::Frame& frame) {
 }
 
 void OccluderSearch::runPasses(frame::Frame& frame, const CountImages* counts) {
+  // Frames that count take longer than those they stand for.
+  BudgetDriver* steered = counts ? nullptr : budgets_.get();
+  if (steered) steered->begin();
   if (split_)
     runSplit(frame, counts);
   else
     VisibilityTechnique::runPasses(frame, counts);
-  if (budgets_) budgets_->finish(frame, split_ ? &split_->work() : nullptr);
+  if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
 }
 
 void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
@@ -262,6 +280,8 @@ std::vector<std::string> OccluderSearch::counterNames() {
   names.emplace_back("structure_bytes");
   names.emplace_back("occluder_bytes");
   for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
+  for (const BudgetDriverInfo& driver : budgetDrivers())
+    names.insert(names.end(), driver.counters.begin(), driver.counters.end());
   return names;
 }
 
@@ -273,19 +293,28 @@ std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
   for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
     all.push_back(std::move(counter));
+  for (Counter& counter : budgetFacts()) all.push_back(std::move(counter));
   return all;
+}
+
+std::vector<Counter> OccluderSearch::budgetFacts() const {
+  return budgets_ ? budgets_->count() : std::vector<Counter>{};
 }
 
 std::map<std::string, const gl::Texture*> OccluderSearch::debugViews() const {
   std::map<std::string, const gl::Texture*> views;
   if (split_) views = {{"search_areas", &split_->areas()}, {"levels", &split_->levels()}};
+  if (budgets_) views.merge(budgets_->debugViews());
   if (budgetMap_) views["budget_map"] = budgetMap_;
   return views;
 }
 
 std::map<std::string, Image> OccluderSearch::pictures() const {
-  if (counted().work.empty()) return {};
-  return {{"search_area", searchAreaPicture(counted())}, {"levels", levelPicture(counted())}};
+  std::map<std::string, Image> all;
+  if (!counted().work.empty())
+    all = {{"search_area", searchAreaPicture(counted())}, {"levels", levelPicture(counted())}};
+  if (budgetMap_) all["budget"] = budgetPicture(budgetMap_->read());
+  return all;
 }
 
 }  // namespace limen::techniques

@@ -32,10 +32,16 @@ class OccluderSearch : public VisibilityTechnique {
   /// quality_counters.h.
   static std::vector<std::string> counterNames();
 
+  /// Runs the frames in which a driver of the budget settles, too.
+  void prepare(frame::Frame& frame) override;
   std::vector<Counter> count(frame::Frame& frame) override;
-  /// Of the split form: areas and levels of split_search.h; and the budget map, where there is one.
+  /// What the driver of the budget says of the last frame; without waiting or rendering another one.
+  std::vector<Counter> budgetFacts() const;
+  /// Of the split form: areas and levels of split_search.h; and the budget map, where there is one, with what
+  /// its driver shows.
   std::map<std::string, const gl::Texture*> debugViews() const override;
-  /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran.
+  /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran;
+  /// and the budget map.
   std::map<std::string, Image> pictures() const override;
 
  protected:

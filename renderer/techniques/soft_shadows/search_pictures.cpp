@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeastTexels = 10.0, kMiddleTexels = 400.0, kMostTexels = 6000.0;
 constexpr double kCoarsestLevel = 5.0;
+constexpr double kLeastRoot = 4.0, kMostRoot = 36.0;  // 12 is half-way between their logarithms
 
 /// Blue at 0, green at 1/2, red at 1.
 glm::vec3 heat(double value) {
@@ -51,6 +52,17 @@ Image searchAreaPicture(const VisibilityTechnique::Counted& counted) {
 Image levelPicture(const VisibilityTechnique::Counted& counted) {
   return picture(counted,
                  [&](size_t i) { return std::bit_cast<float>(counted.search[4 * i + 3]) / kCoarsestLevel; });
+}
+
+Image budgetPicture(const Image& budgets) {
+  Image out(budgets.width, budgets.height, 3);
+  for (size_t i = 0; i < out.pixels(); ++i) {
+    const double root = std::sqrt(double{budgets.data[i]});
+    const glm::vec3 colour =
+        heat(root > 0.0 ? std::log(root / kLeastRoot) / std::log(kMostRoot / kLeastRoot) : 1.0);
+    for (int c = 0; c < 3; ++c) out.data[3 * i + static_cast<size_t>(c)] = colour[c];
+  }
+  return out;
 }
 
 }  // namespace limen::techniques

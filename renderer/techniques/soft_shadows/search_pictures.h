@@ -15,4 +15,8 @@ Image searchAreaPicture(const VisibilityTechnique::Counted& counted);
 /// 5 and coarser (figure 4.11). Other pixels as above.
 Image levelPicture(const VisibilityTechnique::Counted& counted);
 
+/// Budgets by their roots, which count micro-occluders per axis: blue for 4 or less, green for 12, red for 36
+/// or more, on a logarithmic scale; red for no limit, too. All pixels, whether they are processed or not.
+Image budgetPicture(const Image& budgets);
+
 }  // namespace limen::techniques

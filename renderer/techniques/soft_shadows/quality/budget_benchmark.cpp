@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen-budget-benchmark: frames along a scene's camera path with a budget that is steered by the frame's
+// time: for each frame the time of the passes that are steered, that of the whole frame, the scale of the
+// budget and, with --errors, how far the visibility is from that of an unlimited budget. CSV on standard
+// output, a summary on lines that begin with #. GPU times, or wall times on a software renderer.
+#include <epoxy/gl.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/occluder_search.h"
+
+namespace {
+
+using namespace limen;
+using HostClock = std::chrono::steady_clock;
+
+constexpr double kWarmUpS = 0.5;  ///< an idle GPU takes up to a third of a second to raise its clock
+constexpr const char* kUsage = "--scene-set and --set take name=value, once for each parameter";
+
+struct Options {
+  std::string scene = "columns_hall", technique = "soft_shadows/backprojection";
+  std::vector<std::string> sceneSet = {"camera=walk"}, set;
+  int width = 1024, height = 768, frames = 480, settled = 60;
+  double stepS = 1.0 / 60.0;
+  bool errors = false;
+};
+
+/// What one frame gave.
+struct Row {
+  double timeS = 0.0, scale = 1.0, rmse = 0.0, largest = 0.0;
+  double passesMs = 0.0, frameMs = 0.0;
+};
+
+std::map<std::string, ParameterValue> parse(const std::vector<Parameter>& declared,
+                                            const std::vector<std::string>& given) {
+  std::map<std::string, ParameterValue> out;
+  for (const std::string& item : given) {
+    const size_t at = item.find('=');
+    if (at == std::string::npos) throw Error("'" + item + "' gives no value", {}, kUsage);
+    const std::string name = item.substr(0, at), text = item.substr(at + 1);
+    const auto found = std::find_if(declared.begin(), declared.end(),
+                                    [&](const Parameter& parameter) { return parameter.name == name; });
+    ParameterValue value = text;
+    try {
+      if (found == declared.end()) {
+        // The list of values says which names there are.
+      } else if (found->type == ParameterType::Boolean) {
+        value = text == "true";
+      } else if (found->type == ParameterType::Integer) {
+        value = int64_t{std::stoll(text)};
+      } else if (found->type == ParameterType::Real) {
+        value = std::stod(text);
+      }
+    } catch (const std::logic_error&) {
+      throw Error("'" + text + "' is no number", name, kUsage);
+    }
+    out[name] = value;
+  }
+  return out;
+}
+
+double factOf(const std::vector<techniques::Counter>& facts, const std::string& name, double otherwise) {
+  for (const techniques::Counter& fact : facts)
+    if (fact.name == name) return fact.value;
+  return otherwise;
+}
+
+/// Over the pixels that may be shadowed.
+void compare(const Image& product, const Image& reference, const Image& receivers, Row& row) {
+  double squares = 0.0;
+  size_t judged = 0;
+  for (size_t i = 0; i < product.pixels(); ++i) {
+    if (receivers.data[4 * i + 3] < 0.0F) continue;
+    const double error = std::abs(double{product.data[i]} - reference.data[i]);
+    squares += error * error;
+    row.largest = std::max(row.largest, error);
+    ++judged;
+  }
+  row.rmse = judged > 0 ? std::sqrt(squares / static_cast<double>(judged)) : 0.0;
+}
+
+class Walk {
+ public:
+  explicit Walk(const Options& options)
+      : options_(options),
+        context_(gl::createHeadlessContext()),
+        scene_(buildScene(options)),
+        gpuScene_(scene_),
+        sizePx_(options.width, options.height),
+        frame_(*context_, scene_, gpuScene_, sizePx_),
+        referenceFrame_(*context_, scene_, gpuScene_, sizePx_),
+        technique_(makeTechnique(options.set)) {
+    search_ = dynamic_cast<techniques::OccluderSearch*>(technique_.get());
+    if (!search_)
+      throw Error("'" + options.technique + "' has no budget", "--technique",
+                  "name one that searches occluders");
+    technique_->prepare(frame_);
+    if (options.errors) {
+      reference_ = makeTechnique(withoutBudget(options.set));
+      reference_->prepare(referenceFrame_);
+    }
+    // Settles the first frame's budget, and wakes the GPU.
+    const auto start = HostClock::now();
+    do {
+      render(0.0);
+      glFinish();
+    } while (std::chrono::duration<double>(HostClock::now() - start).count() < kWarmUpS);
+  }
+
+  std::vector<Row> run() {
+    const bool software = context_->device().software;
+    frame_.passes().startRecording(software ? gl::Clock::Wall : gl::Clock::Gpu, options_.frames);
+    std::vector<Row> rows(static_cast<size_t>(options_.frames));
+    for (int i = 0; i < options_.frames; ++i) {
+      Row& row = rows[static_cast<size_t>(i)];
+      row.timeS = i * options_.stepS;
+      render(row.timeS);
+      row.scale = factOf(search_->budgetFacts(), "budget_scale", 1.0);
+      if (reference_) judge(row);
+    }
+    const std::string& own = options_.technique;
+    for (const gl::PassTime& time : frame_.passes().finishRecording()) {
+      Row& row = rows[static_cast<size_t>(time.frame)];
+      const double ms = 1e-6 * static_cast<double>(time.nanoseconds);
+      if (time.pass == "frame") row.frameMs = ms;
+      if (time.pass == own || time.pass.starts_with(own + "/")) row.passesMs += ms;
+    }
+    context_->checkDebugMessages();
+    return rows;
+  }
+
+  const gl::DeviceInfo& device() const { return context_->device(); }
+
+ private:
+  using Technique = std::unique_ptr<techniques::Technique>;
+
+  static scene::Scene buildScene(const Options& options) {
+    const std::vector<Parameter> declared =
+        scene::SceneRegistry::instance().get(options.scene).allParameters();
+    return scene::buildScene(options.scene, ParameterValues(declared, parse(declared, options.sceneSet)));
+  }
+
+  Technique makeTechnique(const std::vector<std::string>& set) const {
+    const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(options_.technique);
+    const ParameterValues values(info.parameters, parse(info.parameters, set));
+    if (info.check) info.check(values);
+    return info.make(values);
+  }
+
+  /// The same search without a limit; levels are 0 then, whatever is said of them.
+  static std::vector<std::string> withoutBudget(const std::vector<std::string>& set) {
+    std::vector<std::string> out = {"budget=0"};
+    for (const std::string& item : set)
+      for (const char* kept : {"resolution=", "structure=", "ysm_base=", "occluders=", "gap_fill=", "bias=",
+                               "slope_bias=", "max_slope=", "raster="})
+        if (item.starts_with(kept)) out.push_back(item);
+    return out;
+  }
+
+  void render(double timeS) {
+    frame_.setTime(timeS);
+    frame_.begin();
+    technique_->render(frame_);
+    frame_.end();
+  }
+
+  void judge(Row& row) {
+    referenceFrame_.setTime(row.timeS);
+    referenceFrame_.begin();
+    reference_->render(referenceFrame_);
+    const Image receivers = referenceFrame_.get<frame::Receivers>().texture().read();
+    referenceFrame_.end();
+    compare(technique_->product().read(), reference_->product().read(), receivers, row);
+  }
+
+  Options options_;
+  std::unique_ptr<gl::Context> context_;
+  scene::Scene scene_;
+  frame::GpuScene gpuScene_;
+  glm::ivec2 sizePx_;
+  frame::Frame frame_, referenceFrame_;
+  Technique technique_, reference_;
+  techniques::OccluderSearch* search_ = nullptr;
+};
+
+void summarise(const std::vector<Row>& rows, double targetMs, int from) {
+  int within = 0, judged = 0, reversals = 0, side = 0;
+  double worst = 0.0, sum = 0.0;
+  for (size_t i = static_cast<size_t>(from); i < rows.size(); ++i) {
+    const double error = rows[i].passesMs / targetMs - 1.0;
+    ++judged;
+    within += std::abs(error) <= 0.1;
+    worst = std::max(worst, std::abs(error));
+    sum += rows[i].passesMs;
+    const int now = error > 0.1 ? 1 : error < -0.1 ? -1 : 0;
+    reversals += now != 0 && side != 0 && now != side;
+    if (now != 0) side = now;
+  }
+  if (judged == 0) return;
+  fmt::print(
+      "# from frame {} on: mean {:.4g} ms of {:.4g} ms, {:.1f} % of frames within 10 %, worst {:.1f} %, "
+      "{} changes of side beyond 10 %\n",
+      from, sum / judged, targetMs, 100.0 * within / judged, 100.0 * worst, reversals);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Frames along a camera path with a steered budget"};
+  app.add_option("--scene", options.scene, "Scene with a camera path")->capture_default_str();
+  app.add_option("--scene-set", options.sceneSet, "Parameter of the scene, name=value")
+      ->capture_default_str();
+  app.add_option("--technique", options.technique, "Technique that searches occluders")
+      ->capture_default_str();
+  app.add_option("--set", options.set, "Parameter of the technique, name=value");
+  app.add_option("--width", options.width)->capture_default_str();
+  app.add_option("--height", options.height)->capture_default_str();
+  app.add_option("--frames", options.frames)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--settled", options.settled, "Frame from which on the summary counts")
+      ->capture_default_str();
+  app.add_option("--step-s", options.stepS, "Time from frame to frame on the path")->capture_default_str();
+  app.add_flag("--errors", options.errors, "Compare each frame with an unlimited budget");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(options.technique);
+    const ParameterValues values(info.parameters, parse(info.parameters, options.set));
+    Walk walk(options);
+    fmt::print("# {}{}\n# {} {}\nframe,time_s,passes_ms,frame_ms,budget_scale,rmse,largest_error\n",
+               walk.device().line(), walk.device().software ? " (wall time on a CPU)" : "", options.scene,
+               values.toJson().dump());
+    const std::vector<Row> rows = walk.run();
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Row& row = rows[i];
+      fmt::print("{},{:.6g},{:.6g},{:.6g},{:.6g},", i, row.timeS, row.passesMs, row.frameMs, row.scale);
+      if (options.errors)
+        fmt::print("{:.6g},{:.6g}\n", row.rmse, row.largest);
+      else
+        fmt::print(",\n");
+    }
+    if (values.text("budget_map") == "frame_time")
+      summarise(rows, values.real("frame_time_ms"), std::min(options.settled, options.frames));
+    return kExitSuccess;
+  } catch (const Error& error) {
+    fmt::print(stderr, "limen-budget-benchmark: {}\n", error.what());
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "limen-budget-benchmark: {}\n", error.what());
+    return kExitFailedRuns;
+  }
+}

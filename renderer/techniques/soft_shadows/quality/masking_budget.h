@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/techniques/soft_shadows/quality/budget_driver.h"
+
+namespace limen::techniques {
+
+/// Budget that falls where the receivers' texture hides errors of a shadow. Source: Schwarz 2009, section
+/// 5.2.3 and figure 5.4 (12^2, and 5^2 on a textured part), which says nothing of how the texture is
+/// measured. (derived) Here the measure is the RMS contrast of the unshadowed picture, albedo by the cosine
+/// to the light: standard deviation over mean of its luminance among the receivers in a square window. Up to
+/// `masking_low_contrast` the whole budget is allowed, from `masking_high_contrast` on `masking_budget`; in
+/// between the root falls evenly. What stands before a surface of another brightness counts as contrast too:
+/// an edge masks as texture does.
+BudgetDriverInfo maskingBudgetInfo();
+
+}  // namespace limen::techniques

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/image.h"
+#include "renderer/techniques/soft_shadows/quality/budget_driver.h"
+
+namespace limen::techniques {
+
+/// Budget by an image that somebody painted: black for `painted_budget`, white for `budget`, the root evenly
+/// in between; the same in every frame. Source: Schwarz 2009, section 5.2.1 ("importance as assigned by the
+/// user").
+BudgetDriverInfo paintedBudgetInfo();
+
+/// What becomes of an image of other proportions than the frame's.
+enum class PaintedFit {
+  Refuse,   ///< an error, beyond what whole pixels explain
+  Stretch,  ///< each axis by its own factor
+  Cover     ///< one factor; what then lies beyond the frame is cut away evenly
+};
+
+/// Weights 0..1 of a one-channel image at the frame's size: a tent filter that reaches a pixel of the coarser
+/// of the two images, so that every texel counts when the image shrinks, and bilinear where it grows. Throws
+/// Error by PaintedFit::Refuse.
+Image paintedWeights(const Image& grey, glm::ivec2 sizePx, PaintedFit fit);
+
+}  // namespace limen::techniques
