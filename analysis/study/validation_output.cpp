@@ -11,24 +11,7 @@
 namespace limen::analysis {
 namespace {
 
-std::optional<double> valueOf(const std::optional<Coefficient>& coefficient) {
-  return coefficient ? std::optional<double>(coefficient->value) : std::nullopt;
-}
-
-std::optional<double> valueOf(const std::optional<Correlation>& correlation) {
-  return correlation ? std::optional<double>(correlation->coefficient.value) : std::nullopt;
-}
-
-std::optional<Interval> intervalOf(const std::optional<Coefficient>& coefficient) {
-  return coefficient ? coefficient->interval : std::nullopt;
-}
-
-std::optional<Interval> intervalOf(const std::optional<Correlation>& correlation) {
-  return correlation ? correlation->coefficient.interval : std::nullopt;
-}
-
 std::vector<std::string> agreementLine(const Agreement& one, bool clamp) {
-  const Correlation* r = one.pearson ? &*one.pearson : nullptr;
   std::vector<std::string> out = {one.set,
                                   one.predictor,
                                   std::to_string(one.scenarios),
@@ -37,7 +20,7 @@ std::vector<std::string> agreementLine(const Agreement& one, bool clamp) {
                                   pText(one.kendall.p),
                                   fixedText(valueOf(one.pearson)),
                                   intervalText(intervalOf(one.pearson)),
-                                  r ? pText(r->p) : "-"};
+                                  pText(pOf(one.pearson))};
   if (clamp) {
     out.push_back(fixedText(valueOf(one.clamped.correlation)));
     out.push_back(one.clamped.clamp ? fmt::format("{} at {:.3g}", one.clamped.clamped, *one.clamped.clamp)

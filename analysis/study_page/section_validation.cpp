@@ -15,22 +15,6 @@ namespace {
 
 constexpr size_t kOpenRows = 16;
 
-std::optional<double> valueOf(const std::optional<Coefficient>& coefficient) {
-  return coefficient ? std::optional<double>(coefficient->value) : std::nullopt;
-}
-std::optional<Interval> intervalOf(const std::optional<Coefficient>& coefficient) {
-  return coefficient ? coefficient->interval : std::nullopt;
-}
-std::optional<double> valueOf(const std::optional<Correlation>& correlation) {
-  return correlation ? std::optional<double>(correlation->coefficient.value) : std::nullopt;
-}
-std::optional<Interval> intervalOf(const std::optional<Correlation>& correlation) {
-  return correlation ? correlation->coefficient.interval : std::nullopt;
-}
-std::optional<double> pOf(const std::optional<Correlation>& correlation) {
-  return correlation ? correlation->p : std::nullopt;
-}
-
 void addAgreements(const std::vector<Agreement>& agreements, const std::string& what, bool clamp,
                    PageWriter& out) {
   PageTable table;

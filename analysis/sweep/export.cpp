@@ -6,8 +6,9 @@
 #include <map>
 #include <set>
 
-#include "analysis/sweep/grouping.h"
 #include "analysis/output/text_output.h"
+#include "analysis/sweep/grouping.h"
+#include "analysis/sweep/published.h"
 #include "base/text.h"
 
 namespace limen::analysis {
@@ -114,6 +115,8 @@ void exportTables(const Sweep& sweep, const std::string& folder) {
   write(folder, "frame_times.csv", {"key", "device", "frame", "round", "pass", "nanoseconds"}, frameTimes);
   write(folder, "passes.csv", joined(kIdentity, {"pass", "bytes_held", "median_ms", "p95_ms", "n_frames"}),
         passes);
+  if (const auto published = comparePublished(sweep); !published.empty())
+    writeFileBytes((std::filesystem::path(folder) / "published.csv").string(), publishedCsv(published));
 }
 
 }  // namespace limen::analysis

@@ -8,6 +8,7 @@
 #include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
+#include "analysis/sweep/published.h"
 #include "base/text.h"
 
 namespace limen::embedded {
@@ -104,8 +105,9 @@ std::string renderCellName(const Sweep& sweep, const Cell& cell) {
 std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures) {
   std::string body = "<main>\n";
   body += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +
-          renderCounter(sweep, charts) + renderPictures(sweep, pictures) + renderPasses(sweep) +
-          renderRunTable(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
+          renderCounter(sweep, charts) + renderPublished(comparePublished(sweep)) +
+          renderPictures(sweep, pictures) + renderPasses(sweep) + renderRunTable(sweep) +
+          renderRemarks(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
           renderHowToRead(sweep, charts.footUsed) + renderEnvironment(sweep);
   body += "</main>\n<div id=\"tip\" role=\"status\" aria-live=\"polite\" hidden></div>\n";
   return renderDocument(sweep.experiment.title, embedded::kReportCss, body, embedded::kReportJs);

@@ -27,6 +27,7 @@ std::string renderCounter(const Sweep& sweep, const PageCharts& charts);
 std::string renderPasses(const Sweep& sweep);
 std::string renderPictures(const Sweep& sweep, const Pictures& pictures);
 std::string renderRunTable(const Sweep& sweep);
+std::string renderRemarks(const Sweep& sweep);
 std::string renderProblems(const Sweep& sweep);
 std::string renderExpectations(const Sweep& sweep);
 std::string renderEnvironment(const Sweep& sweep);

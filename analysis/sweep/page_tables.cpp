@@ -7,10 +7,10 @@
 #include <functional>
 #include <set>
 
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/grouping.h"
 #include "analysis/sweep/page.h"
-#include "analysis/output/text_output.h"
 #include "base/text.h"
 
 namespace limen::analysis {
@@ -167,6 +167,26 @@ std::string renderRunTable(const Sweep& sweep) {
     out += "</tr>\n";
   }
   return out + "</tbody></table></div></section>\n";
+}
+
+std::string renderRemarks(const Sweep& sweep) {
+  std::string rows;
+  for (const Cell& cell : sweep.cells) {
+    const auto remarks = cell.run.sceneFacts.find("remarks");
+    if (remarks == cell.run.sceneFacts.end()) continue;
+    rows += "<tr><td>" + renderCellName(sweep, cell) + "</td><td>" +
+            escapeHtml(sweep.panels[cell.panel].title) + "</td><td><ul>";
+    for (const nlohmann::json& remark : *remarks)
+      rows += "<li>" + escapeHtml(remark.get<std::string>()) + "</li>";
+    rows += "</ul></td></tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<section id=\"remarks\"><h2>What techniques chose by themselves</h2>\n<div "
+         "class=\"scroll\"><table><thead>"
+         "<tr><th scope=\"col\">run</th><th scope=\"col\">in</th><th scope=\"col\">chosen, and "
+         "why</th></tr></thead>\n"
+         "<tbody>\n" +
+         rows + "</tbody></table></div></section>\n";
 }
 
 std::string renderProblems(const Sweep& sweep) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/shipped_files.h"
 #include "base/text.h"
 #include "base/value_reader.h"
 #include "perception/vision/display.h"
@@ -212,31 +213,10 @@ Example parseExample(const std::string& text, const std::string& path) {
   return ExampleReader(path).read(text);
 }
 
-std::vector<std::pair<std::string, std::string>> shippedExamples() {
-  std::vector<std::pair<std::string, std::string>> out;
-  std::error_code code;
-  for (fs::directory_iterator entry(kExampleFolder, code), end; !code && entry != end;
-       entry.increment(code)) {
-    const fs::path& path = entry->path();
-    if (path.extension() != ".yaml") continue;
-    const YamlNode root = parseYaml(readTextFile(path.string()), path.string());
-    const YamlNode* title = root.find("title");
-    out.emplace_back(path.stem().string(), title ? title->text : "");
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
+std::vector<std::pair<std::string, std::string>> shippedExamples() { return shippedFiles(kExampleFolder); }
 
 Example readExample(const std::string& nameOrPath) {
-  std::error_code code;
-  std::string path = nameOrPath;
-  if (!fs::exists(path, code)) {
-    std::vector<std::string> names;
-    for (const auto& [name, title] : shippedExamples()) names.push_back(name);
-    if (std::find(names.begin(), names.end(), nameOrPath) == names.end())
-      throw Error("no file and no shipped example '" + nameOrPath + "'", "", suggest(nameOrPath, names));
-    path = std::string(kExampleFolder) + "/" + nameOrPath + ".yaml";
-  }
+  const std::string path = findShipped(nameOrPath, kExampleFolder, "example");
   return parseExample(readTextFile(path), path);
 }
 

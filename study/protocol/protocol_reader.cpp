@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/shipped_files.h"
 #include "base/text.h"
 #include "perception/vision/display.h"
 #include "study/protocol/expression.h"
@@ -235,31 +236,10 @@ Protocol parseProtocol(const std::string& text, const std::string& path,
   return ProtocolReader(path, std::move(declarations)).read(text);
 }
 
-std::vector<std::pair<std::string, std::string>> shippedProtocols() {
-  std::vector<std::pair<std::string, std::string>> out;
-  std::error_code code;
-  for (fs::directory_iterator entry(kProtocolFolder, code), end; !code && entry != end;
-       entry.increment(code)) {
-    const fs::path& path = entry->path();
-    if (path.extension() != ".yaml") continue;
-    const YamlNode root = parseYaml(readTextFile(path.string()), path.string());
-    const YamlNode* title = root.find("title");
-    out.emplace_back(path.stem().string(), title ? title->text : "");
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
+std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shippedFiles(kProtocolFolder); }
 
 Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations) {
-  std::error_code code;
-  std::string path = nameOrPath;
-  if (!fs::exists(path, code)) {
-    std::vector<std::string> names;
-    for (const auto& [name, title] : shippedProtocols()) names.push_back(name);
-    if (std::find(names.begin(), names.end(), nameOrPath) == names.end())
-      throw Error("no file and no shipped protocol '" + nameOrPath + "'", "", suggest(nameOrPath, names));
-    path = std::string(kProtocolFolder) + "/" + nameOrPath + ".yaml";
-  }
+  const std::string path = findShipped(nameOrPath, kProtocolFolder, "protocol");
   return parseProtocol(readTextFile(path), path, std::move(declarations));
 }
 

@@ -161,7 +161,7 @@ TEST_F(SoftShadows, NothingOccludesMeansFullyLit) {
       const bool onCard = world.y > 0.1, farAway = std::max(std::abs(world.x), std::abs(world.z)) > 1.6;
       if (!onCard && !farAway) continue;
       ++lit;
-      ASSERT_EQ(rendered.product.data[i], 1.0F)
+      ASSERT_EQ(rendered.product.data[i * static_cast<size_t>(rendered.product.channels)], 1.0F)
           << technique << " at " << world.x << " " << world.y << " " << world.z;
     }
     EXPECT_GT(lit, 100) << technique;

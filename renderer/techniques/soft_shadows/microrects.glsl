@@ -3,13 +3,15 @@
 // renderer/frame/microrect_map.h for what they are. At level 0 they are micropatches. The including shader gathers:
 // accumulate(low, high) takes a rectangle in unit light coordinates.
 //
-// GAP_FILL as for micropatches: a rectangle is stretched to where its lower bounds lie at the depth of the microrect before it.
+// GAP_FILL as for micropatches: a rectangle is stretched to where its lower bounds lie at the depth of the microrect before
+// it.
 layout(binding = 10) uniform sampler2D rectDepths;  // its level i is level i + 1
 layout(binding = 11) uniform usampler2D rectExtents;
 
 void accumulate(vec2 low, vec2 high);
 
-// A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in either's.
+// A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in
+// either's.
 Range occluderRange(Area area, int level) {
   return Range(area.low >> level, min(((area.high - 2) >> level) + 1, ivec2((resolution >> level) - 1)));
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Microquads of which the vertices move from their places in one level of the minimum pyramid to those in the next, by a level
-// that is a real number. Schwarz 2009, section 5.1.2, names this as a way to a level of quality without steps, and why it is
-// none: whether a quad counts is a decision about each of its vertices, which falls the moment that one passes the receiver's
-// depth. The thesis gives no formula. Here a vertex moves in a straight line of the map to the centre of the coarser texel
-// that it is part of, and 1/z is blended, so that what lies in a plane stays there and empty texels come from infinitely far.
+// Microquads of which the vertices move from their places in one level of the minimum pyramid to those in the next, by a
+// level that is a real number. Schwarz 2009, section 5.1.2, names this as a way to a level of quality without steps, and why
+// it is none: whether a quad counts is a decision about each of its vertices, which falls the moment that one passes the
+// receiver's depth. The thesis gives no formula. Here a vertex moves in a straight line of the map to the centre of the
+// coarser texel that it is part of, and 1/z is blended, so that what lies in a plane stays there and empty texels come from
+// infinitely far.
 uniform float morphLevel;
 
 void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d);

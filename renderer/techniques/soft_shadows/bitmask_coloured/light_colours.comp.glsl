@@ -59,7 +59,8 @@ void main() {
   if (texelFetch(receivers, pixel, 0).w >= 0.0) {
     clearMask();
     for (int set = 0; set < sets; ++set) addKeptMask(pixel, set);
-    colour = visibleColour() + absent;
+    // A light in full view is whole, whatever its parts' rounding adds up to.
+    if (samplesCovered() > SAMPLES - LIGHT_SAMPLES) colour = min(visibleColour() + absent, vec3(1.0));
   }
   imageStore(outColour, pixel, vec4(colour, 1.0));
 }

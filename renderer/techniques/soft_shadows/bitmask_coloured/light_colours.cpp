@@ -36,7 +36,11 @@ double areaWithin(Polygon polygon, glm::dvec2 low, glm::dvec2 high) {
 /// Share of a sample's cell, or of the sample itself, that lies in a part.
 double shareIn(const scene::LightPart& part, glm::dvec2 sample, int cells) {
   if (part.outline.empty()) return 1.0;
-  if (cells == 0) return scene::polygonContains(part.outline, sample) ? 1.0 : 0.0;
+  if (cells == 0) {
+    // A sample on the edge between two parts is of the one to its right or above.
+    const glm::dvec2 inside = sample + glm::dvec2(0x1p-30, 0x1p-31);
+    return scene::polygonContains(part.outline, inside) ? 1.0 : 0.0;
+  }
   const glm::dvec2 low = glm::floor(sample * double(cells)) / double(cells);
   return areaWithin(part.outline, low, low + 1.0 / cells) * cells * cells;
 }

@@ -7,7 +7,9 @@ layout(binding = 1) uniform sampler2D depths;      // of the samples that the vi
 layout(binding = 2) uniform sampler2D visibility;  // for those
 layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
-layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;  // samples that are receivers, of them borrowed, orphaned
+// Samples that are receivers; of them, those that took a neighbour's visibility, those that took another surface's or none,
+// and those on another surface than the pixel's.
+layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
 #endif
 uniform ivec2 sizePx;
 uniform int samples, neighbours;
@@ -22,41 +24,38 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   const float own = texelFetch(depths, pixel, 0).x, ownVisibility = texelFetch(visibility, pixel, 0).x;
+  const bool usable = own > 0.0;
   float sum = 0.0;
-  uint receivers = 0u, borrowed = 0u, orphaned = 0u;
+  uint receivers = 0u, borrowed = 0u, orphaned = 0u, apart = 0u;
   for (int k = 0; k < samples; ++k) {
     const float z = texelFetch(sampleDepths, ivec3(pixel, k), 0).x;
-    float found = 1.0;
-    if (z > 0.0) {
-      ++receivers;
-      const bool usable = own > 0.0;
-      if (usable && (!interpolate || abs(z - own) <= tolerance * z)) {
-        found = ownVisibility;
-      } else if (!interpolate) {
-        ++orphaned;
-      } else {
-        float nearest = usable ? abs(z - own) : 1e38;
-        found = usable ? ownVisibility : 1.0;
-        bool other = false;
-        for (int i = 1; i <= neighbours; ++i) {
-          const ivec2 at = pixel + kOffsets[i];
-          if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, sizePx))) continue;
-          const float theirs = texelFetch(depths, at, 0).x;
-          if (theirs > 0.0 && abs(z - theirs) < nearest) {
-            nearest = abs(z - theirs);
-            found = texelFetch(visibility, at, 0).x;
-            other = true;
-          }
+    if (!(z > 0.0)) {
+      sum += 1.0;
+      continue;
+    }
+    float nearest = usable ? abs(z - own) : 1e38, found = usable ? ownVisibility : 1.0;
+    const bool same = nearest <= tolerance * z;
+    bool other = false;
+    if (interpolate && !same) {
+      for (int i = 1; i <= neighbours; ++i) {
+        const ivec2 at = pixel + kOffsets[i];
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, sizePx))) continue;
+        const float theirs = texelFetch(depths, at, 0).x;
+        if (theirs > 0.0 && abs(z - theirs) < nearest) {
+          nearest = abs(z - theirs);
+          found = texelFetch(visibility, at, 0).x;
+          other = true;
         }
-        borrowed += other ? 1u : 0u;
-        // Nothing on its surface: what it got is another surface's.
-        orphaned += nearest <= tolerance * z ? 0u : 1u;
       }
     }
+    ++receivers;
+    apart += same ? 0u : 1u;
+    borrowed += other ? 1u : 0u;
+    orphaned += nearest <= tolerance * z ? 0u : 1u;
     sum += found;
   }
   imageStore(outVisibility, pixel, vec4(sum / float(samples)));
 #ifdef COUNT
-  imageStore(outCounts, pixel, uvec4(receivers, borrowed, orphaned, 0u));
+  imageStore(outCounts, pixel, uvec4(receivers, borrowed, orphaned, apart));
 #endif
 }

@@ -141,7 +141,8 @@ class Decider {
     figures_[Seams] = current_.levelChangeShare;
     const bool masked = decision_.setting.technique == kMask;
     if (masked && figures_[Coarse] > limits_.coarseShare) {
-      ShadowSetting rects = with({{"occluders", std::string("microrects")}});
+      ShadowSetting rects =
+          with({{"occluders", std::string("microrects")}, {"diagonal_merge", std::string("nearest")}});
       rects.values.erase("slope_bias");
       take(rects, probe_.run(rects));
       remark(fmt::format(

@@ -30,7 +30,7 @@ constexpr const char *kShader =
 /// A plane this near to a point, in shares of the scene's reach, counts as going through it. Corners and
 /// point are rounded to 2^-25 of their coordinates on each axis, and the point is put onto its plane by a
 /// product of two such numbers: below 2^-22 together.
-constexpr float kPlaneTolerance = 0x1p-21F;
+constexpr float kPlaneTolerance = 0x1p-22F;
 /// As references::kLightMargin: what lies in the light's plane up to rounding hides nothing.
 constexpr float kLightMargin = 1e-6F;
 
