@@ -178,7 +178,9 @@ TEST_F(SparseVisibility, UpsamplingGivesASurfaceWithoutSamplesTheNearestInDepthA
     for (int x = 0; x < sizePx.x; ++x) {
       const auto i = static_cast<size_t>(y * sizePx.x + x);
       EXPECT_EQ(out.classes[i] == 2, x == 13) << x << " " << y;
-      if (x == 13) EXPECT_EQ(out.visibility.data[i], 0.25F);
+      if (x == 13) {
+        EXPECT_EQ(out.visibility.data[i], 0.25F);
+      }
     }
 }
 
