@@ -42,19 +42,19 @@ class LightMapsTest : public TechniqueTest {
   /// patch's edge may fall on either side and take a row along. What the search calls umbra without looking
   /// is dark here, while patches leave gaps: left out where brute force says nearly dark, too.
   static void expectTwin(const scene::Scene& scene, Given given, const std::string& what) {
-    given.insert({{"resolution", std::string("32")},
+    given.insert({{"resolution", std::string("64")},
                   {"budget", int64_t{0}},
                   {"gap_fill", std::string("none")},
                   {"pattern", std::string("regular_16")}});
     const ParameterValues values = valuesOf(given);
     const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, {32, 24});
+    frame::Frame frame(context(), scene, gpuScene, {24, 18});
     const auto made = TechniqueRegistry::instance().get(kBitmask).make(values);
     made->prepare(frame);
     frame.begin();
     made->render(frame);
     std::vector<MaskTwin> twins;
-    for (const frame::ShadowMapSettings& map : LightMaps(values).of(scene, {.resolution = 32})) {
+    for (const frame::ShadowMapSettings& map : LightMaps(values).of(scene, {.resolution = 64})) {
       const auto& depth = frame.get<frame::ShadowMap>(map);
       twins.push_back({depth.texture().read(), frame.get<frame::Receivers>().texture().read(),
                        depth.frustum(), scene.lights[0].size});
@@ -81,8 +81,8 @@ class LightMapsTest : public TechniqueTest {
         EXPECT_LE(error, 16.0 / 256.0 + 1e-6) << what << " at " << x << ' ' << y;
         differing += error > 1e-6;
       }
-    EXPECT_GT(compared, 300) << what;
-    EXPECT_GT(shadowed, 50) << what;
+    EXPECT_GT(compared, 150) << what;
+    EXPECT_GT(shadowed, 20) << what;
     EXPECT_LE(differing, compared / 50) << what << ": " << differing << " of " << compared;
   }
 };

@@ -37,6 +37,7 @@ struct MaskTwin {
           return (onPlane + frustum.offset) / lightSize + 0.5;
         };
         const glm::dvec2 low = thrown({x, y}), high = thrown({x + 1.0, y + 1.0});
+        if (high.x <= 0.0 || high.y <= 0.0 || low.x >= 1.0 || low.y >= 1.0) continue;
         for (size_t i = 0; i < samples.size(); ++i)
           if (low.x < samples[i].x && samples[i].x <= high.x && low.y < samples[i].y &&
               samples[i].y <= high.y)

@@ -59,10 +59,11 @@ TEST_F(Prefiltered, FormulasHoldForAnyWindowOfTwoDepths) {
   for (size_t i = 0; i < windows.size(); ++i) {
     const glm::dvec4 w(windows[i]);
     const double exact = (w.x >= w.w ? w.z : 0.0) + (w.y >= w.w ? 1.0 - w.z : 0.0);
-    // Moments up to 1 are rounded to 2^-25, and the variance, a difference of two, to 4 such units; the
-    // bound's slope is at most 1 / (z2 - z1)^2 <= 100 by the variance and 2 / (z2 - z1) by the mean: 100 * 6
-    // * 2^-25 < 2e-5.
-    const double tolerance = 2e-5;
+    // Moments up to 1 are rounded to 2^-25, and the variance v, a difference of two, to 6 such units, their
+    // products included. Chebyshev's bound has slopes of at most 1 / 4v by the variance and 0.65 / sqrt(v) by
+    // the mean, wherever the receiver is.
+    const double v = std::max(w.z * (1.0 - w.z) * (w.y - w.x) * (w.y - w.x), kMinVariance);
+    const double tolerance = 0x1p-25 * (6.0 / (4.0 * v) + 2.0 * 0.65 / std::sqrt(v)) + 1e-6;
     ASSERT_NEAR(results[i].x, chebyshevBound(w.x, w.y, w.z, w.w, kMinVariance), tolerance) << i;
     // A bound from above, whatever the receiver's depth, and the truth where it stands at the farther one.
     ASSERT_GE(results[i].x, exact - tolerance) << i;

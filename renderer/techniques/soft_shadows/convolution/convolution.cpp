@@ -53,6 +53,9 @@ class Convolution : public PrefilteredTechnique {
 std::vector<Parameter> parameters() {
   std::vector<Parameter> all =
       PrefilteredTechnique::prefilterParameters({"searched", "convolved", "fixed"}, {"sums", "mips"});
+  // A texture a term: 64 MiB for eight of them at 1024 x 1024.
+  for (Parameter& parameter : all)
+    if (parameter.name == "resolution") parameter.defaultValue = std::string("256");
   all.push_back(integerParameter("terms", 8, 4, 16, "", "Terms of the series (M), a texture each",
                                  "Schwarz 2009, section 3.2.1 (value not given there)"));
   all.push_back(realParameter(
