@@ -117,6 +117,15 @@ TEST(FrameTimeController, RestsAtTheLeastBudgetWhereNoneIsEnough) {
   // Had something been wound up in those frames, it would take as long to unwind.
   EXPECT_LT(trace.worstError(target, 240, 300), 0.1);
   EXPECT_LE(controller.oscillations(), 1);
+  // Nor short of it where the least takes 2.15, little above the target and its dead band.
+  FrameTimeController nearly(settingsFor(1.9, 0.05));
+  const Trace close = simulate(
+      nearly,
+      [](int) {
+        return Cost{2.0, 3.0};
+      },
+      200, 3);
+  EXPECT_DOUBLE_EQ(close.scales.back(), 0.05);
 }
 
 TEST(FrameTimeController, KeepsTheWholeBudgetWhereItFits) {

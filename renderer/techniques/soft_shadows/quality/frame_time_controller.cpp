@@ -57,7 +57,8 @@ void FrameTimeController::observe(double scale, double ms) {
   if (std::abs(followed_ - held_) * sensitivity > settings_.deadBand) moving_ = true;
   if (moving_) {
     held_ = followed_;
-    moving_ = std::abs(std::clamp(asked, least, 0.0) - followed_) * sensitivity > 0.5 * settings_.deadBand;
+    // Beyond a bound, asked for is never met: the scale goes all the way there.
+    moving_ = std::abs(asked - followed_) * sensitivity > 0.5 * settings_.deadBand;
   }
 
   const double share = ms / target - 1.0;
