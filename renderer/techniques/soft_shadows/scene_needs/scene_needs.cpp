@@ -5,7 +5,7 @@
 // it is there in the large one.
 #include <optional>
 
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
 #include "renderer/techniques/soft_shadows/scene_needs/decision.h"
 
 namespace limen::techniques {
@@ -82,7 +82,7 @@ std::vector<Parameter> parameters() {
 }
 
 std::vector<std::string> counters() {
-  std::vector<std::string> all = OccluderSearch::counterNames();
+  std::vector<std::string> all = Bitmask::counterNames();
   const std::vector<std::string> evidence = evidenceNames();
   all.insert(all.end(), evidence.begin(), evidence.end());
   return all;
