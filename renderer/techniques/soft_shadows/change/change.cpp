@@ -8,6 +8,7 @@
 // the map's texels along and does not swim at all.
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
