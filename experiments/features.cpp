@@ -23,25 +23,48 @@ std::string featuresPath(const std::string& root) {
   return (fs::path(root) / "experiments/features.yaml").string();
 }
 
-Feature readFeature(const YamlNode& node, Problems& problems) {
-  Feature feature;
-  const std::vector<std::pair<std::string, std::string*>> keys = {{"id", &feature.id},
-                                                                  {"name", &feature.name},
-                                                                  {"source", &feature.source},
-                                                                  {"section", &feature.section},
-                                                                  {"kind", &feature.kind}};
-  std::vector<std::string> known;
+using TextFields = std::vector<std::pair<std::string, std::string*>>;
+
+/// Text under each key of `node`; `allowed` names the keys that it may have besides.
+void readTexts(const YamlNode& node, const TextFields& keys, const std::vector<std::string>& allowed,
+               const std::string& what, Problems& problems) {
+  std::vector<std::string> known = allowed;
   for (const auto& [key, target] : keys) {
     known.push_back(key);
     const YamlNode* value = node.find(key);
     if (value && value->kind == YamlNode::Kind::Scalar)
       *target = value->text;
     else
-      problems.add(node.mark, "'" + key + "' of a feature is missing", "give it: text");
+      problems.add(node.mark, "'" + key + "' of " + what + " is missing", "give it: text");
   }
   for (const auto& [key, value] : node.members)
     if (std::find(known.begin(), known.end(), key.text) == known.end())
-      problems.add(key.mark, "unknown key '" + key.text + "' of a feature", suggest(key.text, known));
+      problems.add(key.mark, "unknown key '" + key.text + "' of " + what, suggest(key.text, known));
+}
+
+std::vector<NotBuilt> readNotBuilt(const YamlNode& node, Problems& problems) {
+  std::vector<NotBuilt> out;
+  if (node.kind != YamlNode::Kind::List || node.items.empty())
+    problems.add(node.mark, "'not_built' is no list of methods",
+                 "write a list: - {method: ..., section: ..., reason: ...}");
+  for (const YamlNode& item : node.items) {
+    NotBuilt& one = out.emplace_back();
+    readTexts(item, {{"method", &one.method}, {"section", &one.section}, {"reason", &one.reason}}, {},
+              "a method that is not built", problems);
+  }
+  return out;
+}
+
+Feature readFeature(const YamlNode& node, Problems& problems) {
+  Feature feature;
+  readTexts(node,
+            {{"id", &feature.id},
+             {"name", &feature.name},
+             {"source", &feature.source},
+             {"section", &feature.section},
+             {"kind", &feature.kind}},
+            {"not_built"}, "a feature", problems);
+  if (const YamlNode* list = node.find("not_built")) feature.notBuilt = readNotBuilt(*list, problems);
   static const std::regex idForm("[A-Z]{1,3}-[0-9]{2}");
   if (!std::regex_match(feature.id, idForm))
     problems.add(node.mark, "'" + feature.id + "' is no feature id", "ids look like SS-12");
@@ -142,10 +165,18 @@ std::string kindOf(const Feature& feature) { return feature.kind; }
 }  // namespace
 
 std::string describe(const Coverage& coverage) {
-  std::string covered, uncovered;
+  std::string covered, uncovered, surveyed;
+  size_t surveyedCount = 0;
   for (const Feature& feature : coverage.features) {
     const std::string line =
         fmt::format("  {:<7} {:<12}  {} ({})\n", feature.id, feature.kind, feature.name, feature.source);
+    if (coverage.isOnlySurveyed(feature)) {
+      ++surveyedCount;
+      surveyed += line;
+      for (const NotBuilt& one : feature.notBuilt)
+        surveyed += fmt::format("          {} (section {}): {}\n", one.method, one.section, one.reason);
+      continue;
+    }
     if (!coverage.covers(feature)) {
       uncovered += line;
       continue;
@@ -154,28 +185,36 @@ std::string describe(const Coverage& coverage) {
     for (const std::string& path : coverage.descriptors.at(feature.id)) covered += "          " + path + "\n";
   }
   return fmt::format(
-      "covered:\n{}not covered:\n{}{} of {} features are covered by {} descriptors\nby kind: {}\nby family: "
-      "{}\n",
-      covered.empty() ? "  none\n" : covered, uncovered.empty() ? "  none\n" : uncovered,
-      coverage.descriptors.size(), coverage.features.size(), coverage.descriptorCount,
-      countLine(countBy(coverage, kindOf)), countLine(countBy(coverage, familyOf)));
+      "covered:\n{}surveyed only, not built:\n{}not covered:\n{}{} of {} features are covered by {} "
+      "descriptors, {} "
+      "more are surveyed only\nby kind: {}\nby family: {}\n",
+      covered.empty() ? "  none\n" : covered, surveyed.empty() ? "  none\n" : surveyed,
+      uncovered.empty() ? "  none\n" : uncovered, coverage.descriptors.size(), coverage.features.size(),
+      coverage.descriptorCount, surveyedCount, countLine(countBy(coverage, kindOf)),
+      countLine(countBy(coverage, familyOf)));
 }
 
 std::vector<nlohmann::json> toJsonLines(const Coverage& coverage) {
   std::vector<nlohmann::json> out;
-  nlohmann::json uncovered = nlohmann::json::array();
+  nlohmann::json uncovered = nlohmann::json::array(), surveyed = nlohmann::json::array();
   for (const Feature& feature : coverage.features) {
     nlohmann::json paths = nlohmann::json::array();
     if (coverage.covers(feature))
       paths = coverage.descriptors.at(feature.id);
+    else if (coverage.isOnlySurveyed(feature))
+      surveyed.push_back(feature.id);
     else
       uncovered.push_back(feature.id);
+    nlohmann::json notBuilt = nlohmann::json::array();
+    for (const NotBuilt& one : feature.notBuilt)
+      notBuilt.push_back({{"method", one.method}, {"section", one.section}, {"reason", one.reason}});
     out.push_back({{"id", feature.id},
                    {"name", feature.name},
                    {"source", feature.source},
                    {"section", feature.section},
                    {"kind", feature.kind},
-                   {"descriptors", paths}});
+                   {"descriptors", paths},
+                   {"not_built", notBuilt}});
   }
   const auto counts = [](const std::map<std::string, Count>& groups) {
     nlohmann::json json = nlohmann::json::object();
@@ -187,6 +226,7 @@ std::vector<nlohmann::json> toJsonLines(const Coverage& coverage) {
                  {"descriptors", coverage.descriptorCount},
                  {"by_kind", counts(countBy(coverage, kindOf))},
                  {"by_family", counts(countBy(coverage, familyOf))},
+                 {"surveyed_only", surveyed},
                  {"uncovered", uncovered}});
   return out;
 }

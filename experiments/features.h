@@ -9,13 +9,21 @@
 
 namespace limen::experiments {
 
+/// A method that a feature names and that is left out on purpose.
+struct NotBuilt {
+  std::string method;   ///< name and authors
+  std::string section;  ///< of the feature's source
+  std::string reason;   ///< why it is left out
+};
+
 /// Something that a thesis contributes, compares with or builds on.
 struct Feature {
   std::string id;  ///< family and number: "SS-12"
   std::string name;
-  std::string source;   ///< "Schwarz 2009, chapter 4"
-  std::string section;  ///< "4.2"
-  std::string kind;     ///< contribution, comparator or background
+  std::string source;                   ///< "Schwarz 2009, chapter 4"
+  std::string section;                  ///< "4.2"
+  std::string kind;                     ///< contribution, comparator or background
+  std::vector<NotBuilt> notBuilt = {};  ///< what is only surveyed; mostly empty
 
   std::string family() const { return id.substr(0, id.find('-')); }
 };
@@ -34,6 +42,8 @@ struct Coverage {
   size_t descriptorCount = 0;
 
   bool covers(const Feature& feature) const { return descriptors.count(feature.id) != 0; }
+  /// No descriptor exercises it, and it says why nothing could.
+  bool isOnlySurveyed(const Feature& feature) const { return !covers(feature) && !feature.notBuilt.empty(); }
 };
 
 /// Reads the features and the `features` of all descriptors below `root`/experiments/descriptors. Throws

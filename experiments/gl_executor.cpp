@@ -209,6 +209,8 @@ class GlExecutor : public Executor {
     run.outcome.sceneFacts = on.facts;
     requireTraits(*run.info, on.scene);
     prepare(run, on);
+    if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
+      run.outcome.sceneFacts["remarks"] = remarks;
     Image product;
     std::vector<techniques::Counter> counters;
     {

@@ -11,12 +11,21 @@
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
+#include "renderer/gl/texture.h"
 #include "renderer/scene/lod_set.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::frame {
 
 class Frame;
+
+/// What each pixel of a frame sees where that is not what lies behind its centre: places of a picture chosen
+/// one by one. Neighbouring pixels need not be neighbours in the picture.
+struct Seen {
+  const gl::Texture* ids = nullptr;     ///< R32UI: triangle, or TriangleIds::kNone: this pixel sees nothing
+  const gl::Texture* places = nullptr;  ///< RG32F: place in the picture, pixels from its top left corner
+  glm::ivec2 pictureSizePx{0};          ///< of the picture that the camera takes
+};
 
 /// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first
 /// time a frame asks for it and never otherwise; its memory is kept for the next frame.
@@ -67,6 +76,10 @@ class Frame {
   void setLevels(const scene::LodSelection& selection);
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// Fills the G-buffer from chosen places instead of rasterising. Call it before the first get(); the
+  /// textures must hold what is seen when an input is made, and outlive this frame.
+  void setSeen(const Seen& seen) { seen_ = seen; }
+  const Seen* seen() const { return seen_.ids ? &seen_ : nullptr; }  ///< null: what lies behind the centres
   /// Takes shadow maps from another view, whose levels are what casts shadows here; null: from this one.
   /// begin() it first; it must outlive this frame.
   void setCasters(Frame* casters) { casters_ = casters; }
@@ -114,6 +127,7 @@ class Frame {
   std::unique_ptr<TriangleRanges> ranges_;
   const gl::Buffer* positions_ = nullptr;
   Frame* casters_ = nullptr;
+  Seen seen_;
   std::map<std::string, Entry> entries_;
   uint64_t number_ = 0;
 };

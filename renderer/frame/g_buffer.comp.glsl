@@ -10,7 +10,10 @@ layout(binding = 0, OUT_FORMAT) uniform writeonly image2D outImage;
 uniform mat4 anchorToCamera, cameraToAnchor;
 uniform mat4 cameraToLight;
 uniform vec2 rayScale;  // half the image's extents at distance 1
-uniform ivec2 sizePx;
+uniform ivec2 sizePx, pictureSizePx;
+#ifdef GIVEN_PLACES
+layout(binding = 1) uniform sampler2D places;
+#endif
 
 const uint kNone = 0xffffffffu;
 
@@ -31,7 +34,12 @@ void main() {
     const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
     const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
     const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
-    const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
+#ifdef GIVEN_PLACES
+    const vec2 place = texelFetch(places, pixel, 0).xy;
+#else
+    const vec2 place = vec2(pixel) + 0.5;
+#endif
+    const SeenPoint seen = pointSeen(a, b, c, placeRay(place, rayScale, pictureSizePx));
     const vec3 normal = seen.normal, position = seen.position;
     const float depth = seen.depth;
 #ifdef CHANNEL_POSITION

@@ -23,7 +23,7 @@ gl::Format formatOf(Channel channel) {
   return gl::Format::R32F;
 }
 
-gl::ShaderDefines definesOf(Channel channel) {
+gl::ShaderDefines channelDefines(Channel channel) {
   switch (channel) {
     case Channel::Position:
       return {{"CHANNEL_POSITION", "1"}, {"OUT_FORMAT", "rgba32f"}};
@@ -37,6 +37,12 @@ gl::ShaderDefines definesOf(Channel channel) {
   return {};
 }
 
+/// Defines of a channel in a frame that may have been given what it sees.
+gl::ShaderDefines definesOf(const Frame& frame, gl::ShaderDefines defines) {
+  if (frame.seen()) defines["GIVEN_PLACES"] = "1";
+  return defines;
+}
+
 /// Works a channel out of the triangle ids; `out` gets every pixel.
 void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
@@ -44,9 +50,14 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   const glm::dmat4& toCamera = frame.anchorToCamera();
   program.set("anchorToCamera", glm::mat4(toCamera));
   program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
-  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  const Seen* seen = frame.seen();
+  const glm::ivec2 pictureSizePx = seen ? seen->pictureSizePx : frame.sizePx();
+  const double aspect = double(pictureSizePx.x) / pictureSizePx.y;
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * aspect, frame.tanHalfFov()));
+  program.set("pictureSizePx", pictureSizePx);
   program.set("sizePx", frame.sizePx());
   ids.bindTexture(0);
+  if (seen) seen->places->bindTexture(1);
   out.bindImage(0, gl::Access::Write);
   frame.geometry().bindStorage(0);
   program.dispatch(frame.sizePx());
@@ -55,7 +66,8 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
 
 }  // namespace
 
-TriangleIds::TriangleIds(Frame& frame) {
+TriangleIds::TriangleIds(Frame& frame) : given_(frame.seen() ? frame.seen()->ids : nullptr) {
+  if (given_) return;
   int64_t bytes = 0;
   if (chosenRaster(frame.raster(), frame.context()) == Raster::Compute) {
     compute_ = std::make_unique<ComputeRaster>(frame.context(), frame.sizePx(), true);
@@ -71,21 +83,27 @@ TriangleIds::TriangleIds(Frame& frame) {
   frame.passes().setBytesHeld("frame/triangle_ids", bytes);
 }
 
-void TriangleIds::make(Frame& frame) {
-  const auto scope = frame.passes().open("frame/triangle_ids");
-  // Reversed depth with an infinite far plane keeps the relative precision of float at any distance. The near
-  // plane is a small part of the distance to the scene, whatever the scene's scale.
+double nearPlane(const Frame& frame) {
   const double reach = glm::length(glm::dvec3(frame.anchorToCamera() * glm::dvec4(0.0, 0.0, 0.0, 1.0))) +
                        frame.gpuScene().diagonal();
-  const double near = 1e-4 * (reach > 0.0 ? reach : 1.0);
+  return 1e-4 * (reach > 0.0 ? reach : 1.0);
+}
+
+glm::mat4 anchorToClip(const Frame& frame) {
   glm::dmat4 projection(0.0);
   projection[0][0] = 1.0 / (frame.tanHalfFov() * frame.aspect());
   projection[1][1] = 1.0 / frame.tanHalfFov();
   projection[2][3] = -1.0;
-  projection[3][2] = near;
-  const glm::mat4 clip(projection * frame.anchorToCamera());
+  projection[3][2] = nearPlane(frame);
+  return glm::mat4(projection * frame.anchorToCamera());
+}
+
+void TriangleIds::make(Frame& frame) {
+  if (given_) return;
+  const auto scope = frame.passes().open("frame/triangle_ids");
+  const glm::mat4 clip = anchorToClip(frame);
   if (compute_) {
-    compute_->draw(frame.geometry(), clip, near);
+    compute_->draw(frame.geometry(), clip, nearPlane(frame));
     return;
   }
   hardware_->framebuffer.bind();
@@ -110,7 +128,8 @@ std::string ChannelSetting::key() const {
 
 GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
     : setting_(std::move(setting)),
-      program_(frame.context().programs().compute(kResolve, definesOf(setting_.channel))),
+      program_(
+          frame.context().programs().compute(kResolve, definesOf(frame, channelDefines(setting_.channel)))),
       texture_(formatOf(setting_.channel), frame.sizePx()) {
   frame.passes().setBytesHeld("frame/" + setting_.key(), texture_.bytes());
 }
@@ -118,8 +137,8 @@ GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
 void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "frame/" + setting_.key()); }
 
 Receivers::Receivers(Frame& frame)
-    : program_(frame.context().programs().compute(kResolve,
-                                                  {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}})),
+    : program_(frame.context().programs().compute(
+          kResolve, definesOf(frame, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}}))),
       texture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
 }

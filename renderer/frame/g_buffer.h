@@ -18,10 +18,13 @@ class TriangleIds : public FrameInput {
   explicit TriangleIds(Frame& frame);
   void make(Frame& frame) override;
   /// R32UI; kNone: background.
-  const gl::Texture& texture() const { return hardware_ ? hardware_->ids : compute_->ids(); }
-  /// What decided who is seen: near / distance along the view (reversed), 0: background. One channel of 32-bit
-  /// float, to be read by texelFetch. Of two triangles at the same depth the one with the smaller number is
-  /// seen. The near plane depends on scene and camera alone, so depths of two choices of levels compare.
+  const gl::Texture& texture() const {
+    return given_ ? *given_ : hardware_ ? hardware_->ids : compute_->ids();
+  }
+  /// What decided who is seen: near / distance along the view (reversed), 0: background. One channel of
+  /// 32-bit float, to be read by texelFetch. Of two triangles at the same depth the one with the smaller
+  /// number is seen. The near plane depends on scene and camera alone, so depths of two choices of levels
+  /// compare. Not there if the frame was given what it sees.
   const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
 
  private:
@@ -30,9 +33,16 @@ class TriangleIds : public FrameInput {
     gl::Texture ids, depth;
     gl::Framebuffer framebuffer;
   };
+  const gl::Texture* given_ = nullptr;
   std::unique_ptr<HardwareTarget> hardware_;
   std::unique_ptr<ComputeRaster> compute_;
 };
+
+/// Projection of a camera's view of positions relative to the anchor: reversed depth, no far plane, so that
+/// float keeps its relative precision at any distance. Depth is nearPlane(frame) / distance along the view.
+glm::mat4 anchorToClip(const Frame& frame);
+/// A small part of the distance to the scene, whatever the scene's scale.
+double nearPlane(const Frame& frame);
 
 /// G-buffer channels, each an input of its own.
 enum class Channel {

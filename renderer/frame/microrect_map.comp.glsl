@@ -18,9 +18,12 @@ layout(binding = 1, rgba16ui) uniform writeonly uimage2D outExtents;
 #endif
 uniform int sourceLevel, size;  // level below; microrects along a side of the level that is made
 
-// An extent takes 12 bits for the largest map of 4096; the first pass says in the top bits of x, y and z whether a
-// microrect took its B, D and E.
+// An extent takes 12 bits for the largest map of 4096; the first pass says in the top bits of x and y whether a microrect
+// takes its B and D, and in those of z (low) and w (high) which of its A, C, G and I takes its E.
 const uint kTaken = 0x8000u, kExtentMask = 0x7fffu;
+const uint kTakenByA = 0u, kTakenByC = 1u, kTakenByG = 2u, kTakenByI = 3u;
+
+uint takerOf(uvec4 first) { return (first.z >> 15) | ((first.w >> 15) << 1); }
 
 float depthAt(ivec2 at) {
   return sourceLevel == 0 ? texelFetch(minimumMap, at, 0).x : texelFetch(rectDepths, at, sourceLevel - 1).x;
@@ -76,14 +79,35 @@ void main() {
   const bool takesD = lastRow || prefers(own, depthAt(kept + ivec2(0, 1)), depthAt(kept + ivec2(0, 2)));
   if (takesB) take(box, kept + ivec2(1, 0));
   if (takesD) take(box, kept + ivec2(0, 1));
+  const float between = depthAt(kept + 1), c = lastColumn ? 0.0 : depthAt(kept + ivec2(2, 0));
+  const float g = lastRow ? 0.0 : depthAt(kept + ivec2(0, 2));
+  const bool atBorder = lastColumn || lastRow;
+  uint taker = atBorder ? kTakenByA : kTakenByI;
+#ifdef NEAREST_DIAGONAL
+  float nearest = atBorder ? own : depthAt(kept + 2);
+  if (prefers(own, between, nearest)) {
+    taker = kTakenByA;
+    nearest = own;
+  }
+  if (!lastColumn && prefers(c, between, nearest)) {
+    taker = kTakenByC;
+    nearest = c;
+  }
+  if (!lastRow && prefers(g, between, nearest)) taker = kTakenByG;
+#else
   const Box diagonal = boxAt(kept + 1);
-  const bool takesE = lastColumn || lastRow ||
-                      (all(greaterThanEqual(diagonal.low, box.low)) && all(lessThanEqual(diagonal.high, box.high)));
-  if (takesE) take(box, kept + 1);
+  if (all(greaterThanEqual(diagonal.low, box.low)) && all(lessThanEqual(diagonal.high, box.high)))
+    taker = kTakenByA;
+  else if (lastRow && !lastColumn && !prefers(own, between, c))
+    taker = kTakenByC;
+  else if (lastColumn && !lastRow && !prefers(own, between, g))
+    taker = kTakenByG;
+#endif
+  if (taker == kTakenByA) take(box, kept + 1);
   uvec4 result = extentsOf(box, kept);
   if (takesB) result.x |= kTaken;
   if (takesD) result.y |= kTaken;
-  if (takesE) result.z |= kTaken;
+  result.zw |= uvec2(taker & 1u, taker >> 1) * kTaken;
   imageStore(outMerged, at, result);
 }
 #else
@@ -97,17 +121,23 @@ void main() {
   float depth = depthAt(kept);
   if ((first.x & kTaken) != 0u) depth = min(depth, depthAt(kept + ivec2(1, 0)));
   if ((first.y & kTaken) != 0u) depth = min(depth, depthAt(kept + ivec2(0, 1)));
-  if ((first.z & kTaken) != 0u) depth = min(depth, depthAt(kept + 1));
-  // F of the one below, H of the one to the left, E of the one at the lower left.
-  const ivec2 offsets[3] = ivec2[3](ivec2(0, -1), ivec2(-1, 0), ivec2(-1, -1));
-  for (int i = 0; i < 3; ++i) {
-    const ivec2 neighbour = at + offsets[i];
+  if (takerOf(first) == kTakenByA) depth = min(depth, depthAt(kept + 1));
+  // Seen from those down the axes, where this one is their C, G or I: H of the one to the left, F of the one below, and of
+  // all three the E.
+  for (int i = 1; i < 4; ++i) {
+    const ivec2 back = ivec2(i & 1, i >> 1), neighbour = at - back;
     if (any(lessThan(neighbour, ivec2(0)))) continue;
     const uvec4 theirs = texelFetch(merged, neighbour, 0);
-    const uint taken = i == 0 ? theirs.y : i == 1 ? theirs.x : theirs.z;
-    if ((taken & kTaken) != 0u) continue;
-    take(box, kept + offsets[i]);
-    depth = min(depth, depthAt(kept + offsets[i]));
+    const bool onAxis = i < 3, taken = ((i == 1 ? theirs.x : theirs.y) & kTaken) != 0u;
+    if (onAxis && !taken) {
+      take(box, kept - back);
+      depth = min(depth, depthAt(kept - back));
+    }
+    if (takerOf(theirs) == uint(i)) {
+      const ivec2 diagonal = 2 * neighbour + 1;
+      take(box, diagonal);
+      depth = min(depth, depthAt(diagonal));
+    }
   }
   imageStore(outDepths, at, vec4(depth));
   imageStore(outExtents, at, extentsOf(box, kept));

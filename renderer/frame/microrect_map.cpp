@@ -12,9 +12,10 @@ namespace {
 
 constexpr const char* kMicrorectShader = "renderer/frame/microrect_map.comp.glsl";
 
-const gl::Program& passOf(gl::Context& context, const char* pass, MergeMetric metric) {
+const gl::Program& passOf(gl::Context& context, const char* pass, MergeRule rule) {
   gl::ShaderDefines defines = {{pass, "1"}};
-  if (metric == MergeMetric::Relative) defines["RELATIVE"] = "1";
+  if (rule.metric == MergeMetric::Relative) defines["RELATIVE"] = "1";
+  if (rule.diagonal == DiagonalMerge::Nearest) defines["NEAREST_DIAGONAL"] = "1";
   return context.programs().compute(kMicrorectShader, defines);
 }
 
@@ -25,11 +26,11 @@ int levelsAbove(int resolution) {
 
 }  // namespace
 
-MicrorectLevels::MicrorectLevels(gl::Context& context, int resolution, MergeMetric metric)
+MicrorectLevels::MicrorectLevels(gl::Context& context, int resolution, MergeRule rule)
     : resolution_(resolution),
       levels_(levelsAbove(resolution)),
-      first_(passOf(context, "FIRST_PASS", metric)),
-      second_(passOf(context, "SECOND_PASS", metric)),
+      first_(passOf(context, "FIRST_PASS", rule)),
+      second_(passOf(context, "SECOND_PASS", rule)),
       depths_(gl::Format::R32F, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
       extents_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
       merged_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1))) {}
@@ -58,7 +59,7 @@ void MicrorectLevels::build(const gl::Texture& minimum) const {
 
 MicrorectMap::MicrorectMap(Frame& frame, MicrorectSettings settings)
     : settings_(settings),
-      levels_(frame.context(), settings.map.resolution, settings.metric),
+      levels_(frame.context(), settings.map.resolution, settings.rule),
       pass_("frame/microrect_map") {
   frame.passes().setBytesHeld(pass_, levels_.bytes());
 }

@@ -11,6 +11,22 @@ namespace limen::frame {
 /// takes the plain one; a share of the nearer depth keeps choices the same where a scene is farther off.
 enum class MergeMetric { Absolute, Relative };
 
+/// What becomes of a microrect that is dropped on both axes, and so lies between four that are kept.
+enum class DiagonalMerge {
+  /// Taken by the one at its lower left if that spans it already, and else by the one at its upper right,
+  /// whatever their depths (Schwarz 2009, section 4.5.2).
+  Contained,
+  /// Taken by the one that differs least from it in depth; not in the thesis. The first rule gives a
+  /// single texel of a silhouette that runs across the grid to a microrect of the background, all of which
+  /// then comes forward.
+  Nearest
+};
+
+struct MergeRule {
+  MergeMetric metric = MergeMetric::Absolute;
+  DiagonalMerge diagonal = DiagonalMerge::Contained;
+};
+
 /// Microrects of the levels above the shadow map: rectangles of texels of level 0, one for each texel of a
 /// level, of which neither size nor place is fixed. Source: Schwarz 2009, sections 4.5.1 and 4.5.2.
 ///
@@ -19,12 +35,13 @@ enum class MergeMetric { Absolute, Relative };
 /// other one of the level. At level 0 microrects are the texels: nothing is stored for it, and level i is
 /// level i - 1 of the textures. A map of one texel has no other level.
 ///
-/// The thesis names two passes a level and leaves open what becomes of a diagonal neighbour that lies in the
-/// last row or column: here the microrect at its lower left takes it, since nobody else can.
+/// The thesis names two passes a level and leaves open what becomes of a diagonal neighbour in the last row
+/// or column, to whose upper right nothing is kept: here it is merged as along an axis, with the nearer in
+/// depth of the two that are kept beside it.
 class MicrorectLevels {
  public:
   /// `resolution` is a power of two.
-  MicrorectLevels(gl::Context& context, int resolution, MergeMetric metric);
+  MicrorectLevels(gl::Context& context, int resolution, MergeRule rule);
   /// From level 0 of `minimum`, R32F and of the map's resolution.
   void build(const gl::Texture& minimum) const;
   /// R32F: smallest depth of what a microrect was merged from.
@@ -44,9 +61,10 @@ class MicrorectLevels {
 
 struct MicrorectSettings {
   ShadowMapSettings map;
-  MergeMetric metric = MergeMetric::Absolute;
+  MergeRule rule{};
   std::string key() const {
-    return map.key() + (metric == MergeMetric::Relative ? "/relative" : "/absolute");
+    return map.key() + (rule.metric == MergeMetric::Relative ? "/relative" : "/absolute") +
+           (rule.diagonal == DiagonalMerge::Nearest ? "/nearest" : "/contained");
   }
 };
 

@@ -6,11 +6,13 @@ struct SeenPoint {
   float depth;            // distance along the view
 };
 
-// Row 0 is the top of the image. `rayScale`: half the image's extents at distance 1.
-vec3 pixelRay(ivec2 pixel, vec2 rayScale, ivec2 sizePx) {
-  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
+// Through a place of the image, in pixels from its top left corner. `rayScale`: half the image's extents at distance 1.
+vec3 placeRay(vec2 place, vec2 rayScale, ivec2 sizePx) {
+  const vec2 ndc = vec2(2.0, -2.0) * place / vec2(sizePx) + vec2(-1.0, 1.0);
   return vec3(ndc * rayScale, -1.0);
 }
+
+vec3 pixelRay(ivec2 pixel, vec2 rayScale, ivec2 sizePx) { return placeRay(vec2(pixel) + 0.5, rayScale, sizePx); }
 
 SeenPoint pointSeen(vec3 a, vec3 b, vec3 c, vec3 ray) {
   // Scaled before the product: squares of a tiny scene's areas would leave float's range.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.h"
+#include "base/text.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 
@@ -6,13 +8,25 @@ namespace limen::scene {
 namespace {
 
 /// The light is wider than the box and straight above it: from the light's centre only the box's top is seen,
-/// from its rim the sides shadow more. A single shadow map from the centre misses that.
+/// from its rim the sides shadow more. A single shadow map from the centre misses that, and where the box
+/// hovers it misses the umbra below.
 Scene buildBoxUnderLight(const ParameterValues& values) {
-  const double height = values.real("box_height");
+  constexpr double kHeightOfLight = 3.2;
+  const double foot = values.real("clearance"), top = foot + values.real("box_height");
+  if (top >= kHeightOfLight)
+    throw Error("the box reaches up to " + shortestNumber(top) + " m, and the light is at " +
+                    shortestNumber(kHeightOfLight) + " m",
+                "box_under_light", "lower 'box_height' or 'clearance'");
   Scene scene;
   addGround(scene, 12.0);
-  addPart(scene, "box", box({-0.5, 0.0, -0.5}, {0.5, height, 0.5}), {0.7F, 0.5F, 0.35F});
-  scene.lights = {lightTowards({0.0, 3.2, 0.0}, glm::dvec3(0.0), {2.0, 2.0})};
+  Mesh caster = box({-0.5, foot, -0.5}, {0.5, top, 0.5});
+  if (!values.boolean("sides"))
+    std::erase_if(caster.triangles, [&](const glm::uvec3& t) {
+      return caster.positions[t.x].y != caster.positions[t.y].y ||
+             caster.positions[t.x].y != caster.positions[t.z].y;
+    });
+  addPart(scene, "box", caster, {0.7F, 0.5F, 0.35F});
+  scene.lights = {lightTowards({0.0, kHeightOfLight, 0.0}, glm::dvec3(0.0), {2.0, 2.0})};
   setStillCamera(scene, orbitCamera({0.0, 0.3, 0.0}, 5.2, 25.0, 40.0));
   return scene;
 }
@@ -43,14 +57,16 @@ Scene buildPole(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kBoxUnderLight{
-    SceneInfo{.name = "box_under_light",
-              .version = 1,
-              .summary = "Box below a larger light: a shadow map from the centre sees only its top",
-              .source = "Schwarz 2009, Fig. 4.3",
-              .parameters = {realParameter("box_height", 1.0, 0.05, 2.0, "m",
-                                           "Height of the box; the light is at 3.2 m")},
-              .build = buildBoxUnderLight}};
+const Registered<SceneInfo> kBoxUnderLight{SceneInfo{
+    .name = "box_under_light",
+    .version = 1,
+    .summary = "Box below a larger light: a shadow map from the centre sees only its top",
+    .source = "Schwarz 2009, Fig. 4.3",
+    .parameters =
+        {realParameter("box_height", 1.0, 0.05, 2.0, "m", "Height of the box; the light is at 3.2 m"),
+         realParameter("clearance", 0.0, 0.0, 2.0, "m", "Height of the box's underside above the ground"),
+         booleanParameter("sides", true, "Without, two flat blockers are left: the top and the underside")},
+    .build = buildBoxUnderLight}};
 
 const Registered<SceneInfo> kTwoBoxes{SceneInfo{
     .name = "two_boxes",

@@ -20,7 +20,7 @@ Scene buildRestingSphere(const ParameterValues& values) {
   addPart(scene, "sphere", sphere(radius * up, radius, static_cast<int>(values.integer("tessellation"))),
           {0.7F, 0.62F, 0.5F});
   scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), glm::dvec2(kLightSide))};
-  setStillCamera(scene, orbitCamera(glm::dvec3(0.0), 5.0, 35.0, 50.0));
+  setStillCamera(scene, orbitCamera(glm::dvec3(0.0), 5.0, -35.0, 50.0));
   return scene;
 }
 

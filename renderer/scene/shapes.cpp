@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/scene/shapes.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -116,6 +117,36 @@ Mesh frustum(glm::dvec3 base, glm::dvec3 top, double baseRadius, double topRadiu
     } else {
       mesh.triangles.emplace_back(i, next, topCentre);
     }
+  }
+  return mesh;
+}
+
+Mesh tube(std::span<const glm::dvec3> points, std::span<const double> radii, int segments) {
+  assert(segments >= 3 && points.size() >= 2 && points.size() == radii.size());
+  Mesh mesh;
+  const auto n = static_cast<uint32_t>(segments), rings = static_cast<uint32_t>(points.size());
+  glm::dvec3 side(0.0);
+  for (uint32_t ring = 0; ring < rings; ++ring) {
+    const glm::dvec3 before = points[ring == 0 ? 0 : ring - 1], after = points[std::min(ring + 1, rings - 1)];
+    const glm::dvec3 along = glm::normalize(after - before);
+    // The last ring's side, made perpendicular again: corresponding vertices of neighbours stay neighbours.
+    side = ring == 0 ? perpendicular(along) : glm::normalize(side - glm::dot(side, along) * along);
+    const glm::dvec3 across = glm::cross(along, side);
+    for (uint32_t i = 0; i < n; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / n;
+      mesh.positions.push_back(points[ring] +
+                               radii[ring] * (std::cos(angle) * side + std::sin(angle) * across));
+    }
+  }
+  const uint32_t first = rings * n, last = first + 1, top = first - n;
+  mesh.positions.push_back(points.front());
+  mesh.positions.push_back(points.back());
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t next = (i + 1) % n;
+    mesh.triangles.emplace_back(first, next, i);
+    for (uint32_t ring = 0; ring + 1 < rings; ++ring)
+      addQuad(mesh, ring * n + i, ring * n + next, (ring + 1) * n + next, (ring + 1) * n + i);
+    mesh.triangles.emplace_back(last, top + i, top + next);
   }
   return mesh;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <span>
 
 #include "renderer/scene/scene.h"
 
@@ -29,6 +30,10 @@ Mesh sphere(glm::dvec3 centre, double radius, int cells);
 
 /// Closed, with caps. Straight from `base` to `top`; a radius of 0 at the top makes a cone.
 Mesh frustum(glm::dvec3 base, glm::dvec3 top, double baseRadius, double topRadius, int segments);
+
+/// Closed, with caps. A round tube along the line through `points` (at least two, neighbours apart), with one
+/// radius > 0 each; its cross-section turns with the line and never twists about it.
+Mesh tube(std::span<const glm::dvec3> points, std::span<const double> radii, int segments);
 
 /// Vertices without normals or attributes get zeros where the other mesh has them; morph targets their own
 /// place.

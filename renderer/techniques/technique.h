@@ -52,6 +52,9 @@ class Technique {
   /// Costs that do not depend on the machine, counted in a pass of their own outside the timed frames. Called
   /// after render().
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
+  /// What a reader of the run's record should know, a sentence each: choices that the technique made by
+  /// itself, with their reasons. Valid after prepare().
+  virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
   /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size.

@@ -35,6 +35,41 @@ TEST(Features, EveryFamilyIsCompleteAndNumberedWithoutGaps) {
   }
 }
 
+TEST(Features, WhatIsOnlySurveyedSaysWhyItIsNotBuilt) {
+  int surveyed = 0;
+  for (const Feature& feature : allFeatures())
+    for (const NotBuilt& one : feature.notBuilt) {
+      ++surveyed;
+      EXPECT_EQ(feature.id, "SS-47");
+      EXPECT_GE(one.method.size(), 10U) << one.method;
+      EXPECT_GE(one.reason.size(), 20U) << one.method;
+      EXPECT_TRUE(one.section.starts_with("3.2.")) << one.method << ": " << one.section;
+    }
+  // Three early fakes, two kinds of layers, wedges, three kinds of attached geometry, the occlusion camera,
+  // spheres and height fields.
+  EXPECT_EQ(surveyed, 12);
+}
+
+TEST(Features, SurveyedOnlyIsListedApartFromWhatIsMissing) {
+  Coverage coverage;
+  coverage.features = {{"AA-01", "first", "somewhere", "1", "comparator"},
+                       {"AA-02", "second", "somewhere", "1", "background", {{"a method", "1.2", "too slow"}}},
+                       {"AA-03", "third", "somewhere", "1", "background", {{"another", "1.3", "too dark"}}}};
+  coverage.descriptors["AA-03"] = {"experiments/descriptors/a.yaml"};
+  const std::string text = describe(coverage);
+  const size_t surveyed = text.find("surveyed only, not built:"), missing = text.find("not covered:");
+  ASSERT_NE(surveyed, std::string::npos) << text;
+  EXPECT_GT(text.find("a method (section 1.2): too slow"), surveyed);
+  EXPECT_LT(text.find("a method (section 1.2): too slow"), missing);
+  EXPECT_GT(text.find("AA-01"), missing);
+  EXPECT_LT(text.find("AA-03"), surveyed) << "a descriptor covers it";
+  const std::vector<nlohmann::json> lines = toJsonLines(coverage);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[1]["not_built"][0]["reason"], "too slow");
+  EXPECT_EQ(lines[3]["surveyed_only"], nlohmann::json::array({"AA-02"}));
+  EXPECT_EQ(lines[3]["uncovered"], nlohmann::json::array({"AA-01"}));
+}
+
 TEST(Features, EachSaysWhatItIsAndWhereItStands) {
   const std::set<std::string> theses = {"Schwarz 2009", "Gaitatzes 2012", "Holländer 2013", "Roger 2008"};
   std::set<std::string> names;

@@ -3,6 +3,8 @@
 // made.
 #include "renderer/frame/microrect_map.h"
 
+#include <epoxy/gl.h>
+
 #include <random>
 
 #include "tests/frame/brute_force.h"
@@ -19,10 +21,10 @@ class MicrorectTest : public gl::GlTest {
     std::vector<std::vector<uint32_t>> extents;  // four a microrect
   };
 
-  static Made build(const Image& map, MergeMetric metric) {
+  static Made build(const Image& map, MergeRule rule) {
     const gl::Texture minimum(gl::Format::R32F, {map.width, map.height});
     minimum.write(map);
-    const MicrorectLevels levels(context(), map.width, metric);
+    const MicrorectLevels levels(context(), map.width, rule);
     levels.build(minimum);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     Made out;
@@ -30,6 +32,14 @@ class MicrorectTest : public gl::GlTest {
       out.depths.push_back(levels.depths().read(i));
       out.extents.push_back(levels.extents().readUint(i));
     }
+    return out;
+  }
+
+  static std::vector<MergeRule> rules() {
+    std::vector<MergeRule> out;
+    for (const MergeMetric metric : {MergeMetric::Absolute, MergeMetric::Relative})
+      for (const DiagonalMerge diagonal : {DiagonalMerge::Contained, DiagonalMerge::Nearest})
+        out.push_back({metric, diagonal});
     return out;
   }
 
@@ -71,13 +81,13 @@ class MicrorectTest : public gl::GlTest {
 TEST_F(MicrorectTest, EveryLevelIsTheDefinitions) {
   for (const int side : {1, 2, 4, 8, 32, 128})
     for (const auto& [name, map] : maps(side))
-      for (const MergeMetric metric : {MergeMetric::Absolute, MergeMetric::Relative}) {
+      for (const MergeRule rule : rules()) {
         // Products of depths that far apart leave float's range, and with it the definition.
-        if (name == "huge and tiny" && metric == MergeMetric::Relative) continue;
-        const Made made = build(map, metric);
+        if (name == "huge and tiny" && rule.metric == MergeMetric::Relative) continue;
+        const Made made = build(map, rule);
         MicrorectTwin twin(map);
         for (int level = 1; side >> level > 0; ++level) {
-          twin.coarsen(metric);
+          twin.coarsen(rule);
           for (int y = 0; y < twin.side(); ++y)
             for (int x = 0; x < twin.side(); ++x) {
               const TwinRect rect = rectOf(made, level, x, y), expected = twin.at(x, y);
@@ -93,8 +103,8 @@ TEST_F(MicrorectTest, EveryLevelIsTheDefinitions) {
 TEST_F(MicrorectTest, ExtentsHoldTheirOwnReferenceAloneAndAllTexelsAreRepresented) {
   for (const int side : {2, 16, 128})
     for (const auto& [name, map] : maps(side))
-      for (const MergeMetric metric : {MergeMetric::Absolute, MergeMetric::Relative}) {
-        const Made made = build(map, metric);
+      for (const MergeRule rule : rules()) {
+        const Made made = build(map, rule);
         for (int level = 1; side >> level > 0; ++level) {
           Image nearest(side, side, 1, std::numeric_limits<float>::infinity());
           for (int y = 0; y < side >> level; ++y)
@@ -128,7 +138,7 @@ TEST_F(MicrorectTest, AnEdgeStaysWhereItIsAndAMinimumPyramidMovesIt) {
   Image map(16, 16, 1, 8.0F);
   for (int y = 0; y < 16; ++y)
     for (int x = 5; x <= 10; ++x) map.at(x, y) = 3.0F;
-  const Made made = build(map, MergeMetric::Absolute);
+  const Made made = build(map, MergeRule{});
   int near = 0;
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x) {
@@ -151,7 +161,7 @@ TEST_F(MicrorectTest, TheMapOfASceneIsTheTwinsOfItsDepths) {
   const MicrorectLevels& levels = frame.get<MicrorectMap>(MicrorectSettings{settings}).levels();
   frame.end();
   for (int level = 1; level <= 6; ++level) {
-    twin.coarsen(MergeMetric::Absolute);
+    twin.coarsen(MergeRule{});
     const Image depths = levels.depths().read(level - 1);
     ASSERT_EQ(depths.width, twin.side());
     for (int y = 0; y < twin.side(); ++y)

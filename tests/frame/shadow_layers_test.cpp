@@ -17,12 +17,8 @@ constexpr int kTexels = 16, kLayers = 4;
 /// Depths of the surfaces along rays through a map's texels, nearest first, by testing all triangles.
 class RaysFrom {
  public:
-  RaysFrom(const scene::Scene& scene, glm::dvec3 anchor, const LightFrustum& frustum, int part = -1)
-      : truth_(scene, anchor), light_(scene.lights[0]), anchor_(anchor), frustum_(frustum) {
-    first_ = part < 0 ? 0 : scene.parts[static_cast<size_t>(part)].firstTriangle;
-    end_ = part < 0 ? static_cast<uint32_t>(scene.mesh.triangles.size())
-                    : first_ + scene.parts[static_cast<size_t>(part)].triangleCount;
-  }
+  RaysFrom(const scene::Scene& scene, glm::dvec3 anchor, const LightFrustum& frustum, int part)
+      : truth_(only(scene, part), anchor), light_(scene.lights[0]), anchor_(anchor), frustum_(frustum) {}
 
   std::vector<Hit> through(glm::dvec2 texel) const {
     const glm::dvec2 tangent = frustum_.low + texel / double(kTexels) * (frustum_.high - frustum_.low);
@@ -32,20 +28,27 @@ class RaysFrom {
     std::vector<Hit> hits;
     double nearest = frustum_.near;
     while (hits.size() < kLayers) {
-      Hit hit = truth_.trace(eye, ray, nearest);
+      const Hit hit = truth_.trace(eye, ray, nearest);
       if (!std::isfinite(hit.t)) break;
       nearest = hit.t * (1.0 + ShadowMapSettings{}.peelBias);
-      if (hit.triangle >= first_ && hit.triangle < end_) hits.push_back(hit);
+      hits.push_back(hit);
     }
     return hits;
   }
 
  private:
+  static scene::Scene only(scene::Scene scene, int part) {
+    if (part < 0) return scene;
+    const scene::Part& chosen = scene.parts[static_cast<size_t>(part)];
+    const auto first = scene.mesh.triangles.begin() + chosen.firstTriangle;
+    scene.mesh.triangles = {first, first + chosen.triangleCount};
+    return scene;
+  }
+
   BruteForce truth_;
   scene::AreaLight light_;
   glm::dvec3 anchor_;
   LightFrustum frustum_;
-  uint32_t first_, end_;
 };
 
 class ShadowLayers : public gl::GlTest {

@@ -18,13 +18,17 @@ class Solid : public testing::TestWithParam<std::string> {};
 
 /// Parts that are closed surfaces, each made of closed pieces.
 const std::map<std::string, std::set<std::string>> kClosedParts = {
+    {"boulders", {"boulders"}},
     {"box_under_light", {"box"}},
     {"columns_hall", {"columns"}},
     {"comb", {"fence"}},
     {"cornell_box", {"short_block", "tall_block"}},
     {"foliage", {"wood"}},
+    {"palm", {"wood", "creature"}},
     {"pole", {"pole"}},
     {"sphere_grid", {"spheres"}},
+    {"street_light", {"pole", "wood"}},
+    {"textured_ground", {"rails", "balls"}},
     {"two_boxes", {"low_box", "high_box"}},
     {"two_colour_light", {"sphere", "cone"}}};
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "renderer/scene/light.h"
 #include "tests/scene/geometry_checks.h"
@@ -102,6 +104,54 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(SceneRegistry::in
 TEST(SphereGrid, HasTheSpheresAndTrianglesItSays) {
   const Scene scene = build("sphere_grid", {{"spheres_per_axis", int64_t{4}}, {"tessellation", int64_t{5}}});
   EXPECT_EQ(scene.parts[1].triangleCount, 4U * 4 * 4 * 8 * 5 * 5);
+}
+
+TEST(Boulders, HasAQuarterOfAMillionTrianglesByDefault) {
+  const SceneInfo& info = SceneRegistry::instance().get("boulders");
+  const Scene scene = buildScene("boulders", ParameterValues(info.allParameters(), Given{}));
+  // 32 x 32 cells of ground and 24 lumps of 8 x 36 x 36 triangles.
+  EXPECT_EQ(scene.mesh.triangles.size(), 2048U + 24U * 8U * 36U * 36U);
+}
+
+/// No lump reaches another's cell or the ground, so that none is inside another.
+TEST(Boulders, KeepToTheirCells) {
+  const Scene scene = build("boulders", {{"bumps", 0.8}, {"boulders", int64_t{6}}});
+  const Part& part = scene.parts[1];
+  const uint32_t each = part.triangleCount / 6;
+  for (uint32_t i = 0; i < 6; ++i) {
+    Bounds bounds;
+    for (uint32_t t = 0; t < each; ++t)
+      for (int k = 0; k < 3; ++k)
+        bounds.extend(checks::corner(scene.mesh, part.firstTriangle + i * each + t, k));
+    EXPECT_GT(bounds.low.y, 0.0);
+    // Cells are half a unit wide.
+    for (int axis = 0; axis < 3; ++axis) EXPECT_LT(bounds.high[axis] - bounds.low[axis], 0.5);
+  }
+}
+
+/// Rays through the seam of the two halves must not see through it.
+TEST(TexturedGround, HalvesShareTheVerticesOfTheirSeam) {
+  const Scene scene = build("textured_ground", {{"textured_share", 0.3}});
+  std::array<std::set<std::pair<double, double>>, 2> seam;
+  const double border = 0.5 * 11.0 - 0.3 * 11.0;
+  for (size_t part = 0; part < 2; ++part)
+    for (uint32_t t = 0; t < scene.parts[part].triangleCount; ++t)
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 p = checks::corner(scene.mesh, scene.parts[part].firstTriangle + t, k);
+        if (std::abs(p.x - border) < 1e-6) seam[part].insert({p.x, p.z});
+      }
+  EXPECT_EQ(seam[0].size(), 33U);
+  EXPECT_EQ(seam[0], seam[1]);
+}
+
+/// The texture is a factor of the albedo alone: shadows with and without it are the same.
+TEST(TexturedGround, TextureChangesNoGeometry) {
+  const Scene with = build("textured_ground"),
+              without = build("textured_ground", {{"texture", std::string("none")}});
+  EXPECT_EQ(with.mesh.positions, without.mesh.positions);
+  EXPECT_EQ(with.materials[1].pattern.kind, Pattern::Kind::ValueNoise);
+  EXPECT_EQ(with.materials[0].pattern.kind, Pattern::Kind::None);
+  EXPECT_EQ(without.materials[1].pattern.kind, Pattern::Kind::None);
 }
 
 TEST(DegenerateSoup, HasItsFlawsAboveASoundGround) {

@@ -66,9 +66,10 @@ inline const std::string& roundMeshFile() {
   return file;
 }
 
-/// What the scene cannot do without.
+/// What the scene cannot do without, and a coarser form of one that is made to be large.
 inline Given needed(const std::string& scene) {
   if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
+  if (scene == "boulders") return {{"tessellation", int64_t{4}}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
+#include <vector>
 
 #include "tests/scene/geometry_checks.h"
 
@@ -54,6 +56,36 @@ TEST(Shapes, FrustumIsClosedAndHasThePrismatoidVolume) {
       EXPECT_TRUE(closed(mesh)) << n << " " << topRadius;
       EXPECT_NEAR(volumeOf(mesh), expected, 1e-12) << n << " " << topRadius;
     }
+}
+
+TEST(Shapes, StraightTubeHasTheVolumeOfItsFrusta) {
+  constexpr int kSides = 7;
+  const std::array<glm::dvec3, 3> points = {glm::dvec3(0.0), glm::dvec3(0.0, 2.0, 0.0),
+                                            glm::dvec3(0.0, 3.0, 0.0)};
+  const std::array<double, 3> radii = {0.5, 0.25, 1.0};
+  const Mesh mesh = tube(points, radii, kSides);
+  // As of a frustum: unit area by h/3 (r^2 + r R + R^2), heights 2 and 1.
+  const double unit = 0.5 * kSides * std::sin(2.0 * kPi / kSides);
+  const double expected = unit * (2.0 / 3.0 * (0.25 + 0.125 + 0.0625) + 1.0 / 3.0 * (0.0625 + 0.25 + 1.0));
+  EXPECT_TRUE(closed(mesh));
+  EXPECT_NEAR(volumeOf(mesh), expected, 1e-12);
+}
+
+TEST(Shapes, BentTubeIsClosedAndHasTheVolumeOfItsPathByItsSection) {
+  constexpr int kSides = 24, kRings = 200;
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i <= kRings; ++i) {
+    const double angle = 1.5 * kPi * i / kRings;
+    points.emplace_back(2.0 * std::cos(angle), 0.0, 2.0 * std::sin(angle));
+  }
+  const std::vector<double> radii(points.size(), 0.3);
+  const Mesh mesh = tube(points, radii, kSides);
+  EXPECT_TRUE(closed(mesh));
+  // Pappus: section by the path of its centre; pieces of 1.35 degrees, and the end sections that stand half a
+  // piece askew, change it by less than their angle squared.
+  const double section = 0.5 * kSides * std::sin(2.0 * kPi / kSides) * 0.09, turn = 1.5 * kPi / kRings;
+  const double expected = section * 1.5 * kPi * 2.0;
+  EXPECT_NEAR(volumeOf(mesh), expected, turn * turn * expected);
 }
 
 TEST(Shapes, GroundFacesUpAndHasItsArea) {

@@ -21,23 +21,20 @@ class LightMapsTest : public TechniqueTest {
   }
 
   struct Errors {
-    double rmse = 0.0, mean = 0.0, leaks = 0.0;  // leaks: share of dark points that get light
+    double rmse = 0.0, mean = 0.0;
   };
   static Errors errorsOf(const Image& product, const Rendered& truth) {
     Errors out;
-    int count = 0, dark = 0, leaking = 0;
+    int count = 0;
     for (size_t i = 0; i < product.pixels(); ++i) {
       if (truth.receivers.data[4 * i + 3] < 0.0F) continue;
       const double error = double(product.data[i]) - truth.product.data[i];
       out.rmse += error * error;
       out.mean += error;
       ++count;
-      dark += truth.product.data[i] < 0.02F;
-      leaking += truth.product.data[i] < 0.02F && error > 0.05;
     }
     out.rmse = std::sqrt(out.rmse / count);
     out.mean /= count;
-    out.leaks = dark > 0 ? double(leaking) / dark : 0.0;
     return out;
   }
 
@@ -105,17 +102,17 @@ TEST_F(LightMapsTest, AllMicropatchesOfAllMapsAreJoined) {
   }
 }
 
-/// Figure 4.3. The map from the centre shows the box's top alone. A ground point beside the box at (x, 0) has
-/// its umbra where the box's side hides the whole light, and of that the top accounts for the part of the
-/// light that lies beyond its far edges only: light comes in where there is none. The layer behind the top
-/// holds the sides, seen from inside: nearly all of the umbra is back.
-TEST_F(LightMapsTest, ASecondLayerBringsTheUmbraOfTheBoxBack) {
-  constexpr glm::ivec2 kSize{80, 60};
-  const scene::Scene scene = makeScene("box_under_light");
+/// Figure 4.3. The map from the centre shows the box's top alone, while rays from the ground to the light's
+/// far rim meet the sides and pass beneath the top: too much light. The layer behind the top holds the sides,
+/// seen from inside, and with them all of a convex body. What is left are the places of two silhouettes on
+/// either axis, each to half a row of 16 at worst: 1/32 on average over both signs.
+TEST_F(LightMapsTest, ASecondLayerBringsTheShadowOfTheSidesBack) {
+  constexpr glm::ivec2 kSize{48, 36};
+  const scene::Scene scene = makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}});
   const Rendered truth = render(scene, "soft_shadows/exact_union", {}, kSize);
   const auto withLayers = [&](int64_t layers) {
     return errorsOf(render(scene, kBitmask,
-                           {{"resolution", std::string("256")},
+                           {{"resolution", std::string("64")},
                             {"budget", int64_t{0}},
                             {"maps", std::string("peeled")},
                             {"layers", layers}},
@@ -123,12 +120,10 @@ TEST_F(LightMapsTest, ASecondLayerBringsTheUmbraOfTheBoxBack) {
                         .product,
                     truth);
   };
-  const Errors one = withLayers(1), two = withLayers(2), four = withLayers(4);
-  EXPECT_GT(one.leaks, 0.5);
-  EXPECT_LT(two.leaks, 0.1);
-  EXPECT_LT(two.rmse, one.rmse / 2.0);
-  // The box has no more than two surfaces along any ray: further layers find what lies beneath it.
-  EXPECT_LE(four.leaks, two.leaks);
+  const Errors one = withLayers(1), two = withLayers(2);
+  EXPECT_GT(one.mean, 1.0 / 32.0);
+  EXPECT_LT(two.rmse, 1.0 / 32.0);
+  EXPECT_LT(two.rmse, one.rmse / 3.0);
 }
 
 TEST_F(LightMapsTest, OneLayerIsTheUsualMap) {

@@ -39,6 +39,7 @@ TEST_F(OccluderKinds, CombinationsWithoutMeaningAreRefused) {
       {"soft_shadows/backprojection", {{"contour_inset", 0.5}}, "contour_inset"},
       {"soft_shadows/backprojection", {{"quad_area", std::string("signed")}}, "quad_area"},
       {"soft_shadows/bitmask", {{"merge_metric", std::string("relative")}}, "merge_metric"},
+      {"soft_shadows/bitmask", {{"diagonal_merge", std::string("nearest")}}, "diagonal_merge"},
       {"soft_shadows/bitmask",
        {{"fixed_level", int64_t{7}}, {"resolution", std::string("64")}},
        "fixed_level"},

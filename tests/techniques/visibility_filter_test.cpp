@@ -57,7 +57,7 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
         }
       if (!inside) continue;
       ++judged;
-      for (const auto [i, j] : {std::pair(1, 0), {0, 1}}) {
+      for (const auto& [i, j] : {std::pair(1, 0), {0, 1}}) {
         plainStep = std::max(plainStep, std::abs(double(plain.at(x + i, y + j)) - plain.at(x, y)));
         filteredExcess =
             std::max(filteredExcess, std::abs(double(filtered.at(x + i, y + j)) - filtered.at(x, y)) - slope);

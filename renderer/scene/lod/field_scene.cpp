@@ -3,8 +3,8 @@
 // half, before a patterned wall: what the interactive perceptual pipeline is about (Schwarz 2009, section 9.5
 // and Fig. 9.8: statues, partly masked). The thesis's scene is not available; this one is made from a seed.
 #include <cmath>
-#include <numbers>
 
+#include "renderer/scene/bumps.h"
 #include "renderer/scene/lod/closest_point.h"
 #include "renderer/scene/lod/mesh_chain.h"
 #include "renderer/scene/lod_scene_parameters.h"
@@ -16,31 +16,8 @@ namespace {
 
 constexpr double kRadius = 0.45;
 
-/// Radius as a sum of waves over direction: a surface whose coarse levels lose one wave after another.
-class Bumps {
- public:
-  Bumps(double amplitude, int64_t seed) : amplitude_(amplitude) {
-    Random random(seed);
-    for (int i = 0; i < 6; ++i)
-      waves_.push_back({random.direction() * (2.0 + 2.5 * i), random.uniform(0.0, 2.0 * std::numbers::pi)});
-  }
-  double radius(glm::dvec3 direction) const {
-    double sum = 0.0;
-    for (const Wave& wave : waves_) sum += std::cos(glm::dot(wave.vector, direction) + wave.phase);
-    return kRadius * (1.0 + amplitude_ * sum / static_cast<double>(waves_.size()));
-  }
-
- private:
-  struct Wave {
-    glm::dvec3 vector;
-    double phase;
-  };
-  double amplitude_;
-  std::vector<Wave> waves_;
-};
-
 LodSet bumpySpheres(const ParameterValues& values) {
-  const Bumps bumps(values.real("bumps"), values.integer("seed"));
+  const Bumps bumps(kRadius, values.real("bumps"), values.integer("seed"));
   LodSet set{"bumpy_sphere", {}};
   const int64_t levels = values.integer("levels");
   for (int64_t i = 0; i < levels; ++i) {

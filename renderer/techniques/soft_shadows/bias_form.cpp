@@ -9,7 +9,7 @@ namespace {
 constexpr const char *kReceiverSlope = "receiver_slope", *kConstant = "constant", *kPerLevel = "per_level",
                      *kStored = "stored";
 constexpr double kDefaultGrowth = 2.0, kDefaultScale = 1.0, kDefaultMaxSlope = 10.0;
-constexpr uint32_t kBiasUnit = 12;
+constexpr uint32_t kBiasUnit = 9;
 
 }  // namespace
 

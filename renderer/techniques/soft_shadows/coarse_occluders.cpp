@@ -11,7 +11,7 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kMicrorects = "microrects", *kMorphing = "morphing_microquads";
-constexpr const char* kDefaultMetric = "absolute";
+constexpr const char *kDefaultMetric = "absolute", *kDefaultDiagonal = "contained";
 constexpr int64_t kByBudget = -1;
 constexpr double kDefaultMorph = 0.0;
 constexpr int kCoarsest = 12;  // the only texel of the largest map
@@ -28,7 +28,8 @@ int coarsestLevel(const ParameterValues& values) {
 CoarseOccluders::CoarseOccluders(const ParameterValues& values)
     : microrects_(values.text("occluders") == kMicrorects),
       fixedLevel_(static_cast<int>(values.integer("fixed_level"))) {
-  if (values.text("merge_metric") != kDefaultMetric) metric_ = frame::MergeMetric::Relative;
+  if (values.text("merge_metric") != kDefaultMetric) rule_.metric = frame::MergeMetric::Relative;
+  if (values.text("diagonal_merge") != kDefaultDiagonal) rule_.diagonal = frame::DiagonalMerge::Nearest;
   if (isMorphing(values)) {
     morphLevel_ = static_cast<float>(values.real("morph_level"));
     fixedLevel_ = static_cast<int>(std::floor(morphLevel_));
@@ -43,7 +44,11 @@ std::vector<Parameter> CoarseOccluders::parameters(bool morphing) {
       choiceParameter("merge_metric", kDefaultMetric, {kDefaultMetric, "relative"},
                       "Difference of depth by which a microrect is merged with one of two neighbours: as it "
                       "is, or as a share of the nearer one's depth",
-                      "Schwarz 2009, section 4.5.2 (absolute)")};
+                      "Schwarz 2009, section 4.5.2 (absolute)"),
+      choiceParameter("diagonal_merge", kDefaultDiagonal, {kDefaultDiagonal, "nearest"},
+                      "Who takes a microrect that two axes drop: the lower left one that spans it already or "
+                      "else the upper right one, or the nearest in depth of four",
+                      "Schwarz 2009, section 4.5.2 (contained)")};
   if (morphing)
     all.push_back(realParameter("morph_level", kDefaultMorph, 0.0, double{kCoarsest}, "",
                                 "Level, between two of the shadow map's, to which microquads have moved",
@@ -56,6 +61,9 @@ void CoarseOccluders::check(const ParameterValues& values) {
   if (values.text("occluders") != kMicrorects && values.text("merge_metric") != kDefaultMetric)
     throw Error("'merge_metric' is about microrects, and there are none", "merge_metric",
                 "leave it out, or give occluders: microrects");
+  if (values.text("occluders") != kMicrorects && values.text("diagonal_merge") != kDefaultDiagonal)
+    throw Error("'diagonal_merge' is about microrects, and there are none", "diagonal_merge",
+                "leave it out, or give occluders: microrects");
   if (level > coarsestLevel(values))
     throw Error("'fixed_level' asks for level " + std::to_string(level) + " of a map of " +
                     values.text("resolution") + " texels a side, of which level " +
@@ -65,6 +73,9 @@ void CoarseOccluders::check(const ParameterValues& values) {
   if (morphing && level != kByBudget)
     throw Error("'fixed_level' is whole, and morphing microquads lie between levels", "fixed_level",
                 "leave it out and give 'morph_level'");
+  if ((morphing || level != kByBudget) && values.integer("budget") != kDefaultBudget)
+    throw Error("'budget' leads to a level for each pixel, and here all have one level", "budget",
+                morphing ? "leave it out" : "leave it out, or leave out 'fixed_level'");
   if (values.has("morph_level")) {
     const double morph = values.real("morph_level");
     if (!morphing && morph != kDefaultMorph)
@@ -78,7 +89,7 @@ void CoarseOccluders::check(const ParameterValues& values) {
 }
 
 void CoarseOccluders::make(frame::Frame& frame, const frame::ShadowMapSettings& map) {
-  if (microrects_) rects_ = &frame.get<frame::MicrorectMap>(frame::MicrorectSettings{map, metric_}).levels();
+  if (microrects_) rects_ = &frame.get<frame::MicrorectMap>(frame::MicrorectSettings{map, rule_}).levels();
 }
 
 void CoarseOccluders::bind() const {

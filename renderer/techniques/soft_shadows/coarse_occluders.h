@@ -33,7 +33,7 @@ class CoarseOccluders {
 
  private:
   bool microrects_;
-  frame::MergeMetric metric_ = frame::MergeMetric::Absolute;
+  frame::MergeRule rule_;
   int fixedLevel_;  // below 0: by the budget
   float morphLevel_ = 0.0F;
   const frame::MicrorectLevels* rects_ = nullptr;

@@ -2,11 +2,14 @@
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
 #include "base/error.h"
+#include "renderer/frame/g_buffer.h"
 #include "renderer/frame/multi_scale_map.h"
+#include "renderer/techniques/soft_shadows/quality/quality_counters.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
 
 namespace limen::techniques {
@@ -15,6 +18,9 @@ namespace {
 constexpr double kDefaultSlopeBias = 2.0;
 constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
+constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
+const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
+const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
 Structure structureOf(const std::string& name) {
   return name == "none"       ? Structure::None
@@ -46,6 +52,16 @@ gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines de
   // texels that are finer.
   if ((hasLayers(structure) && values.boolean("growth")) || CoarseOccluders(values).isFixed())
     defines["GROW"] = "1";
+  if (hasBudgetMap(values)) defines["BUDGET_MAP"] = "1";
+  LevelOfQuality(values).define(defines);
+  return defines;
+}
+
+const gl::ShaderDefines kGatherDefines = {{"SPLIT_GATHER", "1"}};
+
+gl::ShaderDefines classifyDefines(bool smooths) {
+  gl::ShaderDefines defines = {{"SPLIT_CLASSIFY", "1"}};
+  if (smooths) defines["SMOOTH"] = "1";
   return defines;
 }
 
@@ -91,8 +107,9 @@ std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string>
                                 "their centres, that with triangles where three of four block, contours, "
                                 "rectangles of their own extents, or a mesh between two levels",
                                 "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2"));
-  for (Parameter& parameter : CoarseOccluders::parameters(morphing)) all.push_back(std::move(parameter));
-  for (Parameter& parameter : BiasForm::parameters()) all.push_back(std::move(parameter));
+  for (const std::vector<Parameter>& more : {CoarseOccluders::parameters(morphing), BiasForm::parameters(),
+                                             LevelOfQuality::parameters(), budgetParameters()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
@@ -113,6 +130,12 @@ void OccluderSearch::checkSearch(const ParameterValues& values) {
   if (!hasLayers(structure) && !values.boolean("growth"))
     throw Error("'growth' is about structures with layers, and there are none", "growth",
                 "leave it out, or give structure: mssm, n_buffer or ysm");
+  if (CoarseOccluders(values).isFixed() && values.text("levels") != "finest_within")
+    throw Error(
+        "one level for all pixels is given, and 'levels: " + values.text("levels") + "' would choose others",
+        "levels", "leave it out, or leave out fixed_level and morphing microquads");
+  LevelOfQuality::check(values);
+  checkBudget(values);
 }
 
 OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
@@ -126,7 +149,9 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
       biasForm_(values),
       base_(structure_ == Structure::Ysm
                 ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
-                : mapSettings().resolution) {
+                : mapSettings().resolution),
+      quality_(values),
+      budgets_(makeBudgetDriver(values)) {
   checkSearch(values);
 }
 
@@ -136,17 +161,23 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   coarse_.make(frame, mapSettings());
   biasForm_.make(frame, mapSettings());
   int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
+  const frame::MultiScaleMap* layers = nullptr;
   if (hasLayers(structure_)) {
-    const auto& layers = frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
+    layers = &frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
         mapSettings(), base_,
         structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
-    layers.texture().bindTexture(3);
-    baseLevel_ = layers.baseLevel();
-    bytes += layers.texture().bytes();
+    baseLevel_ = layers->baseLevel();
+    bytes += layers->texture().bytes();
   }
   structureBytes_.resize(maps().size());
   structureBytes_[currentMap()] = bytes;
+  const gl::Texture* depth = nullptr;
+  if (split_ && smooths())
+    depth = &frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture();
   // Last, since making the inputs binds textures too.
+  if (layers) layers->texture().bindTexture(3);
+  if (budgetMap_) budgetMap_->bindTexture(kBudgetUnit);
+  if (depth) depth->bindTexture(kCameraDepthUnit);
   coarse_.bind();
   biasForm_.bind();
   pyramid.minimum().bindTexture(1);
@@ -165,12 +196,72 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("baseLevel", baseLevel_);
   program.set("budgetPerAxis",
               budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));
+  quality_.configure(program);
+}
+
+void OccluderSearch::preparePasses(frame::Frame& frame) {
+  if (budgets_) budgets_->prepare(frame);
+  if (!quality_.splits()) {
+    VisibilityTechnique::preparePasses(frame);
+    return;
+  }
+  split_.emplace(frame, smooths(), quality_.orders());
+  classify_ = &program(frame, false, classifyDefines(smooths()));
+  gather_ = &program(frame, false, kGatherDefines);
+  gl::ProgramCache& programs = frame.context().programs();
+  if (smooths()) smooth_ = &programs.compute(kSmoothShader);
+  if (quality_.orders()) {
+    countBins_ = &programs.compute(kOrderShader);
+    scatter_ = &programs.compute(kOrderShader, {{"SCATTER", "1"}});
+  }
+  frame.passes().setBytesHeld(passName() + "/classify", product().bytes() + split_->bytes());
+}
+
+void OccluderSearch::makeInputs(frame::Frame& frame) {
+  if (budgets_) budgetMap_ = &budgets_->make(frame);
+}
+
+void OccluderSearch::runPasses(frame::Frame& frame, const CountImages* counts) {
+  if (split_)
+    runSplit(frame, counts);
+  else
+    VisibilityTechnique::runPasses(frame, counts);
+  if (budgets_) budgets_->finish(frame, split_ ? &split_->work() : nullptr);
+}
+
+void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
+  assert(maps().size() == 1);  // see checkValues() of the techniques with several
+  {
+    const auto scope = frame.passes().open(passName() + "/classify");
+    const gl::Program& classify = counts ? program(frame, true, classifyDefines(smooths())) : *classify_;
+    bindPass(frame, classify, counts);
+    split_->bindForClassify();
+    classify.dispatch(frame.sizePx());
+    SplitSearch::makeVisible();
+  }
+  if (smooths()) {
+    const auto scope = frame.passes().open(passName() + "/smooth");
+    quality_.configureSmoothing(*smooth_);
+    split_->smooth(*smooth_);
+  }
+  if (quality_.orders()) {
+    const auto scope = frame.passes().open(passName() + "/order");
+    split_->order(*countBins_, *scatter_);
+  }
+  const auto scope = frame.passes().open(passName() + "/gather");
+  const gl::Program& gather = counts ? program(frame, true, kGatherDefines) : *gather_;
+  bindPass(frame, gather, counts);
+  split_->bindForGather();
+  split_->dispatchOverList(gather);
+  SplitSearch::makeVisible();
+  if (counts) addCounts(*counts);
 }
 
 std::vector<std::string> OccluderSearch::counterNames() {
   std::vector<std::string> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
   names.emplace_back("occluder_bytes");
+  for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
   return names;
 }
 
@@ -179,7 +270,17 @@ std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
   all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
   all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes()), "byte", true});
+  const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
+  for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
+    all.push_back(std::move(counter));
   return all;
+}
+
+std::map<std::string, const gl::Texture*> OccluderSearch::debugViews() const {
+  std::map<std::string, const gl::Texture*> views;
+  if (split_) views = {{"search_areas", &split_->areas()}, {"levels", &split_->levels()}};
+  if (budgetMap_) views["budget_map"] = budgetMap_;
+  return views;
 }
 
 std::map<std::string, Image> OccluderSearch::pictures() const {

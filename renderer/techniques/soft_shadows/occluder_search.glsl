@@ -4,7 +4,7 @@
 // file of occluders asks for.
 // OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours, 4 microrects, 5 morphing microquads.
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
-uniform int levels, refinements, budgetPerAxis;
+uniform int levels, refinements;
 uniform int fixedLevel;  // of all micro-occluders; below 0: by the budget
 uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
@@ -41,18 +41,10 @@ struct Range {
 // Those that may matter for an area, rounded outward to the level's grid.
 Range occluderRange(Area area, int level);
 
-// Finest level at which the area's micro-occluders keep within the budget on both axes.
-int microOccluderLevel(Area area) {
-  if (fixedLevel >= 0) return min(fixedLevel, levels - 1);
-  int level = 0;
-  while (level < levels - 1) {
-    const Range range = occluderRange(area, level);
-    const ivec2 count = range.high - range.low + 1;
-    if (max(count.x, count.y) <= budgetPerAxis) break;
-    ++level;
-  }
-  return level;
-}
+// Visibility by the micro-occluders of a level that lie in the area.
+float gatherOccluders(vec4 p, Area area, int level);
+
+#include "renderer/techniques/soft_shadows/quality/level_of_quality.glsl"
 
 #if OCCLUDERS == 4 || OCCLUDERS == 5
 // Texels that micro-occluders in range may be made of; these may lie anywhere about their own one.
@@ -65,10 +57,10 @@ Area areaOfRange(Range range, int level);
 // budget of 4 or more leads to.
 Area queriedArea(Area area) {
 #if OCCLUDERS == 4 || OCCLUDERS == 5
-  const int level = microOccluderLevel(area);
+  const int level = int(ceil(levelOfArea(area)));
   return areaOfRange(occluderRange(area, level), level);
 #elif defined(GROW)
-  const int level = microOccluderLevel(area);
+  const int level = int(ceil(levelOfArea(area)));
   return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
 #else
   return area;
@@ -113,7 +105,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
 float throwOf(float z, float pz) { return z / (pz - z); }
 
 #ifdef BIAS_STORED
-layout(binding = 12) uniform sampler2D texelBiases;
+layout(binding = 9) uniform sampler2D texelBiases;
 uniform float storedScale;
 #endif
 
@@ -140,14 +132,14 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 #include "renderer/techniques/soft_shadows/microquads.glsl"
 #endif
 
+#if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
+#include "renderer/techniques/soft_shadows/quality/split_search.glsl"
+#else
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;
   float visibility;
+  readBudget(pixel);
   if (!findArea(p, area, visibility)) return visibility;
-  pixelClass = kProcessed;
-  clearGathered();
-  const int level = microOccluderLevel(area);
-  levelUsed = uint(level);
-  areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
-  return gatherOccluders(p, area, level);
+  return visibilityAt(p, area, qualityLevel(p, area), pixel);
 }
+#endif

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "renderer/techniques/soft_shadows/bias_form.h"
 #include "renderer/techniques/soft_shadows/coarse_occluders.h"
+#include "renderer/techniques/soft_shadows/quality/budget_driver.h"
+#include "renderer/techniques/soft_shadows/quality/level_of_quality.h"
+#include "renderer/techniques/soft_shadows/quality/split_search.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
@@ -13,19 +19,22 @@ enum class Structure { None, Hsm, Mssm, NBuffer, Ysm };
 /// Base of the techniques that backproject the shadow map's texels onto the light: finds the texels that can
 /// matter for a receiver by an acceleration structure and loops over them as micro-occluders. What a
 /// micro-occluder does to the visibility is the shader's own (area, bitmask). Source: Schwarz 2009,
-/// sections 4.1 to 4.4.
+/// sections 4.1 to 4.4; how coarse they may be: chapter 5.
 class OccluderSearch : public VisibilityTechnique {
  public:
   /// `occluders` are the kinds that the shader can gather.
   static std::vector<Parameter> searchParameters(std::vector<std::string> occluders);
   /// Throws Error where values of these parameters do not go together.
   static void checkSearch(const ParameterValues& values);
-  /// Those of every visibility technique, and structure_bytes: the minimum/maximum pyramid, of which every
-  /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together; and
-  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone.
+  /// Those of every visibility technique; structure_bytes: the minimum/maximum pyramid, of which every
+  /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together;
+  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; and those of
+  /// quality_counters.h.
   static std::vector<std::string> counterNames();
 
   std::vector<Counter> count(frame::Frame& frame) override;
+  /// Of the split form: areas and levels of split_search.h; and the budget map, where there is one.
+  std::map<std::string, const gl::Texture*> debugViews() const override;
   /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran.
   std::map<std::string, Image> pictures() const override;
 
@@ -34,8 +43,15 @@ class OccluderSearch : public VisibilityTechnique {
                  gl::ShaderDefines defines = {});
   const frame::LightFrustum& bindMap(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
+  void preparePasses(frame::Frame& frame) override;
+  void makeInputs(frame::Frame& frame) override;
+  void runPasses(frame::Frame& frame, const CountImages* counts) override;
 
  private:
+  /// Levels are smoothed, and there is something to smooth.
+  bool smooths() const { return quality_.smoothingRadius() > 0 && (budget_ > 0 || budgets_); }
+  void runSplit(frame::Frame& frame, const CountImages* counts);
+
   int budget_, refinements_, roughQueries_;
   Structure structure_;
   CoarseOccluders coarse_;
@@ -43,6 +59,12 @@ class OccluderSearch : public VisibilityTechnique {
   int base_;  // resolution of the layers
   int levels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
   std::vector<int64_t> structureBytes_;  // of each map
+  LevelOfQuality quality_;
+  std::unique_ptr<BudgetDriver> budgets_;   // null: the same budget for all pixels
+  const gl::Texture* budgetMap_ = nullptr;  // of this frame
+  std::optional<SplitSearch> split_;        // empty: a single pass
+  const gl::Program *classify_ = nullptr, *smooth_ = nullptr, *gather_ = nullptr;
+  const gl::Program *countBins_ = nullptr, *scatter_ = nullptr;
 };
 
 }  // namespace limen::techniques

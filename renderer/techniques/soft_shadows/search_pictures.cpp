@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace limen::techniques {
@@ -48,7 +49,8 @@ Image searchAreaPicture(const VisibilityTechnique::Counted& counted) {
 }
 
 Image levelPicture(const VisibilityTechnique::Counted& counted) {
-  return picture(counted, [&](size_t i) { return counted.work[4 * i + 3] / kCoarsestLevel; });
+  return picture(counted,
+                 [&](size_t i) { return std::bit_cast<float>(counted.search[4 * i + 3]) / kCoarsestLevel; });
 }
 
 }  // namespace limen::techniques

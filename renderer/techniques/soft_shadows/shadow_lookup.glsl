@@ -7,7 +7,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D receivers;
 layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
-layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
+layout(binding = 1, rgba32ui) uniform uimage2D outCounts;
 layout(binding = 2, rgba32ui) uniform writeonly uimage2D outSearch;
 #endif
 
@@ -21,8 +21,10 @@ uniform float bias, slopeBias, maxSlope;
 
 const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u, kCutShort = 5u;
 
-// Classes and work of this pixel; the compiler removes them where nobody counts.
-uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u, levelUsed = 0u;
+// Classes and work of this pixel; the compiler removes them where nobody counts. A level that lies between two stands for
+// both.
+uint pixelClass = kNotReceiver, occluderCount = 0u, fetchCount = 0u;
+float levelUsed = 0.0;
 // Texels of level 0 in the search area; micro-occluders that were looked at, and those that covered any of the light.
 uint areaTexels = 0u, examinedCount = 0u, usedCount = 0u;
 
@@ -55,16 +57,19 @@ float biasedDepth(vec4 receiver, int level) {
 void store(ivec2 pixel, float visibility) {
   imageStore(outVisibility, pixel, vec4(visibility));
 #ifdef COUNT
-  imageStore(outCounts, pixel, uvec4(pixelClass, occluderCount, fetchCount, levelUsed));
-  imageStore(outSearch, pixel, uvec4(areaTexels, examinedCount, usedCount, 0u));
+  imageStore(outCounts, pixel, uvec4(pixelClass, occluderCount, fetchCount, uint(ceil(levelUsed))));
+  imageStore(outSearch, pixel, uvec4(areaTexels, examinedCount, usedCount, floatBitsToUint(levelUsed)));
 #endif
 }
 
 float visibilityOf(vec4 receiver, ivec2 pixel);
 
+// Techniques that split their work into passes have entry points of their own.
+#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER)
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   const vec4 receiver = texelFetch(receivers, pixel, 0);
   store(pixel, receiver.w < 0.0 ? 1.0 : visibilityOf(receiver, pixel));
 }
+#endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -27,7 +28,7 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::v
     occluders += counts[i + 1];
     occludersSquared += double(counts[i + 1]) * counts[i + 1];
     fetches += counts[i + 2];
-    levels += counts[i + 3];
+    levels += std::bit_cast<float>(search[i + 3]);
     areaTexels += search[i];
     examined += search[i + 1];
     used += search[i + 2];
@@ -97,9 +98,21 @@ std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlope
 }
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
-  program_ = &frame.context().programs().compute(shader_, defines_);
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
+  preparePasses(frame);
+}
+
+void VisibilityTechnique::preparePasses(frame::Frame& frame) {
+  program_ = &program(frame, false);
   frame.passes().setBytesHeld(pass_, visibility_->bytes());
+}
+
+const gl::Program& VisibilityTechnique::program(frame::Frame& frame, bool counting,
+                                                const gl::ShaderDefines& more) const {
+  gl::ShaderDefines defines = defines_;
+  defines.insert(more.begin(), more.end());
+  if (counting) defines["COUNT"] = "1";
+  return frame.context().programs().compute(shader_, defines);
 }
 
 const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
@@ -108,46 +121,50 @@ const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   return map.frustum();
 }
 
-void VisibilityTechnique::readMap(frame::Frame& frame, const gl::Program& program) {
+void VisibilityTechnique::bindPass(frame::Frame& frame, const gl::Program& program,
+                                   const CountImages* counts) {
   const frame::LightFrustum& frustum = bindMap(frame);
   const glm::dvec2 lightSize = frame.scene().lights[0].size, eye = mapSettings().eye;
+  program.set("sizePx", frame.sizePx());
   program.set("tangentLow", glm::vec2(frustum.low));
   program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
   program.set("near", static_cast<float>(frustum.near));
   program.set("lightSize", glm::vec2(lightSize));
   program.set("eyeOnLight", glm::vec2(eye));
   program.set("resolution", mapSettings().resolution);
+  program.set("bias", static_cast<float>(bias_));
+  program.set("slopeBias", static_cast<float>(slopeBias_));
+  program.set("maxSlope", static_cast<float>(maxSlope_));
   configure(program);
   receiversOf(frame, eye).bindTexture(0);
-  program.dispatch(frame.sizePx());
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  visibility_->bindImage(0, gl::Access::Write);
+  if (!counts) return;
+  counts->work.bindImage(1, gl::Access::ReadWrite);
+  counts->search.bindImage(2, gl::Access::Write);
 }
 
-void VisibilityTechnique::run(frame::Frame& frame, const gl::Program& program, const CountImages* counts) {
-  // Inputs are made in passes of their own, which do not nest.
+void VisibilityTechnique::runPasses(frame::Frame& frame, const CountImages* counts) {
+  const auto scope = frame.passes().open(pass_);
+  const gl::Program& chosen = counts ? program(frame, true) : *program_;
+  for (current_ = 0; current_ < maps_.size(); ++current_) {
+    if (!readsMap(frame, current_)) continue;
+    bindPass(frame, chosen, counts);
+    chosen.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    if (counts) addCounts(*counts);
+  }
+  current_ = 0;
+}
+
+void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
+  makeInputs(frame);
   for (current_ = 0; current_ < maps_.size(); ++current_)
     if (readsMap(frame, current_)) {
       bindMap(frame);
       receiversOf(frame, mapSettings().eye);
     }
-  {
-    const auto scope = frame.passes().open(pass_);
-    program.set("sizePx", frame.sizePx());
-    program.set("bias", static_cast<float>(bias_));
-    program.set("slopeBias", static_cast<float>(slopeBias_));
-    program.set("maxSlope", static_cast<float>(maxSlope_));
-    visibility_->bindImage(0, gl::Access::Write);
-    if (counts) {
-      counts->work.bindImage(1, gl::Access::Write);
-      counts->search.bindImage(2, gl::Access::Write);
-    }
-    for (current_ = 0; current_ < maps_.size(); ++current_) {
-      if (!readsMap(frame, current_)) continue;
-      readMap(frame, program);
-      if (counts) addCounts(*counts);
-    }
-  }
   current_ = 0;
+  runPasses(frame, counts);
   finish(frame);
 }
 
@@ -157,7 +174,7 @@ std::vector<std::string> VisibilityTechnique::counterNames() {
   return out;
 }
 
-void VisibilityTechnique::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
+void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }
 
 void VisibilityTechnique::addCounts(const CountImages& counts) {
   std::vector<uint32_t> work = counts.work.readUint(), search = counts.search.readUint();
@@ -181,13 +198,11 @@ void VisibilityTechnique::addCounts(const CountImages& counts) {
 }
 
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
-  gl::ShaderDefines defines = defines_;
-  defines["COUNT"] = "1";
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                            gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
   counted_ = {frame.sizePx(), {}, {}};
   frame.begin();
-  run(frame, frame.context().programs().compute(shader_, defines), &counts);
+  run(frame, &counts);
   frame.end();
   return summarise(counted_.work, counted_.search);
 }

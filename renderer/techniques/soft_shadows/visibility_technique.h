@@ -21,8 +21,8 @@ enum PixelClass : uint32_t {
 };
 
 /// Base of the soft-shadow techniques that read a shadow map, or several one after another: a compute pass
-/// over the receivers into a visibility image. The shader includes shadow_lookup.glsl, which declares what
-/// this class binds:
+/// over the receivers into a visibility image, or several passes where the technique splits them. The shader
+/// includes shadow_lookup.glsl, which declares what this class binds:
 ///   texture unit 0: receivers; unit 1: linear shadow map, unless bindMap() binds something else
 ///   image unit 0: visibility; units 1 and 2, where COUNT is defined: class, work and search of each pixel
 ///   (rgba32ui)
@@ -35,8 +35,9 @@ class VisibilityTechnique : public Technique {
   /// processed pixel; the share of micro-occluders that were looked at for nothing.
   std::vector<Counter> count(frame::Frame& frame) override;
 
-  /// What count() read, four figures a pixel: class, micro-occluders, fetches, level; and search area in
-  /// texels, micro-occluders looked at, those that covered any of the light. Empty before count().
+  /// What count() read, four figures a pixel: class, micro-occluders, fetches, level, rounded up where it
+  /// lies between two; and search area in texels, micro-occluders looked at, those that covered any of the
+  /// light, bits of the real level. Empty before count().
   struct Counted {
     glm::ivec2 sizePx{0};
     std::vector<uint32_t> work, search;
@@ -71,15 +72,28 @@ class VisibilityTechnique : public Technique {
   /// Sets the technique's own uniforms.
   virtual void configure(const gl::Program& program) const = 0;
 
- private:
   struct CountImages {
     gl::Texture work, search;
   };
-  /// `counts` is null in a plain frame.
-  void run(frame::Frame& frame, const gl::Program& program, const CountImages* counts);
-  void readMap(frame::Frame& frame, const gl::Program& program);
-  /// Adds what the last dispatch counted.
+  /// Compiles and allocates what runPasses() needs in a plain frame, and states the bytes held.
+  virtual void preparePasses(frame::Frame& frame);
+  /// Before the first map: inputs that are made once a frame, in passes of their own.
+  virtual void makeInputs(frame::Frame&) {}
+  /// Opens the technique's passes and fills the product; all inputs have been made. Whoever overrides it
+  /// calls addCounts() once the map's pixels are counted. `counts` is null in a plain frame.
+  virtual void runPasses(frame::Frame& frame, const CountImages* counts);
+
+  const std::string& passName() const { return pass_; }
+  /// The technique's shader; compiles it the first time.
+  const gl::Program& program(frame::Frame& frame, bool counting, const gl::ShaderDefines& more = {}) const;
+  /// Sets and binds all that shadow_lookup.glsl declares, of the map that is read at present.
+  void bindPass(frame::Frame& frame, const gl::Program& program, const CountImages* counts);
+  /// Adds what the passes over a map counted.
   void addCounts(const CountImages& counts);
+
+ private:
+  /// `counts` is null in a plain frame.
+  void run(frame::Frame& frame, const CountImages* counts);
 
   std::vector<frame::ShadowMapSettings> maps_;
   size_t current_ = 0;

@@ -4,7 +4,7 @@
 
 float occludedArea = 0.0;
 
-void clearGathered() {}
+void clearGathered() { occludedArea = 0.0; }
 void accumulate(vec2 low, vec2 high) { occludedArea += (high.x - low.x) * (high.y - low.y); }
 
 // Clamped in an order that turns a NaN, were there one, into a bound.

@@ -42,12 +42,22 @@ gl::ShaderDefines definesOf(const ParameterValues& values) {
 
 }  // namespace
 
+void Bitmask::checkKept(const ParameterValues& values, const std::string& why) {
+  const std::string& levels = values.text("levels");
+  if (values.text("passes") != "single")
+    throw Error(why + ", which is one pass's work", "passes", "leave it out, or give one map of one colour");
+  if (levels != "finest_within" && levels != "coarsest_over")
+    throw Error(why + ", and 'levels: " + levels + "' blends what masks come to", "levels",
+                "give levels: finest_within, or one map of one colour");
+}
+
 void Bitmask::checkValues(const ParameterValues& values) {
   OccluderSearch::checkSearch(values);
   LightMaps::check(values);
   if (values.text("maps") != "centre" && values.text("bias_form") == "stored")
     throw Error("'bias_form: stored' knows the map from the light's centre alone", "bias_form",
                 "give another form, or maps: centre");
+  if (values.text("maps") != "centre") checkKept(values, "several maps are joined mask by mask");
   const std::string &occluders = values.text("occluders"), &mask = values.text("quad_mask"),
                     &pattern = values.text("pattern");
   if (!occluders.starts_with("microquads") && mask != "approximate")
@@ -115,11 +125,11 @@ void Bitmask::prepare(frame::Frame& frame) {
 }
 
 void Bitmask::chooseMaps(const frame::Frame& frame) {
-  const size_t updates = lightMaps_.updates();
-  const bool keeps = hasMasks_ && updates > 0 && updates < isDue_.size() && keptForS_ == frame.timeS();
+  const size_t due = mapsAtRest();
+  const bool keeps = hasMasks_ && due < isDue_.size() && keptForS_ == frame.timeS();
   isDue_.assign(isDue_.size(), !keeps);
-  for (size_t i = 0; keeps && i < updates; ++i) isDue_[(nextUpdate_ + i) % isDue_.size()] = true;
-  if (keeps) nextUpdate_ = (nextUpdate_ + updates) % isDue_.size();
+  for (size_t i = 0; keeps && i < due; ++i) isDue_[(nextUpdate_ + i) % isDue_.size()] = true;
+  if (keeps) nextUpdate_ = (nextUpdate_ + due) % isDue_.size();
   hasMasks_ = true;
   keptForS_ = frame.timeS();
 }
@@ -165,6 +175,11 @@ std::vector<std::string> Bitmask::counterNames() {
   return names;
 }
 
+size_t Bitmask::mapsAtRest() const {
+  const bool inTurn = lightMaps_.perObject() && lightMaps_.updates() > 0;
+  return inTurn ? std::min(lightMaps_.updates(), maps().size()) : maps().size();
+}
+
 int Bitmask::mapsWithCasters(frame::Frame& frame) const {
   int count = 0;
   for (const frame::ShadowMapSettings& map : maps()) {
@@ -175,11 +190,10 @@ int Bitmask::mapsWithCasters(frame::Frame& frame) const {
 }
 
 std::vector<Counter> Bitmask::count(frame::Frame& frame) {
-  const auto read = std::count(isDue_.begin(), isDue_.end(), true);
   // Of a whole image, however few objects the last frame looked at.
   isDue_.assign(isDue_.size(), true);
   std::vector<Counter> all = OccluderSearch::count(frame);
-  all.push_back({"maps_read", double(read), "maps", true});
+  all.push_back({"maps_read", double(mapsAtRest()), "maps", true});
   all.push_back({"maps_with_casters", double(mapsWithCasters(frame)), "maps", false});
   all.push_back({"mask_bytes", masks_ ? double(masks_->bytes()) : 0.0, "byte", true});
   return all;

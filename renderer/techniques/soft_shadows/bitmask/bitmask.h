@@ -22,6 +22,8 @@ class Bitmask : public OccluderSearch {
   explicit Bitmask(const ParameterValues& values) : Bitmask(values, false) {}
 
   static std::vector<Parameter> parameters();
+  /// Throws Error where values ask for what masks that are kept cannot have; `why` they are kept begins it.
+  static void checkKept(const ParameterValues& values, const std::string& why);
   /// Throws Error where values do not go together.
   static void checkValues(const ParameterValues& values);
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
@@ -49,6 +51,8 @@ class Bitmask : public OccluderSearch {
  private:
   /// Decides which maps the frame reads.
   void chooseMaps(const frame::Frame& frame);
+  /// Maps that a frame reads while the camera rests.
+  size_t mapsAtRest() const;
   /// Maps that see anything at all. Waits for the GPU.
   int mapsWithCasters(frame::Frame& frame) const;
 

@@ -24,6 +24,7 @@ constexpr size_t kMostColours = 64;
 
 void check(const ParameterValues& values) {
   Bitmask::checkValues(values);
+  Bitmask::checkKept(values, "colours follow from the masks of all pixels");
   if (values.text("colours") != "table" && values.text("group_bits") != kDefaultGroup)
     throw Error("'group_bits' is about the table of colours, and there is none", "group_bits",
                 "leave it out, or give colours: table");

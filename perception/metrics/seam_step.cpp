@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Seams: places where a visibility image steps and its reference does not. Where methods change from pixel to
+// pixel how coarsely they work, their error changes there from one pixel to the next.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "perception/metrics/comparison.h"
+#include "perception/metrics/quantile.h"
+
+namespace limen::perception {
+namespace {
+
+MetricResult measureSeamStep(const ComparisonInput& input, const ParameterValues& values) {
+  const Comparison pair(input, "seam_step", regionOf(values));
+  pair.requireVisibility("seam_step");
+  MetricResult result;
+  result.judgedPixels = pair.judgedPixels();
+  Image map(pair.width(), pair.height(), 1);
+  std::vector<double> steps;
+  const auto visit = [&](int x, int y, int neighbourX, int neighbourY) {
+    if (!pair.judges(neighbourX, neighbourY)) return;
+    const double step = std::abs(pair.error(x, y, 0) - pair.error(neighbourX, neighbourY, 0));
+    steps.push_back(step);
+    for (float* value : {&map.at(x, y), &map.at(neighbourX, neighbourY)})
+      *value = std::max(*value, static_cast<float>(step));
+  };
+  for (int y = 0; y < pair.height(); ++y)
+    for (int x = 0; x < pair.width(); ++x) {
+      if (!pair.judges(x, y)) continue;
+      if (x + 1 < pair.width()) visit(x, y, x + 1, y);
+      if (y + 1 < pair.height()) visit(x, y, x, y + 1);
+    }
+  result.value = nearestRank(steps, values.real("share"));
+  result.map = std::move(map);
+  result.mapName = "seam_step";
+  return result;
+}
+
+MetricInfo seamStepMetric() {
+  MetricInfo info;
+  info.name = "seam_step";
+  info.summary =
+      "change of the error from a pixel to its neighbour (seams between levels of quality), the largest or "
+      "one "
+      "that a share of all pairs does not exceed";
+  info.parameters = {
+      regionParameter(),
+      realParameter("share", 1.0, 0.0, 1.0, "",
+                    "share of the pairs of neighbours whose change is at most the figure; 1: all")};
+  info.compare = &measureSeamStep;
+  return info;
+}
+
+const Registered<MetricInfo> kRegistered{seamStepMetric()};
+
+}  // namespace
+}  // namespace limen::perception

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks the slice that a fragment lies in.
+#include "renderer/frame/shadow_depth.glsl"
+
+layout(binding = 0, r32ui) uniform uimage2D outBits;
+uniform float near, begin, slicesPerDepth;
+uniform int slices;
+
+void main() {
+  const float slice = (linearDepth(gl_FragCoord.z, near) - begin) * slicesPerDepth;
+  // What lies before the first slice by rounding is the near plane's; nothing else gets there.
+  if (slice < float(slices)) imageAtomicOr(outBits, ivec2(gl_FragCoord.xy), 1u << uint(max(slice, 0.0)));
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/frame/prefiltered_map.h"
+
+namespace limen::frame {
+
+struct OcclusionSliceSettings {
+  int resolution = 256;  ///< texels a side; a power of two
+  int slices = 16;       ///< 1 to 32
+  Prefilter prefilter = Prefilter::Sums;
+  std::string key() const;
+};
+
+/// Which texels the scene covers in each of several slices of equal depth between the nearest and the
+/// farthest point of its casters: a picture of every slice from the light's centre, all made in one pass, a
+/// bit a slice (Eisemann and Décoret 2006; Schwarz 2009, section 3.2.1). Then a layer a slice, ready to be
+/// averaged. Nothing is hidden by what lies before it; fragments beyond the last slice are dropped.
+class OcclusionSlices : public FrameInput {
+ public:
+  static constexpr const char* kName = "occlusion_slices";
+  OcclusionSlices(Frame& frame, OcclusionSliceSettings settings);
+  void make(Frame& frame) override;
+  const LightFrustum& frustum() const { return frustum_; }
+  /// R32UI: bit k is set where something lies in slice k.
+  const gl::Texture& bits() const { return bits_; }
+  /// Sums or averages to a texture unit.
+  void bind(uint32_t unit) const;
+  /// Light-space z where the first slice begins, and how deep each is. Slice k ends at the plane that its
+  /// contents are taken to lie in, at begin() + (k + 1) * depth().
+  double begin() const { return begin_; }
+  double depth() const { return depth_; }
+  int64_t bytes() const;
+
+ private:
+  OcclusionSliceSettings settings_;
+  LightFrustum frustum_;
+  double begin_, depth_;
+  const gl::Program &raster_, &unpack_, *reduce_ = nullptr;
+  gl::Texture bits_, target_;
+  gl::Framebuffer framebuffer_;
+  std::optional<SummedAreaTable> sums_;
+  std::optional<gl::Texture> mips_;
+};
+
+}  // namespace limen::frame

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
+#ifdef BITMASK
+#include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
+#else
+float hiddenArea = 0.0;
+#endif
+
+layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
+layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+
+uniform int levels, finestLevel;
+uniform int maxIterations;  // that the driver's compiler allows
+
+bool isSaturated() {
+#ifdef BITMASK
+  return allCovered();
+#else
+  return hiddenArea >= 1.0;
+#endif
+}
+
+// Tile [low, high) in tangents at depth z, backprojected as in micropatches.glsl.
+void addTile(vec2 low, vec2 high, float z, vec4 p) {
+  const float throwOfTile = z / (p.z - z) * p.z;
+  const vec2 centre = p.xy / p.z;
+  const vec2 from = throwOfTile * (low - centre) / lightSize + 0.5, to = throwOfTile * (high - centre) / lightSize + 0.5;
+  // In an order that turns a NaN, were there one, into a bound.
+  const vec2 a = min(max(from, vec2(0.0)), vec2(1.0)), b = min(max(to, vec2(0.0)), vec2(1.0));
+  ++occluderCount;
+  if (!(a.x < b.x && a.y < b.y)) return;
+  ++usedCount;
+#ifdef BITMASK
+  addToMask(a, b);
+#else
+  hiddenArea += (b.x - a.x) * (b.y - a.y);
+#endif
+}
+
+float visibilityOf(vec4 p, ivec2 pixel) {
+#ifdef BITMASK
+  clearMask();
+#endif
+  const int root = levels - 1;
+  const float depth = biasedDepth(p, finestLevel);
+  const vec2 perTexel = tangentSize / float(resolution), centre = p.xy / p.z;
+  // The pyramid's section at depth z is this times 1 / z - 1 / p.z to either side of `centre`.
+  const vec2 halfLight = 0.5 * lightSize;
+  pixelClass = kLit;
+  ivec2 tile = ivec2(0);
+  int level = root;
+  for (int visited = 0;; ++visited) {
+    if (visited >= maxIterations) {
+      pixelClass = kCutShort;
+      return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
+    }
+    ++examinedCount;
+    ++fetchCount;
+    const float nearest = texelFetch(minimumMap, tile, level).x;
+    bool descend = false;
+    if (nearest < depth) {
+      const vec2 low = tangentLow + vec2(tile << level) * perTexel, high = tangentLow + vec2((tile + 1) << level) * perTexel;
+      const vec2 reach = halfLight * (1.0 / nearest - 1.0 / p.z);
+      const bool meets = all(lessThan(low, centre + reach)) && all(greaterThan(high, centre - reach));
+      if (meets) {
+        pixelClass = kProcessed;
+        if (level <= finestLevel) {
+          addTile(low, high, nearest, p);
+        } else {
+          descend = true;
+#ifdef BLOCKS
+          ++fetchCount;
+          const float farthest = texelFetch(maximumMap, tile, level - 1).x;
+          if (farthest < depth) {
+            const vec2 least = halfLight * (1.0 / farthest - 1.0 / p.z);
+            if (all(greaterThanEqual(low, centre - least)) && all(lessThanEqual(high, centre + least))) {
+              addTile(low, high, BLOCK_DEPTH, p);
+              levelUsed = max(levelUsed, uint(level));
+              descend = false;
+            }
+          }
+#endif
+        }
+      } else if (level == root) {
+        pixelClass = kOutside;
+      }
+    }
+    if (descend) {
+      tile <<= 1;
+      --level;
+      continue;
+    }
+    if (isSaturated()) return 0.0;
+    // The next tile in Z order that is no part of this one: the thesis's stack of siblings still to visit, spelled in the
+    // digits of the tile's place.
+    while (level < root && (tile.x & tile.y & 1) == 1) {
+      tile >>= 1;
+      ++level;
+    }
+    if (level == root) break;
+    tile = (tile.x & 1) == 0 ? tile + ivec2(1, 0) : tile + ivec2(-1, 1);
+  }
+#ifdef BITMASK
+  return 1.0 - float(samplesCovered()) / float(SAMPLES);
+#else
+  return 1.0 - min(hiddenArea, 1.0);
+#endif
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mean visibility of a pixel's square of samples.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D sampled;
+layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+uniform int samples;  // along each axis
+uniform ivec2 sizePx;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  float sum = 0.0;
+  for (int y = 0; y < samples; ++y)
+    for (int x = 0; x < samples; ++x) sum += texelFetch(sampled, pixel * samples + ivec2(x, y), 0).x;
+  imageStore(outVisibility, pixel, vec4(sum / float(samples * samples)));
+}

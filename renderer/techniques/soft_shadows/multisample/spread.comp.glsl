@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All samples as pixels of one tall picture, sample k of every pixel in the k-th picture from the top; and back: their mean.
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform ivec2 sizePx;
+#ifdef MEAN
+layout(binding = 0) uniform sampler2D visibility;
+layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#else
+#ifdef SINGLE
+layout(binding = 0) uniform usampler2D sampleIds;
+#else
+layout(binding = 0) uniform usampler2DMS sampleIds;
+#endif
+layout(binding = 0, r32ui) uniform writeonly uimage2D outIds;
+layout(binding = 1, rg32f) uniform writeonly image2D outPlaces;
+uniform vec2 samplePlaces[SAMPLES];
+#endif
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+#ifdef MEAN
+  float sum = 0.0;
+  for (int i = 0; i < SAMPLES; ++i) sum += texelFetch(visibility, pixel + ivec2(0, i * sizePx.y), 0).x;
+  imageStore(outVisibility, pixel, vec4(sum / float(SAMPLES)));
+#else
+  for (int i = 0; i < SAMPLES; ++i) {
+    const ivec2 at = pixel + ivec2(0, i * sizePx.y);
+    imageStore(outIds, at, texelFetch(sampleIds, pixel, i));
+    imageStore(outPlaces, at, vec4(vec2(pixel) + samplePlaces[i], 0.0, 0.0));
+  }
+#endif
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reference for pictures with several samples a pixel: a technique's visibility on a grid of samples over
+// each pixel's square, averaged. Samples that are no receivers count as lit, as they do in every visibility
+// image.
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "renderer/techniques/soft_shadows/inner_technique.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kPass = "supersampled/mean";
+
+class Supersampled : public Technique {
+ public:
+  explicit Supersampled(const ParameterValues& values)
+      : samples_(static_cast<int>(values.integer("samples"))), inner_(makeInner(values)) {
+    checkInner(values);
+  }
+
+  void prepare(frame::Frame& frame) override {
+    const glm::ivec2 sizePx = frame.sizePx() * samples_;
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (std::max(sizePx.x, sizePx.y) > largest)
+      throw Error(
+          std::to_string(samples_) + " samples along each axis need an image of " + std::to_string(sizePx.x) +
+              " x " + std::to_string(sizePx.y),
+          "samples",
+          "this driver has at most " + std::to_string(largest) + ": lower 'samples' or the image size");
+    mean_ = &frame.context().programs().compute(
+        "renderer/techniques/soft_shadows/multisample/box_mean.comp.glsl");
+    visibility_.emplace(gl::Format::R32F, frame.sizePx());
+    frame.passes().setBytesHeld(kPass, visibility_->bytes());
+    sampled_.emplace(frame, "supersampled/inner", sizePx);
+    inner_->prepare(*sampled_);
+  }
+
+  void render(frame::Frame& frame) override {
+    sampled_->setTime(frame.timeS());
+    sampled_->begin();
+    inner_->render(*sampled_);
+    sampled_->end();
+    const auto scope = frame.passes().open(kPass);
+    mean_->set("samples", samples_);
+    mean_->set("sizePx", frame.sizePx());
+    inner_->product().bindTexture(0);
+    visibility_->bindImage(0, gl::Access::Write);
+    mean_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  const gl::Texture& product() const override { return *visibility_; }
+
+ private:
+  int samples_;
+  std::unique_ptr<Technique> inner_;
+  const gl::Program* mean_ = nullptr;
+  std::optional<gl::Texture> visibility_;
+  std::optional<frame::Frame> sampled_;
+};
+
+std::vector<Parameter> supersampledParameters() {
+  std::vector<Parameter> out = {
+      integerParameter("samples", 4, 1, 16, "", "Samples a pixel along each axis, box filter")};
+  for (Parameter& parameter : innerParameters(InnerKind::AnyVisibility)) out.push_back(std::move(parameter));
+  return out;
+}
+
+const Registered<TechniqueInfo> kRegistered{
+    {.name = "soft_shadows/supersampled",
+     .version = 1,
+     .summary = "Another technique's visibility at many samples over each pixel, averaged",
+     .source = "bench: reference for Schwarz 2009, section 4.6",
+     .product = ProductKind::Visibility,
+     .parameters = supersampledParameters(),
+     .needs = {"rectangular_light"},
+     .reference = true,
+     .onCpu = false,
+     .make = [](const ParameterValues& values) { return std::make_unique<Supersampled>(values); },
+     .errorBound = {},
+     .counters = {},
+     .check = checkInner}};
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::techniques {
+
+/// Says how many micro-occluders each pixel may take: makes the budget map b(x, y) of Schwarz 2009,
+/// section 5.2.1. A technique owns one and asks it once a frame.
+class BudgetDriver {
+ public:
+  virtual ~BudgetDriver() = default;
+
+  /// Compiles and allocates, before the first frame; states bytes held.
+  virtual void prepare(frame::Frame& frame) = 0;
+
+  /// R32F, the frame's size: micro-occluders that each pixel may take, >= 0, where 0 stands for no limit.
+  /// Whole counts per axis follow from it, floor(sqrt b) and at least 1. Called outside of any pass, so that
+  /// it opens its own, before those of the technique; has made the map visible to texture fetches when it
+  /// returns.
+  virtual const gl::Texture& make(frame::Frame& frame) = 0;
+
+  /// Called once the frame's visibility is there, outside of any pass, for drivers that steer by what it
+  /// took. `work` is the list of processed pixels (split_search.h), whose word 3 is their number; null in
+  /// the single pass. Must not wait for the GPU.
+  virtual void finish(frame::Frame& /*frame*/, const gl::Buffer* /*work*/) {}
+};
+
+/// A choice of `budget_map`.
+struct BudgetDriverInfo {
+  std::string name;
+  /// Its own parameters, whose names begin with its name and "_"; they share a list with the technique's.
+  std::vector<Parameter> parameters;
+  std::function<std::unique_ptr<BudgetDriver>(const ParameterValues&)> make;
+  /// Throws Error if the values do not go together; null: all do. Called where the driver is chosen.
+  std::function<void(const ParameterValues&)> check = {};
+};
+
+/// All drivers, in order of their names' places in the choice. The uniform budget needs no driver.
+const std::vector<BudgetDriverInfo>& budgetDrivers();
+
+/// `budget_map` and the parameters of all drivers.
+std::vector<Parameter> budgetParameters();
+/// Throws Error where values do not go together, or a driver's are given without it.
+void checkBudget(const ParameterValues& values);
+/// Some driver is chosen.
+bool hasBudgetMap(const ParameterValues& values);
+/// The chosen driver; null for a uniform budget.
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const ParameterValues& values);
+
+}  // namespace limen::techniques

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Level of the pyramid from which a pixel's micro-occluders come, by what it may spend. Schwarz 2009, section 5.2.1; the
+// formulas are reconstructed from there.
+// LEVELS: 0 the finest within the budget; the others by a real level: 1 its floor, 2 blends the two around it, 3 blends
+// them over `blendWidth` levels about the middle, 4 takes one of the two at random.
+// FILTERED_LEVEL: the real level follows from linearly filtered depths, after Guennebaud et al. 2007 (section 5.2).
+uniform int budgetPerAxis;  // micro-occluders; 16384: no limit
+#ifdef BUDGET_MAP
+layout(binding = 12) uniform sampler2D budgetMap;  // micro-occluders, not their root; 0: no limit
+#endif
+uniform float blendWidth;
+
+// What this pixel may spend.
+int allowedPerAxis = 1;
+
+void readBudget(ivec2 pixel) {
+  allowedPerAxis = budgetPerAxis;
+#ifdef BUDGET_MAP
+  const float budget = texelFetch(budgetMap, pixel, 0).x;
+  // Not floor(sqrt()), since the root of a square may come out a little too small.
+  float root = floor(sqrt(budget) + 0.5);
+  if (root * root > budget) root -= 1.0;
+  allowedPerAxis = budget > 0.0 ? int(clamp(root, 1.0, 16384.0)) : 16384;
+#endif
+}
+
+// Finest level at which the area's micro-occluders keep within the budget on both axes.
+int finestLevelWithin(Area area) {
+  if (fixedLevel >= 0) return min(fixedLevel, levels - 1);
+  int level = 0;
+  while (level < levels - 1) {
+    const Range range = occluderRange(area, level);
+    const ivec2 count = range.high - range.low + 1;
+    if (max(count.x, count.y) <= allowedPerAxis) break;
+    ++level;
+  }
+  return level;
+}
+
+// Real level at which an extent, in texels, has as many texels as are allowed. Logarithms of powers of two may miss whole
+// numbers by a little, and a second level for nothing would follow.
+float levelOfExtent(float extent) {
+  const float level = clamp(log2(max(extent, 1.0) / float(allowedPerAxis)), 0.0, float(levels - 1));
+  const float whole = floor(level + 0.5);
+  return abs(level - whole) < 1e-5 ? whole : level;
+}
+
+float levelOfArea(Area area) {
+#if LEVELS == 0
+  return float(finestLevelWithin(area));
+#else
+  const ivec2 extent = area.high - area.low;
+  const float level = levelOfExtent(float(max(extent.x, extent.y)));
+#if LEVELS == 1
+  return floor(level);
+#else
+  return level;
+#endif
+#endif
+}
+
+#ifdef FILTERED_LEVEL
+// The nearest occluder's depth as it varies without steps from pixel to pixel, as long as neighbours read one level of the
+// pyramid: the one at which 2 x 2 texels hold the area. What does not lie before the receiver is put at its depth, since
+// empty texels are infinitely far.
+float filteredLevel(vec4 p, Area area) {
+  const ivec2 last = area.high - 1;
+  const int extent = max(last.x - area.low.x, last.y - area.low.y);
+  int level = extent > 0 ? findMSB(extent) : 0;
+  if (any(greaterThan((last >> level) - (area.low >> level), ivec2(1)))) ++level;
+  const int size = resolution >> level;
+  const vec2 at = mapTexel(p.xy / p.z) / float(1 << level) - 0.5;
+  const ivec2 low = ivec2(floor(at));
+  float z[4];
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 texel = clamp(low + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size - 1));
+    z[i] = min(texelFetch(minimumMap, texel, level).x, p.z);
+  }
+  fetchCount += 4u;
+  const vec2 part = at - vec2(low);
+  const float nearest = mix(mix(z[0], z[1], part.x), mix(z[2], z[3], part.x), part.y);
+  const vec2 extents = lightSize * max(1.0 / nearest - 1.0 / p.z, 0.0) / tangentSize * float(resolution);
+  const float found = levelOfExtent(max(extents.x, extents.y));
+#if LEVELS == 1
+  return floor(found);
+#else
+  return found;
+#endif
+}
+#endif
+
+// Level for a receiver whose search area has been narrowed.
+float qualityLevel(vec4 p, Area area) {
+#ifdef FILTERED_LEVEL
+  return filteredLevel(p, area);
+#else
+  return levelOfArea(area);
+#endif
+}
+
+#if LEVELS == 4
+// Between 0 and 1, evenly spread over the image: the additive sequence of the plastic number in two dimensions (Roberts
+// 2018), in integers so that it is the same everywhere.
+float ditherThreshold(ivec2 pixel) {
+  const uint turn = uint(pixel.x) * 3242174889u + uint(pixel.y) * 2447445414u;
+  return (float(turn >> 8) + 0.5) / 16777216.0;
+}
+#endif
+
+// Weight of the coarser of the two levels around a real one whose fraction is given.
+float coarserWeight(float fraction, ivec2 pixel) {
+#if LEVELS == 3
+  return clamp((fraction - 0.5 + 0.5 * blendWidth) / blendWidth, 0.0, 1.0);
+#elif LEVELS == 4
+  return fraction > ditherThreshold(pixel) ? 1.0 : 0.0;
+#else
+  return fraction;
+#endif
+}
+
+// Iterations of the loop over a level's occluders, with those that only close its rows.
+float iterationsOf(Area area, int level) {
+  const Range range = occluderRange(area, level);
+  const vec2 count = vec2(max(range.high - range.low + 1, ivec2(0)));
+  return (count.x + 1.0) * count.y;
+}
+
+// Visibility by the levels that a real level stands for. Both are rounded outward from the one search area.
+float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
+  pixelClass = kProcessed;
+  areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
+  levelUsed = level;
+#if LEVELS < 2
+  clearGathered();
+  return gatherOccluders(p, area, int(level));
+#else
+  const int finer = int(level);
+  const float weight = coarserWeight(level - float(finer), pixel);
+  const int first = weight < 1.0 ? finer : finer + 1, last = weight > 0.0 ? finer + 1 : finer;
+  if (first < last && iterationsOf(area, first) + iterationsOf(area, last) > float(maxIterations)) {
+    pixelClass = kCutShort;
+    return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
+  }
+  float visibility = 0.0;
+  for (int i = first; i <= last; ++i) {
+    clearGathered();
+    const float found = gatherOccluders(p, area, i);
+    visibility = i == first ? found : mix(visibility, found, weight);
+  }
+  return visibility;
+#endif
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Orders the list of pixels by the length of their loops over micro-occluders, the longest first, so that invocations that
+// wait for one another have about the same to do. Bins are half an octave wide. Without SCATTER: counts each bin's pixels;
+// with it: puts each pixel behind those of longer loops, within a bin in any order.
+#include "renderer/techniques/soft_shadows/quality/work_list.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 13) uniform usampler2D searchAreas;
+layout(binding = 14) uniform sampler2D levelMap;
+
+const uint kBins = 64u;  // as many as a group has invocations
+layout(std430, binding = 5) restrict buffer Bins { uint binCounts[kBins], binFilled[kBins]; };
+#ifdef SCATTER
+layout(std430, binding = 6) restrict writeonly buffer OrderedList {
+  uint orderedGroupsPerRow, orderedGroupRows, orderedGroupLayers;
+  uint orderedCount;
+  uint orderedPixels[];
+};
+#endif
+
+shared uint groupCounts[kBins];
+#ifdef SCATTER
+shared uint groupStarts[kBins];
+#endif
+
+float occludersAt(uvec4 area, int level) {
+  const uvec2 count = ((area.zw - 1u) >> level) - (area.xy >> level) + 1u;
+  return float(count.x) * float(count.y);
+}
+
+uint binOf(ivec2 pixel) {
+  const uvec4 area = texelFetch(searchAreas, pixel, 0);
+  const float level = texelFetch(levelMap, pixel, 0).x;
+  const int finer = int(level), coarser = int(ceil(level));
+  const float occluders = occludersAt(area, finer) + (coarser > finer ? occludersAt(area, coarser) : 0.0);
+  return uint(clamp(2.0 * log2(occluders), 0.0, float(kBins - 1u)));
+}
+
+void main() {
+  const uint lane = gl_LocalInvocationIndex;
+  groupCounts[lane] = 0u;
+  memoryBarrierShared();
+  barrier();
+  ivec2 pixel;
+  const bool listed = listedPixel(pixel);
+  uint bin = 0u, rank = 0u;
+  if (listed) {
+    bin = binOf(pixel);
+    rank = atomicAdd(groupCounts[bin], 1u);
+  }
+  memoryBarrierShared();
+  barrier();
+  const uint count = groupCounts[lane];
+#ifdef SCATTER
+  uint start = 0u;
+  for (uint longer = lane + 1u; longer < kBins; ++longer) start += binCounts[longer];
+  groupStarts[lane] = start + (count > 0u ? atomicAdd(binFilled[lane], count) : 0u);
+  memoryBarrierShared();
+  barrier();
+  if (listed) orderedPixels[groupStarts[bin] + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
+  if (gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u && lane == 0u) {
+    orderedGroupsPerRow = groupsPerRow;
+    orderedGroupRows = groupRows;
+    orderedGroupLayers = groupLayers;
+    orderedCount = listedCount;
+  }
+#else
+  if (count > 0u) atomicAdd(binCounts[lane], count);
+#endif
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/techniques/soft_shadows/quality/budget_driver.h"
+
+namespace limen::techniques {
+
+/// Budget that goes from `budget` around a centre to `radial_budget` at the rim, the same in every frame. Its
+/// root, which counts micro-occluders per axis, changes evenly with the distance. Source: Schwarz 2009,
+/// figure 5.5 d, which takes 12^2 in the centre and 5^2 at the left and right borders.
+BudgetDriverInfo radialBudgetInfo();
+
+}  // namespace limen::techniques

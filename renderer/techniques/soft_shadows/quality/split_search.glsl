@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search in passes of its own. SPLIT_CLASSIFY: visibility of pixels that need no processing, and for the others search
+// area, level and a place in the list. SPLIT_GATHER: the loop over micro-occluders for each listed pixel, with no others
+// between them. Schwarz 2009, sections 4.1 and 5.2.1.
+#include "renderer/techniques/soft_shadows/quality/work_list.glsl"
+
+#ifdef SPLIT_CLASSIFY
+layout(binding = 3, rgba16ui) uniform writeonly uimage2D outAreas;  // low, high
+#ifdef SMOOTH
+layout(binding = 15) uniform sampler2D cameraDepth;
+layout(binding = 4, rg32f) uniform writeonly image2D outLevels;    // level (-1: not processed), camera depth
+layout(binding = 5, rg32f) uniform writeonly image2D outHalfSmoothed;
+#else
+layout(binding = 4, r32f) uniform writeonly image2D outLevels;
+#endif
+
+shared uint processedLanes[2];
+shared uint firstSlot;
+
+bool classify(ivec2 pixel) {
+  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  Area area;
+  float visibility = 1.0;
+  readBudget(pixel);
+  if (receiver.w < 0.0 || !findArea(receiver, area, visibility)) {
+    store(pixel, visibility);
+#ifdef SMOOTH
+    // What the walk along either axis stops at.
+    imageStore(outLevels, pixel, vec4(-1.0, 0.0, 0.0, 0.0));
+    imageStore(outHalfSmoothed, pixel, vec4(-1.0, 0.0, 0.0, 0.0));
+#endif
+    return false;
+  }
+  const float level = qualityLevel(receiver, area);
+  imageStore(outAreas, pixel, uvec4(area.low, area.high));
+#ifdef SMOOTH
+  imageStore(outLevels, pixel, vec4(level, texelFetch(cameraDepth, pixel, 0).x, 0.0, 0.0));
+#else
+  imageStore(outLevels, pixel, vec4(level));
+#endif
+#ifdef COUNT
+  imageStore(outCounts, pixel, uvec4(0u, 0u, fetchCount, 0u));
+#endif
+  return true;
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  const uint lane = gl_LocalInvocationIndex;
+  if (lane < 2u) processedLanes[lane] = 0u;
+  memoryBarrierShared();
+  barrier();
+  bool processed = false;
+  if (all(lessThan(pixel, sizePx))) processed = classify(pixel);
+  if (processed) atomicOr(processedLanes[lane >> 5], 1u << (lane & 31u));
+  memoryBarrierShared();
+  barrier();
+  const uint before = uint(bitCount(processedLanes[0])), total = before + uint(bitCount(processedLanes[1]));
+  if (lane == 0u && total > 0u) {
+    firstSlot = atomicAdd(listedCount, total);
+    const uint perRow = 64u * groupsPerRow;
+    // Whoever begins a row counts it.
+    const uint rows = (firstSlot + total + perRow - 1u) / perRow;
+    if (rows > (firstSlot + perRow - 1u) / perRow) atomicMax(groupRows, rows);
+  }
+  memoryBarrierShared();
+  barrier();
+  if (!processed) return;
+  const uint lower = processedLanes[lane >> 5] & ((1u << (lane & 31u)) - 1u);
+  const uint rank = uint(bitCount(lower)) + (lane < 32u ? 0u : before);
+  listedPixels[firstSlot + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
+}
+#else
+layout(binding = 13) uniform usampler2D searchAreas;
+layout(binding = 14) uniform sampler2D levelMap;
+
+void main() {
+  ivec2 pixel;
+  if (!listedPixel(pixel)) return;
+  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const uvec4 area = texelFetch(searchAreas, pixel, 0);
+#ifdef COUNT
+  fetchCount = imageLoad(outCounts, pixel).z;
+#endif
+  store(pixel, visibilityAt(receiver, Area(ivec2(area.xy), ivec2(area.zw)), texelFetch(levelMap, pixel, 0).x, pixel));
+}
+#endif

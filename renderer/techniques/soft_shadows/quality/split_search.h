@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "renderer/frame/frame.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::techniques {
+
+/// What stands between the passes of a split search: search areas, levels, and the list of pixels that need
+/// processing, which the GPU fills and dispatches over without the host knowing its length.
+class SplitSearch {
+ public:
+  /// `smooths`, `orders`: room for smoothing levels, and for ordering the list.
+  SplitSearch(frame::Frame& frame, bool smooths, bool orders);
+
+  /// Empties the list. Then bind for the pass that fills it, which makeVisible() ends.
+  void bindForClassify() const;
+  /// For a pass over the list.
+  void bindForGather() const;
+  /// Both axes in turn, in the list's pixels; `program` is smooth_levels.comp.glsl, otherwise configured.
+  void smooth(const gl::Program& program) const;
+  /// Lets what follows go over the list in the order of the loops' lengths; the programs are both forms of
+  /// order_work.comp.glsl.
+  void order(const gl::Program& count, const gl::Program& scatter) const;
+  /// Runs `program`, whose groups have 64 invocations, over the list that bindForGather() has bound.
+  void dispatchOverList(const gl::Program& program) const;
+  /// Lets later passes see what the last one wrote.
+  static void makeVisible();
+
+  /// Words: groups of an indirect dispatch (3), number of pixels, then the pixels, x | y << 16.
+  const gl::Buffer& work() const { return work_; }
+  /// RGBA16UI: first texel and the texel after the last one, of processed pixels alone.
+  const gl::Texture& areas() const { return areas_; }
+  /// Level in the first channel, of processed pixels; -1 for others where levels are smoothed. R32F, or
+  /// RG32F with the camera's depth.
+  const gl::Texture& levels() const { return levels_; }
+  int64_t bytes() const;
+
+ private:
+  gl::Texture areas_, levels_;
+  std::optional<gl::Texture> halfSmoothed_;
+  /// Another list, in order, and its bins.
+  struct Order {
+    gl::Buffer list, bins, emptyBins;
+  };
+  void dispatch(const gl::Program& program, const gl::Buffer& list) const;
+
+  gl::Buffer emptyHeader_, work_;
+  std::optional<Order> order_;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Soft shadow maps by scattering (SS-06): a loop over the texels of a map of casters, each of which adds the
+// share of the light that it hides to the receivers in its reach, in a map of the receivers that is then
+// projected onto the scene. Casters receive nothing. Source: Schwarz 2009, section 3.2.1 (after Atty et al.
+// 2006).
+//
+// 'front_and_back' takes the larger of what nearest front faces and farthest back faces hide: the heuristic
+// that the thesis shows to be wrong (Fig. 4.3 d); 'nearest_and_farthest' the same for surfaces whichever way
+// they face, of which two flat blockers are a case (Fig. 4.3 e). Shares are added as whole numbers, so that
+// the sum does not depend on the order.
+#include <epoxy/gl.h>
+
+#include <array>
+#include <optional>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/scatter/light_layers.h"
+#include "renderer/techniques/soft_shadows/visibility_technique.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char *kScatterPass = "soft_shadows/scatter", *kScatterRaster = "soft_shadows/scatter_layers",
+                     *kScatterLookup = "soft_shadows/scatter_lookup";
+/// The whole light in fixed point: 2^22 parts leave room for 1,024 layers that hide all of it, and a texel
+/// that hides a thousandth of the light is still known to 1 in 8,000.
+constexpr const char* kWhole = "4194304.0";
+
+std::vector<uint32_t> receiverBits(const scene::Scene& scene) {
+  std::vector<uint32_t> bits((scene.mesh.triangles.size() + 31) / 32, 0U);
+  for (const scene::Part& part : scene.parts)
+    if (part.receiverOnly)
+      for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i)
+        bits[i / 32] |= 1U << (i % 32);
+  return bits;
+}
+
+class Scatter : public Technique {
+ public:
+  explicit Scatter(const ParameterValues& values)
+      : resolution_(std::stoi(values.text("resolution"))),
+        softResolution_(std::stoi(values.text("soft_resolution"))),
+        layering_(values.text("layers")),
+        bias_(values.real("bias")) {}
+
+  void prepare(frame::Frame& frame) override {
+    layers_.emplace(frame, resolution_, softResolution_, withSecond());
+    scatter_ = &scatterProgram(frame, false);
+    lookup_ = &lookupProgram(frame, false);
+    for (std::optional<gl::Texture>& each : hidden_)
+      each.emplace(gl::Format::R32UI, glm::ivec2(softResolution_));
+    costs_.emplace(3 * int64_t{sizeof(uint32_t)}, nullptr);
+    receiverBits_.emplace(receiverBits(frame.scene()));
+    triangleCount_ = static_cast<uint32_t>(frame.scene().mesh.triangles.size());
+    visibility_.emplace(gl::Format::R32F, frame.sizePx());
+    frame.passes().setBytesHeld(kScatterRaster, layers_->bytes());
+    frame.passes().setBytesHeld(kScatterPass, hidden_[0]->bytes() + hidden_[1]->bytes() + costs_->bytes());
+    frame.passes().setBytesHeld(kScatterLookup, visibility_->bytes() + receiverBits_->bytes());
+  }
+
+  void render(frame::Frame& frame) override { run(frame, *scatter_, *lookup_, nullptr); }
+
+  const gl::Texture& product() const override { return *visibility_; }
+
+  static std::vector<std::string> counterNames() {
+    return {"caster_texels", "splats_per_caster_texel", "splats_per_receiver", "receivers_share", "lit_share",
+            "umbra_share",   "processed_share",         "without_answer_share"};
+  }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    const gl::Texture classes(gl::Format::R32UI, frame.sizePx());
+    frame.begin();
+    run(frame, scatterProgram(frame, true), lookupProgram(frame, true), &classes);
+    frame.end();
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    const std::vector<uint32_t> costs = costs_->read<uint32_t>();
+    std::array<double, ClassCount> pixels{};
+    const std::vector<uint32_t> classOf = classes.readUint();
+    for (const uint32_t each : classOf) pixels.at(each) += 1.0;
+    if (costs[0] > 0)
+      throw Error(std::to_string(costs[0]) +
+                      " caster texels need more loop iterations than this software renderer grants",
+                  "soft_shadows/scatter", "lower 'soft_resolution', or run on a GPU");
+    const auto all = static_cast<double>(classOf.size());
+    const double receivers = all - pixels[NotReceiver], casterTexels = costs[1], splats = costs[2];
+    return {{"caster_texels", casterTexels, "", true},
+            {"splats_per_caster_texel", casterTexels > 0.0 ? splats / casterTexels : 0.0, "", true},
+            {"splats_per_receiver", receivers > 0.0 ? splats / receivers : 0.0, "", true},
+            {"receivers_share", receivers / all, "", false},
+            {"lit_share", pixels[Lit] / all, "", false},
+            {"umbra_share", pixels[Umbra] / all, "", false},
+            {"processed_share", pixels[Processed] / all, "", false},
+            {"without_answer_share", pixels[Outside] / all, "", false}};
+  }
+
+ private:
+  bool withSecond() const { return layering_ != "nearest"; }
+
+  const gl::Program& scatterProgram(frame::Frame& frame, bool counting) const {
+    gl::ShaderDefines defines = {{"WHOLE", kWhole}};
+    if (counting) defines["COUNT"] = "1";
+    return frame.context().programs().compute("renderer/techniques/soft_shadows/scatter/scatter.comp.glsl",
+                                              defines);
+  }
+
+  const gl::Program& lookupProgram(frame::Frame& frame, bool counting) const {
+    gl::ShaderDefines defines = {{"WHOLE", kWhole}};
+    if (counting) defines["COUNT"] = "1";
+    if (withSecond()) defines["SECOND"] = "1";
+    return frame.context().programs().compute(
+        "renderer/techniques/soft_shadows/scatter/scatter_lookup.comp.glsl", defines);
+  }
+
+  void splat(const gl::Program& program, const gl::Texture& casters, float nothing,
+             const gl::Texture& hidden) const {
+    program.set("nothing", nothing);
+    casters.bindTexture(0);
+    layers_->receivers().bindTexture(1);
+    hidden.bindImage(0, gl::Access::ReadWrite);
+    program.dispatch(glm::ivec2(resolution_));
+  }
+
+  void run(frame::Frame& frame, const gl::Program& scatter, const gl::Program& lookup,
+           const gl::Texture* classes) {
+    const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
+    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    {
+      const auto scope = frame.passes().open(kScatterRaster);
+      const bool anyFace = layering_ != "front_and_back";
+      layers_->draw(frame, anyFace ? LightLayers::Faces::All : LightLayers::Faces::Towards,
+                    anyFace ? LightLayers::Faces::All : LightLayers::Faces::Away);
+    }
+    const frame::LightFrustum &from = layers_->casterFrustum(), &onto = layers_->receiverFrustum();
+    {
+      const auto scope = frame.passes().open(kScatterPass);
+      for (const std::optional<gl::Texture>& each : hidden_) each->clearUint(glm::uvec4(0));
+      costs_->clearUint(0);
+      glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+      scatter.set("resolution", resolution_);
+      scatter.set("softResolution", softResolution_);
+      scatter.set("maxIterations", frame.context().device().software ? 60000 : 0x7fffffff);
+      scatter.set("tangentLow", glm::vec2(from.low));
+      scatter.set("tangentSize", glm::vec2(from.high - from.low));
+      scatter.set("softLow", glm::vec2(onto.low));
+      scatter.set("softSize", glm::vec2(onto.high - onto.low));
+      scatter.set("lightSize", glm::vec2(frame.scene().lights[0].size));
+      scatter.set("casterNear", static_cast<float>(from.near));
+      scatter.set("receiverNear", static_cast<float>(onto.near));
+      scatter.set("farthestReceiver", static_cast<float>(layers_->farthestReceiver()));
+      scatter.set("bias", static_cast<float>(bias_));
+      costs_->bindStorage(0);
+      splat(scatter, layers_->nearest(), 0.0F, *hidden_[0]);
+      if (withSecond()) splat(scatter, layers_->farthest(), 1.0F, *hidden_[1]);
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    const auto scope = frame.passes().open(kScatterLookup);
+    lookup.set("sizePx", frame.sizePx());
+    lookup.set("softResolution", softResolution_);
+    lookup.set("softLow", glm::vec2(onto.low));
+    lookup.set("softSize", glm::vec2(onto.high - onto.low));
+    lookup.set("triangleCount", triangleCount_);
+    receivers.bindTexture(0);
+    layers_->receivers().bindTexture(1);
+    ids.bindTexture(2);
+    hidden_[0]->bindTexture(3);
+    hidden_[1]->bindTexture(4);
+    costs_->bindStorage(0);
+    receiverBits_->bindStorage(1);
+    visibility_->bindImage(0, gl::Access::Write);
+    if (classes) classes->bindImage(1, gl::Access::Write);
+    lookup.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  int resolution_, softResolution_;
+  std::string layering_;
+  double bias_;
+  std::optional<LightLayers> layers_;
+  const gl::Program *scatter_ = nullptr, *lookup_ = nullptr;
+  std::array<std::optional<gl::Texture>, 2> hidden_;  ///< by the nearest and by the farthest layer
+  std::optional<gl::Buffer> costs_, receiverBits_;
+  uint32_t triangleCount_ = 0;
+  std::optional<gl::Texture> visibility_;
+};
+
+std::vector<Parameter> scatterParameters() {
+  return {choiceParameter("resolution", "512", {"1", "2", "64", "128", "256", "512", "1024", "2048"},
+                          "Texels along a side of the map of casters", "Schwarz 2009, section 3.2.1"),
+          choiceParameter("soft_resolution", "512", {"1", "2", "64", "128", "256", "512", "1024", "2048"},
+                          "Texels along a side of the soft shadow map"),
+          choiceParameter("layers", "nearest", {"nearest", "front_and_back", "nearest_and_farthest"},
+                          "Surfaces that scatter: the nearest; or the larger of what the nearest front and "
+                          "the farthest back faces hide; or of the nearest and the farthest of any side",
+                          "Schwarz 2009, section 4.2.2 (Fig. 4.3)"),
+          realParameter("bias", 1e-4, 0.0, 0.1, "",
+                        "Constant depth bias as a share of the receiver's distance from the light's plane",
+                        "Schwarz 2009, section 4.4.5 (value not given there)")};
+}
+
+const Registered<TechniqueInfo> kRegistered{
+    {.name = "soft_shadows/scatter",
+     .version = 1,
+     .summary = "Texels of a map of casters scatter what they hide into a soft shadow map of the receivers",
+     .source = "Schwarz 2009, sections 3.2.1 and 4.2.2 (SS-06)",
+     .product = ProductKind::Visibility,
+     .parameters = scatterParameters(),
+     .needs = {"rectangular_light", "casters", "receiver_only_parts"},
+     .reference = false,
+     .onCpu = false,
+     .make = [](const ParameterValues& values) { return std::make_unique<Scatter>(values); },
+     .errorBound = {},
+     .counters = Scatter::counterNames()}};
+
+}  // namespace
+}  // namespace limen::techniques

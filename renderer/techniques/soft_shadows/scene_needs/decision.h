@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/techniques/soft_shadows/scene_needs/probe.h"
+
+namespace limen::techniques {
+
+/// When something is worth having. Source of the rules: Schwarz 2009, sections 3.3, 4.2 to 4.7 and 5.1, as
+/// collected for this bench; the numbers are the bench's own.
+struct NeedThresholds {
+  /// Mean change of the visibility where there is shadow, up to which a feature is left out.
+  double tolerance = 1.0 / 256.0;
+  double hardPenumbraTexels = 1.0;  ///< up to this widest penumbra a hard shadow is shown
+  double coarseShare = 0.25;        ///< of pixels with level 2 or coarser, from which on microrects are taken
+  double seamShare = 0.05;          ///< of neighbours with different levels, from which on levels are blended
+  double buildWeight = 1.0;         ///< micro-occluders whose cost that of one texel of a structure equals
+};
+
+/// What a scene was found to need in its view, and why.
+struct Decision {
+  ShadowSetting setting;
+  std::vector<std::string> remarks;  ///< a sentence for each choice
+  std::vector<Counter> evidence;     ///< the figures that decided; none is a cost
+};
+
+/// Names of the figures in Decision::evidence.
+std::vector<std::string> evidenceNames();
+
+/// Starts from everything (bitmask with jittered samples over two peeled layers) and leaves out what hardly
+/// changes a small picture of the scene; then chooses the structure by counted work. `common` goes into every
+/// setting: resolution, budget, raster. Waits for the GPU.
+Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe,
+                     const std::map<std::string, ParameterValue>& common, const NeedThresholds& thresholds);
+
+}  // namespace limen::techniques

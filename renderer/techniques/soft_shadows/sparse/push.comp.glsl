@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Push: each pixel without a visibility of its own takes it from the pyramid, from the level of its own spacing on until
+// what it found weighs 1. Interpolated straight at the pixel instead of level by level, so that each pixel judges by its own
+// surface what it takes; Schwarz 2009, section 5.1.3, names the reconstruction without details. Weights are a tent as wide
+// as a texel's side about the place that the texel's samples have, not about the texel's middle: samples at regular
+// distances then interpolate linearly, wherever in their texels they lie.
+#include "renderer/frame/seen_point.glsl"
+#include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D receivers;
+layout(binding = 1) uniform sampler2D depths;
+layout(binding = 2) uniform sampler2D normals;
+layout(binding = 3) uniform usampler2D slots;
+layout(binding = 4) uniform sampler2D sampledVisibility;
+layout(binding = 5) uniform sampler2D pulledPoints;
+layout(binding = 6) uniform sampler2D pulledWeights;
+layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#ifdef COUNT
+layout(binding = 1, r32ui) uniform writeonly uimage2D outClass;
+#endif
+uniform ivec2 sizePx;
+uniform vec2 rayScale;
+uniform int pulledLevels;
+
+const uint kSkipped = 0x80000000u;  // as in choose.comp.glsl
+const float kLeastWeight = 1e-4, kEnough = 0.999;
+const uint kOther = 0u, kInterpolated = 1u, kFallback = 2u, kAlone = 3u, kOwn = 4u;
+
+void store(ivec2 pixel, float visibility, uint kind) {
+  imageStore(outVisibility, pixel, vec4(visibility));
+#ifdef COUNT
+  imageStore(outClass, pixel, uvec4(kind));
+#endif
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  if (texelFetch(receivers, pixel, 0).w < 0.0) {
+    store(pixel, 1.0, kOther);
+    return;
+  }
+  const uint slot = texelFetch(slots, pixel, 0).x;
+  if ((slot & kSkipped) == 0u) {
+    store(pixel, texelFetch(sampledVisibility, ivec2(slot & 0xffffu, slot >> 16), 0).x, kOwn);
+    return;
+  }
+  const vec3 point = pixelRay(pixel, rayScale, sizePx) * texelFetch(depths, pixel, 0).x;
+  const vec3 normal = cameraNormal(texelFetch(normals, pixel, 0));
+  const vec2 place = vec2(pixel) + 0.5;
+  float visibility = 0.0, found = 0.0, nearest = 1e38, nearestVisibility = 1.0;
+  // Texels of the pyramid's finest level are two pixels wide: the spacing of level 1. A pixel of level 0 is always chosen.
+  for (int level = max(int(slot & ~kSkipped) - 1, 0); level < pulledLevels && found < kEnough; ++level) {
+    const ivec2 last = textureSize(pulledWeights, level) - 1, middle = pixel >> (level + 1);
+    const float side = float(2 << level);
+    float sum = 0.0, total = 0.0;
+    for (int y = max(middle.y - 1, 0); y <= min(middle.y + 1, last.y); ++y)
+      for (int x = max(middle.x - 1, 0); x <= min(middle.x + 1, last.x); ++x) {
+        const float held = texelFetch(pulledWeights, ivec2(x, y), level).x;
+        if (held <= 0.0) continue;
+        const vec4 other = texelFetch(pulledPoints, ivec2(x, y), level);
+        const vec2 ndc = other.xy / (-other.z * rayScale);
+        const vec2 apart = abs((ndc * vec2(0.5, -0.5) + 0.5) * vec2(sizePx) - place) / side;
+        const float tent = max(1.0 - apart.x, 0.0) * max(1.0 - apart.y, 0.0);
+        const float weight = tent * held * depthWeight(planeDistance(point, normal, other.xyz));
+        sum += weight * other.w;
+        total += weight;
+        const float apartInDepth = abs(other.z - point.z);
+        if (apartInDepth < nearest) {
+          nearest = apartInDepth;
+          nearestVisibility = other.w;
+        }
+      }
+    // What a level gives fills what finer levels left open.
+    const float share = 1.0 - found;
+    if (total > 0.0) visibility += share * min(total, 1.0) * (sum / total);
+    found += share * min(total, 1.0);
+  }
+  if (found > kLeastWeight)
+    store(pixel, clamp(visibility / found, 0.0, 1.0), kInterpolated);
+  else
+    store(pixel, nearestVisibility, nearest < 1e38 ? kFallback : kAlone);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+
+/// What upsampling and pull-push share: whose samples may stand for a point, and what to bind and set for it.
+class Reconstruction {
+ public:
+  /// depth_tolerance and normal_power.
+  static std::vector<Parameter> parameters();
+  explicit Reconstruction(const ParameterValues& values);
+
+  /// Uniforms of surface_weight.glsl, and the picture's size and rays.
+  void configure(const frame::Frame& frame, const gl::Program& program) const;
+
+ private:
+  double depthTolerance_, normalPower_;
+};
+
+/// Channels of a frame that tell what surface a pixel belongs to. Call of() outside of passes, and before
+/// anything is bound.
+struct SurfaceChannels {
+  const gl::Texture *receivers, *depths, *normals;
+  static SurfaceChannels of(frame::Frame& frame);
+  /// On three texture units from `unit` on.
+  void bind(uint32_t unit) const;
+};
+
+/// Half of a picture's extents at distance 1.
+glm::vec2 rayScale(const frame::Frame& frame);
+
+}  // namespace limen::techniques

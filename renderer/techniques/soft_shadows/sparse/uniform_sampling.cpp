@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <epoxy/gl.h>
+
+#include <limits>
+#include <optional>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/sparse/sampling.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char *kPlace = "sparse/choose", *kUpsample = "sparse/upsample";
+constexpr const char* kUpsampleShader = "renderer/techniques/soft_shadows/sparse/upsample.comp.glsl";
+
+class UniformSampling : public SparseSampling {
+ public:
+  UniformSampling(frame::Frame& frame, const ParameterValues& values)
+      : reconstruction_(values),
+        factor_(std::stoi(values.text("factor"))),
+        fromPicture_(values.text("points") == "subset"),
+        points_(frame, "sparse/inner", pointCount(frame.sizePx())),
+        upsample_(frame.context().programs().compute(kUpsampleShader)) {
+    if (!fromPicture_) return;
+    place_ =
+        &frame.context().programs().compute("renderer/techniques/soft_shadows/sparse/place_grid.comp.glsl");
+    ids_.emplace(gl::Format::R32UI, points_.sizePx());
+    places_.emplace(gl::Format::RG32F, points_.sizePx());
+    frame.passes().setBytesHeld(kPlace, ids_->bytes() + places_->bytes());
+    points_.setSeen({&*ids_, &*places_, frame.sizePx()});
+  }
+
+  frame::Frame& points() override { return points_; }
+
+  void choose(frame::Frame& frame) override {
+    if (!fromPicture_) return;
+    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    const auto scope = frame.passes().open(kPlace);
+    place_->set("pictureSizePx", frame.sizePx());
+    place_->set("gridSizePx", points_.sizePx());
+    place_->set("factor", factor_);
+    ids.bindTexture(0);
+    ids_->bindImage(0, gl::Access::Write);
+    places_->bindImage(1, gl::Access::Write);
+    place_->dispatch(points_.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+
+  void reconstruct(frame::Frame& frame, const gl::Texture& sampled, const gl::Texture& visibility,
+                   const gl::Texture* classes) override {
+    const gl::Program& program =
+        classes ? frame.context().programs().compute(kUpsampleShader, {{"COUNT", "1"}}) : upsample_;
+    const SurfaceChannels grid = SurfaceChannels::of(points_), picture = SurfaceChannels::of(frame);
+    const auto scope = frame.passes().open(kUpsample);
+    reconstruction_.configure(frame, program);
+    const glm::vec2 size(frame.sizePx()), gridSize(points_.sizePx());
+    if (fromPicture_) {
+      program.set("firstPlace", glm::vec2(0.5F));
+      program.set("placeStep", glm::vec2(static_cast<float>(factor_)));
+      program.set("lastPlace", size - 0.5F);
+    } else {
+      // Both pictures have the same vertical field of view, and square pixels about the same middle.
+      const float step = size.y / gridSize.y;
+      program.set("firstPlace", 0.5F * size + (0.5F - 0.5F * gridSize) * step);
+      program.set("placeStep", glm::vec2(step));
+      program.set("lastPlace", glm::vec2(std::numeric_limits<float>::max()));
+    }
+    program.set("gridSizePx", points_.sizePx());
+    picture.bind(0);
+    grid.bind(3);
+    sampled.bindTexture(6);
+    visibility.bindImage(0, gl::Access::Write);
+    if (classes) classes->bindImage(1, gl::Access::Write);
+    program.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+ private:
+  /// A subset ends with the picture's last pixels, so that no pixel lies outside of the grid.
+  glm::ivec2 pointCount(glm::ivec2 sizePx) const {
+    return fromPicture_ ? (sizePx - 1 + factor_ - 1) / factor_ + 1 : (sizePx + factor_ - 1) / factor_;
+  }
+
+  Reconstruction reconstruction_;
+  int factor_;
+  bool fromPicture_;
+  frame::Frame points_;
+  const gl::Program& upsample_;
+  const gl::Program* place_ = nullptr;
+  std::optional<gl::Texture> ids_, places_;
+};
+
+}  // namespace
+
+std::unique_ptr<SparseSampling> makeUniformSampling(frame::Frame& frame, const ParameterValues& values) {
+  return std::make_unique<UniformSampling>(frame, values);
+}
+
+}  // namespace limen::techniques
