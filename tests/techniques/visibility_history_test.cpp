@@ -228,8 +228,8 @@ TEST_F(VisibilityHistoryTest, CountsWhoHasAPast) {
                              {{"resolution", std::string("128")}, {"clamp", std::string("neighbourhood")}});
   averaged->prepare(frame);
   const auto counter = [&](const std::string& name) {
-    for (const Counter& counter : averaged->count(frame))
-      if (counter.name == name) return counter.value;
+    for (const Counter& counted : averaged->count(frame))
+      if (counted.name == name) return counted.value;
     ADD_FAILURE() << "no counter " << name;
     return 0.0;
   };
