@@ -27,6 +27,10 @@ std::vector<Parameter> LevelOfQuality::parameters() {
                       "All work on a pixel in one pass, or search, smoothing of levels and the loop over "
                       "micro-occluders in passes of their own, of which the last has no pixels without work",
                       "Schwarz 2009, sections 4.1 and 5.2.1"),
+      choiceParameter("work_order", kDefaultOrder, {kDefaultOrder, "loop_length"},
+                      "Order in which split passes go over pixels: by tiles of the image, or those with the "
+                      "longest loops over micro-occluders first",
+                      "Schwarz 2009, section 5.2.2 (coherence)"),
       choiceParameter(
           "levels", kFinestWithin, {kFinestWithin, kCoarsestOver, "blend", kNarrowBlend, kDither},
           "Level of the micro-occluders: the finest within the budget; of a real level, at which it "

@@ -44,7 +44,7 @@ class SceneNeeds : public Technique {
  private:
   std::string settingText() const {
     std::string text = decision_.setting.technique;
-    for (const auto& [name, value] : decision_.setting.values) text += ", " + name + "=" + toText(value);
+    for (const auto& [name, value] : decision_.setting.values) text += ", " + name + "=" + limen::toText(value);
     return text;
   }
 
