@@ -260,6 +260,8 @@ class GlExecutor : public Executor {
     }
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::JndMap)
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
+    if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
+      run.outcome.measurements.push_back({"product_png_white", kErrorScale, "", "fact"});
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);

@@ -25,12 +25,19 @@ Image composed(const Image& product, const Image& shading, bool isShare) {
   return out;
 }
 
+Image absolute(Image product) {
+  for (float& value : product.data) value = std::abs(value);
+  return product;
+}
+
 /// The product as a person would want to see it.
 Image productPicture(const PlannedRun& run, const Image& product, const Image& shading) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.technique.name);
   if (info.product == techniques::ProductKind::Threshold) return perception::thresholdPicture(product);
   if (info.product == techniques::ProductKind::JndMap)
     return perception::errorPicture(product, kJndPictureWhite);
+  if (info.product == techniques::ProductKind::VisibilityChange)
+    return perception::errorPicture(absolute(product), kErrorScale);
   const bool isShare = product.channels == 1 || info.product == techniques::ProductKind::LightColour;
   return perception::displayPicture(composed(product, shading, isShare));
 }

@@ -11,8 +11,8 @@
 
 namespace limen::experiments {
 
-/// Absolute or relative error that error pictures show as white: the same in all runs, so that pictures can
-/// be compared.
+/// Absolute or relative error, or change, that pictures of errors and changes show as white: the same in all
+/// runs, so that pictures can be compared.
 inline constexpr double kErrorScale = 0.25;
 
 /// Difference that pictures of a JND map show as white, in all runs alike.

@@ -19,8 +19,14 @@ Frame::Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gp
 }
 
 Frame::Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx)
+    : Frame(parent, name, parent.scene_, sizePx) {}
+
+Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene)
+    : Frame(parent, name, scene, parent.sizePx_) {}
+
+Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene, glm::ivec2 sizePx)
     : context_(parent.context_),
-      scene_(parent.scene_),
+      scene_(scene),
       gpuScene_(parent.gpuScene_),
       sizePx_(sizePx),
       raster_(parent.raster_),

@@ -48,6 +48,9 @@ class Frame {
   /// parent.
   Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx);
 
+  /// The same view within a frame of `parent`, of `scene`: the parent's scene but for its lights.
+  Frame(Frame& parent, const std::string& name, const scene::Scene& scene);
+
   gl::Context& context() { return context_; }
   const scene::Scene& scene() const { return scene_; }
   const GpuScene& gpuScene() const { return gpuScene_; }
@@ -106,6 +109,8 @@ class Frame {
     std::unique_ptr<FrameInput> input;
     uint64_t madeIn = 0;
   };
+
+  Frame(Frame& parent, const std::string& name, const scene::Scene& scene, glm::ivec2 sizePx);
 
   gl::Context& context_;
   const scene::Scene& scene_;

@@ -13,6 +13,8 @@ std::string toText(ProductKind kind) {
       return "threshold";
     case ProductKind::LightColour:
       return "light_colour";
+    case ProductKind::VisibilityChange:
+      return "visibility_change";
     case ProductKind::JndMap:
       return "jnd_map";
   }

@@ -23,7 +23,9 @@ enum class ProductKind {
   LightColour,  ///< RGBA32F, share of the light's radiance, meant over its area, that each pixel's surface
                 ///< point sees, channel by channel: 0..1, 1 outside receivers and in channels that the
                 ///< light has not; alpha 1
-  JndMap        ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
+  VisibilityChange,  ///< R32F, Visibility less that of an earlier frame, -1..1, or the mean size of such
+                     ///< changes, 0..1; 0 where either frame has no receiver
+  JndMap             ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
 };
 std::string toText(ProductKind kind);
 

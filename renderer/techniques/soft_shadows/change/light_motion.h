@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "renderer/techniques/soft_shadows/history/visibility_history.h"
+#include "renderer/techniques/soft_shadows/history/wrapped_technique.h"
+
+namespace limen::techniques {
+
+/// A technique watched while the light moves in its own plane, in equal steps that end where the scene has
+/// it. Each place of the light is a view of its own within the frame, with its own shadow maps, as it would
+/// be frame after frame; a history goes along, if there is one. Work and bytes are those of all places
+/// together.
+class LightMotion {
+ public:
+  /// What one frame of the motion shows.
+  struct Seen {
+    const gl::Texture* visibility = nullptr;  ///< R32F
+    const gl::Texture* receivers = nullptr;   ///< as frame::Receivers has them
+  };
+  /// `after` is the frame's, `before` the one before it; valid during the call.
+  using StepVisitor = std::function<void(int step, const Seen& before, const Seen& after)>;
+
+  /// `values` must hold parameters().
+  explicit LightMotion(const ParameterValues& values);
+  static std::vector<Parameter> parameters();
+  /// Throws Error where values of these parameters do not go together.
+  static void check(const ParameterValues& values);
+
+  int steps() const { return steps_; }
+  bool hasHistory() const { return history_.has_value(); }
+  /// Time that the camera moves on between two places, s; at the last it is where the frame has it. Before
+  /// prepare().
+  void setCameraStep(double seconds) { cameraStepS_ = seconds; }
+
+  /// Renders only the last `places` places of the light: 1 .. steps() + 1.
+  void prepare(frame::Frame& frame, int places);
+  /// Shows all places in order, the history starting anew with the first, and visits the steps between them,
+  /// numbered from 0 on.
+  void render(frame::Frame& frame, const StepVisitor& visit = {});
+  /// The frame at the last place. After render().
+  const Seen& last() const { return last_; }
+
+  /// Of the last place.
+  std::vector<Counter> count();
+  static std::vector<std::string> counterNames();
+
+ private:
+  struct Place {
+    scene::Scene scene;
+    std::unique_ptr<frame::Frame> frame;
+    std::unique_ptr<Technique> technique;
+  };
+
+  ParameterValues values_;
+  int steps_;
+  glm::dvec2 stepShare_;  // of the light's extents
+  double cameraStepS_ = 0.0;
+  std::optional<VisibilityHistory> history_;
+  std::vector<std::unique_ptr<Place>> places_;
+  Seen last_;
+};
+
+/// The scene with its first light moved by `share` of its extents along its axes.
+scene::Scene withMovedLight(const scene::Scene& scene, glm::dvec2 share);
+
+}  // namespace limen::techniques

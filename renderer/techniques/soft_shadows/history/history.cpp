@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Another technique's visibility averaged over the frames that were rendered so far (SS-43). The first frame
+// is the other technique's own; what later ones gain and lose in motion is measured by soft_shadows/change
+// and soft_shadows/in_motion, which have the same history within.
+#include "renderer/techniques/soft_shadows/history/visibility_history.h"
+#include "renderer/techniques/soft_shadows/history/wrapped_technique.h"
+
+namespace limen::techniques {
+namespace {
+
+class History : public Technique {
+ public:
+  explicit History(const ParameterValues& values)
+      : inner_(WrappedTechnique::make(values)), history_(values) {}
+
+  void prepare(frame::Frame& frame) override {
+    inner_->prepare(frame);
+    history_.prepare(frame);
+  }
+
+  void render(frame::Frame& frame) override {
+    inner_->render(frame);
+    history_.add(frame, inner_->product());
+  }
+
+  const gl::Texture& product() const override { return history_.current(); }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    std::vector<Counter> all = WrappedTechnique::count(*inner_, frame);
+    for (Counter& counter : history_.count(frame, inner_->product())) all.push_back(std::move(counter));
+    return all;
+  }
+
+  std::map<std::string, const gl::Texture*> debugViews() const override {
+    return {{"present", &inner_->product()}};
+  }
+
+ private:
+  std::unique_ptr<Technique> inner_;
+  VisibilityHistory history_;
+};
+
+std::vector<Parameter> historyTechniqueParameters() {
+  std::vector<Parameter> all = WrappedTechnique::parameters();
+  for (Parameter& parameter : VisibilityHistory::parameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+std::vector<std::string> historyTechniqueCounters() {
+  std::vector<std::string> names = WrappedTechnique::counterNames();
+  for (std::string& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
+  return names;
+}
+
+const Registered<TechniqueInfo> kHistoryTechnique{
+    {.name = "soft_shadows/history",
+     .version = 1,
+     .summary = "Visibility of another technique averaged over past frames",
+     .source = "Schwarz 2009, section 5.2.2 (suggested there, after Scherzer et al. 2007) (SS-43)",
+     .product = ProductKind::Visibility,
+     .parameters = historyTechniqueParameters(),
+     .needs = {"rectangular_light"},
+     .reference = false,
+     .onCpu = false,
+     .make = [](const ParameterValues& values) { return std::make_unique<History>(values); },
+     .errorBound = {},
+     .counters = historyTechniqueCounters(),
+     .check =
+         [](const ParameterValues& values) {
+           WrappedTechnique::check(values);
+           VisibilityHistory::check(values);
+         }}};
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/history/visibility_history.h"
+
+#include <epoxy/gl.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/motion.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char *kHistoryPass = "soft_shadows/history",
+                     *kHistoryShader =
+                         "renderer/techniques/soft_shadows/history/visibility_history.comp.glsl";
+constexpr const char* kUnbounded = "none";
+constexpr int64_t kDefaultClampRadius = 1;
+
+/// What the shader writes about a pixel where FATES is defined.
+enum Fate : uint32_t { NoReceiver = 0, NoPast = 1, PastTaken = 2, PastBounded = 3 };
+
+/// Times of frames are sums and differences of doubles; equal steps must not differ in their last digits,
+/// since each length of step has an input of its own.
+double stepBetween(double fromS, double toS) {
+  constexpr double kNanoseconds = 1e9;
+  return std::round((toS - fromS) * kNanoseconds) / kNanoseconds;
+}
+
+gl::ShaderDefines historyDefines(bool moving, bool fates) {
+  gl::ShaderDefines defines;
+  if (moving) defines["MOVING"] = "1";
+  if (fates) defines["FATES"] = "1";
+  return defines;
+}
+
+}  // namespace
+
+VisibilityHistory::VisibilityHistory(const ParameterValues& values)
+    : alpha_(static_cast<float>(values.real("alpha"))),
+      depthTolerance_(static_cast<float>(values.real("depth_tolerance"))),
+      normalCosine_(static_cast<float>(std::cos(glm::radians(values.real("normal_tolerance_deg"))))),
+      clampRadius_(values.text("clamp") == kUnbounded ? 0
+                                                      : static_cast<int>(values.integer("clamp_radius"))) {}
+
+std::vector<Parameter> VisibilityHistory::parameters() {
+  const std::string source = "Schwarz 2009, section 5.2.2 (suggested there; value not given)";
+  return {realParameter("alpha", 0.2, 0.01, 1.0, "",
+                        "Weight of the present frame; the past has the rest; 1: no history", source),
+          realParameter("depth_tolerance", 0.01, 0.0, 1.0, "",
+                        "Difference of depth from the past at which it is another surface, as a share of the "
+                        "depth",
+                        source),
+          realParameter("normal_tolerance_deg", 20.0, 0.0, 180.0, "deg",
+                        "Angle between normals from which the past is another surface", source),
+          choiceParameter("clamp", kUnbounded, {kUnbounded, "neighbourhood"},
+                          "Bounds of the past: none, or the least and the greatest visibility of receivers "
+                          "around the pixel in the present frame",
+                          "Karis 2014"),
+          integerParameter("clamp_radius", kDefaultClampRadius, 1, 8, "px",
+                           "Half the side of the square that clamp: neighbourhood looks at, without its "
+                           "middle")};
+}
+
+void VisibilityHistory::check(const ParameterValues& values) {
+  if (values.text("clamp") == kUnbounded && values.integer("clamp_radius") != kDefaultClampRadius)
+    throw Error("'clamp_radius' is about clamp: neighbourhood, and the past is not bounded", "clamp_radius",
+                "leave it out, or give clamp: neighbourhood");
+}
+
+void VisibilityHistory::prepare(frame::Frame& frame) {
+  int64_t bytes = 0;
+  for (size_t i = 0; i < 2; ++i) {
+    visibility_[i].emplace(gl::Format::R32F, frame.sizePx());
+    surface_[i].emplace(gl::Format::RGBA32F, frame.sizePx());
+    bytes += visibility_[i]->bytes() + surface_[i]->bytes();
+  }
+  frame.passes().setBytesHeld(kHistoryPass, bytes);
+  for (const bool moving : {false, true})
+    frame.context().programs().compute(kHistoryShader, historyDefines(moving, false));
+  forget();
+}
+
+void VisibilityHistory::add(frame::Frame& frame, const gl::Texture& visibility) {
+  run(frame, visibility, nullptr);
+  latest_ = 1 - latest_;
+  hasPast_ = true;
+  timeS_ = frame.timeS();
+}
+
+void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, const gl::Texture* fates) {
+  const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
+  const gl::Texture& depths =
+      frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture();
+  const gl::Texture& normals =
+      frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture();
+  const double dtS = hasPast_ ? stepBetween(timeS_, frame.timeS()) : 0.0;
+  const frame::Motion* motion = dtS == 0.0 ? nullptr : &frame.get<frame::Motion>(frame::MotionSetting{dtS});
+  const gl::Program& program =
+      frame.context().programs().compute(kHistoryShader, historyDefines(motion != nullptr, fates != nullptr));
+  const auto scope = frame.passes().open(kHistoryPass);
+  program.set("sizePx", frame.sizePx());
+  program.set("hasPast", hasPast_ ? 1 : 0);
+  program.set("alpha", alpha_);
+  program.set("depthTolerance", depthTolerance_);
+  program.set("normalCosine", normalCosine_);
+  program.set("clampRadius", clampRadius_);
+  receivers.bindTexture(0);
+  visibility.bindTexture(1);
+  depths.bindTexture(2);
+  normals.bindTexture(3);
+  visibility_.at(latest_)->bindTexture(4);
+  surface_.at(latest_)->bindTexture(5);
+  if (motion) {
+    motion->displacement().bindTexture(6);
+    motion->previousDepth().bindTexture(7);
+  }
+  if (fates) {
+    fates->bindImage(0, gl::Access::Write);
+  } else {
+    visibility_.at(1 - latest_)->bindImage(0, gl::Access::Write);
+    surface_.at(1 - latest_)->bindImage(1, gl::Access::Write);
+  }
+  program.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+std::vector<std::string> VisibilityHistory::counterNames() {
+  return {"history_taken_share", "history_bounded_share"};
+}
+
+std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Texture& visibility) {
+  const gl::Texture fates(gl::Format::R32UI, frame.sizePx());
+  frame.begin();
+  run(frame, visibility, &fates);
+  frame.end();
+  double receivers = 0.0, taken = 0.0, bounded = 0.0;
+  for (const uint32_t fate : fates.readUint()) {
+    receivers += fate != NoReceiver;
+    taken += fate == PastTaken || fate == PastBounded;
+    bounded += fate == PastBounded;
+  }
+  const auto share = [&](double part) { return receivers > 0.0 ? part / receivers : 0.0; };
+  return {{"history_taken_share", share(taken), "", false},
+          {"history_bounded_share", share(bounded), "", false}};
+}
+
+}  // namespace limen::techniques
