@@ -87,7 +87,7 @@ TEST_F(LightMotionTest, ChangesAreThoseOfTheClosedForm) {
   const scene::AreaLight& light = scene.lights[0];
   constexpr double kShare = 0.15;
   // Backprojection is exact up to rounding where texels end with the caster (0.002 a frame, see
-  // half_plane.yaml). Of 16 rows of samples an edge covers one more or one less in either frame.
+  // half_plane.yaml). Samples in 16 rows know an edge to 1 / 32, in either frame.
   for (const auto& [inner, bound] : std::vector<std::pair<std::string, double>>{
            {"exact_union", 1e-5}, {"backprojection", 0.004}, {"bitmask", 1.0 / 16.0 + 0.004}}) {
     Given given = {{"inner", inner}, {"light_step", kShare}, {"direction_deg", alongWorldX(light)}};
