@@ -8,7 +8,7 @@
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
-#include "analysis/sweep/published.h"
+#include "analysis/sweep/printed_tables.h"
 #include "base/text.h"
 
 namespace limen::analysis {
@@ -115,8 +115,8 @@ void exportTables(const Sweep& sweep, const std::string& folder) {
   write(folder, "frame_times.csv", {"key", "device", "frame", "round", "pass", "nanoseconds"}, frameTimes);
   write(folder, "passes.csv", joined(kIdentity, {"pass", "bytes_held", "median_ms", "p95_ms", "n_frames"}),
         passes);
-  if (const auto published = comparePublished(sweep); !published.empty())
-    writeFileBytes((std::filesystem::path(folder) / "published.csv").string(), publishedCsv(published));
+  if (const auto published = comparePrinted(sweep); !published.empty())
+    writeFileBytes((std::filesystem::path(folder) / "published.csv").string(), printedCsv(published));
 }
 
 }  // namespace limen::analysis

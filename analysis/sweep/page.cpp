@@ -8,7 +8,7 @@
 #include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
-#include "analysis/sweep/published.h"
+#include "analysis/sweep/printed_tables.h"
 #include "base/text.h"
 
 namespace limen::embedded {
@@ -105,7 +105,7 @@ std::string renderCellName(const Sweep& sweep, const Cell& cell) {
 std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures) {
   std::string body = "<main>\n";
   body += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +
-          renderCounter(sweep, charts) + renderPublished(comparePublished(sweep)) +
+          renderCounter(sweep, charts) + renderPrinted(comparePrinted(sweep)) +
           renderPictures(sweep, pictures) + renderPasses(sweep) + renderRunTable(sweep) +
           renderRemarks(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
           renderHowToRead(sweep, charts.footUsed) + renderEnvironment(sweep);

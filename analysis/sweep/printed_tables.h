@@ -10,7 +10,7 @@
 namespace limen::analysis {
 
 /// A printed table beside what this sweep measured of the same settings (`published` of the descriptor).
-struct PublishedComparison {
+struct PrintedTable {
   /// How ratios to the base row compare. Ratios within 5 % of 1 count as 1.
   enum class Verdict {
     None,     ///< no base row, or one of the two has no ratio
@@ -32,10 +32,10 @@ struct PublishedComparison {
 };
 
 /// The tables of the sweep's experiment; cells that are missing leave gaps.
-std::vector<PublishedComparison> comparePublished(const Sweep& sweep);
+std::vector<PrintedTable> comparePrinted(const Sweep& sweep);
 /// HTML section; "" if there is nothing to compare.
-std::string renderPublished(const std::vector<PublishedComparison>& tables);
+std::string renderPrinted(const std::vector<PrintedTable>& tables);
 /// The same as CSV, long form: table, row, source (printed or measured), column, value, ratio.
-std::string publishedCsv(const std::vector<PublishedComparison>& tables);
+std::string printedCsv(const std::vector<PrintedTable>& tables);
 
 }  // namespace limen::analysis

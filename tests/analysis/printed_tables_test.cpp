@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/sweep/published.h"
+#include "analysis/sweep/printed_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Optional;
-using Verdict = PublishedComparison::Verdict;
+using Verdict = PrintedTable::Verdict;
 
 /// Runs of 1, 2 and 4 samples in two scenes that take `ms` each.
-class Published : public testing::Test {
+class PrintedTables : public testing::Test {
  protected:
-  std::vector<PublishedComparison> compare(const std::vector<double>& first,
-                                           const std::vector<double>& second, const nlohmann::json& printed) {
+  std::vector<PrintedTable> compare(const std::vector<double>& first, const std::vector<double>& second,
+                                    const nlohmann::json& printed) {
     std::vector<store::Run> runs;
     nlohmann::json rows = nlohmann::json::array();
     for (size_t i = 0; i < first.size(); ++i) {
@@ -43,15 +43,15 @@ class Published : public testing::Test {
                                                              {"measure", "gpu_ms"},
                                                              {"rows", rows}}});
     writeExperiment(store, experiment, std::move(runs));
-    return comparePublished(loadSweep(store, store.experiments().at(0)));
+    return comparePrinted(loadSweep(store, store.experiments().at(0)));
   }
   TemporaryFolder folder_;
 };
 
-TEST_F(Published, PutsRatiosBesideRatios) {
+TEST_F(PrintedTables, PutsRatiosBesideRatios) {
   const auto tables = compare({10, 20, 5}, {4, 12, 8}, {{1, 2}, {3, 5}, {0.5, nullptr}});
   ASSERT_EQ(tables.size(), 1U);
-  const PublishedComparison& table = tables[0];
+  const PrintedTable& table = tables[0];
   ASSERT_EQ(table.ownColumns.size(), 2U);
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.rows[0].verdict, Verdict::None);
@@ -64,21 +64,21 @@ TEST_F(Published, PutsRatiosBesideRatios) {
   EXPECT_EQ(table.rows[2].verdict, Verdict::Partly);
 }
 
-TEST_F(Published, AnotherWayIsCalledSo) {
+TEST_F(PrintedTables, AnotherWayIsCalledSo) {
   const auto tables = compare({10, 9, 10.4}, {10, 9.4, 9.6}, {{1, 1}, {2, 2}, {0.5, 3}});
   EXPECT_EQ(tables[0].rows[1].verdict, Verdict::Differs);
   // Within 5 % of the base is neither a gain nor a loss.
   EXPECT_EQ(tables[0].rows[2].verdict, Verdict::Differs);
 }
 
-TEST_F(Published, SaysWhatIsPrintedAndWhatIsMeasured) {
+TEST_F(PrintedTables, SaysWhatIsPrintedAndWhatIsMeasured) {
   const auto tables = compare({10, 20}, {4, 12}, {{1, 2}, {3, 5}});
-  const std::string html = renderPublished(tables);
+  const std::string html = renderPrinted(tables);
   EXPECT_THAT(html, HasSubstr("Table &lt;1&gt;"));
   EXPECT_THAT(html, HasSubstr("Printed: Test 2024, Old GPU; values in ms; here gpu_ms."));
-  EXPECT_THAT(html, HasSubstr("20 <small>×2.000</small>"));
-  EXPECT_THAT(publishedCsv(tables), HasSubstr("Table <1>,2,1,printed,two,5,2.5,ms"));
-  EXPECT_THAT(renderPublished({}), "");
+  EXPECT_THAT(html, HasSubstr("20 <small>×2</small>"));
+  EXPECT_THAT(printedCsv(tables), HasSubstr("Table <1>,2,1,printed,two,5,2.5,ms"));
+  EXPECT_THAT(renderPrinted({}), "");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/sweep/published.h"
+#include "analysis/sweep/printed_tables.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace limen::analysis {
 namespace {
 
-using Verdict = PublishedComparison::Verdict;
+using Verdict = PrintedTable::Verdict;
 using Values = std::vector<std::optional<double>>;
 
 constexpr double kEqualBand = 0.05;
@@ -62,8 +62,8 @@ std::string ownColumn(const Sweep& sweep, const Grouping& grouping, const Cell& 
   return sweep.severalDevices ? scene + ", " + cell.run.device : scene;
 }
 
-PublishedComparison compare(const Sweep& sweep, const Grouping& grouping, const nlohmann::json& table) {
-  PublishedComparison out;
+PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohmann::json& table) {
+  PrintedTable out;
   out.title = table.at("title");
   out.source = table.at("source");
   out.device = table.at("device");
@@ -86,7 +86,7 @@ PublishedComparison compare(const Sweep& sweep, const Grouping& grouping, const 
   }
   for (size_t i = 0; i < cellsOfRows.size(); ++i) {
     const nlohmann::json& from = table.at("rows").at(i);
-    PublishedComparison::Row row;
+    PrintedTable::Row row;
     row.name = from.at("name");
     row.base = from.at("relative_to");
     for (const nlohmann::json& value : from.at("values"))
@@ -100,10 +100,9 @@ PublishedComparison compare(const Sweep& sweep, const Grouping& grouping, const 
     }
     out.rows.push_back(std::move(row));
   }
-  for (PublishedComparison::Row& row : out.rows) {
-    const auto base =
-        std::find_if(out.rows.begin(), out.rows.end(),
-                     [&](const PublishedComparison::Row& other) { return other.name == row.base; });
+  for (PrintedTable::Row& row : out.rows) {
+    const auto base = std::find_if(out.rows.begin(), out.rows.end(),
+                                   [&](const PrintedTable::Row& other) { return other.name == row.base; });
     if (row.base.empty() || base == out.rows.end() || &*base == &row) continue;
     row.printedRatios = ratios(row.printed, base->printed);
     row.ourRatios = ratios(row.ours, base->ours);
@@ -133,7 +132,7 @@ std::string verdictHtml(Verdict verdict) {
   return "<td></td>";
 }
 
-std::string tableHtml(const PublishedComparison& table) {
+std::string tableHtml(const PrintedTable& table) {
   std::string out = "<h3>" + escapeHtml(table.title) +
                     "</h3>\n<div class=\"scroll\"><table><caption>Printed: " +
                     escapeHtml(table.source + (table.device.empty() ? "" : ", " + table.device)) +
@@ -150,7 +149,7 @@ std::string tableHtml(const PublishedComparison& table) {
       out += "<th scope=\"col\" class=\"num\">" + escapeHtml(column) + "</th>";
   if (table.ownColumns.empty()) out += "<th scope=\"col\">not measured</th>";
   out += "</tr></thead>\n<tbody>\n";
-  for (const PublishedComparison::Row& row : table.rows) {
+  for (const PrintedTable::Row& row : table.rows) {
     out += "<tr><th scope=\"row\">" + escapeHtml(row.name) + "</th>";
     for (size_t i = 0; i < table.columns.size(); ++i) out += cellHtml(row.printed, row.printedRatios, i);
     for (size_t i = 0; i < table.ownColumns.size(); ++i) out += cellHtml(row.ours, row.ourRatios, i);
@@ -162,8 +161,8 @@ std::string tableHtml(const PublishedComparison& table) {
 
 }  // namespace
 
-std::vector<PublishedComparison> comparePublished(const Sweep& sweep) {
-  std::vector<PublishedComparison> out;
+std::vector<PrintedTable> comparePrinted(const Sweep& sweep) {
+  std::vector<PrintedTable> out;
   const auto tables = sweep.experiment.report.find("published");
   if (tables == sweep.experiment.report.end()) return out;
   std::vector<const store::Run*> runs;
@@ -173,7 +172,7 @@ std::vector<PublishedComparison> comparePublished(const Sweep& sweep) {
   return out;
 }
 
-std::string renderPublished(const std::vector<PublishedComparison>& tables) {
+std::string renderPrinted(const std::vector<PrintedTable>& tables) {
   if (tables.empty()) return "";
   std::string out =
       "<section id=\"published\"><h2>Beside printed numbers</h2>\n<p>Other machines and other scenes: values "
@@ -181,17 +180,17 @@ std::string renderPublished(const std::vector<PublishedComparison>& tables) {
       "not to be equal. Ratios to the base row (×) say whether a setting gains or loses; those within 5 % of "
       "1 "
       "count as neither. Also in <a href=\"published.csv\">published.csv</a>.</p>\n";
-  for (const PublishedComparison& table : tables) out += tableHtml(table);
+  for (const PrintedTable& table : tables) out += tableHtml(table);
   return out + "</section>\n";
 }
 
-std::string publishedCsv(const std::vector<PublishedComparison>& tables) {
+std::string printedCsv(const std::vector<PrintedTable>& tables) {
   std::string out = csvLine({"table", "row", "relative_to", "from", "column", "value", "ratio", "unit"});
   const auto text = [](const Values& values, size_t i) {
     return i < values.size() && values[i] ? shortestNumber(*values[i]) : std::string();
   };
-  for (const PublishedComparison& table : tables)
-    for (const PublishedComparison::Row& row : table.rows) {
+  for (const PrintedTable& table : tables)
+    for (const PrintedTable::Row& row : table.rows) {
       for (size_t i = 0; i < table.columns.size(); ++i)
         out += csvLine({table.title, row.name, row.base, "printed", table.columns[i], text(row.printed, i),
                         text(row.printedRatios, i), table.unit});
