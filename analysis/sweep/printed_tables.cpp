@@ -53,7 +53,8 @@ Verdict judge(const Values& printed, const Values& ours) {
   const std::set<int> theirs = ways(printed), own = ways(ours);
   if (theirs.empty() || own.empty()) return Verdict::None;
   const auto shared = std::count_if(own.begin(), own.end(), [&](int way) { return theirs.count(way) > 0; });
-  if (shared == 0) return Verdict::Differs;
+  const std::set<int> neither = {0};
+  if (shared == 0) return own == neither || theirs == neither ? Verdict::Faint : Verdict::Differs;
   return static_cast<size_t>(shared) == own.size() ? Verdict::Agrees : Verdict::Partly;
 }
 
@@ -126,6 +127,8 @@ std::string verdictHtml(Verdict verdict) {
       return "<td class=\"held\">✓ same way</td>";
     case Verdict::Partly:
       return "<td>in part</td>";
+    case Verdict::Faint:
+      return "<td>within 5 %</td>";
     case Verdict::Differs:
       return "<td class=\"broken\">✗ other way</td>";
   }

@@ -16,6 +16,7 @@ struct PrintedTable {
     None,     ///< no base row, or one of the two has no ratio
     Agrees,   ///< all of ours go a way that a printed one goes: up, down or neither
     Partly,   ///< some of ours do
+    Faint,    ///< none does, but one side hardly goes any way
     Differs,  ///< none does
   };
   struct Row {

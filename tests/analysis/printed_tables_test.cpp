@@ -68,7 +68,7 @@ TEST_F(PrintedTables, AnotherWayIsCalledSo) {
   const auto tables = compare({10, 9, 10.4}, {10, 9.4, 9.6}, {{1, 1}, {2, 2}, {0.5, 3}});
   EXPECT_EQ(tables[0].rows[1].verdict, Verdict::Differs);
   // Within 5 % of the base is neither a gain nor a loss.
-  EXPECT_EQ(tables[0].rows[2].verdict, Verdict::Differs);
+  EXPECT_EQ(tables[0].rows[2].verdict, Verdict::Faint);
 }
 
 TEST_F(PrintedTables, SaysWhatIsPrintedAndWhatIsMeasured) {
