@@ -14,10 +14,10 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-class Reader : private SelectionReader {
+class PublishedReader : private SelectionReader {
  public:
-  Reader(const Descriptor& descriptor, const Catalogue& catalogue,
-         const std::vector<Parameter>& imageParameters, Problems& problems)
+  PublishedReader(const Descriptor& descriptor, const Catalogue& catalogue,
+                  const std::vector<Parameter>& imageParameters, Problems& problems)
       : SelectionReader(descriptor, catalogue, imageParameters, problems) {}
 
   std::vector<PublishedTable> readAll(const YamlNode& node) {
@@ -137,7 +137,7 @@ class Reader : private SelectionReader {
 std::vector<PublishedTable> readPublished(const YamlNode& node, const Descriptor& descriptor,
                                           const Catalogue& catalogue,
                                           const std::vector<Parameter>& imageParameters, Problems& problems) {
-  return Reader(descriptor, catalogue, imageParameters, problems).readAll(node);
+  return PublishedReader(descriptor, catalogue, imageParameters, problems).readAll(node);
 }
 
 nlohmann::json resolvePublished(const std::vector<PublishedTable>& tables,
