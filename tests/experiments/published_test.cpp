@@ -19,25 +19,25 @@ std::string withTable(const std::string& rows, const std::string& head = "measur
          ", rows: [" + rows + "]}\n";
 }
 
-Plan planOf(const std::string& text) {
+Plan printedPlan(const std::string& text) {
   const Catalogue catalogue = fakeCatalogue();
   return makePlan(parseDescriptor(text, "d.yaml", catalogue, {}), catalogue);
 }
 
-std::string errorOf(const std::string& text) {
+std::string printedError(const std::string& text) {
   try {
-    planOf(text);
+    printedPlan(text);
   } catch (const Error& error) {
     return error.what();
   }
   return "no error";
 }
 
-constexpr const char* kRow = "{name: eight, values: [2, null], of: soft/bitmask, where: {samples: 8}}";
+constexpr const char* kPrintedRow = "{name: eight, values: [2, null], of: soft/bitmask, where: {samples: 8}}";
 
 TEST(Published, ARowMeansOneRunOfEachScene) {
-  const Plan plan = planOf(withTable(
-      std::string(kRow) +
+  const Plan plan = printedPlan(withTable(
+      std::string(kPrintedRow) +
       ", {name: sixteen, values: [4, 5], of: soft/bitmask, where: {samples: 16}, relative_to: eight}"));
   ASSERT_EQ(plan.published.size(), 1U);
   const nlohmann::json& rows = plan.published[0].at("rows");
@@ -54,27 +54,31 @@ TEST(Published, ARowMeansOneRunOfEachScene) {
 }
 
 TEST(Published, NothingIsSaidOfKeysOfRuns) {
-  const Plan with = planOf(withTable(kRow)), without = planOf(validDescriptor());
+  const Plan with = printedPlan(withTable(kPrintedRow)), without = printedPlan(validDescriptor());
   ASSERT_EQ(with.runs.size(), without.runs.size());
   for (size_t i = 0; i < with.runs.size(); ++i) EXPECT_EQ(with.runs[i].key, without.runs[i].key);
 }
 
 TEST(Published, RefusesWhatCannotBeCompared) {
-  EXPECT_THAT(errorOf(withTable("{name: a, values: [1, 2], of: soft/bitmask}")),
+  EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask}")),
               HasSubstr("means several runs of one scene"));
-  EXPECT_THAT(errorOf(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 9}}")),
+  EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 9}}")),
               HasSubstr("no planned run is meant by the row 'a'"));
-  EXPECT_THAT(errorOf(withTable("{name: a, values: [1], of: soft/bitmask, where: {samples: 8}}")),
+  EXPECT_THAT(printedError(withTable("{name: a, values: [1], of: soft/bitmask, where: {samples: 8}}")),
               HasSubstr("1 values for 2 columns"));
-  EXPECT_THAT(errorOf(withTable(std::string(kRow) + ", " + kRow)), HasSubstr("row 'eight' is there twice"));
-  EXPECT_THAT(errorOf(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 8}, "
-                                "relative_to: b}")),
+  EXPECT_THAT(printedError(withTable(std::string(kPrintedRow) + ", " + kPrintedRow)),
+              HasSubstr("row 'eight' is there twice"));
+  EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 8}, "
+                                     "relative_to: b}")),
               HasSubstr("'relative_to' names no row: 'b'"));
-  EXPECT_THAT(errorOf(withTable(kRow, "measure: gpu_mss")), HasSubstr("'gpu_mss' is no measurement"));
-  EXPECT_THAT(errorOf(withTable(kRow, "note: none")), HasSubstr("needs either 'measure' or 'passes'"));
-  EXPECT_THAT(errorOf(withTable(kRow, "measure: gpu_ms, passes: [a]")),
+  EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_mss")),
+              HasSubstr("'gpu_mss' is no measurement"));
+  EXPECT_THAT(printedError(withTable(kPrintedRow, "note: none")),
               HasSubstr("needs either 'measure' or 'passes'"));
-  EXPECT_THAT(errorOf(withTable(kRow, "measure: gpu_ms, colums: [a]")), HasSubstr("unknown key 'colums'"));
+  EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_ms, passes: [a]")),
+              HasSubstr("needs either 'measure' or 'passes'"));
+  EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_ms, colums: [a]")),
+              HasSubstr("unknown key 'colums'"));
 }
 
 }  // namespace
