@@ -204,8 +204,10 @@ void OccluderSearch::configure(const gl::Program& program) const {
   quality_.configure(program);
 }
 
+void OccluderSearch::prepareSearch(frame::Frame& frame) { VisibilityTechnique::prepare(frame); }
+
 void OccluderSearch::prepare(frame::Frame& frame) {
-  VisibilityTechnique::prepare(frame);
+  prepareSearch(frame);
   for (int i = 0; budgets_ && i < budgets_->settleFrames(); ++i) {
     frame.begin();
     render(frame);

@@ -32,8 +32,8 @@ class OccluderSearch : public VisibilityTechnique {
   /// quality_counters.h.
   static std::vector<std::string> counterNames();
 
-  /// Runs the frames in which a driver of the budget settles, too.
-  void prepare(frame::Frame& frame) override;
+  /// prepareSearch(), then the frames in which a driver of the budget settles.
+  void prepare(frame::Frame& frame) final;
   std::vector<Counter> count(frame::Frame& frame) override;
   /// What the driver of the budget says of the last frame; without waiting or rendering another one.
   std::vector<Counter> budgetFacts() const;
@@ -47,6 +47,8 @@ class OccluderSearch : public VisibilityTechnique {
  protected:
   OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
                  gl::ShaderDefines defines = {});
+  /// All that a frame needs, for whoever adds to it.
+  virtual void prepareSearch(frame::Frame& frame);
   const frame::LightFrustum& bindMap(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
   void preparePasses(frame::Frame& frame) override;

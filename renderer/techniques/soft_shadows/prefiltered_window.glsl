@@ -70,7 +70,7 @@ float visibilityOf(vec4 receiver, ivec2 pixel) {
   vec2 low, high;
   cutToMap(centre, size, low, high);
   const vec2 inside = (high - low) / size;
-  const float share = inside.x * inside.y;
+  const float share = min(inside.x * inside.y, 1.0);  // rounding may leave a little more than all
   if (!(share > 0.0)) return 1.0;
   return 1.0 - share * (1.0 - clamp(estimate(low, high, receiverDepth(receiver)), 0.0, 1.0));
 }

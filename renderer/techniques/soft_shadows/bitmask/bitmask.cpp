@@ -96,7 +96,7 @@ Bitmask::Bitmask(const ParameterValues& values, bool keepsMasks)
   checkValues(values);
 }
 
-void Bitmask::prepare(frame::Frame& frame) {
+void Bitmask::prepareSearch(frame::Frame& frame) {
   samples_ = lightSamples(pattern_, seed_);
   const scene::AreaLight& light = frame.scene().lights.at(0);
   if (light.shape != scene::LightShape::Rectangle) {
@@ -117,7 +117,7 @@ void Bitmask::prepare(frame::Frame& frame) {
   if (sets > 1)
     join_ = &frame.context().programs().compute(
         "renderer/techniques/soft_shadows/bitmask/join_masks.comp.glsl", maskDefines_);
-  OccluderSearch::prepare(frame);
+  OccluderSearch::prepareSearch(frame);
   if (halfSpaceSize_ > 0) halfSpaces_.emplace(makeHalfSpaceTable(samples_, halfSpaceSize_));
   if (rectangleSize_ > 0) rectangles_.emplace(makeRectangleTable(samples_, rectangleSize_));
   const int64_t bytes = (halfSpaces_ ? halfSpaces_->bytes() : 0) + (rectangles_ ? rectangles_->bytes() : 0);
@@ -243,15 +243,15 @@ class BitmaskVisibility : public Bitmask {
     VisibilityFilter::check(values);
   }
 
-  void prepare(frame::Frame& frame) override {
-    Bitmask::prepare(frame);
-    if (filter_.isOn()) filter_.prepare(frame);
-  }
   const gl::Texture& product() const override {
     return filter_.isOn() ? filter_.filtered() : Bitmask::product();
   }
 
  protected:
+  void prepareSearch(frame::Frame& frame) override {
+    Bitmask::prepareSearch(frame);
+    if (filter_.isOn()) filter_.prepare(frame);
+  }
   void finish(frame::Frame& frame) override {
     Bitmask::finish(frame);
     if (filter_.isOn()) filter_.run(frame, Bitmask::product());

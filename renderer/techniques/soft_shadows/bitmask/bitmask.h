@@ -29,7 +29,6 @@ class Bitmask : public OccluderSearch {
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
   static std::vector<std::string> counterNames();
 
-  void prepare(frame::Frame& frame) override;
   void render(frame::Frame& frame) override;
   std::vector<Counter> count(frame::Frame& frame) override;
 
@@ -37,6 +36,7 @@ class Bitmask : public OccluderSearch {
   /// `keepsMasks`: in an image, after a frame, though there be one map alone.
   Bitmask(const ParameterValues& values, bool keepsMasks);
 
+  void prepareSearch(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
   bool readsMap(const frame::Frame&, size_t map) const override { return isDue_[map]; }
   void finish(frame::Frame& frame) override;

@@ -43,8 +43,17 @@ class BitmaskColoured : public Bitmask {
     check(values);
   }
 
-  void prepare(frame::Frame& frame) override {
-    Bitmask::prepare(frame);
+  const gl::Texture& product() const override { return *colour_; }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    std::vector<Counter> all = Bitmask::count(frame);
+    all.push_back({"colour_table_bytes", double(tableBytes_), "byte", true});
+    return all;
+  }
+
+ protected:
+  void prepareSearch(frame::Frame& frame) override {
+    Bitmask::prepareSearch(frame);
     const int side = static_cast<int>(std::lround(std::sqrt(double(samples().size()))));
     const std::vector<glm::dvec3> shares =
         emissionShares(frame.scene().lights.at(0), samples(), filters_ ? side : 0);
@@ -82,15 +91,6 @@ class BitmaskColoured : public Bitmask {
     frame.passes().setBytesHeld(kPass, colour_->bytes() + tableBytes_);
   }
 
-  const gl::Texture& product() const override { return *colour_; }
-
-  std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> all = Bitmask::count(frame);
-    all.push_back({"colour_table_bytes", double(tableBytes_), "byte", true});
-    return all;
-  }
-
- protected:
   void finish(frame::Frame& frame) override {
     const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
     const auto scope = frame.passes().open(kPass);
