@@ -54,9 +54,18 @@ TEST_F(SceneNeedsTest, WhatTheLightsCentreDoesNotSeeNeedsASecondLayer) {
   EXPECT_THAT(chosen.remarks.at(0), HasSubstr("maps=peeled"));
 }
 
+TEST_F(SceneNeedsTest, LayersAreNotBlended) {
+  // Any change of level is one too many, and layers stay.
+  const Chosen chosen = choose(makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}}),
+                               {{"seam_share", 0.0}, {"budget", int64_t{25}}});
+  EXPECT_THAT(chosen.remarks, Contains(StartsWith("two peeled layers")));
+  EXPECT_THAT(chosen.remarks, Contains(HasSubstr("masks of several layers cannot be blended")));
+}
+
 TEST_F(SceneNeedsTest, OneFlatCasterNeedsNeitherLayersNorMasks) {
-  // A single rectangle parallel to the map: no texel's projection overlaps another's. What is left between areas and masks
-  // is the masks' rounding: an edge off by up to half a row of 16 on either axis, 1/64 of the light on average.
+  // A single rectangle parallel to the map: no texel's projection overlaps another's. What is left between
+  // areas and masks is the masks' rounding: an edge off by up to half a row of 16 on either axis, 1/64 of the
+  // light on average.
   const Chosen chosen = choose(makeScene("parallel_rectangle"), {{"tolerance", 1.0 / 64.0}});
   EXPECT_THAT(chosen.remarks.at(0), StartsWith("chosen: soft_shadows/backprojection"));
   EXPECT_THAT(chosen.remarks, Contains(StartsWith("one map")));

@@ -203,10 +203,16 @@ TEST_F(SoftShadows, ScaleAndDistanceFromTheOriginDoNotMatter) {
 }
 
 TEST_F(SoftShadows, EveryCornerOfTheParametersIsFinite) {
+  const std::vector<std::string> kDerived = {"soft_shadows/bitmask_coloured", "soft_shadows/history",
+                                             "soft_shadows/in_motion",        "soft_shadows/multisample",
+                                             "soft_shadows/scene_needs",      "soft_shadows/sparse"};
   for (const char* sceneName : {"degenerate_soup", "box_under_light"}) {
     const scene::Scene scene = makeScene(sceneName, {{"light_size", 3.0}});
     for (const std::string& technique : all()) {
       const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+      // What runs another technique, or has another's parameters, is tried where more breaks.
+      const bool derived = std::find(kDerived.begin(), kDerived.end(), technique) != kDerived.end();
+      if (derived && sceneName != std::string("degenerate_soup")) continue;
       for (const Parameter& parameter : info.parameters) {
         // Drivers differ in the numbers of samples that they have, and say so; see multisample_test.cpp.
         if (technique == "soft_shadows/multisample" && parameter.name == "samples") continue;
@@ -222,7 +228,8 @@ TEST_F(SoftShadows, EveryCornerOfTheParametersIsFinite) {
           ends = {*parameter.minimum, *parameter.maximum};
         }
         for (const ParameterValue& end : ends) {
-          Given given = {{"resolution", std::string("64")}};
+          Given given;
+          if (!smallMap(technique).empty()) given["resolution"] = std::string("64");
           given[parameter.name] = end;
           if (!goesTogether(info, given)) continue;
           const Rendered rendered = render(scene, technique, given, {24, 18});

@@ -149,6 +149,13 @@ class Decider {
           "microrects: {:.0f} % of the pixels have micro-occluders of level 2 or coarser (limit {:.0f} %)",
           100.0 * figures_[Coarse], 100.0 * limits_.coarseShare));
     }
+    if (decision_.setting.values.count("maps")) {
+      remark(fmt::format(
+          "one level a pixel, though {:.1f} % of neighbours differ in level: masks of several layers cannot "
+          "be blended",
+          100.0 * figures_[Seams]));
+      return;
+    }
     const bool seams = figures_[Seams] > limits_.seamShare;
     remark(fmt::format("{}: {:.1f} % of neighbours differ in level (limit {:.1f} %)",
                        seams ? "levels smoothed and blended" : "one level a pixel", 100.0 * figures_[Seams],
