@@ -320,7 +320,7 @@ TEST_F(MultisampleShadows, RefusesWhatMeansNothingBesideTheMethod) {
   EXPECT_FALSE(refused({}));
   EXPECT_TRUE(refused({{"method", std::string("centre")}, {"tolerance", 0.05}}));
   EXPECT_TRUE(refused({{"method", std::string("per_sample")}, {"representative", std::string("median")}}));
-  EXPECT_TRUE(refused({{"rays", int64_t{64}}}));
+  EXPECT_TRUE(refused({{"rays", std::string("64")}}));
   EXPECT_TRUE(refused({{"inner", std::string("ray_traced")}, {"budget", int64_t{25}}}));
 }
 

@@ -11,59 +11,65 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kRayTraced = "ray_traced";
-constexpr int64_t kDefaultRays = 256;
-constexpr std::array<std::string_view, 6> kForwarded = {"resolution", "budget",     "structure",
-                                                        "bias",       "slope_bias", "max_slope"};
+constexpr const char *kInner = "inner", *kRays = "rays", *kRayTraced = "ray_traced", *kExact = "exact_union";
+constexpr std::array<std::string_view, 8> kForwarded = {"resolution", "budget", "structure",  "fixed_level",
+                                                        "occluders",  "bias",   "slope_bias", "max_slope"};
 
-bool forwarded(const std::string& name) {
-  return std::find(kForwarded.begin(), kForwarded.end(), name) != kForwarded.end();
-}
+bool readsMap(const std::string& inner) { return inner != kRayTraced && inner != kExact; }
 
 std::vector<Parameter> searchDeclarations() {
   std::vector<Parameter> out;
-  for (Parameter& parameter : OccluderSearch::searchParameters({"micropatches"}))
-    if (forwarded(parameter.name)) out.push_back(std::move(parameter));
+  for (Parameter& parameter : OccluderSearch::searchParameters({"micropatches", "microquads", "microrects"}))
+    if (std::find(kForwarded.begin(), kForwarded.end(), parameter.name) != kForwarded.end())
+      out.push_back(std::move(parameter));
   return out;
 }
 
+/// Square numbers, as the strata of a ray-traced light need them.
+Parameter rayParameter() {
+  return choiceParameter(kRays, "256", {"16", "64", "256", "1024", "4096"},
+                         "Shadow rays a point where the inner technique is ray_traced");
+}
+
 const TechniqueInfo& infoOf(const ParameterValues& values) {
-  return TechniqueRegistry::instance().get("soft_shadows/" + values.text("inner"));
+  return TechniqueRegistry::instance().get("soft_shadows/" + values.text(kInner), kInner);
 }
 
 ParameterValues valuesOf(const ParameterValues& values) {
-  const TechniqueInfo& info = infoOf(values);
   std::map<std::string, ParameterValue> given;
-  for (const Parameter& parameter : info.parameters)
-    if (forwarded(parameter.name)) given[parameter.name] = values.all().at(parameter.name);
-  if (values.text("inner") == kRayTraced) given["samples"] = values.integer("rays");
-  return {info.parameters, given};
+  if (readsMap(values.text(kInner)))
+    for (const Parameter& parameter : searchDeclarations())
+      given[parameter.name] = values.all().at(parameter.name);
+  if (values.text(kInner) == kRayTraced) given["samples"] = int64_t{std::stoi(values.text(kRays))};
+  return {infoOf(values).parameters, given};
+}
+
+void refuseStray(const ParameterValues& values, const Parameter& parameter, const char* mend) {
+  if (values.has(parameter.name) && values.all().at(parameter.name) != parameter.defaultValue)
+    throw Error("'" + parameter.name + "' means nothing to inner: " + values.text(kInner), parameter.name,
+                std::string("leave it out, or give ") + mend);
 }
 
 }  // namespace
 
 std::vector<Parameter> innerParameters(InnerKind kind) {
   std::vector<std::string> choices = {"backprojection", "bitmask"};
-  if (kind == InnerKind::AnyVisibility) choices.emplace_back(kRayTraced);
-  std::vector<Parameter> out = {choiceParameter("inner", "backprojection", choices,
-                                                "Technique that finds the visibility of the chosen points, "
-                                                "soft_shadows/...; what is not given here has its default")};
+  if (kind >= InnerKind::OrRayTraced) choices.emplace_back(kRayTraced);
+  if (kind >= InnerKind::OrExact) choices.emplace_back(kExact);
+  std::vector<Parameter> out = {
+      choiceParameter(kInner, "backprojection", choices,
+                      "Technique, soft_shadows/..., that finds the visibility; what is "
+                      "not given here has its default")};
   for (Parameter& parameter : searchDeclarations()) out.push_back(std::move(parameter));
-  if (kind == InnerKind::AnyVisibility)
-    out.push_back(integerParameter("rays", kDefaultRays, 16, 65536, "rays",
-                                   "Shadow rays a point where the inner technique is ray_traced"));
+  if (kind >= InnerKind::OrRayTraced) out.push_back(rayParameter());
   return out;
 }
 
 void checkInner(const ParameterValues& values) {
-  const bool rays = values.text("inner") == kRayTraced;
-  for (const Parameter& parameter : searchDeclarations())
-    if (rays && values.all().at(parameter.name) != parameter.defaultValue)
-      throw Error("'" + parameter.name + "' is about shadow maps, and 'inner: ray_traced' has none",
-                  parameter.name, "leave it out, or give another inner technique");
-  if (!rays && values.has("rays") && values.integer("rays") != kDefaultRays)
-    throw Error("'rays' is about ray tracing, and the inner technique casts none", "rays",
-                "leave it out, or give inner: ray_traced");
+  if (!readsMap(values.text(kInner)))
+    for (const Parameter& parameter : searchDeclarations())
+      refuseStray(values, parameter, "inner: backprojection or bitmask");
+  if (values.text(kInner) != kRayTraced) refuseStray(values, rayParameter(), "inner: ray_traced");
   const TechniqueInfo& info = infoOf(values);
   if (info.check) info.check(valuesOf(values));
 }
@@ -74,6 +80,20 @@ std::unique_ptr<Technique> makeInner(const ParameterValues& values) {
 
 frame::ShadowMapSettings innerMap(const ParameterValues& values) {
   return {std::stoi(values.text("resolution")), frame::Raster::Auto};
+}
+
+std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
+  std::vector<Counter> out;
+  const std::vector<std::string> names = innerCounterNames();
+  for (Counter& counter : inner.count(frame))
+    if (std::find(names.begin(), names.end(), counter.name) != names.end()) out.push_back(std::move(counter));
+  return out;
+}
+
+std::vector<std::string> innerCounterNames() {
+  std::vector<std::string> names = OccluderSearch::counterNames();
+  names.insert(names.end(), {"rays_per_receiver", "rays", "occluders_per_receiver"});
+  return names;
 }
 
 }  // namespace limen::techniques

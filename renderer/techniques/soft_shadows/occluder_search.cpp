@@ -162,7 +162,6 @@ OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader
 
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
-  levels_ = pyramid.levels();
   coarse_.make(frame, mapSettings());
   biasForm_.make(frame, mapSettings());
   int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
@@ -185,16 +184,14 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   if (depth) depth->bindTexture(kCameraDepthUnit);
   coarse_.bind();
   biasForm_.bind();
-  pyramid.minimum().bindTexture(1);
-  pyramid.maximum().bindTexture(2);
-  maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
-  return pyramid.frustum();
+  maxIterations_ = maxIterations(frame);
+  return bindPyramid(frame);
 }
 
 void OccluderSearch::configure(const gl::Program& program) const {
   coarse_.configure(program);
   biasForm_.configure(program);
-  program.set("levels", levels_);
+  program.set("levels", pyramidLevels());
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
   program.set("roughQueries", hasLayers(structure_) ? roughQueries_ : 0);

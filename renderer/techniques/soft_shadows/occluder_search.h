@@ -65,7 +65,7 @@ class OccluderSearch : public VisibilityTechnique {
   CoarseOccluders coarse_;
   BiasForm biasForm_;
   int base_;  // resolution of the layers
-  int levels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
+  int baseLevel_ = 0, maxIterations_ = 0;
   std::vector<int64_t> structureBytes_;  // of each map
   LevelOfQuality quality_;
   std::unique_ptr<BudgetDriver> budgets_;   // null: the same budget for all pixels

@@ -121,6 +121,18 @@ const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   return map.frustum();
 }
 
+const frame::LightFrustum& VisibilityTechnique::bindPyramid(frame::Frame& frame) {
+  const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
+  pyramid.minimum().bindTexture(1);
+  pyramid.maximum().bindTexture(2);
+  pyramidLevels_ = pyramid.levels();
+  return pyramid.frustum();
+}
+
+int VisibilityTechnique::maxIterations(frame::Frame& frame) {
+  return frame.context().device().software ? 60000 : 0x7fffffff;
+}
+
 void VisibilityTechnique::bindPass(frame::Frame& frame, const gl::Program& program,
                                    const CountImages* counts) {
   const frame::LightFrustum& frustum = bindMap(frame);

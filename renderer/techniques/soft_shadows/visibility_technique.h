@@ -69,6 +69,13 @@ class VisibilityTechnique : public Technique {
   void define(const std::string& name, const std::string& value) { defines_[name] = value; }
   /// Makes and binds the map, from texture unit 1; returns its frustum.
   virtual const frame::LightFrustum& bindMap(frame::Frame& frame);
+  /// The map's pyramid, for bindMap(): minimum at texture unit 1, maximum at 2. Call it last there, since
+  /// making other inputs binds textures too; sets pyramidLevels().
+  const frame::LightFrustum& bindPyramid(frame::Frame& frame);
+  /// Levels of the pyramid that was bound last.
+  int pyramidLevels() const { return pyramidLevels_; }
+  /// Iterations that a loop of the shader may have: llvmpipe leaves all loops silently after 65,535.
+  static int maxIterations(frame::Frame& frame);
   /// Sets the technique's own uniforms.
   virtual void configure(const gl::Program& program) const = 0;
 
@@ -97,6 +104,7 @@ class VisibilityTechnique : public Technique {
 
   std::vector<frame::ShadowMapSettings> maps_;
   size_t current_ = 0;
+  int pyramidLevels_ = 0;
   double bias_, slopeBias_, maxSlope_;
   std::string shader_, pass_;
   gl::ShaderDefines defines_;

@@ -41,13 +41,13 @@ std::vector<Parameter> LightMotion::parameters() {
       choiceParameter("smoothing", kUnsmoothed, {kUnsmoothed, kSmoothed},
                       "Whether frames are averaged with those before them, as soft_shadows/history does",
                       "Schwarz 2009, section 5.2.2 (suggested there)")};
-  for (Parameter& parameter : WrappedTechnique::parameters()) all.push_back(std::move(parameter));
+  for (Parameter& parameter : innerParameters(InnerKind::OrExact)) all.push_back(std::move(parameter));
   for (Parameter& parameter : VisibilityHistory::parameters()) all.push_back(std::move(parameter));
   return all;
 }
 
 void LightMotion::check(const ParameterValues& values) {
-  WrappedTechnique::check(values);
+  checkInner(values);
   VisibilityHistory::check(values);
   if (values.text("smoothing") == kSmoothed) return;
   for (const Parameter& parameter : VisibilityHistory::parameters())
@@ -63,7 +63,7 @@ void LightMotion::prepare(frame::Frame& frame, int places) {
     place.scene = withMovedLight(frame.scene(), -double(back) * stepShare_);
     place.frame =
         std::make_unique<frame::Frame>(frame, "place_" + std::to_string(steps_ - back), place.scene);
-    place.technique = WrappedTechnique::make(values_);
+    place.technique = makeInner(values_);
     place.technique->prepare(*place.frame);
   }
   if (history_) history_->prepare(*places_.front()->frame);
@@ -89,7 +89,7 @@ void LightMotion::render(frame::Frame& frame, const StepVisitor& visit) {
 
 std::vector<Counter> LightMotion::count() {
   Place& place = *places_.back();
-  std::vector<Counter> all = WrappedTechnique::count(*place.technique, *place.frame);
+  std::vector<Counter> all = countInner(*place.technique, *place.frame);
   if (history_)
     for (Counter& counter : history_->count(*place.frame, place.technique->product()))
       all.push_back(std::move(counter));
@@ -97,7 +97,7 @@ std::vector<Counter> LightMotion::count() {
 }
 
 std::vector<std::string> LightMotion::counterNames() {
-  std::vector<std::string> names = WrappedTechnique::counterNames();
+  std::vector<std::string> names = innerCounterNames();
   for (std::string& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
   return names;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/techniques/soft_shadows/history/visibility_history.h"
-#include "renderer/techniques/soft_shadows/history/wrapped_technique.h"
+#include "renderer/techniques/soft_shadows/inner_technique.h"
 
 namespace limen::techniques {
 

@@ -3,15 +3,14 @@
 // is the other technique's own; what later ones gain and lose in motion is measured by soft_shadows/change
 // and soft_shadows/in_motion, which have the same history within.
 #include "renderer/techniques/soft_shadows/history/visibility_history.h"
-#include "renderer/techniques/soft_shadows/history/wrapped_technique.h"
+#include "renderer/techniques/soft_shadows/inner_technique.h"
 
 namespace limen::techniques {
 namespace {
 
 class History : public Technique {
  public:
-  explicit History(const ParameterValues& values)
-      : inner_(WrappedTechnique::make(values)), history_(values) {}
+  explicit History(const ParameterValues& values) : inner_(makeInner(values)), history_(values) {}
 
   void prepare(frame::Frame& frame) override {
     inner_->prepare(frame);
@@ -26,7 +25,7 @@ class History : public Technique {
   const gl::Texture& product() const override { return history_.current(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> all = WrappedTechnique::count(*inner_, frame);
+    std::vector<Counter> all = countInner(*inner_, frame);
     for (Counter& counter : history_.count(frame, inner_->product())) all.push_back(std::move(counter));
     return all;
   }
@@ -41,13 +40,13 @@ class History : public Technique {
 };
 
 std::vector<Parameter> historyTechniqueParameters() {
-  std::vector<Parameter> all = WrappedTechnique::parameters();
+  std::vector<Parameter> all = innerParameters(InnerKind::OrExact);
   for (Parameter& parameter : VisibilityHistory::parameters()) all.push_back(std::move(parameter));
   return all;
 }
 
 std::vector<std::string> historyTechniqueCounters() {
-  std::vector<std::string> names = WrappedTechnique::counterNames();
+  std::vector<std::string> names = innerCounterNames();
   for (std::string& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
   return names;
 }
@@ -67,7 +66,7 @@ const Registered<TechniqueInfo> kHistoryTechnique{
      .counters = historyTechniqueCounters(),
      .check =
          [](const ParameterValues& values) {
-           WrappedTechnique::check(values);
+           checkInner(values);
            VisibilityHistory::check(values);
          }}};
 

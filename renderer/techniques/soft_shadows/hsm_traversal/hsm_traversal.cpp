@@ -75,23 +75,19 @@ class HsmTraversal : public VisibilityTechnique {
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
-    const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
-    pyramid.minimum().bindTexture(1);
-    pyramid.maximum().bindTexture(2);
-    levels_ = pyramid.levels();
     // A tile costs a turn of the loop and at most one more on the way back up.
-    maxIterations_ = frame.context().device().software ? 30000 : 0x7fffffff;
-    return pyramid.frustum();
+    maxIterations_ = maxIterations(frame) / 2;
+    return bindPyramid(frame);
   }
 
   void configure(const gl::Program& program) const override {
-    program.set("levels", levels_);
+    program.set("levels", pyramidLevels());
     program.set("finestLevel", finestLevel_);
     program.set("maxIterations", maxIterations_);
   }
 
  private:
-  int finestLevel_, levels_ = 0, maxIterations_ = 0;
+  int finestLevel_, maxIterations_ = 0;
 };
 
 std::vector<Parameter> traversalParameters() {

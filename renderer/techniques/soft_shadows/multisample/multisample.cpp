@@ -59,7 +59,7 @@ std::vector<Parameter> multisampleParameters() {
           "Schwarz 2009, section 4.6 (value not given there)"),
       choiceParameter("neighbours", "4", {"4", "8"}, "Pixels around one that may lend their visibility",
                       "Schwarz 2009, section 4.6 (4)")};
-  for (Parameter& parameter : innerParameters(InnerKind::AnyVisibility)) out.push_back(std::move(parameter));
+  for (Parameter& parameter : innerParameters(InnerKind::OrRayTraced)) out.push_back(std::move(parameter));
   return out;
 }
 

@@ -67,7 +67,7 @@ class Supersampled : public Technique {
 std::vector<Parameter> supersampledParameters() {
   std::vector<Parameter> out = {
       integerParameter("samples", 4, 1, 16, "", "Samples a pixel along each axis, box filter")};
-  for (Parameter& parameter : innerParameters(InnerKind::AnyVisibility)) out.push_back(std::move(parameter));
+  for (Parameter& parameter : innerParameters(InnerKind::OrRayTraced)) out.push_back(std::move(parameter));
   return out;
 }
 

@@ -25,20 +25,17 @@ class Peeled : public VisibilityTechnique {
     constexpr uint32_t kSecondLayerUnit = 4;
     // Before any is bound, since making the inputs binds textures too.
     for (int layer = 1; layer < layers_; ++layer) frame.get<frame::ShadowMap>(settings(layer));
-    const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
+    frame.get<frame::MinMaxPyramid>(mapSettings());
     for (int layer = 1; layer < layers_; ++layer)
       frame.get<frame::ShadowMap>(settings(layer))
           .texture()
           .bindTexture(kSecondLayerUnit + static_cast<uint32_t>(layer) - 1);
-    pyramid.minimum().bindTexture(1);
-    pyramid.maximum().bindTexture(2);
-    levels_ = pyramid.levels();
-    maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
-    return pyramid.frustum();
+    maxIterations_ = maxIterations(frame);
+    return bindPyramid(frame);
   }
 
   void configure(const gl::Program& program) const override {
-    program.set("levels", levels_);
+    program.set("levels", pyramidLevels());
     program.set("refinements", refinements_);
     program.set("maxIterations", maxIterations_);
   }
@@ -51,7 +48,7 @@ class Peeled : public VisibilityTechnique {
     return all;
   }
 
-  int layers_, refinements_, levels_ = 0, maxIterations_ = 0;
+  int layers_, refinements_, maxIterations_ = 0;
   double peelBias_;
 };
 

@@ -63,16 +63,12 @@ class SolidAngle : public VisibilityTechnique {
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
-    const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
-    pyramid.minimum().bindTexture(1);
-    pyramid.maximum().bindTexture(2);
-    levels_ = pyramid.levels();
-    maxIterations_ = frame.context().device().software ? 60000 : 0x7fffffff;
-    return pyramid.frustum();
+    maxIterations_ = maxIterations(frame);
+    return bindPyramid(frame);
   }
 
   void configure(const gl::Program& program) const override {
-    program.set("levels", levels_);
+    program.set("levels", pyramidLevels());
     program.set("refinements", refinements_);
     program.set("taps", taps_);
     program.set("maxIterations", maxIterations_);
@@ -82,7 +78,7 @@ class SolidAngle : public VisibilityTechnique {
 
  private:
   bool gaussian_;
-  int taps_, refinements_, levels_ = 0, maxIterations_ = 0;
+  int taps_, refinements_, maxIterations_ = 0;
   double sigma_, lightRadius_ = 0.0;
   int64_t seed_;
   std::optional<gl::Buffer> tapBuffer_;

@@ -5,34 +5,17 @@
 // as a texel's side about the place that the texel's samples have, not about the texel's middle: samples at regular
 // distances then interpolate linearly, wherever in their texels they lie.
 #include "renderer/frame/seen_point.glsl"
+#include "renderer/techniques/soft_shadows/sparse/reconstructed_pixel.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D depths;
-layout(binding = 2) uniform sampler2D normals;
 layout(binding = 3) uniform usampler2D slots;
 layout(binding = 4) uniform sampler2D sampledVisibility;
 layout(binding = 5) uniform sampler2D pulledPoints;
 layout(binding = 6) uniform sampler2D pulledWeights;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
-#ifdef COUNT
-layout(binding = 1, r32ui) uniform writeonly uimage2D outClass;
-#endif
-uniform ivec2 sizePx;
-uniform vec2 rayScale;
 uniform int pulledLevels;
 
 const uint kSkipped = 0x80000000u;  // as in choose.comp.glsl
-const float kLeastWeight = 1e-4, kEnough = 0.999;
-const uint kOther = 0u, kInterpolated = 1u, kFallback = 2u, kAlone = 3u, kOwn = 4u;
-
-void store(ivec2 pixel, float visibility, uint kind) {
-  imageStore(outVisibility, pixel, vec4(visibility));
-#ifdef COUNT
-  imageStore(outClass, pixel, uvec4(kind));
-#endif
-}
+const float kEnough = 0.999;
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -2,36 +2,18 @@
 // Visibility at every pixel from that on a coarser grid: bilinear weights times those of surface_weight.glsl. After DeCoro
 // and Rusinkiewicz, as Schwarz 2009, section 5.1.3, describes it ("utilizing normal and position information").
 #include "renderer/frame/seen_point.glsl"
+#include "renderer/techniques/soft_shadows/sparse/reconstructed_pixel.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D depths;
-layout(binding = 2) uniform sampler2D normals;
 layout(binding = 3) uniform sampler2D gridReceivers;
 layout(binding = 4) uniform sampler2D gridDepths;
 layout(binding = 5) uniform sampler2D gridNormals;
 layout(binding = 6) uniform sampler2D gridVisibility;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
-#ifdef COUNT
-layout(binding = 1, r32ui) uniform writeonly uimage2D outClass;
-#endif
-uniform ivec2 sizePx, gridSizePx;
+uniform ivec2 gridSizePx;
 // Sample i lies at min(firstPlace + i * placeStep, lastPlace), in pixels from the picture's top left corner.
 uniform vec2 firstPlace, placeStep, lastPlace;
-uniform vec2 rayScale;
-
-const float kLeastWeight = 1e-4;  // below it, weights say that no sample lies on the pixel's surface
-const uint kOther = 0u, kInterpolated = 1u, kFallback = 2u, kAlone = 3u, kOwn = 4u;
 
 vec2 placeOf(ivec2 sampled) { return min(firstPlace + vec2(sampled) * placeStep, lastPlace); }
-
-void store(ivec2 pixel, float visibility, uint kind) {
-  imageStore(outVisibility, pixel, vec4(visibility));
-#ifdef COUNT
-  imageStore(outClass, pixel, uvec4(kind));
-#endif
-}
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
