@@ -13,11 +13,12 @@
 #include "base/interrupt.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
+#include "experiments/product.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
+#include "experiments/stage.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -41,16 +42,15 @@ class Stopwatch {
   steady_clock::time_point start_;
 };
 
-/// A scene as all runs of a batch share it.
-struct Stage {
-  explicit Stage(scene::Scene built) : scene(std::move(built)), gpu(scene) {}
+/// A scene as all runs of a batch share it, with what they share of one view.
+struct SharedStage {
+  explicit SharedStage(scene::Scene built) : stage(std::move(built)), facts(stage.facts()) {}
 
-  scene::Scene scene;
-  frame::GpuScene gpu;
+  Stage stage;
   nlohmann::json facts;
   // For one image size:
   glm::ivec2 sizePx{0};
-  Image mask, shading;
+  ViewImages view;
 };
 
 /// One run of a batch while it is worked on.
@@ -149,65 +149,31 @@ class GlExecutor : public Executor {
     finished(run.index, std::move(run.outcome));
   }
 
-  Stage& stage(const PlannedRun& run) {
+  SharedStage& stage(const PlannedRun& run) {
     const std::string key = run.scene.name + run.scene.values.toJson().dump();
     if (key != stageKey_) {
       const Stopwatch watch(seconds_["scenes"]);
       stageKey_.clear();
       stage_.reset();
-      stage_ = std::make_unique<Stage>(scene::buildScene(run.scene.name, run.scene.values));
-      const scene::Bounds bounds = stage_->scene.bounds();
-      stage_->facts = {
-          {"content_hash", stage_->scene.contentHash()},
-          {"triangles", stage_->scene.mesh.triangles.size()},
-          {"bounds",
-           {{bounds.low.x, bounds.low.y, bounds.low.z}, {bounds.high.x, bounds.high.y, bounds.high.z}}}};
+      stage_ = std::make_unique<SharedStage>(scene::buildScene(run.scene.name, run.scene.values));
       stageKey_ = key;
     }
     const glm::ivec2 sizePx(run.widthPx, run.heightPx);
-    if (stage_->sizePx != sizePx) readStageImages(*stage_, sizePx);
-    return *stage_;
-  }
-
-  /// The receivers' mask, and the unshadowed picture: albedo by the cosine to the light's centre.
-  void readStageImages(Stage& stage, glm::ivec2 sizePx) {
-    const Stopwatch watch(seconds_["rendering"]);
-    frame::Frame frame(*context_, stage.scene, stage.gpu, sizePx);
-    frame.begin();
-    const Image receivers = frame.get<frame::Receivers>().texture().read();
-    const Image normals =
-        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture().read();
-    const Image positions =
-        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Position}).texture().read();
-    const Image albedo =
-        frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Albedo}).texture().read();
-    frame.end();
-    stage.mask = Image(sizePx.x, sizePx.y, 1);
-    stage.shading = Image(sizePx.x, sizePx.y, 3);
-    const glm::dvec3 light =
-        stage.scene.lights.empty() ? glm::dvec3(0.0) : stage.scene.lights[0].centre - stage.gpu.anchor();
-    for (size_t i = 0; i < stage.mask.pixels(); ++i) {
-      const bool receiver = receivers.data[4 * i + 3] >= 0.0F;
-      stage.mask.data[i] = receiver ? 1.0F : 0.0F;
-      if (!receiver) continue;
-      const glm::dvec3 toLight =
-          light - glm::dvec3(positions.data[4 * i], positions.data[4 * i + 1], positions.data[4 * i + 2]);
-      const double cosine =
-          glm::dot(glm::dvec3(normals.data[4 * i], normals.data[4 * i + 1], normals.data[4 * i + 2]),
-                   toLight / glm::length(toLight));
-      for (size_t c = 0; c < 3; ++c)
-        stage.shading.data[3 * i + c] = albedo.data[4 * i + c] * static_cast<float>(std::max(cosine, 0.0));
+    if (stage_->sizePx != sizePx) {
+      const Stopwatch watch(seconds_["rendering"]);
+      stage_->view = stage_->stage.view(*context_, sizePx);
+      stage_->sizePx = sizePx;
     }
-    stage.sizePx = sizePx;
+    return *stage_;
   }
 
   /// Prepares a run, renders it once and judges the product.
   void begin(LiveRun& run) {
     const PlannedRun& plan = *run.plan;
     run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
-    Stage& on = stage(plan);
+    SharedStage& on = stage(plan);
     run.outcome.sceneFacts = on.facts;
-    requireTraits(*run.info, on.scene);
+    requireTraits(*run.info, on.stage.scene);
     prepare(run, on);
     if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
       run.outcome.sceneFacts["remarks"] = remarks;
@@ -233,7 +199,7 @@ class GlExecutor : public Executor {
                                                referenceTexture ? &*referenceTexture : nullptr,
                                                &product,
                                                reference,
-                                               judgedEverywhere(*run.info) ? nullptr : &on.mask,
+                                               judgedEverywhere(run.info->product) ? nullptr : &on.view.mask,
                                                &metricGpu_};
       for (store::Measurement& measurement : judge(plan, judged, maps))
         run.outcome.measurements.push_back(std::move(measurement));
@@ -262,30 +228,16 @@ class GlExecutor : public Executor {
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
       run.outcome.measurements.push_back({"product_png_white", kErrorScale, "", "fact"});
+    run.outcome.sceneFacts["product_hash"] = productHash(product);
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
   }
 
-  /// What a viewer sees has no mask: the background adapts the eye too.
-  static bool judgedEverywhere(const techniques::TechniqueInfo& info) {
-    return info.product == techniques::ProductKind::Threshold ||
-           info.product == techniques::ProductKind::JndMap;
-  }
-
-  static void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {
-    const std::set<std::string> traits = scene.traits();
-    for (const std::string& need : info.needs)
-      if (!traits.count(need))
-        throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
-                        "' with these parameters has not",
-                    {}, "choose another light or another technique");
-  }
-
-  void prepare(LiveRun& run, const Stage& on) {
+  void prepare(LiveRun& run, const SharedStage& on) {
     const Stopwatch watch(seconds_["rendering"]);
     run.technique = run.info->make(run.plan->technique.values);
-    run.frame = std::make_unique<frame::Frame>(*context_, on.scene, on.gpu, on.sizePx);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.stage.scene, on.stage.gpu, on.sizePx);
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
@@ -308,29 +260,15 @@ class GlExecutor : public Executor {
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  const Image& referenceFor(const PlannedRun& run, const Stage& on) {
-    const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.reference.name);
-    requireTraits(info, on.scene);
-    nlohmann::json identity = {{"reference", info.name},
-                               {"version", info.version},
-                               {"values", run.reference.values.toJson()},
-                               {"scene", on.facts["content_hash"]},
-                               {"size_px", {on.sizePx.x, on.sizePx.y}},
-                               {"device", environment_.device}};
-    return references_.get(sha256(identity.dump()), [&] {
-      const auto technique = info.make(run.reference.values);
-      frame::Frame frame(*context_, on.scene, on.gpu, on.sizePx);
-      technique->prepare(frame);
-      frame.begin();
-      technique->render(frame);
-      frame.end();
-      Image product = technique->product().read();
-      context_->checkDebugMessages();
-      return product;
-    });
+  const Image& referenceFor(const PlannedRun& run, const SharedStage& on) {
+    nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
+                               {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
+                               {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
+    return references_.get(sha256(identity.dump()),
+                           [&] { return renderOnce(*context_, on.stage, on.sizePx, run.reference); });
   }
 
-  void startArtefacts(LiveRun& run, const Stage& on, Image product, const Image* reference,
+  void startArtefacts(LiveRun& run, const SharedStage& on, Image product, const Image* reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     if (!run.plan->artefacts.pictures && !run.plan->artefacts.exr) return;
     std::map<std::string, Image> views;
@@ -338,7 +276,7 @@ class GlExecutor : public Executor {
       const Stopwatch watch(seconds_["artefacts"]);
       views = run.technique->pictures();
     }
-    auto write = [plan = run.plan, folder = folder_, shading = on.shading, product = std::move(product),
+    auto write = [plan = run.plan, folder = folder_, shading = on.view.shading, product = std::move(product),
                   reference = reference ? std::optional(*reference) : std::nullopt, maps = std::move(maps),
                   views = std::move(views)] {
       return writeArtefacts(*plan, folder, product, reference ? &*reference : nullptr, shading, maps, views);
@@ -375,7 +313,7 @@ class GlExecutor : public Executor {
   ReferenceCache references_;
   store::Environment environment_;
   std::string stageKey_;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<SharedStage> stage_;
   std::map<std::string, double> seconds_;
 };
 

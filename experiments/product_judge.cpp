@@ -10,39 +10,6 @@
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
-namespace {
-
-/// What a person looks at: the scene's colour with the visibility, or that of each channel, applied (as if
-/// the light were white as a whole), or the colour product itself.
-Image composed(const Image& product, const Image& shading, bool isShare) {
-  Image out(product.width, product.height, 3);
-  const auto channels = static_cast<size_t>(product.channels);
-  for (size_t i = 0; i < out.pixels(); ++i)
-    for (size_t c = 0; c < 3; ++c) {
-      const float value = product.data[i * channels + (channels == 1 ? 0 : c)];
-      out.data[3 * i + c] = isShare ? value * shading.data[3 * i + c] : value;
-    }
-  return out;
-}
-
-Image absolute(Image product) {
-  for (float& value : product.data) value = std::abs(value);
-  return product;
-}
-
-/// The product as a person would want to see it.
-Image productPicture(const PlannedRun& run, const Image& product, const Image& shading) {
-  const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run.technique.name);
-  if (info.product == techniques::ProductKind::Threshold) return perception::thresholdPicture(product);
-  if (info.product == techniques::ProductKind::JndMap)
-    return perception::errorPicture(product, kJndPictureWhite);
-  if (info.product == techniques::ProductKind::VisibilityChange)
-    return perception::errorPicture(absolute(product), kErrorScale);
-  const bool isShare = product.channels == 1 || info.product == techniques::ProductKind::LightColour;
-  return perception::displayPicture(composed(product, shading, isShare));
-}
-
-}  // namespace
 
 std::vector<store::Measurement> judge(const PlannedRun& run, const perception::ComparisonInput& input,
                                       std::vector<std::pair<std::string, Image>>& maps) {
@@ -79,8 +46,10 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
     keep(kind + "_exr", kind + ".exr");
   };
   if (run.artefacts.pictures) {
-    picture("product", productPicture(run, product, shading));
-    if (reference) picture("reference", productPicture(run, *reference, shading));
+    const techniques::ProductKind kind =
+        techniques::TechniqueRegistry::instance().get(run.technique.name).product;
+    picture("product", productPicture(kind, product, shading));
+    if (reference) picture("reference", productPicture(kind, *reference, shading));
   }
   if (run.artefacts.pictures)
     for (const auto& [name, view] : views) picture("view_" + name, view);

@@ -7,16 +7,10 @@
 
 #include "base/image.h"
 #include "experiments/executor.h"
+#include "experiments/product.h"
 #include "perception/metrics/metric.h"
 
 namespace limen::experiments {
-
-/// Absolute or relative error, or change, that pictures of errors and changes show as white: the same in all
-/// runs, so that pictures can be compared.
-inline constexpr double kErrorScale = 0.25;
-
-/// Difference that pictures of a JND map show as white, in all runs alike.
-inline constexpr double kJndPictureWhite = 10.0;
 
 /// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
 std::vector<store::Measurement> judge(const PlannedRun& run, const perception::ComparisonInput& input,

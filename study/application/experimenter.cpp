@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "study/application/ui_window.h"
+#include "window/ui_window.h"
 
 namespace limen::study {
 namespace {
@@ -17,8 +17,9 @@ constexpr glm::ivec2 kSizePx{720, 640};
 }  // namespace
 
 struct ExperimenterWindow::State {
-  State(const UiWindowOptions& options, NoteCodes noteCodes) : window(options), codes(std::move(noteCodes)) {}
-  UiWindow window;
+  State(const window::UiWindowOptions& options, NoteCodes noteCodes)
+      : window(options), codes(std::move(noteCodes)) {}
+  window::UiWindow window;
   NoteCodes codes;
   std::vector<std::string> notes;
   int noted = 0;
@@ -29,7 +30,7 @@ struct ExperimenterWindow::State {
 };
 
 ExperimenterWindow::ExperimenterWindow(int monitor, float scale, NoteCodes codes) {
-  UiWindowOptions options;
+  window::UiWindowOptions options;
   options.title = "Limen: experimenter";
   options.sizePx = glm::ivec2(glm::vec2(kSizePx) * std::max(scale, 1.0F));
   options.monitor = monitor;
@@ -42,11 +43,12 @@ ExperimenterWindow::ExperimenterWindow(int monitor, float scale, NoteCodes codes
 ExperimenterWindow::~ExperimenterWindow() = default;
 
 std::vector<std::string> ExperimenterWindow::takeNotes() { return std::exchange(state_->notes, {}); }
-std::vector<Input> ExperimenterWindow::takeKeys() {
-  std::vector<Input> inputs = state_->window.takeInputs();
-  inputs.erase(std::remove_if(inputs.begin(), inputs.end(),
-                              [](const Input& input) { return input.device != Device::Keyboard; }),
-               inputs.end());
+std::vector<window::Input> ExperimenterWindow::takeKeys() {
+  std::vector<window::Input> inputs = state_->window.takeInputs();
+  inputs.erase(
+      std::remove_if(inputs.begin(), inputs.end(),
+                     [](const window::Input& input) { return input.device != window::Device::Keyboard; }),
+      inputs.end());
   return inputs;
 }
 bool ExperimenterWindow::takeAbort() { return std::exchange(state_->abort, false); }
@@ -89,7 +91,7 @@ void ExperimenterWindow::State::build(const SessionWatch& watch) {
 }
 
 void ExperimenterWindow::tick(const SessionWatch& watch) {
-  const int64_t now = steadyNs();
+  const int64_t now = window::steadyNs();
   if (now - state_->drawnNs < kRedrawNs) return;
   state_->drawnNs = now;
   if (state_->window.takeCloseRequest()) state_->confirming = true;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "study/application/input.h"
 #include "study/application/session_watch.h"
+#include "window/input.h"
 
 namespace limen::study {
 
@@ -27,7 +27,7 @@ class ExperimenterWindow {
   std::vector<std::string> takeNotes();
   /// Keys that came to it since the last call: it has no use for keys, and a window manager gives them to the
   /// window that was clicked last, whoever sits at the keyboard.
-  std::vector<Input> takeKeys();
+  std::vector<window::Input> takeKeys();
   /// True once after the experimenter has ended the session and confirmed it.
   bool takeAbort();
 

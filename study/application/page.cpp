@@ -5,9 +5,9 @@
 
 namespace limen::study {
 
-std::optional<int> pressedButton(const Page& page, const Input& input,
+std::optional<int> pressedButton(const Page& page, const window::Input& input,
                                  const std::vector<TargetRect>& targets) {
-  if (input.device == Device::Mouse) {
+  if (input.device == window::Device::Mouse) {
     for (const TargetRect& target : targets) {
       if (input.xPx < target.x0 || input.xPx >= target.x1 || input.yPx < target.y0 || input.yPx >= target.y1)
         continue;
@@ -18,7 +18,8 @@ std::optional<int> pressedButton(const Page& page, const Input& input,
   }
   for (const PageButton& button : page.buttons)
     if (button.enabled && std::count(button.keys.begin(), button.keys.end(), input.key)) return button.id;
-  const bool accepts = input.key == kKeyEnter || input.key == kKeySpace || input.key == kPadAccept;
+  const bool accepts =
+      input.key == window::kKeyEnter || input.key == window::kKeySpace || input.key == window::kPadAccept;
   if (accepts && page.focus >= 0 && page.focus < static_cast<int>(page.buttons.size())) {
     const PageButton& button = page.buttons[static_cast<size_t>(page.focus)];
     if (button.enabled) return button.id;
@@ -26,13 +27,13 @@ std::optional<int> pressedButton(const Page& page, const Input& input,
   return std::nullopt;
 }
 
-int movedFocus(const Page& page, const Input& input) {
-  if (input.device == Device::Mouse || page.buttons.empty()) return page.focus;
+int movedFocus(const Page& page, const window::Input& input) {
+  if (input.device == window::Device::Mouse || page.buttons.empty()) return page.focus;
   const int count = static_cast<int>(page.buttons.size());
-  const bool forwards =
-      input.key == kKeyRight || input.key == kPadRight || input.key == kKeyDown || input.key == kPadDown;
-  const bool backwards =
-      input.key == kKeyLeft || input.key == kPadLeft || input.key == kKeyUp || input.key == kPadUp;
+  const bool forwards = input.key == window::kKeyRight || input.key == window::kPadRight ||
+                        input.key == window::kKeyDown || input.key == window::kPadDown;
+  const bool backwards = input.key == window::kKeyLeft || input.key == window::kPadLeft ||
+                         input.key == window::kKeyUp || input.key == window::kPadUp;
   if (!forwards && !backwards) return page.focus;
   if (page.focus < 0) return forwards ? 0 : count - 1;
   return std::clamp(page.focus + (forwards ? 1 : -1), 0, count - 1);

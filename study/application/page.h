@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/application/input.h"
+#include "window/input.h"
 
 namespace limen::study {
 
@@ -48,11 +48,11 @@ struct TargetRect {
 };
 
 /// The button that an input presses, given the targets that the user saw; disabled ones are none.
-std::optional<int> pressedButton(const Page& page, const Input& input,
+std::optional<int> pressedButton(const Page& page, const window::Input& input,
                                  const std::vector<TargetRect>& targets);
 
 /// Focus after an input that moves it (arrows, directional pad), else `page.focus`. From no focus the first
 /// step goes to the first button or, backwards, to the last.
-int movedFocus(const Page& page, const Input& input);
+int movedFocus(const Page& page, const window::Input& input);
 
 }  // namespace limen::study

@@ -24,7 +24,7 @@ void PageScreen::shown(int64_t nowNs) {
   if (!firstShownNs_) firstShownNs_ = nowNs;
 }
 
-void PageScreen::take(const Input& input, const std::vector<TargetRect>& targets) {
+void PageScreen::take(const window::Input& input, const std::vector<TargetRect>& targets) {
   if (done_ || !shownNs_ || input.timeNs < *shownNs_) return;
   const Page now = page(input.timeNs);
   if (const std::optional<int> id = pressedButton(now, input, targets))
@@ -47,7 +47,9 @@ void PageScreen::turnTextPage(int step) {
 }
 
 PageButton continueButton(int id, const std::string& label) {
-  return {id, label, "Space", "A", {kKeySpace, kKeyEnter, kPadAccept, kPadStart}, true};
+  return {
+      id,  label, "Space", "A", {window::kKeySpace, window::kKeyEnter, window::kPadAccept, window::kPadStart},
+      true};
 }
 
 }  // namespace limen::study

@@ -29,13 +29,13 @@ class PageScreen {
   bool isNew() const { return !shownNs_; }
   /// Counts the pages that were turned to.
   int turns() const { return turns_; }
-  void take(const Input& input, const std::vector<TargetRect>& targets);
+  void take(const window::Input& input, const std::vector<TargetRect>& targets);
   bool done() const { return done_; }
 
  protected:
   /// Everything but focus and text pages.
   virtual Page build(int64_t nowNs) const = 0;
-  virtual void pressed(int id, const Input& input) = 0;
+  virtual void pressed(int id, const window::Input& input) = 0;
   /// Another page takes the place of the present one.
   void turn();
   void finish() { done_ = true; }

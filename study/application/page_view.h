@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "study/application/page.h"
-#include "study/application/ui_fonts.h"
+#include "window/ui_fonts.h"
 
 namespace limen::study {
 
 /// How pages look in a window.
 struct PageStyle {
-  UiFonts fonts;
+  window::UiFonts fonts;
   float scale = 1.0F;
   glm::vec3 background{0.25F};  ///< values of the screen; lettering is light on dark and dark on light
   bool gamepad = false;         ///< show its keys

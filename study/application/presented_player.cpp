@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "renderer/gl/window_context.h"
-#include "study/application/ui_window.h"
 #include "study/presentation/presenter.h"
 #include "study/stimulus/prepared_stimulus.h"
+#include "window/ui_window.h"
 
 namespace limen::study {
 
@@ -24,7 +24,7 @@ struct PresentedPlayer::Prepared : PictureSource {
   }
 };
 
-PresentedPlayer::PresentedPlayer(UiWindow& window, const Protocol& protocol,
+PresentedPlayer::PresentedPlayer(window::UiWindow& window, const Protocol& protocol,
                                  const perception::DisplayProfile& display, bool anyTiming,
                                  const PhotodiodePatch& patch)
     : window_(window),

@@ -18,8 +18,9 @@ class PresentedPlayer : public StimulusPlayer {
  public:
   /// `anyTiming`: trials count whatever their frames' times, for trying things out.
   /// `patch`: a square for a light sensor, to be covered by it: it tells when something changes.
-  PresentedPlayer(UiWindow& window, const Protocol& protocol, const perception::DisplayProfile& display,
-                  bool anyTiming, const PhotodiodePatch& patch = {});
+  PresentedPlayer(window::UiWindow& window, const Protocol& protocol,
+                  const perception::DisplayProfile& display, bool anyTiming,
+                  const PhotodiodePatch& patch = {});
   ~PresentedPlayer() override;
 
   void prepare(const Trial& trial, const Session& session, const std::function<void()>& idle) override;
@@ -31,7 +32,7 @@ class PresentedPlayer : public StimulusPlayer {
 
  private:
   struct Prepared;
-  UiWindow& window_;
+  window::UiWindow& window_;
   const Protocol& protocol_;
   perception::DisplayProfile display_;
   bool anyTiming_;

@@ -10,7 +10,7 @@ namespace {
 
 int firstLetter(const std::string& word) {
   const auto first = static_cast<unsigned char>(word.empty() ? '\0' : word[0]);
-  return first < 0x80 && std::isalpha(first) ? std::tolower(first) : kKeyNone;
+  return first < 0x80 && std::isalpha(first) ? std::tolower(first) : window::kKeyNone;
 }
 
 std::string upper(int letter) { return {static_cast<char>(std::toupper(letter))}; }
@@ -39,8 +39,8 @@ double secondsBetween(int64_t from, int64_t to) { return static_cast<double>(to 
 std::vector<PageButton> answerButtons(const TaskSetting& task) {
   std::vector<PageButton> buttons = digitButtons(task.answers);
   if (task.type == Task::Rating || buttons.size() != 2) return buttons;
-  buttons[0].keys.insert(buttons[0].keys.end(), {kKeyLeft, kPadLeft});
-  buttons[1].keys.insert(buttons[1].keys.end(), {kKeyRight, kPadRight});
+  buttons[0].keys.insert(buttons[0].keys.end(), {window::kKeyLeft, window::kPadLeft});
+  buttons[1].keys.insert(buttons[1].keys.end(), {window::kKeyRight, window::kPadRight});
   buttons[0].padHint = "Left";
   buttons[1].padHint = "Right";
   if (isLeftRight(task)) {
@@ -48,7 +48,8 @@ std::vector<PageButton> answerButtons(const TaskSetting& task) {
     buttons[1].hint = "\u2192";
   }
   const int first = firstLetter(task.answers[0]), second = firstLetter(task.answers[1]);
-  if (task.type == Task::YesNo && first != kKeyNone && second != kKeyNone && first != second) {
+  if (task.type == Task::YesNo && first != window::kKeyNone && second != window::kKeyNone &&
+      first != second) {
     buttons[0].keys.push_back(first);
     buttons[1].keys.push_back(second);
     buttons[0].hint = upper(first) + "\u00A0or\u00A0\u2190";
@@ -128,7 +129,7 @@ Page QuestionScreen::build(int64_t) const {
   return page;
 }
 
-void QuestionScreen::pressed(int id, const Input& input) {
+void QuestionScreen::pressed(int id, const window::Input& input) {
   const double sinceShownS = secondsBetween(*shownNs(), input.timeNs);
   switch (step_) {
     case Step::Answer:

@@ -43,7 +43,7 @@ class QuestionScreen : public PageScreen {
 
  protected:
   Page build(int64_t nowNs) const override;
-  void pressed(int id, const Input& input) override;
+  void pressed(int id, const window::Input& input) override;
 
  private:
   enum class Step { Answer, Severity, Confidence };

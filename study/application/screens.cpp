@@ -9,7 +9,7 @@ namespace {
 enum ButtonId { kGoOn = 100, kBack, kAgree, kDecline, kStop, kLater, kEnd };
 
 PageButton backButton(int id, const std::string& label) {
-  return {id, label, "Backspace", "B", {kKeyBackspace, kPadBack}, true};
+  return {id, label, "Backspace", "B", {window::kKeyBackspace, window::kPadBack}, true};
 }
 
 void addTextTurning(Page& page, bool first) {
@@ -45,7 +45,7 @@ Page TextScreen::build(int64_t nowNs) const {
   return page;
 }
 
-void TextScreen::pressed(int id, const Input&) {
+void TextScreen::pressed(int id, const window::Input&) {
   if (id == kBack)
     turnTextPage(-1);
   else if (!onLastTextPage())
@@ -60,14 +60,14 @@ Page ConsentScreen::build(int64_t) const {
     page.title = "You do not agree";
     page.text = "Then the session ends here, and no answers are asked or kept. Thank you for your time.";
     page.buttons = {backButton(kBack, "Go back"),
-                    {kDecline, "End the session", "E", "Start", {'e', kPadStart}, true}};
+                    {kDecline, "End the session", "E", "Start", {'e', window::kPadStart}, true}};
     return page;
   }
   page.title = "Taking part";
   page.text = text_;
   page.reserved = {backButton(kBack, "Previous page"),
-                   {kDecline, "I do not agree", "N", "Left", {'n', kPadLeft}, true},
-                   {kAgree, "I agree", "Y", "Right", {'y', kPadRight}, true}};
+                   {kDecline, "I do not agree", "N", "Left", {'n', window::kPadLeft}, true},
+                   {kAgree, "I agree", "Y", "Right", {'y', window::kPadRight}, true}};
   if (!onLastTextPage())
     addTextTurning(page, textPage() == 0);
   else
@@ -75,7 +75,7 @@ Page ConsentScreen::build(int64_t) const {
   return page;
 }
 
-void ConsentScreen::pressed(int id, const Input&) {
+void ConsentScreen::pressed(int id, const window::Input&) {
   if (declining_) {
     if (id == kDecline) return finish();
     declining_ = false;
@@ -119,7 +119,7 @@ Page FormScreen::build(int64_t) const {
   return page;
 }
 
-void FormScreen::pressed(int id, const Input&) {
+void FormScreen::pressed(int id, const window::Input&) {
   if (id == kGoOn) return finish();
   if (id == kBack)
     chosen_.clear();
@@ -143,18 +143,19 @@ Page PauseScreen::build(int64_t) const {
         "be "
         "ended for good.";
     page.buttons = {continueButton(kGoOn, "No, go on"),
-                    {kLater, "Stop, go on another time", "L", "Left", {'l', kPadLeft}, true},
-                    {kEnd, "End for good", "E", "Right", {'e', kPadRight}, true}};
+                    {kLater, "Stop, go on another time", "L", "Left", {'l', window::kPadLeft}, true},
+                    {kEnd, "End for good", "E", "Right", {'e', window::kPadRight}, true}};
     return page;
   }
   page.title = "Pause";
   page.text =
       paragraphs(reason_, text_.empty() ? "Take your time. The last picture will be shown again." : text_);
-  page.buttons = {{kStop, "Stop the session", "S", "B", {'s', kPadBack}, true}, continueButton(kGoOn)};
+  page.buttons = {{kStop, "Stop the session", "S", "B", {'s', window::kPadBack}, true},
+                  continueButton(kGoOn)};
   return page;
 }
 
-void PauseScreen::pressed(int id, const Input&) {
+void PauseScreen::pressed(int id, const window::Input&) {
   if (id == kStop) {
     stopping_ = true;
     return turn();

@@ -25,7 +25,7 @@ class TextScreen : public PageScreen {
 
  protected:
   Page build(int64_t nowNs) const override;
-  void pressed(int id, const Input& input) override;
+  void pressed(int id, const window::Input& input) override;
 
  private:
   Setting setting_;
@@ -40,7 +40,7 @@ class ConsentScreen : public PageScreen {
 
  protected:
   Page build(int64_t nowNs) const override;
-  void pressed(int id, const Input& input) override;
+  void pressed(int id, const window::Input& input) override;
 
  private:
   std::string text_;
@@ -57,7 +57,7 @@ class FormScreen : public PageScreen {
 
  protected:
   Page build(int64_t nowNs) const override;
-  void pressed(int id, const Input& input) override;
+  void pressed(int id, const window::Input& input) override;
 
  private:
   bool reviewing() const { return chosen_.size() == fields_.size(); }
@@ -76,7 +76,7 @@ class PauseScreen : public PageScreen {
 
  protected:
   Page build(int64_t nowNs) const override;
-  void pressed(int id, const Input& input) override;
+  void pressed(int id, const window::Input& input) override;
 
  private:
   std::string text_, reason_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "study/application/ui_window.h"
+#include "window/ui_window.h"
 
 namespace limen::study {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kProbeSwaps = 12, kProbeWarmUp = 4;
 
 }  // namespace
 
-UiScreen::UiScreen(UiWindow& window, const perception::DisplayProfile& display)
+UiScreen::UiScreen(window::UiWindow& window, const perception::DisplayProfile& display)
     : GlScreen(window.context(), display, false), window_(window), paceHz_(display.refreshHz) {
   int64_t first = 0, last = 0;
   for (int i = 0; i < kProbeSwaps; ++i) {
@@ -31,7 +31,7 @@ int64_t UiScreen::swap() {
   if (capture_) std::exchange(capture_, {})();
   if (paced_) {
     const auto period = static_cast<int64_t>(std::llround(1e9 / paceHz_));
-    const int64_t now = steadyNs();
+    const int64_t now = window::steadyNs();
     // The timer's own blanks: those that passed by meanwhile are missed, as on a display.
     dueNs_ = dueNs_ + period > now ? dueNs_ + period : now + period - (now - dueNs_) % period;
     std::this_thread::sleep_for(std::chrono::nanoseconds(dueNs_ - now));
@@ -45,7 +45,7 @@ std::vector<ScreenEvent> UiScreen::poll() {
   if (!goOn_ || goOn_()) return {};
   ScreenEvent event;
   event.kind = ScreenEvent::Kind::Close;
-  event.timeNs = steadyNs();
+  event.timeNs = window::steadyNs();
   return {event};
 }
 

@@ -7,9 +7,11 @@
 
 #include "study/presentation/gl_screen.h"
 
-namespace limen::study {
-
+namespace limen::window {
 class UiWindow;
+}
+
+namespace limen::study {
 
 /// A window with an interface as the presenter's screen. Where buffer swaps do not wait for the display
 /// (virtual displays, drivers told not to), a timer paces them at the profile's rate, and pacedByTimer() says
@@ -17,7 +19,7 @@ class UiWindow;
 class UiScreen : public GlScreen {
  public:
   /// Measures for a few frames whether swaps wait.
-  UiScreen(UiWindow& window, const perception::DisplayProfile& display);
+  UiScreen(window::UiWindow& window, const perception::DisplayProfile& display);
 
   bool pacedByTimer() const { return paced_; }
   /// Asked between frames; as it says no, poll() gives one ScreenEvent::Close.
@@ -31,7 +33,7 @@ class UiScreen : public GlScreen {
   std::vector<ScreenEvent> poll() override;
 
  private:
-  UiWindow& window_;
+  window::UiWindow& window_;
   double paceHz_;
   std::function<bool()> goOn_;
   std::function<void()> capture_;

@@ -23,33 +23,33 @@ constexpr int64_t kRedrawAnywayNs = 1'000'000'000;
 constexpr int64_t kPatienceNs = 1'500'000'000;
 constexpr double kFeedbackS = 1.0;
 
-std::string keyName(const Input& input) {
-  if (input.device == Device::Mouse) return "mouse";
+std::string keyName(const window::Input& input) {
+  if (input.device == window::Device::Mouse) return "mouse";
   if (input.key > ' ' && input.key < 0x7F) return {static_cast<char>(input.key)};
   switch (input.key) {
-    case kKeyLeft:
-    case kPadLeft:
+    case window::kKeyLeft:
+    case window::kPadLeft:
       return "left";
-    case kKeyRight:
-    case kPadRight:
+    case window::kKeyRight:
+    case window::kPadRight:
       return "right";
-    case kKeyUp:
-    case kPadUp:
+    case window::kKeyUp:
+    case window::kPadUp:
       return "up";
-    case kKeyDown:
-    case kPadDown:
+    case window::kKeyDown:
+    case window::kPadDown:
       return "down";
-    case kKeyEnter:
+    case window::kKeyEnter:
       return "enter";
-    case kKeySpace:
+    case window::kKeySpace:
       return "space";
-    case kKeyBackspace:
+    case window::kKeyBackspace:
       return "backspace";
-    case kPadAccept:
+    case window::kPadAccept:
       return "accept";
-    case kPadBack:
+    case window::kPadBack:
       return "back";
-    case kPadStart:
+    case window::kPadStart:
       return "start";
     default:
       return "other";
@@ -71,7 +71,7 @@ class FeedbackPage : public PageScreen {
     page.question = correct_ ? "Right" : "Not right";
     return page;
   }
-  void pressed(int, const Input&) override {}
+  void pressed(int, const window::Input&) override {}
 
  private:
   bool correct_;
@@ -79,7 +79,7 @@ class FeedbackPage : public PageScreen {
 
 }  // namespace
 
-WindowFrontEnd::WindowFrontEnd(UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
+WindowFrontEnd::WindowFrontEnd(window::UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
                                ExperimenterWindow* experimenter, Setting setting)
     : window_(window),
       player_(player),
@@ -127,9 +127,9 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     if (experimenter_ && experimenter_->takeAbort()) return Left::EndedByExperimenter;
     if (timedOut && timedOut()) return Left::TimedOut;
     // Nothing is drawn while nothing changes, so that no input waits for a frame before it gets its time.
-    const Page page = screen.page(steadyNs());
+    const Page page = screen.page(window::steadyNs());
     const bool fresh = screen.isNew(), moved = window_.cursorPx() != cursor, counts = !page.status.empty();
-    if (draw || fresh || moved || counts || steadyNs() - drawnNs > kRedrawAnywayNs) {
+    if (draw || fresh || moved || counts || window::steadyNs() - drawnNs > kRedrawAnywayNs) {
       cursor = window_.cursorPx();
       window_.draw(setting_.background,
                    [&] { layout = drawPage(page, glm::vec2(window_.sizePx()), cursor, style()); });
@@ -146,11 +146,11 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     }
     window_.poll(kPollS);
     window_.takeLoss();  // nothing is missed by seeing a page later
-    const std::vector<Input> inputs = takeInputs();
+    const std::vector<window::Input> inputs = takeInputs();
     draw = !inputs.empty();
     const int turns = screen.turns();
-    for (const Input& input : inputs) {
-      if (input.key == kKeyEscape) return Left::Paused;
+    for (const window::Input& input : inputs) {
+      if (input.key == window::kKeyEscape) return Left::Paused;
       if (screen.turns() == turns) screen.take(input, layout.targets);
     }
     if (window_.takeCloseRequest()) return Left::Paused;
@@ -204,18 +204,18 @@ void WindowFrontEnd::drawNeutral(const std::string& status) {
   });
 }
 
-std::vector<Input> WindowFrontEnd::takeInputs() {
-  std::vector<Input> inputs = window_.takeInputs();
+std::vector<window::Input> WindowFrontEnd::takeInputs() {
+  std::vector<window::Input> inputs = window_.takeInputs();
   if (!experimenter_) return inputs;
-  const std::vector<Input> keys = experimenter_->takeKeys();
+  const std::vector<window::Input> keys = experimenter_->takeKeys();
   inputs.insert(inputs.end(), keys.begin(), keys.end());
   return inputs;
 }
 
 bool WindowFrontEnd::watchWindow() {
   window_.poll();
-  for (const Input& input : takeInputs()) {
-    if (input.key == kKeyEscape)
+  for (const window::Input& input : takeInputs()) {
+    if (input.key == window::kKeyEscape)
       pauseAsked_ = true;
     else
       early_.push_back(input);
@@ -226,13 +226,13 @@ bool WindowFrontEnd::watchWindow() {
 }
 
 bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
-  const int64_t start = steadyNs();
+  const int64_t start = window::steadyNs();
   drawNeutral({});
   window_.show();
   bool told = false;
   player_.prepare(trial, session, [&] {
     watchWindow();
-    if (told || steadyNs() - start < kPatienceNs) return;
+    if (told || window::steadyNs() - start < kPatienceNs) return;
     drawNeutral("One moment, please");
     screenshot("wait");
     window_.show(0);
@@ -244,9 +244,9 @@ bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
 TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) {
   pauseText_ = session.protocol().texts.pause;
   watch_.progress(session.trialsDone(), session.trialsInAll());
-  watch_.began(trial, steadyNs());
+  watch_.began(trial, window::steadyNs());
   TrialResult result = attempt(trial, session);
-  watch_.ended(result, steadyNs());
+  watch_.ended(result, window::steadyNs());
   return result;
 }
 
@@ -278,10 +278,10 @@ TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) 
   QuestionScreen question(session.protocol().parts.at(static_cast<size_t>(trial.plan.part)).task,
                           played.endNs);
   const double timeoutS = session.protocol().timing.answerTimeoutS;
-  Left left = run(question, [&] { return question.timedOut(steadyNs(), timeoutS); });
+  Left left = run(question, [&] { return question.timedOut(window::steadyNs(), timeoutS); });
   if (left == Left::Done && played.invalid.empty()) {
     result.answer = question.answer();
-    for (const Input& input : early_)
+    for (const window::Input& input : early_)
       result.answer->extra["early_inputs"].push_back(
           {{"key", keyName(input)},
            {"device", toText(input.device)},
@@ -325,12 +325,12 @@ std::vector<std::string> WindowFrontEnd::takeNotes() {
 
 void WindowFrontEnd::feedback(bool correct) {
   FeedbackPage page(correct);
-  run(page, [&] { return page.over(steadyNs()); });
+  run(page, [&] { return page.over(window::steadyNs()); });
 }
 
 nlohmann::json WindowFrontEnd::environment() const {
   const gl::DeviceInfo& device = window_.context().device();
-  const UiMonitor monitor = window_.monitor();
+  const window::UiMonitor monitor = window_.monitor();
   const glm::ivec2 size = window_.sizePx();
   nlohmann::json facts = {{"front_end", "window"},
                           {"gpu", device.renderer},

@@ -10,8 +10,8 @@
 #include "study/application/page_screen.h"
 #include "study/application/page_view.h"
 #include "study/application/stimulus_player.h"
-#include "study/application/ui_window.h"
 #include "study/session/front_end.h"
+#include "window/ui_window.h"
 
 namespace limen::study {
 
@@ -31,7 +31,7 @@ class WindowFrontEnd : public FrontEnd {
   };
 
   /// All must outlive it; `experimenter` may be null.
-  WindowFrontEnd(UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
+  WindowFrontEnd(window::UiWindow& window, StimulusPlayer& player, SessionWatch& watch,
                  ExperimenterWindow* experimenter, Setting setting);
 
   ScreenResult show(const Screen& screen, const Session& session) override;
@@ -47,7 +47,7 @@ class WindowFrontEnd : public FrontEnd {
   Left run(PageScreen& screen, const std::function<bool()>& timedOut = {});
   Left pause(const std::string& reason);
   bool stopAsked();
-  std::vector<Input> takeInputs();
+  std::vector<window::Input> takeInputs();
   /// Takes what happened to the window while nobody is asked; false: stop what is shown.
   bool watchWindow();
   void forget();
@@ -61,7 +61,7 @@ class WindowFrontEnd : public FrontEnd {
   void announce(const std::string& name);
   void screenshot(const std::string& name);
 
-  UiWindow& window_;
+  window::UiWindow& window_;
   StimulusPlayer& player_;
   SessionWatch& watch_;
   ExperimenterWindow* experimenter_;
@@ -70,7 +70,7 @@ class WindowFrontEnd : public FrontEnd {
   // Since the present trial began.
   std::string loss_;
   bool pauseAsked_ = false;
-  std::vector<Input> early_;
+  std::vector<window::Input> early_;
 
   int screenshots_ = 0;
   std::map<std::string, int> screenshotsOf_;

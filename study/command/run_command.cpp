@@ -72,22 +72,22 @@ void checkMonitor(const std::string& option, int number) {
                 all.empty() ? "none is connected" : fmt::format("connected are 0 to {}", all.size() - 1));
 }
 
-std::unique_ptr<UiWindow> openWindow(const Options& options, const std::string& title) {
+std::unique_ptr<window::UiWindow> openWindow(const Options& options, const std::string& title) {
   checkMonitor("--monitor", options.monitor);
   if (options.experimenter) checkMonitor("--experimenter-monitor", options.experimenterMonitor);
-  UiWindowOptions wanted;
+  window::UiWindowOptions wanted;
   wanted.title = title;
   wanted.fullScreen = options.window.empty();
   if (!wanted.fullScreen) wanted.sizePx = sizeOf(options.window);
   wanted.monitor = options.monitor;
   wanted.scale = static_cast<float>(options.scale);
-  return std::make_unique<UiWindow>(wanted);
+  return std::make_unique<window::UiWindow>(wanted);
 }
 
 // Why times measured here are not those of a laboratory.
-std::vector<std::string> doubts(UiWindow& window, const perception::DisplayProfile& display) {
+std::vector<std::string> doubts(window::UiWindow& window, const perception::DisplayProfile& display) {
   std::vector<std::string> all = objectionsTo(window.context());
-  const UiMonitor monitor = window.monitor();
+  const window::UiMonitor monitor = window.monitor();
   // Window systems round rates: 59.94 Hz is called 59 or 60.
   if (monitor.refreshHz > 0 && std::abs(monitor.refreshHz - display.refreshHz) > 1.0)
     all.push_back(fmt::format("the monitor runs at {:g} Hz, the display profile {} at {:g} Hz",
@@ -144,7 +144,7 @@ void runStudy(const Options& options, Run& run) {
   const bool fullScreen = options.window.empty();
 
   installInterruptHandlers();
-  const std::unique_ptr<UiWindow> window = openWindow(options, protocol.title);
+  const std::unique_ptr<window::UiWindow> window = openWindow(options, protocol.title);
   std::unique_ptr<ExperimenterWindow> experimenter;
   if (options.experimenter)
     experimenter = std::make_unique<ExperimenterWindow>(options.experimenterMonitor, window->scale(),

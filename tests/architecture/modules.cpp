@@ -19,7 +19,7 @@ const std::vector<Module>& modules() {
       {"renderer/references",
        {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques", "perception"},
        true},
-      // The viewer, and whatever else lies in no folder above.
+      // Whatever lies in no folder above.
       {"renderer",
        {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
         "renderer/references", "perception"},
@@ -64,10 +64,15 @@ const std::vector<Module>& modules() {
         "analysis/data", "analysis/fits", "analysis/groups", "analysis/relations", "analysis/sweep",
         "analysis/study", "analysis/study_page"},
        false},
+      {"window", {"base", "renderer/gl"}, true},
+      {"viewer",
+       {"base", "window", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
+        "renderer/references", "perception", "experiments"},
+       true},
       {"study/procedures", {"base", "psychometrics"}, false},
       {"study",
        {"base", "psychometrics", "study/procedures", "experiments/store", "renderer/gl", "renderer/scene",
-        "renderer/frame", "renderer/techniques", "renderer/references", "renderer", "perception"},
+        "renderer/frame", "renderer/techniques", "renderer/references", "renderer", "perception", "window"},
        true},
   };
   return kModules;

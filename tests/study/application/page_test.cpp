@@ -17,35 +17,38 @@ const std::vector<TargetRect> kTargets = {{10, 0, 0, 100, 50}, {11, 120, 0, 220,
 
 TEST(Page, TakesKeysOfItsButtonsOnly) {
   const Page page = threeButtons();
-  EXPECT_EQ(pressedButton(page, {Device::Keyboard, '2', 0, 0, 0}, kTargets), 11);
-  EXPECT_FALSE(pressedButton(page, {Device::Keyboard, '4', 0, 0, 0}, kTargets));
-  EXPECT_FALSE(pressedButton(page, {Device::Keyboard, kKeySpace, 0, 0, 0}, kTargets))
+  EXPECT_EQ(pressedButton(page, {window::Device::Keyboard, '2', 0, 0, 0}, kTargets), 11);
+  EXPECT_FALSE(pressedButton(page, {window::Device::Keyboard, '4', 0, 0, 0}, kTargets));
+  EXPECT_FALSE(pressedButton(page, {window::Device::Keyboard, window::kKeySpace, 0, 0, 0}, kTargets))
       << "nothing has the focus";
 }
 
 TEST(Page, DisabledButtonsTakeNothing) {
   const Page page = threeButtons();
-  EXPECT_FALSE(pressedButton(page, {Device::Keyboard, '3', 0, 0, 0}, kTargets));
-  EXPECT_FALSE(pressedButton(page, {Device::Mouse, kKeyNone, 300, 20, 0}, kTargets));
+  EXPECT_FALSE(pressedButton(page, {window::Device::Keyboard, '3', 0, 0, 0}, kTargets));
+  EXPECT_FALSE(pressedButton(page, {window::Device::Mouse, window::kKeyNone, 300, 20, 0}, kTargets));
 }
 
 TEST(Page, MousePressesWhatIsUnderIt) {
   const Page page = threeButtons();
-  EXPECT_EQ(pressedButton(page, {Device::Mouse, kKeyNone, 99.5F, 49.5F, 0}, kTargets), 10);
-  EXPECT_FALSE(pressedButton(page, {Device::Mouse, kKeyNone, 110, 20, 0}, kTargets)) << "between two";
-  EXPECT_FALSE(pressedButton(page, {Device::Mouse, kKeyNone, 50, 50, 0}, kTargets)) << "just below";
+  EXPECT_EQ(pressedButton(page, {window::Device::Mouse, window::kKeyNone, 99.5F, 49.5F, 0}, kTargets), 10);
+  EXPECT_FALSE(pressedButton(page, {window::Device::Mouse, window::kKeyNone, 110, 20, 0}, kTargets))
+      << "between two";
+  EXPECT_FALSE(pressedButton(page, {window::Device::Mouse, window::kKeyNone, 50, 50, 0}, kTargets))
+      << "just below";
 }
 
 TEST(Page, FocusStartsNowhereSoThatNoAnswerIsSuggested) {
   Page page = threeButtons();
-  EXPECT_EQ(movedFocus(page, {Device::Keyboard, kKeyRight, 0, 0, 0}), 0);
-  EXPECT_EQ(movedFocus(page, {Device::Gamepad, kPadLeft, 0, 0, 0}), 2);
+  EXPECT_EQ(movedFocus(page, {window::Device::Keyboard, window::kKeyRight, 0, 0, 0}), 0);
+  EXPECT_EQ(movedFocus(page, {window::Device::Gamepad, window::kPadLeft, 0, 0, 0}), 2);
   page.focus = 2;
-  EXPECT_EQ(movedFocus(page, {Device::Keyboard, kKeyRight, 0, 0, 0}), 2) << "no way round the end";
+  EXPECT_EQ(movedFocus(page, {window::Device::Keyboard, window::kKeyRight, 0, 0, 0}), 2)
+      << "no way round the end";
   page.focus = 1;
-  EXPECT_EQ(movedFocus(page, {Device::Keyboard, 'x', 0, 0, 0}), 1);
-  EXPECT_EQ(pressedButton(page, {Device::Keyboard, kKeyEnter, 0, 0, 0}, {}), 11);
-  EXPECT_EQ(pressedButton(page, {Device::Gamepad, kPadAccept, 0, 0, 0}, {}), 11);
+  EXPECT_EQ(movedFocus(page, {window::Device::Keyboard, 'x', 0, 0, 0}), 1);
+  EXPECT_EQ(pressedButton(page, {window::Device::Keyboard, window::kKeyEnter, 0, 0, 0}, {}), 11);
+  EXPECT_EQ(pressedButton(page, {window::Device::Gamepad, window::kPadAccept, 0, 0, 0}, {}), 11);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "study/application/lettering.h"
 #include "study/application/question.h"
 #include "study/application/screens.h"
-#include "study/application/ui_window.h"
 #include "tests/study/application/x_server.h"
+#include "window/ui_window.h"
 
 namespace limen::study {
 namespace {
@@ -48,12 +48,12 @@ std::vector<std::pair<std::string, Page>> pages() {
                      "older", "I would rather not say"}}});
   add("form", form);
   form.shown(0);
-  form.take({Device::Keyboard, '3', 0, 0, 1}, {});
+  form.take({window::Device::Keyboard, '3', 0, 0, 1}, {});
   add("form_review", form);
   PauseScreen pause("", "The picture could not be shown: another window came in front.");
   add("pause", pause);
   pause.shown(0);
-  pause.take({Device::Keyboard, 's', 0, 0, 1}, {});
+  pause.take({window::Device::Keyboard, 's', 0, 0, 1}, {});
   add("pause_stop", pause);
   TaskSetting task;
   task.answers = {"yes", "no"};
@@ -66,12 +66,12 @@ std::vector<std::pair<std::string, Page>> pages() {
   QuestionScreen question(task, 0);
   add("question", question);
   question.shown(0);
-  question.take({Device::Keyboard, 'y', 0, 0, 1}, {});
+  question.take({window::Device::Keyboard, 'y', 0, 0, 1}, {});
   add("severity", question);
   question.shown(2);
-  question.take({Device::Keyboard, '1', 0, 0, 3}, {});
+  question.take({window::Device::Keyboard, '1', 0, 0, 3}, {});
   question.shown(4);
-  question.take({Device::Keyboard, kKeyRight, 0, 0, 5}, {});
+  question.take({window::Device::Keyboard, window::kKeyRight, 0, 0, 5}, {});
   add("confidence", question);
   task.type = Task::Alternative;
   task.alternatives = 4;
@@ -100,10 +100,10 @@ TEST(PageView, EveryPageFitsIntoCommonWindows) {
   };
   for (const Case& shape :
        {Case{{1280, 1024}, 1}, Case{{1024, 768}, 1}, Case{{2560, 1440}, 2}, Case{{1280, 1024}, 2}}) {
-    UiWindowOptions options;
+    window::UiWindowOptions options;
     options.sizePx = shape.sizePx;
     options.scale = shape.scale;
-    UiWindow window(options);
+    window::UiWindow window(options);
     ASSERT_EQ(window.sizePx(), shape.sizePx);
     const PageStyle style{window.fonts(), window.scale(), glm::vec3(0.25F), false};
     for (const auto& [name, page] : pages()) {

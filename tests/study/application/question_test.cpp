@@ -16,20 +16,23 @@ TaskSetting yesNo() {
   return task;
 }
 
-Input key(int code, int64_t timeNs) { return {Device::Keyboard, code, 0, 0, timeNs}; }
+window::Input key(int code, int64_t timeNs) { return {window::Device::Keyboard, code, 0, 0, timeNs}; }
 
-std::optional<int> pressedBy(const TaskSetting& task, int code, Device device = Device::Keyboard) {
+std::optional<int> pressedBy(const TaskSetting& task, int code,
+                             window::Device device = window::Device::Keyboard) {
   Page page;
   page.buttons = answerButtons(task);
   return pressedButton(page, {device, code, 0, 0, 0}, {});
 }
 
 TEST(Question, YesAndNoHaveLettersArrowsAndDigits) {
-  for (const int code : {int{'y'}, int{kKeyLeft}, int{'1'}}) EXPECT_EQ(pressedBy(yesNo(), code), 0) << code;
-  for (const int code : {int{'n'}, int{kKeyRight}, int{'2'}}) EXPECT_EQ(pressedBy(yesNo(), code), 1) << code;
-  EXPECT_EQ(pressedBy(yesNo(), kPadLeft, Device::Gamepad), 0);
-  EXPECT_EQ(pressedBy(yesNo(), kPadRight, Device::Gamepad), 1);
-  EXPECT_FALSE(pressedBy(yesNo(), kKeySpace));
+  for (const int code : {int{'y'}, int{window::kKeyLeft}, int{'1'}})
+    EXPECT_EQ(pressedBy(yesNo(), code), 0) << code;
+  for (const int code : {int{'n'}, int{window::kKeyRight}, int{'2'}})
+    EXPECT_EQ(pressedBy(yesNo(), code), 1) << code;
+  EXPECT_EQ(pressedBy(yesNo(), window::kPadLeft, window::Device::Gamepad), 0);
+  EXPECT_EQ(pressedBy(yesNo(), window::kPadRight, window::Device::Gamepad), 1);
+  EXPECT_FALSE(pressedBy(yesNo(), window::kKeySpace));
 }
 
 TEST(Question, LettersFollowTheWords) {
@@ -40,7 +43,7 @@ TEST(Question, LettersFollowTheWords) {
   EXPECT_FALSE(pressedBy(task, 'y'));
   task.answers = {"seen", "search"};  // the same letter would be a guess
   EXPECT_FALSE(pressedBy(task, 's'));
-  EXPECT_EQ(pressedBy(task, kKeyLeft), 0);
+  EXPECT_EQ(pressedBy(task, window::kKeyLeft), 0);
 }
 
 TEST(Question, FourAlternativesHaveDigitsAndStandInASquare) {
@@ -49,7 +52,7 @@ TEST(Question, FourAlternativesHaveDigitsAndStandInASquare) {
   task.alternatives = 4;
   task.answers = {"upper left", "upper right", "lower left", "lower right"};
   for (int i = 0; i < 4; ++i) EXPECT_EQ(pressedBy(task, '1' + i), i);
-  EXPECT_FALSE(pressedBy(task, kKeyLeft)) << "an arrow says too little";
+  EXPECT_FALSE(pressedBy(task, window::kKeyLeft)) << "an arrow says too little";
   EXPECT_EQ(answerColumns(task), 2);
 }
 
@@ -65,7 +68,7 @@ TEST(Question, RatingsOfTwoStepsAreNoLeftAndRight) {
   TaskSetting task;
   task.type = Task::Rating;
   task.answers = {"bad", "good"};
-  EXPECT_FALSE(pressedBy(task, kKeyLeft));
+  EXPECT_FALSE(pressedBy(task, window::kKeyLeft));
   EXPECT_EQ(pressedBy(task, '2'), 1);
 }
 
@@ -123,7 +126,8 @@ TEST(Question, NothingLeadsBackToAnAnswer) {
   screen.shown(0);
   screen.take(key('y', kMs), {});
   screen.shown(2 * kMs);
-  for (const int code : {int{kKeyBackspace}, int{kKeyEscape}, int{'n'}, int{kPadBack}})
+  for (const int code :
+       {int{window::kKeyBackspace}, int{window::kKeyEscape}, int{'n'}, int{window::kPadBack}})
     screen.take(key(code, 3 * kMs), {});
   EXPECT_EQ(screen.name(), "confidence");
   EXPECT_EQ(screen.answer().answer, "yes");

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int64_t kS = 1'000'000'000;
 
-Input keyInput(int code, int64_t timeNs) { return {Device::Keyboard, code, 0, 0, timeNs}; }
+window::Input keyInput(int code, int64_t timeNs) { return {window::Device::Keyboard, code, 0, 0, timeNs}; }
 
 TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
   TextScreen::Setting setting;
@@ -16,9 +16,9 @@ TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
   TextScreen screen(setting);
   screen.shown(10 * kS);
   EXPECT_EQ(screen.page(12 * kS).status, "You can go on in 3 s");
-  screen.take(keyInput(kKeySpace, 15 * kS - 1), {});
+  screen.take(keyInput(window::kKeySpace, 15 * kS - 1), {});
   EXPECT_FALSE(screen.done());
-  screen.take(keyInput(kKeySpace, 15 * kS), {});
+  screen.take(keyInput(window::kKeySpace, 15 * kS), {});
   EXPECT_TRUE(screen.done());
 }
 
@@ -29,7 +29,7 @@ TEST(Screens, BreakGoesOnCountingBehindAPause) {
   screen.shown(0);
   screen.hidden();
   screen.shown(20 * kS);
-  screen.take(keyInput(kKeyEnter, 21 * kS), {});
+  screen.take(keyInput(window::kKeyEnter, 21 * kS), {});
   EXPECT_TRUE(screen.done());
 }
 
@@ -39,10 +39,10 @@ TEST(Screens, ConsentIsGivenOnTheLastPageOnly) {
   screen.shown(0);
   screen.take(keyInput('y', 1), {});
   EXPECT_FALSE(screen.done());
-  screen.take(keyInput(kKeySpace, 2), {});
+  screen.take(keyInput(window::kKeySpace, 2), {});
   EXPECT_EQ(screen.page(3).textPages.index, 1);
   screen.shown(4);
-  screen.take(keyInput(kKeySpace, 5), {});
+  screen.take(keyInput(window::kKeySpace, 5), {});
   EXPECT_FALSE(screen.done()) << "going on is not agreeing";
   screen.take(keyInput('y', 6), {});
   EXPECT_TRUE(screen.done());
@@ -56,7 +56,7 @@ TEST(Screens, DecliningIsAskedBack) {
   EXPECT_EQ(screen.name(), "consent_declined");
   EXPECT_FALSE(screen.done());
   screen.shown(2);
-  screen.take(keyInput(kKeyBackspace, 3), {});
+  screen.take(keyInput(window::kKeyBackspace, 3), {});
   EXPECT_EQ(screen.name(), "consent");
   screen.shown(4);
   screen.take(keyInput('n', 5), {});
@@ -77,11 +77,11 @@ TEST(Screens, FormTakesChoicesAndAsksWhetherTheyAreRight) {
   press('1');
   press('2');
   EXPECT_EQ(screen.name(), "form_review");
-  press(kKeyBackspace);
+  press(window::kKeyBackspace);
   EXPECT_EQ(screen.name(), "form");
   press('2');
   press('1');
-  press(kKeyEnter);
+  press(window::kKeyEnter);
   EXPECT_TRUE(screen.done());
   EXPECT_EQ(screen.answers(), (nlohmann::json{{"age", "26 to 35"}, {"vision", "normal"}}));
 }
@@ -89,12 +89,12 @@ TEST(Screens, FormTakesChoicesAndAsksWhetherTheyAreRight) {
 TEST(Screens, StoppingIsAskedTwice) {
   for (const auto& [code, choice] :
        {std::pair{int{'l'}, PauseScreen::Choice::StopForNow}, std::pair{int{'e'}, PauseScreen::Choice::End},
-        std::pair{int{kKeySpace}, PauseScreen::Choice::Continue}}) {
+        std::pair{int{window::kKeySpace}, PauseScreen::Choice::Continue}}) {
     PauseScreen screen("");
     screen.shown(0);
-    screen.take(keyInput(code == kKeySpace ? 's' : code, 1), {});
+    screen.take(keyInput(code == window::kKeySpace ? 's' : code, 1), {});
     EXPECT_FALSE(screen.done());
-    if (code != kKeySpace) screen.take(keyInput('s', 2), {});
+    if (code != window::kKeySpace) screen.take(keyInput('s', 2), {});
     screen.shown(3);
     screen.take(keyInput(code, 4), {});
     EXPECT_TRUE(screen.done());
@@ -106,8 +106,8 @@ TEST(Screens, OneKeyTurnsOnePageHoweverOftenItIsHit) {
   TextScreen screen({});
   screen.setTextPages(3);
   screen.shown(0);
-  screen.take(keyInput(kKeySpace, 1), {});
-  screen.take(keyInput(kKeySpace, 2), {});
+  screen.take(keyInput(window::kKeySpace, 1), {});
+  screen.take(keyInput(window::kKeySpace, 2), {});
   EXPECT_EQ(screen.page(3).textPages.index, 1);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "study/application/ui_input.h"
+#include "window/ui_input.h"
 
 #include <GLFW/glfw3.h>
 
 #include <array>
 #include <cctype>
 
-namespace limen::study {
+namespace limen::window {
 namespace {
 
 struct PadButton {
@@ -89,4 +89,4 @@ void GamepadWatch::poll(std::vector<Input>& inputs) {
   }
 }
 
-}  // namespace limen::study
+}  // namespace limen::window

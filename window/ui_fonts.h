@@ -5,7 +5,10 @@
 
 struct ImFont;
 
-namespace limen::study {
+namespace limen::window {
+
+/// How an interface is read: at a glance by somebody who was never shown it, or all day by one who knows it.
+enum class UiDensity { Study, Workbench };
 
 struct UiFonts {
   ImFont *body = nullptr, *title = nullptr;
@@ -16,9 +19,9 @@ struct UiFonts {
 
 /// Fonts for the current ImGui context, made at the size at which they are shown. DejaVu Sans if it is
 /// installed (Latin, Greek, Cyrillic, arrows), else ImGui's own (Latin-1).
-UiFonts loadUiFonts(float scale);
+UiFonts loadUiFonts(float scale, UiDensity density = UiDensity::Study);
 
-/// Large targets and high contrast, on a dark ground.
-void styleUi(float scale);
+/// High contrast on a dark ground; large targets in a study, small ones on a workbench.
+void styleUi(float scale, UiDensity density = UiDensity::Study);
 
-}  // namespace limen::study
+}  // namespace limen::window

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace limen::study {
+namespace limen::window {
 
 enum class Device { Keyboard, Mouse, Gamepad };
 const char* toText(Device device);
@@ -40,4 +40,4 @@ struct Input {
 /// The clock of all time stamps here.
 int64_t steadyNs();
 
-}  // namespace limen::study
+}  // namespace limen::window

@@ -8,15 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
-#include "study/application/input.h"
-#include "study/application/ui_fonts.h"
+#include "renderer/gl/window_context.h"
+#include "window/input.h"
+#include "window/ui_surface.h"
 
-namespace limen::gl {
-class WindowContext;
-}
-
-namespace limen::study {
+namespace limen::window {
 
 struct UiWindowOptions {
   std::string title = "Limen";
@@ -26,6 +22,7 @@ struct UiWindowOptions {
   float scale = 0.0F;            ///< of fonts and targets; 0: as the monitor asks for
   bool resizable = false;
   bool takesFocus = true;  ///< when it opens
+  UiDensity density = UiDensity::Study;
 };
 
 /// Where a window is and what shows it.
@@ -37,23 +34,24 @@ struct UiMonitor {
 };
 
 /// A window with a graphics context, Dear ImGui and time-stamped input. Knows nothing of what is shown in it.
-class UiWindow {
+class UiWindow : public UiSurface {
  public:
   /// Throws Error: no window system, no OpenGL 4.5 core, no such monitor.
   explicit UiWindow(const UiWindowOptions& options);
-  ~UiWindow();
-  UiWindow(const UiWindow&) = delete;
-  UiWindow& operator=(const UiWindow&) = delete;
+  ~UiWindow() override;
 
-  gl::WindowContext& context();
-  glm::ivec2 sizePx() const;  ///< of the framebuffer
-  float scale() const;
-  const UiFonts& fonts() const;
+  gl::WindowContext& context() override;
+  glm::ivec2 sizePx() const override;
   UiMonitor monitor() const;
   std::string windowSystem() const;  ///< as the window library words it
 
   /// Takes what the window system has, after waiting at most `seconds` for something.
   void poll(double seconds = 0.0);
+  /// Waits at most `seconds` for anything that could change what is shown: mouse, keys, size, wake(). True if
+  /// something came.
+  bool waitForAnything(double seconds);
+  /// Ends a wait; from any thread.
+  static void wake();
   /// What was pressed since the last call, in order.
   std::vector<Input> takeInputs();
   glm::vec2 cursorPx() const;
@@ -66,19 +64,16 @@ class UiWindow {
   bool contextLost() const;
   void hideCursor(bool hide);
 
-  /// Draws an interface over `background` (values as they go to the screen) into the back buffer: `build`
-  /// makes its calls to ImGui.
-  void draw(glm::vec3 background, const std::function<void()>& build);
-  /// The same over what is in the back buffer already.
-  void overlay(const std::function<void()>& build);
-  /// What was drawn and not yet shown.
-  Image readBack() const;
   /// Shows what was drawn and waits until the driver has done so; steady time of that.
   int64_t show(int interval = 1);
+
+ protected:
+  void bindContext() const override;
+  void beginUiFrame() override;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-}  // namespace limen::study
+}  // namespace limen::window

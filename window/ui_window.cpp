@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "study/application/ui_window.h"
+#include "window/ui_window.h"
 
 #include <epoxy/gl.h>
 // GLFW after epoxy, which brings the GL header.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <utility>
 
 #include "base/error.h"
 #include "renderer/gl/window_context.h"
-#include "study/application/ui_input.h"
+#include "window/ui_input.h"
 
-namespace limen::study {
+namespace limen::window {
 
 int64_t steadyNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -33,19 +33,7 @@ namespace {
 // How often a gamepad is looked at: its time stamps are as coarse as that.
 constexpr double kGamepadPollS = 0.004;
 
-// Several windows of one process: ImGui and its window back end go by the current context.
-class ImGuiScope {
- public:
-  explicit ImGuiScope(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
-    ImGui::SetCurrentContext(context);
-  }
-  ~ImGuiScope() { ImGui::SetCurrentContext(before_); }
-  ImGuiScope(const ImGuiScope&) = delete;
-  ImGuiScope& operator=(const ImGuiScope&) = delete;
-
- private:
-  ImGuiContext* before_;
-};
+std::atomic<bool> wakeAsked = false;
 
 GLFWmonitor* chooseMonitor(int index) {
   int count = 0;
@@ -60,9 +48,9 @@ GLFWmonitor* chooseMonitor(int index) {
 
 struct UiWindow::State {
   std::unique_ptr<gl::WindowContext> context;
-  ImGuiContext* imgui = nullptr;
-  UiFonts fonts;
+  ImGuiContext* imgui = nullptr;  // the surface's
   float scale = 1.0F;
+  int64_t events = 0, eventsSeen = 0;  // of any kind
   GLFWmonitor* monitor = nullptr;
   UiMonitor monitorFacts;
   std::vector<Input> inputs;
@@ -122,48 +110,60 @@ struct UiWindow::State {
 void UiWindow::State::installCallbacks() {
   glfwSetWindowUserPointer(window(), this);
   glfwSetKeyCallback(window(), [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    ++of(w).events;
     const int64_t now = steadyNs();
     State& state = of(w);
     const int translated = translateKey(key, scancode);
     if (action == GLFW_PRESS && translated != kKeyNone)
       state.inputs.push_back({Device::Keyboard, translated, 0, 0, now});
-    const ImGuiScope scope(state.imgui);
+    const UiScope scope(state.imgui);
     ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
   });
   glfwSetMouseButtonCallback(window(), [](GLFWwindow* w, int button, int action, int mods) {
+    ++of(w).events;
     const int64_t now = steadyNs();
     State& state = of(w);
     if (action == GLFW_PRESS && button == GLFW_MOUSE_BUTTON_LEFT) {
       const glm::vec2 at = state.cursorPx();
       state.inputs.push_back({Device::Mouse, kKeyNone, at.x, at.y, now});
     }
-    const ImGuiScope scope(state.imgui);
+    const UiScope scope(state.imgui);
     ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
   });
   glfwSetScrollCallback(window(), [](GLFWwindow* w, double x, double y) {
-    const ImGuiScope scope(of(w).imgui);
+    ++of(w).events;
+    const UiScope scope(of(w).imgui);
     ImGui_ImplGlfw_ScrollCallback(w, x, y);
   });
   glfwSetCharCallback(window(), [](GLFWwindow* w, unsigned int character) {
-    const ImGuiScope scope(of(w).imgui);
+    ++of(w).events;
+    const UiScope scope(of(w).imgui);
     ImGui_ImplGlfw_CharCallback(w, character);
   });
   glfwSetCursorEnterCallback(window(), [](GLFWwindow* w, int entered) {
-    const ImGuiScope scope(of(w).imgui);
+    ++of(w).events;
+    const UiScope scope(of(w).imgui);
     ImGui_ImplGlfw_CursorEnterCallback(w, entered);
   });
   glfwSetWindowFocusCallback(window(), [](GLFWwindow* w, int focused) {
+    ++of(w).events;
     State& state = of(w);
     state.focusLost = !focused;
-    const ImGuiScope scope(state.imgui);
+    const UiScope scope(state.imgui);
     ImGui_ImplGlfw_WindowFocusCallback(w, focused);
   });
   glfwSetWindowIconifyCallback(window(), [](GLFWwindow* w, int iconified) {
+    ++of(w).events;
     if (iconified) of(w).loss = "the window was put away";
   });
-  glfwSetFramebufferSizeCallback(window(),
-                                 [](GLFWwindow* w, int, int) { of(w).loss = "the window changed its size"; });
+  glfwSetFramebufferSizeCallback(window(), [](GLFWwindow* w, int, int) {
+    ++of(w).events;
+    of(w).loss = "the window changed its size";
+  });
+  glfwSetCursorPosCallback(window(), [](GLFWwindow* w, double, double) { ++of(w).events; });
+  glfwSetWindowRefreshCallback(window(), [](GLFWwindow* w) { ++of(w).events; });
   glfwSetWindowCloseCallback(window(), [](GLFWwindow* w) {
+    ++of(w).events;
     of(w).closeRequested = true;
     glfwSetWindowShouldClose(w, GLFW_FALSE);
   });
@@ -182,14 +182,12 @@ UiWindow::UiWindow(const UiWindowOptions& options) : state_(std::make_unique<Sta
   // Hidden until it is where it belongs, so that nobody sees it move.
   state.context = std::make_unique<gl::WindowContext>(options.title, options.sizePx, false);
   state.place(options);
-  state.imgui = ImGui::CreateContext();
-  const ImGuiScope scope(state.imgui);
-  ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
-  ImGui_ImplGlfw_InitForOpenGL(state.window(), false);
-  ImGui_ImplOpenGL3_Init("#version 450 core");
-  state.fonts = loadUiFonts(state.scale);
-  styleUi(state.scale);
+  startUi(state.scale, options.density);
+  state.imgui = imgui_;
+  {
+    const UiScope scope(imgui_);
+    ImGui_ImplGlfw_InitForOpenGL(state.window(), false);
+  }
   state.installCallbacks();
   State::all().push_back(&state);
   glfwPollEvents();
@@ -200,17 +198,15 @@ UiWindow::~UiWindow() {
   std::vector<State*>& all = State::all();
   all.erase(std::remove(all.begin(), all.end(), state_.get()), all.end());
   state_->context->makeCurrent();
-  ImGui::SetCurrentContext(state_->imgui);
-  ImGui_ImplOpenGL3_Shutdown();
-  ImGui_ImplGlfw_Shutdown();
-  ImGui::DestroyContext(state_->imgui);
-  ImGui::SetCurrentContext(nullptr);
+  {
+    const UiScope scope(imgui_);
+    ImGui_ImplGlfw_Shutdown();
+  }
+  endUi();
 }
 
 gl::WindowContext& UiWindow::context() { return *state_->context; }
 glm::ivec2 UiWindow::sizePx() const { return state_->context->framebufferSizePx(); }
-float UiWindow::scale() const { return state_->scale; }
-const UiFonts& UiWindow::fonts() const { return state_->fonts; }
 UiMonitor UiWindow::monitor() const { return state_->monitorFacts; }
 glm::vec2 UiWindow::cursorPx() const { return state_->cursorPx(); }
 bool UiWindow::gamepadPresent() const { return state_->gamepads.present(); }
@@ -235,6 +231,19 @@ void UiWindow::poll(double seconds) {
   }
 }
 
+bool UiWindow::waitForAnything(double seconds) {
+  glfwPollEvents();
+  if (state_->events == state_->eventsSeen && seconds > 0.0) glfwWaitEventsTimeout(seconds);
+  const bool woken = wakeAsked.exchange(false);
+  state_->inputs.clear();  // whoever waits like this lives by what ImGui was told
+  return std::exchange(state_->eventsSeen, state_->events) != state_->events || woken;
+}
+
+void UiWindow::wake() {
+  wakeAsked = true;
+  glfwPostEmptyEvent();
+}
+
 std::vector<Input> UiWindow::takeInputs() { return std::exchange(state_->inputs, {}); }
 
 std::string UiWindow::takeLoss() {
@@ -251,51 +260,17 @@ void UiWindow::hideCursor(bool hide) {
   glfwSetInputMode(state_->window(), GLFW_CURSOR, hide ? GLFW_CURSOR_HIDDEN : GLFW_CURSOR_NORMAL);
 }
 
-void UiWindow::draw(glm::vec3 background, const std::function<void()>& build) {
-  state_->context->makeCurrent();
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glDisable(GL_SCISSOR_TEST);
-  // Colours of the interface are values for the screen already.
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glClearColor(background.x, background.y, background.z, 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT);
-  overlay(build);
-}
+void UiWindow::bindContext() const { state_->context->makeCurrent(); }
 
-void UiWindow::overlay(const std::function<void()>& build) {
-  state_->context->makeCurrent();
-  const ImGuiScope scope(state_->imgui);
-  const glm::ivec2 size = sizePx();
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, size.x, size.y);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  ImGui_ImplOpenGL3_NewFrame();
+void UiWindow::beginUiFrame() {
   ImGui_ImplGlfw_NewFrame();
   // Everything in framebuffer pixels, so that lettering is as sharp as the screen allows.
+  const glm::ivec2 size = sizePx();
   ImGuiIO& io = ImGui::GetIO();
   io.MousePos.x *= io.DisplayFramebufferScale.x;
   io.MousePos.y *= io.DisplayFramebufferScale.y;
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
   io.DisplayFramebufferScale = {1, 1};
-  ImGui::NewFrame();
-  build();
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-Image UiWindow::readBack() const {
-  state_->context->makeCurrent();
-  const glm::ivec2 size = sizePx();
-  std::vector<uint8_t> bytes(static_cast<size_t>(size.x) * size.y * 3);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_BACK);
-  glReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
-  Image image(size.x, size.y, 3);
-  for (int y = 0; y < size.y; ++y)  // a window's row 0 is its bottom
-    for (int x = 0; x < size.x * 3; ++x)
-      image.data[static_cast<size_t>(y) * size.x * 3 + x] =
-          static_cast<float>(bytes[static_cast<size_t>(size.y - 1 - y) * size.x * 3 + x]) / 255.0F;
-  return image;
 }
 
 int64_t UiWindow::show(int interval) {
@@ -311,4 +286,4 @@ int64_t UiWindow::show(int interval) {
   return now;
 }
 
-}  // namespace limen::study
+}  // namespace limen::window

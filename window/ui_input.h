@@ -4,9 +4,9 @@
 #include <map>
 #include <vector>
 
-#include "study/application/input.h"
+#include "window/input.h"
 
-namespace limen::study {
+namespace limen::window {
 
 /// Key of a GLFW key event, kKeyNone for one that means nothing here. Letters follow the keyboard's layout;
 /// the digits' row gives digits even where they need shift.
@@ -24,4 +24,4 @@ class GamepadWatch {
   bool present_ = false;
 };
 
-}  // namespace limen::study
+}  // namespace limen::window

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/product.h"
+
+#include <array>
+#include <cmath>
+
+#include "base/hash.h"
+#include "perception/metrics/error_map.h"
+
+namespace limen::experiments {
+namespace {
+
+/// What a person looks at: the scene's colour with the visibility, or that of each channel, applied (as if
+/// the light were white as a whole), or the colour product itself.
+Image composed(const Image& product, const Image& shading, bool isShare) {
+  Image out(product.width, product.height, 3);
+  const auto channels = static_cast<size_t>(product.channels);
+  for (size_t i = 0; i < out.pixels(); ++i)
+    for (size_t c = 0; c < 3; ++c) {
+      const float value = product.data[i * channels + (channels == 1 ? 0 : c)];
+      out.data[3 * i + c] = isShare ? value * shading.data[3 * i + c] : value;
+    }
+  return out;
+}
+
+Image absolute(Image product) {
+  for (float& value : product.data) value = std::abs(value);
+  return product;
+}
+
+}  // namespace
+
+Image productPicture(techniques::ProductKind kind, const Image& product, const Image& shading) {
+  using techniques::ProductKind;
+  if (kind == ProductKind::Threshold) return perception::thresholdPicture(product);
+  if (kind == ProductKind::JndMap) return perception::errorPicture(product, kJndPictureWhite);
+  if (kind == ProductKind::VisibilityChange) return perception::errorPicture(absolute(product), kErrorScale);
+  const bool isShare = product.channels == 1 || kind == ProductKind::LightColour;
+  return perception::displayPicture(composed(product, shading, isShare));
+}
+
+bool judgedEverywhere(techniques::ProductKind kind) {
+  return kind == techniques::ProductKind::Threshold || kind == techniques::ProductKind::JndMap;
+}
+
+std::string productHash(const Image& product) {
+  const std::array<int32_t, 3> size = {product.width, product.height, product.channels};
+  Sha256 hash;
+  hash.update(size.data(), sizeof size);
+  hash.update(product.data.data(), product.data.size() * sizeof(float));
+  return hash.hex();
+}
+
+}  // namespace limen::experiments

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/stage.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/g_buffer.h"
+
+namespace limen::experiments {
+
+nlohmann::json Stage::facts() const {
+  const scene::Bounds bounds = scene.bounds();
+  return {{"content_hash", scene.contentHash()},
+          {"triangles", scene.mesh.triangles.size()},
+          {"bounds",
+           {{bounds.low.x, bounds.low.y, bounds.low.z}, {bounds.high.x, bounds.high.y, bounds.high.z}}}};
+}
+
+ViewImages Stage::view(gl::Context& context, glm::ivec2 sizePx) const {
+  using frame::Channel;
+  using frame::ChannelSetting;
+  using frame::GBufferChannel;
+  frame::Frame frame(context, scene, gpu, sizePx);
+  frame.begin();
+  const Image receivers = frame.get<frame::Receivers>().texture().read();
+  const Image normals = frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture().read();
+  const Image positions = frame.get<GBufferChannel>(ChannelSetting{Channel::Position}).texture().read();
+  const Image albedo = frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture().read();
+  frame.end();
+  ViewImages out{Image(sizePx.x, sizePx.y, 1), Image(sizePx.x, sizePx.y, 3)};
+  const glm::dvec3 light = scene.lights.empty() ? glm::dvec3(0.0) : scene.lights[0].centre - gpu.anchor();
+  for (size_t i = 0; i < out.mask.pixels(); ++i) {
+    const bool receiver = receivers.data[4 * i + 3] >= 0.0F;
+    out.mask.data[i] = receiver ? 1.0F : 0.0F;
+    if (!receiver) continue;
+    const glm::dvec3 toLight =
+        light - glm::dvec3(positions.data[4 * i], positions.data[4 * i + 1], positions.data[4 * i + 2]);
+    const double cosine =
+        glm::dot(glm::dvec3(normals.data[4 * i], normals.data[4 * i + 1], normals.data[4 * i + 2]),
+                 toLight / glm::length(toLight));
+    for (size_t c = 0; c < 3; ++c)
+      out.shading.data[3 * i + c] = albedo.data[4 * i + c] * static_cast<float>(std::max(cosine, 0.0));
+  }
+  return out;
+}
+
+void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {
+  const std::set<std::string> traits = scene.traits();
+  for (const std::string& need : info.needs)
+    if (!traits.count(need))
+      throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
+                      "' with these parameters has not",
+                  {}, "choose another light or another technique");
+}
+
+Image renderOnce(gl::Context& context, const Stage& stage, glm::ivec2 sizePx, const Choice& technique) {
+  const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
+  requireTraits(info, stage.scene);
+  const auto made = info.make(technique.values);
+  frame::Frame frame(context, stage.scene, stage.gpu, sizePx);
+  made->prepare(frame);
+  frame.begin();
+  made->render(frame);
+  frame.end();
+  Image product = made->product().read();
+  context.checkDebugMessages();
+  return product;
+}
+
+}  // namespace limen::experiments
