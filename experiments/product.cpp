@@ -39,6 +39,10 @@ Image productPicture(techniques::ProductKind kind, const Image& product, const I
   return perception::displayPicture(composed(product, shading, isShare));
 }
 
+double mapWhite(const std::string& mapName) {
+  return mapName == "absolute_error" || mapName == "relative_error" ? kErrorScale : 1.0;
+}
+
 bool judgedEverywhere(techniques::ProductKind kind) {
   return kind == techniques::ProductKind::Threshold || kind == techniques::ProductKind::JndMap;
 }

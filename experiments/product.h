@@ -18,6 +18,9 @@ inline constexpr double kJndPictureWhite = 10.0;
 /// A product as a person would want to see it, display-coded, 3 channels. `shading`: see ViewImages.
 Image productPicture(techniques::ProductKind kind, const Image& product, const Image& shading);
 
+/// Value that pictures of a metric's map (MetricResult::mapName) show as white, in all runs alike.
+double mapWhite(const std::string& mapName);
+
 /// What a viewer sees has no mask: the background adapts the eye too.
 bool judgedEverywhere(techniques::ProductKind kind);
 

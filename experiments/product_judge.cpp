@@ -59,9 +59,7 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
   }
   for (const auto& [name, map] : maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
-    if (run.artefacts.pictures)
-      picture(kind,
-              perception::errorPicture(map, kind == "error" || kind == "relative_error" ? kErrorScale : 1.0));
+    if (run.artefacts.pictures) picture(kind, perception::errorPicture(map, mapWhite(name)));
     if (run.artefacts.exr) exr(kind, map);
   }
   return out;

@@ -6,17 +6,22 @@
 #include <thread>
 #include <vector>
 
+#include "base/cancel.h"
+
 namespace limen::references {
 
 /// Calls work(thread, first, last) for pieces that cover [0, count) on all cores. The pieces of a thread
 /// depend on `count` and the number of cores alone; with work that treats every index by itself, results do
-/// not even depend on that. `work` must not throw.
+/// not even depend on that. `work` must not throw. Ends early where the calling thread's work is cancelled
+/// (see base/cancel.h): then some pieces are missing.
 template <class Work>
 void parallelFor(size_t count, const Work& work) {
   constexpr size_t kPiece = 16;  // small: costs differ widely between lit pixels and penumbrae
   const size_t threads = std::max<size_t>(std::thread::hardware_concurrency(), 1);
+  const std::stop_token cancelled = cancelToken();
   const auto run = [&](size_t thread) {
-    for (size_t first = thread * kPiece; first < count; first += threads * kPiece)
+    for (size_t first = thread * kPiece; first < count && !cancelled.stop_requested();
+         first += threads * kPiece)
       work(thread, first, std::min(first + kPiece, count));
   };
   std::vector<std::jthread> helpers;

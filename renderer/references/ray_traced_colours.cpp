@@ -155,7 +155,8 @@ const Registered<TechniqueInfo> kRegisteredColours{TechniqueInfo{
     .onCpu = true,
     .make = [](const ParameterValues& values) { return std::make_unique<RayTracedColours>(values); },
     .errorBound = colourHalfWidth,
-    .counters = {"rays_per_receiver", "rays"}}};
+    .counters = {"rays_per_receiver", "rays"},
+    .effort = "samples"}};
 
 }  // namespace
 }  // namespace limen::references

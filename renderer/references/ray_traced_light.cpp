@@ -117,7 +117,8 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .onCpu = true,
     .make = [](const ParameterValues& values) { return std::make_unique<RayTracedLight>(values); },
     .errorBound = halfWidth,
-    .counters = {"rays_per_receiver", "rays"}}};
+    .counters = {"rays_per_receiver", "rays"},
+    .effort = "samples"}};
 
 }  // namespace
 }  // namespace limen::references

@@ -159,7 +159,8 @@ const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
     .reference = true,
     .make = [](const ParameterValues& values) { return std::make_unique<SampledLight>(values); },
     .errorBound = edgeBound,
-    .counters = {"shadow_maps", "triangles_drawn", "maps_cutting_casters_share"}}};
+    .counters = {"shadow_maps", "triangles_drawn", "maps_cutting_casters_share"},
+    .effort = "samples"}};
 
 }  // namespace
 }  // namespace limen::references

@@ -85,6 +85,9 @@ struct TechniqueInfo {
   /// Throws Error if the values do not go together, so that a sweep refuses them before anything runs; null:
   /// all do.
   std::function<void(const ParameterValues&)> check = {};
+  /// Name of the parameter (whole number) with which cost rises and error falls, so that a viewer can begin
+  /// roughly; "": none.
+  std::string effort = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
 

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen view: look at any scene with any technique, turn any parameter, keep what was found.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/program.h"
+#include "base/text.h"
+#include "renderer/gl/shader_source.h"
+#include "viewer/keep.h"
+#include "viewer/screenshot.h"
+#include "viewer/viewer.h"
+#include "window/ui_window.h"
+
+namespace limen::viewer {
+namespace {
+
+struct ViewOptions {
+  std::string descriptor, scene = "bunny", technique = "soft_shadows/bitmask", reference, second;
+  std::vector<std::string> set;
+  std::string size = "640x480", windowSize = "1600x1000", results = "results/viewer";
+  std::string display = "schwarz_2009", arrangement = "first";
+  std::string screenshot, shaders;
+  int frames = 1, monitor = 0;
+  double scale = 0.0;
+  bool fullScreen = false;
+};
+
+glm::ivec2 sizeOf(const std::string& text, const std::string& option) {
+  int width = 0, height = 0, end = 0;
+  const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end) == 2 &&
+                    end == static_cast<int>(text.size());
+  if (!read || width < 1 || height < 1 || width > 16384 || height > 16384)
+    throw Error("'" + text + "' is no size", option, "give it as WIDTHxHEIGHT in pixels, 1x1 to 16384x16384");
+  return {width, height};
+}
+
+Arrangement arrangementNamed(const std::string& name) {
+  const std::vector<std::pair<std::string, Arrangement>> all = {{"first", Arrangement::First},
+                                                                {"second", Arrangement::Second},
+                                                                {"side_by_side", Arrangement::SideBySide},
+                                                                {"split", Arrangement::Split},
+                                                                {"flicker", Arrangement::Flicker},
+                                                                {"error", Arrangement::ErrorMap},
+                                                                {"predicted", Arrangement::Overlay}};
+  std::vector<std::string> names;
+  for (const auto& [known, arrangement] : all) {
+    if (known == name) return arrangement;
+    names.push_back(known);
+  }
+  throw Error("no arrangement '" + name + "'", "--arrangement", suggest(name, names));
+}
+
+/// The value that `text` is for this parameter.
+ParameterValue valueOf(const Parameter& parameter, const std::string& text, const std::string& where) {
+  const auto refuse = [&] {
+    return Error("'" + parameter.name + "' is '" + text + "'", where, "allowed: " + describeRange(parameter));
+  };
+  switch (parameter.type) {
+    case ParameterType::Boolean:
+      if (text != "true" && text != "false") throw refuse();
+      return text == "true";
+    case ParameterType::Integer:
+    case ParameterType::Real: {
+      char* end = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0') throw refuse();
+      if (parameter.type == ParameterType::Real) return number;
+      if (number != std::floor(number) || std::abs(number) > 9e15) throw refuse();
+      return static_cast<int64_t>(number);
+    }
+    default:
+      return text;
+  }
+}
+
+/// "scene.light_size=2"
+void apply(Setup& setup, const std::string& text) {
+  const size_t dot = text.find('.'), equals = text.find('=');
+  const std::string mend =
+      "give it as scene.NAME=VALUE, technique.NAME=VALUE, second.NAME=VALUE or reference.NAME=VALUE";
+  if (dot == std::string::npos || equals == std::string::npos || dot > equals)
+    throw Error("'" + text + "' names no parameter", "--set", mend);
+  const std::string what = text.substr(0, dot), name = text.substr(dot + 1, equals - dot - 1);
+  Chosen* chosen = what == "scene"                          ? &setup.scene
+                   : what == "technique"                    ? &setup.technique
+                   : what == "second" && setup.other        ? &*setup.other
+                   : what == "reference" && setup.reference ? &*setup.reference
+                                                            : nullptr;
+  if (!chosen) throw Error("nothing is called '" + what + "' here", "--set " + text, mend);
+  const std::vector<Parameter> declared =
+      what == "scene" ? sceneParameters(chosen->name) : techniqueParameters(chosen->name);
+  std::vector<std::string> names;
+  for (const Parameter& parameter : declared) {
+    if (parameter.name == name) {
+      give(*chosen, parameter, valueOf(parameter, text.substr(equals + 1), "--set " + text));
+      return;
+    }
+    names.push_back(parameter.name);
+  }
+  throw Error("'" + chosen->name + "' has no parameter '" + name + "'", "--set " + text,
+              suggest(name, names));
+}
+
+Setup setupFrom(const ViewOptions& options) {
+  Setup setup;
+  if (!options.descriptor.empty()) {
+    setup = setupOf(options.descriptor);
+  } else {
+    setup.scene.name = options.scene;
+    setup.technique.name = options.technique;
+    sceneParameters(setup.scene.name);
+    setup.reference = options.reference == "none" ? std::nullopt
+                      : options.reference.empty() ? usualReference(options.technique)
+                                                  : std::optional(Chosen{options.reference, {}});
+    if (setup.reference) techniqueParameters(setup.reference->name);
+    setup.sizePx = sizeOf(options.size, "--size");
+  }
+  if (!options.second.empty()) {
+    techniqueParameters(options.second);
+    setup.other = Chosen{options.second, {}};
+  }
+  for (const std::string& text : options.set) apply(setup, text);
+  // What is not there or does not go together is said before any window opens.
+  completeScene(setup.scene);
+  completeTechnique(setup.technique);
+  if (setup.other) completeTechnique(*setup.other);
+  if (setup.reference) completeTechnique(*setup.reference);
+  return setup;
+}
+
+int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Arrangement arrangement) {
+  window::UiWindowOptions windowOptions;
+  windowOptions.title = "Limen";
+  windowOptions.sizePx = sizeOf(options.windowSize, "--window");
+  windowOptions.fullScreen = options.fullScreen;
+  windowOptions.monitor = options.monitor;
+  windowOptions.scale = static_cast<float>(options.scale);
+  windowOptions.resizable = true;
+  windowOptions.density = window::UiDensity::Workbench;
+  std::unique_ptr<window::UiWindow> made;
+  try {
+    made = std::make_unique<window::UiWindow>(windowOptions);
+  } catch (const Error& error) {
+    throw Error(error.what(), {}, "without a display, --screenshot FILE makes a picture of the viewer");
+  }
+  window::UiWindow& window = *made;
+  Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
+  viewer.arrangement = arrangement;
+  using Clock = std::chrono::steady_clock;
+  auto before = Clock::now();
+  // The interface needs a few frames to come to rest after an event.
+  constexpr int kFramesAfterEvent = 3;
+  int framesLeft = kFramesAfterEvent;
+  while (!window.takeCloseRequest() && interruptSignal() == 0) {
+    const bool busy = framesLeft > 0 || viewer.animated();
+    const bool woken = window.waitForAnything(busy ? 0.0 : 0.5);
+    const bool changed = viewer.takeResults();
+    if (woken || changed) framesLeft = kFramesAfterEvent;
+    if (window.contextLost()) throw Error("the graphics driver was reset", {}, "start the viewer again");
+    if (framesLeft == 0 && !viewer.animated()) {
+      before = Clock::now();
+      continue;
+    }
+    const auto now = Clock::now();
+    // After a rest nothing has moved.
+    const double passed = std::min(std::chrono::duration<double>(now - before).count(), 0.1);
+    before = now;
+    window.draw({0.06F, 0.06F, 0.07F}, [&] { viewer.build(passed); });
+    window.show(1);
+    framesLeft = std::max(framesLeft - 1, 0);
+  }
+  return 0;
+}
+
+int view(const ViewOptions& options) {
+  ViewerOptions viewerOptions;
+  viewerOptions.setup = setupFrom(options);
+  viewerOptions.resultsFolder = options.results;
+  viewerOptions.shaderRoot = options.shaders;
+  if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);
+  viewerOptions.display = perception::readDisplay(options.display);
+  const Arrangement arrangement = arrangementNamed(options.arrangement);
+  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, arrangement);
+  window::OffscreenUi ui(sizeOf(options.windowSize, "--window"),
+                         options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0F);
+  Viewer viewer(ui, viewerOptions, [] {});
+  viewer.arrangement = arrangement;
+  writeScreenshot(ui, viewer, options.frames, options.screenshot);
+  std::printf("%s\n", options.screenshot.c_str());
+  const RenderResult& shown = *viewer.shown();
+  std::string wrong = shown.error;
+  for (const Rendered& one : shown.rendered) wrong += one.error + one.failure;
+  if (wrong.empty()) return 0;
+  std::fprintf(stderr, "limen-view: %s\n", wrong.c_str());
+  return 1;
+}
+
+int viewMain(int argc, char** argv) {
+  installInterruptHandlers();
+  ViewOptions options;
+  int exitCode = 0;
+  CLI::App app("Look at any scene with any technique, turn any parameter, keep what was found.",
+               "limen-view");
+  app.set_version_flag("--version", versionText("limen-view"));
+  app.add_option("descriptor", options.descriptor, "Show the first run of this descriptor");
+  app.add_option("--scene", options.scene, "Scene to begin with")->capture_default_str();
+  app.add_option("--technique", options.technique, "Technique to begin with")->capture_default_str();
+  app.add_option("--second", options.second, "Second technique to compare with");
+  app.add_option("--reference", options.reference,
+                 "Reference for errors; none: without (default: the usual one)");
+  app.add_option("--set", options.set, "Parameter: scene.NAME=VALUE, technique.NAME=VALUE, ...");
+  app.add_option("--size", options.size, "Size of the picture that is rendered, pixels")
+      ->capture_default_str();
+  app.add_option("--window", options.windowSize, "Size of the window, pixels")->capture_default_str();
+  app.add_option("--scale", options.scale, "Of lettering (default: as the monitor asks for)")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_flag("--full-screen", options.fullScreen, "Window as large as the monitor");
+  app.add_option("--monitor", options.monitor, "Which monitor, from 0")->capture_default_str();
+  app.add_option("--display", options.display, "Display that predictions are for: preset or YAML file")
+      ->capture_default_str();
+  app.add_option("--arrangement", options.arrangement,
+                 "first, second, side_by_side, split, flicker, error or predicted")
+      ->capture_default_str();
+  app.add_option("--results", options.results, "Folder for kept descriptors and pictures")
+      ->capture_default_str();
+  app.add_option("--shaders", options.shaders, "Source tree whose shaders are read and watched for changes");
+  app.add_option("--screenshot", options.screenshot,
+                 "Write a picture of the viewer (PNG) and end; needs no display");
+  app.add_option("--frames", options.frames, "With --screenshot: frames after all is on screen")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.callback([&] { exitCode = view(options); });
+  return runProgram(app, argc, argv, exitCode);
+}
+
+}  // namespace
+}  // namespace limen::viewer
+
+int main(int argc, char** argv) { return limen::viewer::viewMain(argc, argv); }
