@@ -68,9 +68,29 @@ Parameter choiceParameter(std::string name, std::string defaultValue, std::vecto
           false};
 }
 
+Parameter textParameter(std::string name, std::string defaultValue, std::string description,
+                        std::string source) {
+  return {std::move(name),
+          ParameterType::Text,
+          std::move(defaultValue),
+          {},
+          {},
+          {},
+          {},
+          std::move(description),
+          std::move(source),
+          false};
+}
+
 Parameter fileParameter(std::string name, std::string description) {
   return {
       std::move(name), ParameterType::File, std::string{}, {}, {}, {}, {}, std::move(description), {}, true};
+}
+
+Parameter optionalFileParameter(std::string name, std::string description) {
+  Parameter parameter = fileParameter(std::move(name), std::move(description));
+  parameter.required = false;
+  return parameter;
 }
 
 std::string describeRange(const Parameter& parameter) {

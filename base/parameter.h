@@ -31,6 +31,8 @@ struct Parameter {
   std::string description;                 ///< one line
   std::string source;                      ///< thesis section or paper; "" for the bench's own
   bool required = false;                   ///< no default: the descriptor must give it
+  /// At its default it is no part of run keys: results from before it was declared keep theirs.
+  bool keyedIfGiven = false;
 };
 
 Parameter booleanParameter(std::string name, bool defaultValue, std::string description,
@@ -41,7 +43,13 @@ Parameter realParameter(std::string name, double defaultValue, double minimum, d
                         std::string unit, std::string description, std::string source = {});
 Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
                           std::string description, std::string source = {});
+/// A line of free text; whoever declares it says in which form.
+Parameter textParameter(std::string name, std::string defaultValue, std::string description,
+                        std::string source = {});
+/// A file that must be given.
 Parameter fileParameter(std::string name, std::string description);
+/// A file that may be given; "" if it is not.
+Parameter optionalFileParameter(std::string name, std::string description);
 
 /// "whole number from 1 to 4096", "one of a, b, c", "number from 0 to 1 (m)".
 std::string describeRange(const Parameter& parameter);

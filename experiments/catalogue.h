@@ -16,6 +16,8 @@ struct CatalogueEntry {
   int version = 1;
   std::string summary, source;
   std::vector<Parameter> parameters;
+  std::function<void(const ParameterValues&)>
+      check;  ///< throws Error if values do not go together; null: all do
 
   // Techniques only.
   std::string product;             ///< kind of the product; only equal kinds can be compared
@@ -23,8 +25,6 @@ struct CatalogueEntry {
   bool reference = false;          ///< made to be compared with
   bool onCpu = false;
   std::vector<std::string> counters;  ///< names that its runs may have beside the common ones
-  std::function<void(const ParameterValues&)>
-      check;  ///< throws Error if values do not go together; null: all do
 
   // Metrics only.
   std::string unit;

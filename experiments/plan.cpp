@@ -182,6 +182,8 @@ class Planner {
     variant.values = variant.choice.values.toJson();
     nlohmann::json identity = variant.values;
     for (const Parameter& parameter : declared) {
+      if (parameter.keyedIfGiven && variant.choice.values.all().at(parameter.name) == parameter.defaultValue)
+        identity.erase(parameter.name);
       if (parameter.type != ParameterType::File) continue;
       const std::string& path = variant.choice.values.text(parameter.name);
       const auto hash = descriptor_.fileHashes.find(path);

@@ -4,11 +4,10 @@
 namespace limen::perception {
 
 std::vector<Parameter> viewingParameters() {
-  Parameter file = fileParameter("display_file", "profile of another display, in place of a preset");
-  file.required = false;
   return {choiceParameter("display", "schwarz_2009", displayPresets(), "display and viewing distance",
                           "Schwarz 2009, section 10.4.1"),
-          file, realParameter("distance_m", 0.0, 0.0, 100.0, "m", "viewing distance; 0: the display's", "")};
+          optionalFileParameter("display_file", "profile of another display, in place of a preset"),
+          realParameter("distance_m", 0.0, 0.0, 100.0, "m", "viewing distance; 0: the display's", "")};
 }
 
 DisplayProfile viewingDisplay(const ParameterValues& values) {

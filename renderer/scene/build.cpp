@@ -82,6 +82,13 @@ LightShape shapeNamed(const std::string& name) {
 }  // namespace
 
 std::vector<Parameter> commonParameters() {
+  Parameter camera = textParameter(
+      "camera", "",
+      "View in place of the scene's own, in the built world's units: eye X Y Z target X Y Z [up X Y Z] "
+      "[fov DEGREES]");
+  Parameter path = optionalFileParameter("camera_path", "Camera path in place of the scene's own");
+  // Results are older than these two.
+  camera.keyedIfGiven = path.keyedIfGiven = true;
   return {
       realParameter("scale", 1.0, 1e-6, 1e6, "", "Scales the whole world about the origin"),
       realParameter("offset", 0.0, 0.0, 1e6, "scene diagonals", "Moves the whole world along (1,1,1)"),
@@ -91,6 +98,8 @@ std::vector<Parameter> commonParameters() {
                       "Shape of the light within its extents; polygon: a hexagon"),
       realParameter("time_s", 0.0, 0.0, 3600.0, "s",
                     "Position on the camera path; past its end the camera rests"),
+      camera,
+      path,
   };
 }
 
@@ -128,8 +137,7 @@ Scene buildScene(const std::string& name, const ParameterValues& values) {
     if (shape != kAsBuilt) light = withShape(std::move(light), shapeNamed(shape));
     checkLight(light, where);
   }
-  if (scene.camera.keys.size() > 1)
-    for (CameraPath::Key& key : scene.camera.keys) key.timeS -= complete.real("time_s");
+  scene.camera = cameraFor(scene.camera, complete);
   return scene;
 }
 

@@ -45,7 +45,7 @@ Scene buildColumnsHall(const ParameterValues& values) {
   addPart(scene, "columns", columns, {0.72F, 0.68F, 0.6F});
   scene.lights = {
       lightTowards(ground * glm::dvec3(-0.225, 0.4, 0.125), {0.0, 0.5, 0.0}, glm::dvec2(0.025 * ground))};
-  if (values.text("camera") == "walk") {
+  if (values.text("motion") == "walk") {
     scene.camera = walk(length);
   } else {
     setStillCamera(scene, orbitCamera({0.3, 0.5, 0.3 * length}, 6.5, 14.0, 40.0, 40.0));
@@ -61,7 +61,7 @@ const Registered<SceneInfo> kRegistered{SceneInfo{
     .parameters = {integerParameter("columns_per_row", 6, 2, 32, "columns",
                                     "Columns in each of the two rows"),
                    integerParameter("segments", 32, 3, 128, "segments", "Sides of a column's shaft"),
-                   choiceParameter("camera", "still", {"still", "walk"},
+                   choiceParameter("motion", "still", {"still", "walk"},
                                    "A still view from outside, or a walk of 8 s down the aisle")},
     .build = buildColumnsHall}};
 

@@ -207,9 +207,19 @@ using SceneRegistry = Registry<SceneInfo>;
 /// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its
 /// own diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100),
 /// `light_shape` (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path: the
-/// built scene's path is moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still
-/// picture).
+/// path is moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still picture),
+/// `camera` (a still view in place of the scene's own, see camera_text.h; "": the scene's own), `camera_path`
+/// (a file with a path in place of the scene's own, see camera_path_file.h). A view or path that is given is
+/// in the units of the built world: `scale` and `offset` do not move it.
 std::vector<Parameter> commonParameters();
+
+/// Throws Error if `camera` or `camera_path` cannot be used, or if both are given. Reads the path's file.
+void checkCameraParameters(const ParameterValues& complete);
+
+/// What `time_s`, `camera` and `camera_path` make of a scene's own path, the last step of buildScene(): with
+/// `built` the camera of a scene that was built with the defaults of these three, the result is to the bit
+/// that of the scene built with `complete`. Throws Error as checkCameraParameters() does.
+CameraPath cameraFor(const CameraPath& built, const ParameterValues& complete);
 
 /// Builds a registered scene and applies the common parameters; what `values` leaves out takes its default.
 /// The parts of the result tile its triangles in order. Throws Error.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "tests/experiments/fake_bench.h"
 
@@ -74,6 +75,49 @@ TEST(Descriptor, NumbersInTheFormsOfYaml) {
       "techniques: [{name: soft/pcss}]\n");
   const std::vector<ParameterValue> expected = {1.0, 2.0, 0.5, 10.0, 0.25};
   EXPECT_EQ(descriptor.scenes[0].axes[0].values, expected);
+}
+
+/// The catalogue with a free text and a file that may be given, as scenes have them for their camera.
+Catalogue catalogueWithView() {
+  Catalogue out = fakeCatalogue();
+  out.scenes["grid"].parameters.push_back(textParameter("camera", "", "View"));
+  out.scenes["grid"].parameters.push_back(optionalFileParameter("camera_path", "Path"));
+  return out;
+}
+
+std::vector<ParameterValue> camerasOf(const std::string& written) {
+  const std::string text = "title: a\nquestion: b\nscenes:\n  - {name: grid, camera: " + written +
+                           "}\ntechniques: [{name: soft/pcss}]\n";
+  return parseDescriptor(text, "d.yaml", catalogueWithView(), {}).scenes[0].axes[0].values;
+}
+
+TEST(Descriptor, TextIsAScalarAndAListOfThemAnAxis) {
+  const std::string near = "eye 0 0 1 target 0 0 0", far = "eye 0 0 9.5e-3 target 0 0 0 fov 30";
+  EXPECT_EQ(camerasOf(near), std::vector<ParameterValue>{near});
+  EXPECT_EQ(camerasOf("\"" + near + "\""), std::vector<ParameterValue>{near});
+  EXPECT_EQ(camerasOf("[" + near + ", '" + far + "']"), (std::vector<ParameterValue>{near, far}));
+  // The empty text is a value like others, but must be written.
+  EXPECT_EQ(camerasOf("[\"\", " + near + "]"), (std::vector<ParameterValue>{std::string(), near}));
+  EXPECT_THROW(camerasOf(""), Error);
+  // A comma ends a value within braces: the rest is no key of the scene.
+  try {
+    camerasOf("eye 0, 0, 1 target 0 0 0");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("d.yaml:4:"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("no parameter '0'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Descriptor, AFileThatMayBeGivenMustBeThereIfItIs) {
+  const auto read = [](const std::string& extra) {
+    return parseDescriptor(
+        "title: a\nquestion: b\nscenes: [{name: grid" + extra + "}]\ntechniques: [{name: soft/pcss}]\n",
+        "d.yaml", catalogueWithView(), {});
+  };
+  EXPECT_TRUE(read("").fileHashes.empty());
+  EXPECT_THROW(read(", camera_path: absent.yaml"), Error);
+  EXPECT_THROW(read(", camera_path: ''"), Error);
 }
 
 }  // namespace

@@ -141,6 +141,58 @@ TEST(Plan, FilesCountByContentNotByPlace) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Plan, AParameterDeclaredLaterLeavesTheKeysOfOlderResults) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "limen_plan_XXXXXX").string();
+  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+  const std::filesystem::path folder = pattern;
+  const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text; };
+  write("walk.yaml", "one");
+  write("same.yaml", "one");
+  write("other.yaml", "two");
+  Catalogue later = fakeCatalogue();
+  Parameter camera = textParameter("camera", "", "View");
+  Parameter path = optionalFileParameter("camera_path", "Path");
+  camera.keyedIfGiven = path.keyedIfGiven = true;
+  later.scenes["grid"].parameters.insert(later.scenes["grid"].parameters.end(), {camera, path});
+  const auto keys = [&](const std::string& scene, const Catalogue& catalogue) {
+    return keysOf(planOf(
+        "title: a\nquestion: b\nscenes: [{name: grid" + scene + "}]\ntechniques: [{name: soft/pcss}]\n",
+        catalogue, (folder / "d.yaml").string()));
+  };
+  const auto before = keys("", fakeCatalogue());
+  EXPECT_EQ(keys("", later), before);
+  EXPECT_EQ(keys(", camera: ''", later), before);
+  // All others differ from it and from each other, but for files of one content.
+  std::set<std::string> all = before;
+  for (const char* scene : {", camera: a", ", camera: b", ", camera_path: walk.yaml",
+                            ", camera_path: other.yaml", ", camera: a, camera_path: walk.yaml"})
+    EXPECT_TRUE(all.insert(*keys(scene, later).begin()).second) << scene;
+  EXPECT_EQ(keys(", camera_path: same.yaml", later), keys(", camera_path: walk.yaml", later));
+  // The record says both, whatever they are.
+  const Plan plan = planOf(
+      "title: a\nquestion: b\nscenes: [{name: grid}]\n"
+      "techniques: [{name: soft/pcss}]\n",
+      later);
+  EXPECT_EQ(plan.runs[0].parameters["scene"]["camera"], "");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Plan, ScenesWhoseValuesDoNotGoTogetherAreRefusedWithTheirPlace) {
+  Catalogue catalogue = fakeCatalogue();
+  catalogue.scenes["grid"].check = [](const ParameterValues& values) {
+    if (values.integer("bars") == 3) throw Error("three bars", "", "take four");
+  };
+  const std::string start = "title: a\nquestion: b\nscenes:\n  - {name: grid, bars: ",
+                    end = "}\ntechniques: [{name: soft/pcss}]\n";
+  EXPECT_EQ(planOf(start + "[2, 4]" + end, catalogue).runs.size(), 2U);
+  try {
+    planOf(start + "[2, 3]" + end, catalogue);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("d.yaml:4:5: three bars; take four"));
+  }
+}
+
 TEST(Plan, ShardsAreAPartition) {
   const Plan plan =
       planOf(replaced(validDescriptor(), "[8, 16, 32]", "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]"));

@@ -143,7 +143,7 @@ std::vector<std::string> scenesOfShadows() {
 INSTANTIATE_TEST_SUITE_P(Scenes, Plausible, testing::ValuesIn(scenesOfShadows()), fixtures::nameOf);
 
 TEST(ColumnsHall, WalkPassesThroughNoColumnAndStaysAboveTheFloor) {
-  const Scene scene = build("columns_hall", {{"camera", std::string("walk")}});
+  const Scene scene = build("columns_hall", {{"motion", std::string("walk")}});
   for (double t = 0.0; t <= scene.camera.durationS(); t += 0.1) {
     const Camera camera = scene.camera.at(t);
     EXPECT_EQ(windingNumber(scene.mesh, scene.parts[1], camera.eye), 0) << t;

@@ -30,7 +30,7 @@ constexpr const char* kUsage = "--scene-set and --set take name=value, once for 
 
 struct Options {
   std::string scene = "columns_hall", technique = "soft_shadows/backprojection";
-  std::vector<std::string> sceneSet = {"camera=walk"}, set;
+  std::vector<std::string> sceneSet = {"motion=walk"}, set;
   int width = 1024, height = 768, frames = 480, settled = 60;
   size_t inFlight = 2;
   double stepS = 1.0 / 60.0;
