@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Seams: places where a visibility image steps and its reference does not. Where methods change from pixel to
-// pixel how coarsely they work, their error changes there from one pixel to the next.
+// Steps of a visibility image where its reference has none. Where methods change from pixel to pixel how
+// coarsely they work, their error changes there from one pixel to the next; but it also changes wherever the
+// occluders do, and the more the coarser all of the work is. So this ranks choices of levels by what they
+// spend as much as by their seams; what a change of level does by itself is counted by the techniques that
+// choose levels (level_step_max and its like).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -41,9 +44,8 @@ MetricInfo seamStepMetric() {
   MetricInfo info;
   info.name = "seam_step";
   info.summary =
-      "change of the error from a pixel to its neighbour (seams between levels of quality), the largest or "
-      "one "
-      "that a share of all pairs does not exceed";
+      "change of the error from a pixel to its neighbour (seams and all else of it that is not smooth), the "
+      "largest or one that a share of all pairs does not exceed";
   info.parameters = {
       regionParameter(),
       realParameter("share", 1.0, 0.0, 1.0, "",

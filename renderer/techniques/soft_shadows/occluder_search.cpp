@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -21,6 +22,8 @@ constexpr double kDefaultSlopeBias = 2.0;
 constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
                      *kDefaultSamples = "one_then_four";
 constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
+/// Of level_steps.glsl.
+constexpr uint32_t kPositionUnit = 14, kNormalUnit = 15, kWorkImage = 1, kSearchImage = 2, kStepImage = 4;
 const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
 const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
@@ -243,6 +246,8 @@ void OccluderSearch::runPasses(frame::Frame& frame, const CountImages* counts) {
     runSplit(frame, counts);
   else
     VisibilityTechnique::runPasses(frame, counts);
+  // Levels of several maps stand behind one visibility, of which none has a step of its own.
+  if (counts && maps().size() == 1 && choicesDiffer()) findLevelSteps(frame, *counts);
   if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
 }
 
@@ -274,17 +279,51 @@ void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
   if (counts) addCounts(*counts);
 }
 
+bool OccluderSearch::choicesDiffer() const {
+  std::optional<float> first;
+  for (size_t i = 0; i < counted().work.size(); i += 4) {
+    if (counted().work[i] != Processed) continue;
+    const auto level = std::bit_cast<float>(counted().search[i + 3]);
+    if (level != first.value_or(level) || (quality_.dithers() && level != std::floor(level))) return true;
+    first = level;
+  }
+  return false;
+}
+
+void OccluderSearch::findLevelSteps(frame::Frame& frame, const CountImages& counts) {
+  const auto& positions = frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Position});
+  const auto& normals = frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal});
+  const gl::Texture found(gl::Format::RG32F, frame.sizePx());
+  const gl::Program& steps = program(frame, false, {{"LEVEL_STEPS", "1"}});
+  const auto from = [&](glm::ivec2 offset) {
+    bindPass(frame, steps, nullptr);
+    positions.texture().bindTexture(kPositionUnit);
+    normals.texture().bindTexture(kNormalUnit);
+    counts.work.bindImage(kWorkImage, gl::Access::Read);
+    counts.search.bindImage(kSearchImage, gl::Access::Read);
+    found.bindImage(kStepImage, gl::Access::Write);
+    steps.set("offset", offset);
+    steps.set("surfaceSlope", static_cast<float>(kSurfaceSlope));
+    steps.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    return found.read();
+  };
+  levelSteps_.emplace(LevelSteps{from({0, 0}), from({1, 0}), from({0, 1})});
+}
+
 std::vector<std::string> OccluderSearch::counterNames() {
   std::vector<std::string> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
   names.emplace_back("occluder_bytes");
   for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
+  for (std::string& name : levelStepCounterNames()) names.push_back(std::move(name));
   for (const BudgetDriverInfo& driver : budgetDrivers())
     names.insert(names.end(), driver.counters.begin(), driver.counters.end());
   return names;
 }
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
+  levelSteps_.reset();
   std::vector<Counter> all = VisibilityTechnique::count(frame);
   const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
   all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
@@ -292,6 +331,9 @@ std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
   for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
     all.push_back(std::move(counter));
+  if (maps().size() == 1)
+    for (Counter& counter : levelStepCounters(levelSteps_.value_or(LevelSteps{})))
+      all.push_back(std::move(counter));
   for (Counter& counter : budgetFacts()) all.push_back(std::move(counter));
   return all;
 }

@@ -134,6 +134,8 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 
 #if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
 #include "renderer/techniques/soft_shadows/quality/split_search.glsl"
+#elif defined(LEVEL_STEPS)
+#include "renderer/techniques/soft_shadows/quality/level_steps.glsl"
 #else
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;

@@ -8,6 +8,7 @@
 #include "renderer/techniques/soft_shadows/coarse_occluders.h"
 #include "renderer/techniques/soft_shadows/quality/budget_driver.h"
 #include "renderer/techniques/soft_shadows/quality/level_of_quality.h"
+#include "renderer/techniques/soft_shadows/quality/level_steps.h"
 #include "renderer/techniques/soft_shadows/quality/split_search.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -28,8 +29,8 @@ class OccluderSearch : public VisibilityTechnique {
   static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique; structure_bytes: the minimum/maximum pyramid, of which every
   /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together;
-  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; and those of
-  /// quality_counters.h.
+  /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; those of
+  /// quality_counters.h; and, where one map is read, those of level_steps.h.
   static std::vector<std::string> counterNames();
 
   /// prepareSearch(), then the frames in which a driver of the budget settles.
@@ -37,6 +38,8 @@ class OccluderSearch : public VisibilityTechnique {
   std::vector<Counter> count(frame::Frame& frame) override;
   /// What the driver of the budget says of the last frame; without waiting or rendering another one.
   std::vector<Counter> budgetFacts() const;
+  /// What count() found; empty before, with several maps, and where all pixels have one level.
+  const std::optional<LevelSteps>& levelSteps() const { return levelSteps_; }
   /// Of the split form: areas and levels of split_search.h; and the budget map, where there is one, with what
   /// its driver shows.
   std::map<std::string, const gl::Texture*> debugViews() const override;
@@ -59,6 +62,10 @@ class OccluderSearch : public VisibilityTechnique {
   /// Levels are smoothed, and there is something to smooth.
   bool smooths() const { return quality_.smoothingRadius() > 0 && (budget_ > 0 || budgets_); }
   void runSplit(frame::Frame& frame, const CountImages* counts);
+  /// Processed pixels do not all stand for the same levels, in what was counted last.
+  bool choicesDiffer() const;
+  /// After the map's pixels are counted.
+  void findLevelSteps(frame::Frame& frame, const CountImages& counts);
 
   int budget_, refinements_, roughQueries_;
   Structure structure_;
@@ -73,6 +80,7 @@ class OccluderSearch : public VisibilityTechnique {
   std::optional<SplitSearch> split_;        // empty: a single pass
   const gl::Program *classify_ = nullptr, *smooth_ = nullptr, *gather_ = nullptr;
   const gl::Program *countBins_ = nullptr, *scatter_ = nullptr;
+  std::optional<LevelSteps> levelSteps_;
 };
 
 }  // namespace limen::techniques

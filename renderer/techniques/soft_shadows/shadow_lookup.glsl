@@ -65,7 +65,7 @@ void store(ivec2 pixel, float visibility) {
 float visibilityOf(vec4 receiver, ivec2 pixel);
 
 // Techniques that split their work into passes have entry points of their own.
-#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER)
+#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER) && !defined(LEVEL_STEPS)
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;

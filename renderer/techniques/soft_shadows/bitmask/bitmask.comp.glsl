@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// KEEP_MASKS: masks of all pixels stay in an image, so that further maps add to them and other passes read them.
+// KEEP_MASKS: masks of all pixels stay in an image, so that further maps add to them and other passes read them. Not where
+// LEVEL_STEPS tries levels that no pixel has chosen.
+#ifdef LEVEL_STEPS
+#undef KEEP_MASKS
+#endif
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 #ifdef KEEP_MASKS
 // What the search finds is not yet the pixel's visibility.

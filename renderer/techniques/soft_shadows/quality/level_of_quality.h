@@ -25,6 +25,8 @@ class LevelOfQuality {
   bool orders() const { return orders_; }
   /// Half of the filter's support in pixels, without its middle; 0: levels are not smoothed.
   int smoothingRadius() const { return smoothingRadius_; }
+  /// Pixels of one level may choose differently.
+  bool dithers() const { return levels_ == Levels::Dither; }
   /// Adds to `defines` what level_of_quality.glsl reads.
   void define(gl::ShaderDefines& defines) const;
   /// Sets the uniforms of level_of_quality.glsl, `budgetPerAxis` aside.
