@@ -75,7 +75,7 @@ class Registry {
   mutable std::mutex guard_;
 };
 
-/// Registers at program start: `const Registered<SceneInfo> kRegistered{SceneInfo{...}};` at the end of a
+/// Registers at program start: `const Registered<SceneInfo> kCombRegistered{SceneInfo{...}};` at the end of a
 /// .cpp.
 template <class Info>
 struct Registered {
@@ -83,7 +83,8 @@ struct Registered {
 };
 
 /// The same where the declaration is made from other registries, whose entries may not be there yet while the
-/// program starts: `const RegisteredLater<TechniqueInfo> kRegistered{[] { return TechniqueInfo{...}; }};`
+/// program starts: `const RegisteredLater<TechniqueInfo> kSwitchRegistered{[] { return TechniqueInfo{...};
+/// }};`
 template <class Info>
 struct RegisteredLater {
   explicit RegisteredLater(std::function<Info()> make) {

@@ -1,18 +1,15 @@
 # Several sources compiled as one file, which saves half of the time: what they instantiate is instantiated once. The
 # presets without it (debug, asan, clang) find sources that lean on an include or a name of a neighbour.
 
-# Targets whose files repeat names by design: every registration is called kRegistered, every command has its Options.
-set(limen_separate_targets
-    limen-analyse limen-study limen_lod limen_metrics_cpu limen_model_commands limen_perceive limen_perceptual_lod
-    limen_popping_techniques limen_references limen_scene limen_soft_shadows limen_study_page
-    limen_ui)
+# Targets whose files repeat names.
+set(limen_separate_targets limen_metrics_cpu limen_ui)
 # Files that share a name of their own with a neighbour, and may.
 set(limen_separate_files
-    analysis/psychometric/log_math.cpp analysis/psychometric/objective.cpp analysis/statistics/pairwise_scaling.cpp
+    analysis/psychometric/log_math.cpp analysis/psychometric/objective.cpp
     analysis/study/scenario_spread.cpp analysis/sweep/switch_distances.cpp experiments/expectation_reader.cpp
     perception/popping/gpu/regions_gpu.cpp perception/popping/weights_gpu.cpp
     perception/threshold_maps/threshold_tables.cpp perception/vision/csf.cpp perception/vision/csf_models.cpp
-    perception/vision/spatial_csfs.cpp study/application/page_view.cpp study/observers/power.cpp
+    perception/vision/spatial_csfs.cpp study/application/page_view.cpp
     study/observers/true_threshold.cpp study/procedures/quest.cpp study/procedures/staircase.cpp
     tests/perception/pixel_errors_test.cpp tests/perception/popping_test.cpp tests/perception/shadow_defects_test.cpp
     tests/perception/ssim_test.cpp tests/perception/vision_display_test.cpp tests/perception/vision_response_test.cpp

@@ -16,7 +16,7 @@
 namespace limen::analysis {
 namespace {
 
-struct Call {
+struct FitCall {
   FitOptions options;
   StudyInput study;
   FittedPartsChoice parts;
@@ -24,7 +24,7 @@ struct Call {
   bool json = false, csv = false;
 };
 
-void fitStore(Call& call) {
+void fitStore(FitCall& call) {
   call.parts.variable = call.options.level;
   call.parts.guessFromCatch = call.guess == "catch";
   const StudyAnswers study = readStudy(call.study);
@@ -48,7 +48,7 @@ void fitStore(Call& call) {
   }
 }
 
-void fitTable(const Call& call) {
+void fitTable(const FitCall& call) {
   const FitAnswer answer = answerFit(call.options, readConditions(call.options));
   if (!call.plot.empty()) drawFit(answer, call.plot);
   if (call.json)
@@ -60,7 +60,7 @@ void fitTable(const Call& call) {
 }  // namespace
 
 void addFitCommand(CLI::App& app) {
-  const auto call = std::make_shared<Call>();
+  const auto call = std::make_shared<FitCall>();
   FitOptions& options = call->options;
   CLI::App* fit =
       app.add_subcommand("fit", "psychometric functions of answers: thresholds, widths, intervals");

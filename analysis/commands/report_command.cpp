@@ -14,7 +14,7 @@
 namespace limen::analysis {
 namespace {
 
-struct Call {
+struct ReportCall {
   ReportOptions sweeps;
   StudyInput study;
   bool json = false;
@@ -50,7 +50,7 @@ void print(const StudyPageResult& result, bool json) {
 }
 
 /// What was asked for by an option, else what the store holds.
-void report(const CLI::App& command, Call call) {
+void report(const CLI::App& command, ReportCall call) {
   const std::string& path = call.sweeps.storePath;
   const bool experiments = !store::Store(path, store::Access::ReadOnly).experiments().empty();
   const bool sessions = holdsSessions(path);
@@ -72,7 +72,7 @@ void report(const CLI::App& command, Call call) {
 }  // namespace
 
 void addReportCommand(CLI::App& app) {
-  const auto call = std::make_shared<Call>();
+  const auto call = std::make_shared<ReportCall>();
   CLI::App* command = app.add_subcommand(
       "report",
       "HTML page, figures and CSV tables of a sweep (speed against error) or a study (as for a paper)");

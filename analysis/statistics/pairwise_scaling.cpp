@@ -18,7 +18,7 @@
 namespace limen::analysis {
 namespace {
 
-constexpr int kMostSteps = 200;
+constexpr int kMostNewtonSteps = 200;
 
 /// Judgements of two items, `first` < `second`.
 struct Pair {
@@ -145,7 +145,7 @@ Fit fitLikelihood(const std::vector<Pair>& pairs, size_t items, PairwiseModel mo
     return sum;
   };
   double value = objective(s);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
     Eigen::VectorXd gradient = -precision * s;
     hessian = precision * Eigen::MatrixXd::Identity(n, n);
     for (const Pair& p : pairs) {

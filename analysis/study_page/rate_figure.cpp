@@ -17,7 +17,7 @@ namespace {
 // Shares of the room between two levels: what series stand apart, and what all of them take at most.
 constexpr double kApart = 0.2, kMostSpread = 0.5;
 
-std::optional<double> numberOf(const std::string& text) {
+std::optional<double> levelValue(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
@@ -26,7 +26,7 @@ std::optional<double> numberOf(const std::string& text) {
 
 bool isNumeric(const StudyFactor& factor) {
   return factor.levels.size() > 1 && std::all_of(factor.levels.begin(), factor.levels.end(),
-                                                 [](const std::string& level) { return numberOf(level); });
+                                                 [](const std::string& level) { return levelValue(level); });
 }
 
 size_t axisFactor(const std::vector<StudyFactor>& factors) {
@@ -58,7 +58,7 @@ RateAxis axisOf(const StudyFactor& factor) {
   RateAxis out;
   out.numeric = isNumeric(factor);
   for (size_t i = 0; i < factor.levels.size(); ++i)
-    out.places.push_back(out.numeric ? *numberOf(factor.levels[i]) : static_cast<double>(i + 1));
+    out.places.push_back(out.numeric ? *levelValue(factor.levels[i]) : static_cast<double>(i + 1));
   if (!out.numeric) return out;
   std::vector<double> sorted = out.places;
   std::sort(sorted.begin(), sorted.end());

@@ -13,7 +13,7 @@
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kOpenRows = 12;
+constexpr size_t kOpenAnovaRows = 12;
 
 /// Broken between F and p only.
 std::string publishedText(const PublishedEffect& published) {
@@ -97,7 +97,7 @@ void addComparisons(const PartAnova& part, PageWriter& out, std::string& csv) {
                       cellText(pair.df), cellText(pair.p), cellText(pair.pHolm),
                       cellText(pair.standardisedDifference)});
     }
-    table.folded = table.rows.size() > kOpenRows;
+    table.folded = table.rows.size() > kOpenAnovaRows;
     // One pair says what the analysis of variance said.
     if (table.rows.size() > 1) out.table(table);
   }

@@ -11,7 +11,7 @@
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kOpenRows = 40;
+constexpr size_t kOpenRatesRows = 40;
 
 std::vector<std::string> rateCells(const RateRow& row) {
   const MeanOverSubjects& mean = row.overObservers;
@@ -63,7 +63,7 @@ void addLevelTable(const StudyPage& page, const StudyPart& part, PageWriter& out
   for (const RateRow& row : page.rates.rows)
     if (row.part == part.name && row.scope == RateScope::Level && row.change)
       table.rows.push_back(rateCells(row));
-  table.folded = table.rows.size() > kOpenRows;
+  table.folded = table.rows.size() > kOpenRatesRows;
   out.table(table);
 }
 
@@ -85,7 +85,7 @@ void addConditionTable(const StudyPage& page, const StudyPart& part, PageWriter&
     cells.insert(cells.end(), rates.begin() + 2, rates.end());
     table.rows.push_back(std::move(cells));
   }
-  table.folded = table.rows.size() > kOpenRows;
+  table.folded = table.rows.size() > kOpenRatesRows;
   out.table(table);
 }
 

@@ -13,7 +13,7 @@ namespace limen::analysis {
 namespace {
 
 constexpr size_t kMostNames = 45;  // beyond, observers have no room for their codes
-constexpr size_t kOpenRows = 20;
+constexpr size_t kOpenSensitivityRows = 20;
 
 struct Dot {
   std::string observer;
@@ -150,7 +150,7 @@ void addTables(const PartSensitivity& part, PageWriter& out) {
   else
     table.columns = {{"observer", false}, {"right"}, {"share"}, {"d′"}, {"95 % from"}, {"to"}};
   for (const SensitivityRow& row : part.rows) table.rows.push_back(rowCells(row, part.yesNo));
-  table.folded = table.rows.size() > kOpenRows;
+  table.folded = table.rows.size() > kOpenSensitivityRows;
   out.table(table);
 }
 

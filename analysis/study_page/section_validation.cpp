@@ -13,7 +13,7 @@
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kOpenRows = 16;
+constexpr size_t kOpenValidationRows = 16;
 
 void addAgreements(const std::vector<Agreement>& agreements, const std::string& what, bool clamp,
                    PageWriter& out) {
@@ -55,7 +55,7 @@ void addAgreements(const std::vector<Agreement>& agreements, const std::string& 
       "correlation." +
       (clamp ? " Clamped: predictions above the least that everybody noticed are lowered to it." : "") +
       (source.empty() ? "" : " Published: " + source + ".");
-  table.folded = table.rows.size() > 3 * kOpenRows;
+  table.folded = table.rows.size() > 3 * kOpenValidationRows;
   out.table(table);
 }
 

@@ -14,7 +14,7 @@
 namespace limen::analysis {
 namespace {
 
-std::optional<double> numberOf(const std::string& text) {
+std::optional<double> parsedNumber(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
@@ -23,12 +23,12 @@ std::optional<double> numberOf(const std::string& text) {
 
 std::optional<double> numberAt(const YamlNode& node, const char* key) {
   const YamlNode* found = node.find(key);
-  return found ? numberOf(found->text) : std::nullopt;
+  return found ? parsedNumber(found->text) : std::nullopt;
 }
 
 std::optional<double> itemAt(const YamlNode& node, const char* key, size_t index) {
   const YamlNode* found = node.find(key);
-  return found && index < found->items.size() ? numberOf(found->items[index].text) : std::nullopt;
+  return found && index < found->items.size() ? parsedNumber(found->items[index].text) : std::nullopt;
 }
 
 DisplayFacts displayOf(const store::StudyDisplay& display) {

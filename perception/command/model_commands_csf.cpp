@@ -16,7 +16,7 @@ namespace {
 const char* const kUnit = "1 / threshold contrast";
 const char* const kDefaultFrequencies = "0.1:60:25";
 
-struct Options {
+struct CsfOptions {
   std::vector<std::string> models;
   PointOptions point;
   ConstantOptions constants;
@@ -52,7 +52,7 @@ nlohmann::json describe(const CsfInfo& info) {
           {"unit", kUnit}};
 }
 
-void printList(const Options& options) {
+void printModels(const CsfOptions& options) {
   std::vector<const CsfInfo*> shown;
   if (options.models.empty())
     for (const auto& [name, info] : CsfRegistry::instance().all()) shown.push_back(&info);
@@ -77,7 +77,7 @@ void printList(const Options& options) {
     std::printf("\nlimen-perceive csf MODEL --list shows a model's constants, csf MODEL its sensitivity.\n");
 }
 
-std::vector<Model> makeModels(const Options& options) {
+std::vector<Model> makeModels(const CsfOptions& options) {
   std::vector<Model> out;
   for (const std::string& name : options.models) {
     Model model;
@@ -91,7 +91,7 @@ std::vector<Model> makeModels(const Options& options) {
 }
 
 /// Every combination of the arguments that have several values, but for the frequency.
-std::vector<CsfPoint> combinations(const Options& options, std::vector<std::string>& varied) {
+std::vector<CsfPoint> combinations(const CsfOptions& options, std::vector<std::string>& varied) {
   std::vector<CsfPoint> out = {options.point.point()};
   for (const std::string& argument : csfArgumentNames()) {
     if (argument == "frequency_cpd") continue;
@@ -116,7 +116,7 @@ bool reads(const CsfInfo& info, const std::string& argument) {
 }
 
 /// Arguments given that the model does not know: better said than passed over.
-std::vector<std::string> ignored(const Options& options, const CsfInfo& info) {
+std::vector<std::string> ignored(const CsfOptions& options, const CsfInfo& info) {
   std::vector<std::string> out;
   for (const std::string& argument : csfArgumentNames())
     if (options.point.has(argument) && !reads(info, argument)) out.push_back(argument);
@@ -139,7 +139,7 @@ nlohmann::json peakJson(const Csf& csf, const CsfPoint& point) {
   return {{"frequency_cpd", peak.frequencyCpd}, {"sensitivity", peak.sensitivity}};
 }
 
-nlohmann::json head(const Options& options, const Model& model) {
+nlohmann::json head(const CsfOptions& options, const Model& model) {
   return {{"model", model.info->name},
           {"model_version", model.info->version},
           {"source", model.info->source},
@@ -148,7 +148,7 @@ nlohmann::json head(const Options& options, const Model& model) {
           {"ignored_arguments", ignored(options, *model.info)}};
 }
 
-void printPoint(const Options& options, const Model& model, const CsfPoint& point) {
+void printPoint(const CsfOptions& options, const Model& model, const CsfPoint& point) {
   const double value = model.csf->sensitivity(point);
   const std::vector<std::string> outside = outsideValidRange(*model.info, point);
   if (options.json) {
@@ -250,7 +250,7 @@ void printCsv(const std::vector<Column>& columns, const std::vector<double>& fre
     }
 }
 
-void printJsonTable(const Options& options, const std::vector<Column>& columns,
+void printJsonTable(const CsfOptions& options, const std::vector<Column>& columns,
                     const std::vector<double>& frequencies) {
   nlohmann::json curves = nlohmann::json::array();
   for (const Column& column : columns) {
@@ -270,7 +270,7 @@ void printJsonTable(const Options& options, const std::vector<Column>& columns,
   printJson({{"curves", curves}});
 }
 
-void plot(const Options& options, const std::vector<Column>& columns,
+void plot(const CsfOptions& options, const std::vector<Column>& columns,
           const std::vector<double>& frequencies) {
   Plot out;
   out.title = options.models.size() == 1
@@ -293,11 +293,11 @@ void plot(const Options& options, const std::vector<Column>& columns,
   drawPlot(out, options.plot);
 }
 
-void run(const Options& options) {
+void runCsf(const CsfOptions& options) {
   if (options.list || options.models.empty()) {
     if (!options.constants.empty() || !options.plot.empty())
       throw Error("no model is named", "csf", "write limen-perceive csf MODEL; --list shows them");
-    return printList(options);
+    return printModels(options);
   }
   if (options.json && options.csv) throw Error("--json and --csv exclude each other", "csf", "give one");
   const std::vector<Model> models = makeModels(options);
@@ -332,7 +332,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addCsfCommand(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CsfOptions>();
   CLI::App* command =
       app.add_subcommand("csf", "Contrast sensitivity by a model, as a table, a chart or one number.");
   command->add_option("MODEL", options->models, "name of a model, or several; none: a list of them");
@@ -353,7 +353,7 @@ void addCsfCommand(CLI::App& app) {
       "One frequency and no other list prints one value. csf MODEL --list shows the constants of a model.");
   command->callback([options, command] {
     refuseExtras(*command);
-    run(*options);
+    runCsf(*options);
   });
 }
 

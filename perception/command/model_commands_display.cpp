@@ -15,7 +15,7 @@
 namespace limen::perception {
 namespace {
 
-struct Options {
+struct DisplayOptions {
   std::string display, at, velocity, window;
   bool list = false, json = false, yaml = false;
 };
@@ -55,7 +55,7 @@ nlohmann::json derived(const DisplayProfile& display) {
       {"hash", display.hash()}};
 }
 
-void printList(bool json) {
+void printDisplays(bool json) {
   nlohmann::json list = nlohmann::json::array();
   for (const std::string& name : displayPresets()) {
     const DisplayProfile display = displayPreset(name);
@@ -78,8 +78,8 @@ nlohmann::json moving(const DisplayProfile& display, double displacementPx, doub
   return out;
 }
 
-void run(const Options& options) {
-  if (options.list || options.display.empty()) return printList(options.json);
+void runDisplay(const DisplayOptions& options) {
+  if (options.list || options.display.empty()) return printDisplays(options.json);
   const DisplayProfile display = readDisplay(options.display);
   if (options.yaml) {
     std::printf("%s", toYaml(display).c_str());
@@ -125,7 +125,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addDisplayCommand(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DisplayOptions>();
   CLI::App* command = app.add_subcommand("display", "Display profiles and what follows from them.");
   command->add_option("DISPLAY", options->display, "preset or file (YAML); none: a list of presets");
   command->add_flag("--list", options->list, "lists the presets");
@@ -139,7 +139,7 @@ void addDisplayCommand(CLI::App& app) {
   command->allow_extras();
   command->callback([options, command] {
     refuseExtras(*command);
-    run(*options);
+    runDisplay(*options);
   });
 }
 

@@ -13,7 +13,7 @@
 namespace limen::perception {
 namespace {
 
-struct Options {
+struct ErrorOptions {
   std::vector<std::string> files, models;
   std::string leastVelocity = "0.15", distance = "0.6";
   bool json = false;
@@ -25,7 +25,7 @@ struct Set {
 };
 
 /// One for each data set, in order of appearance, and one with all if there are several.
-std::vector<Set> readSets(const Options& options, double distanceM) {
+std::vector<Set> readSets(const ErrorOptions& options, double distanceM) {
   std::vector<Set> out;
   Set all{"all", {}};
   for (const std::string& file : options.files)
@@ -47,7 +47,7 @@ double positive(const std::string& text, const std::string& option) {
   throw Error("'" + text + "' is not above 0", option, "give a positive number");
 }
 
-void run(const Options& options) {
+void runError(const ErrorOptions& options) {
   const double least = readNumber(options.leastVelocity, "--least-velocity");
   if (least < 0.0) throw Error("'" + options.leastVelocity + "' is negative", "--least-velocity");
   const std::vector<Set> sets = readSets(options, positive(options.distance, "--distance"));
@@ -118,7 +118,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addCsfErrorCommand(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ErrorOptions>();
   CLI::App* command = app.add_subcommand(
       "csf-error", "How far the models of contrast sensitivity are from measured thresholds.");
   command
@@ -135,7 +135,7 @@ void addCsfErrorCommand(CLI::App& app) {
   command->allow_extras();
   command->callback([options, command] {
     refuseExtras(*command);
-    run(*options);
+    runError(*options);
   });
 }
 

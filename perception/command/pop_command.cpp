@@ -24,7 +24,7 @@ struct PopOptions : ImageOptions {
   std::vector<std::string> weights;
 };
 
-std::vector<SettingsGroup> groups() { return {{"", poppingParameters()}}; }
+std::vector<SettingsGroup> poppingGroups() { return {{"", poppingParameters()}}; }
 
 Figures allFigures() {
   Figures figures = declaredPoppingFigures();
@@ -156,12 +156,12 @@ void predict(const Call& call, const FrameSet& frame, const OutputFiles& outputs
 
 int pop(const PopOptions& options, const std::vector<std::string>& words) {
   if (options.list) {
-    printSettings(options, groups());
+    printSettings(options, poppingGroups());
     return kExitSuccess;
   }
   if (options.before.empty())
     throw Error("images are missing", "pop", "name two: limen-perceive pop OLD NEW");
-  const std::vector<ParameterValues> values = parseSettings(options.set, groups(), "--set");
+  const std::vector<ParameterValues> values = parseSettings(options.set, poppingGroups(), "--set");
   Call call{
       options, readDisplay(options.displayName), options.input(), PoppingSettings::from(values.front()), {}};
   const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, allFigures(), "rating");
@@ -173,7 +173,7 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   outputs.addFile("--jnd", options.jnd, {".exr"});
   outputs.addFolder("--stages", options.stages);
 
-  const std::string changed = changedSettings(groups(), values);
+  const std::string changed = changedSettings(poppingGroups(), values);
   call.statement = limenVersion() + " popping predictor (" + poppingModelText(call.settings) +
                    (options.motion.empty() ? ", nothing moving" : ", motion given") +
                    (options.weights.empty() ? "" : ", weights given") +
@@ -183,7 +183,7 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   header.statement = call.statement;
   header.words = words;
   header.display = call.display;
-  header.settings = valuesAsJson(groups(), values);
+  header.settings = valuesAsJson(poppingGroups(), values);
   header.settings["input"] = call.input.toJson();
   header.extra = {{"frames_are", options.after.empty() ? "each compared with the one before" : "pairs"}};
   header.primaryFigures = {"rating", "region_count", "largest_jnd", "max_de94"};
@@ -228,7 +228,7 @@ void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>&
       ->type_name("RATING")
       ->allow_extra_args(false);
   addImageOptions(*command, *options);
-  addSettingsHelp(*command, groups);
+  addSettingsHelp(*command, poppingGroups);
   command->callback([options, &exitCode, words] { exitCode = pop(*options, words); });
 }
 

@@ -27,7 +27,7 @@ struct ThresholdOptions : ImageOptions {
   double scaleCdM2 = 0.0;
 };
 
-std::vector<SettingsGroup> groups() { return {{"", thresholdMapParameters()}}; }
+std::vector<SettingsGroup> thresholdGroups() { return {{"", thresholdMapParameters()}}; }
 
 Figures thresholdFigures(const ThresholdMap& map) {
   std::vector<double> values = map.thresholdCdM2.data;
@@ -64,13 +64,13 @@ bool isPicture(const std::string& path) {
 
 int threshold(const ThresholdOptions& options, const std::vector<std::string>& words) {
   if (options.list) {
-    printSettings(options, groups());
+    printSettings(options, thresholdGroups());
     return kExitSuccess;
   }
   if (options.image.empty())
     throw Error("an image is missing", "threshold", "name one: limen-perceive threshold IMAGE");
   const DisplayProfile display = readDisplay(options.displayName);
-  const std::vector<ParameterValues> values = parseSettings(options.set, groups(), "--set");
+  const std::vector<ParameterValues> values = parseSettings(options.set, thresholdGroups(), "--set");
   const ThresholdMapSettings settings = thresholdMapSettings(values.front());
   const ParameterValues input = options.input();
   const std::vector<FrameSet> frames = alignSequences({expandImages(options.image)});
@@ -81,14 +81,14 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
 
   ReportHeader header;
   header.command = "threshold";
-  const std::string changed = changedSettings(groups(), values);
+  const std::string changed = changedSettings(thresholdGroups(), values);
   header.statement =
       fmt::format("{} threshold map (Schwarz 2009, section 9.4; csf {}, masking {}, tvi {}{}), display {}",
                   limenVersion(), settings.csf, settings.masking, settings.tvi,
                   changed.empty() ? "" : "; " + changed, display.line());
   header.words = words;
   header.display = display;
-  header.settings = valuesAsJson(groups(), values);
+  header.settings = valuesAsJson(thresholdGroups(), values);
   header.settings["input"] = input.toJson();
   header.json = options.json;
   header.primaryFigures = {"median", "min", "max"};
@@ -145,7 +145,7 @@ void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::st
       ->type_name("CD_M2")
       ->check(CLI::PositiveNumber);
   addImageOptions(*command, *options);
-  addSettingsHelp(*command, groups);
+  addSettingsHelp(*command, thresholdGroups);
   command->callback([options, &exitCode, words] { exitCode = threshold(*options, words); });
 }
 

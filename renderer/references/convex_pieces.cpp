@@ -10,8 +10,6 @@ namespace {
 /// Pieces with less area are dropped; ten thousand of them change the sum by 1e-11.
 constexpr double kNoArea = 1e-15;
 
-double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// Signed area of the triangle (origin, a, b) within the unit disc.
 double discTriangle(glm::dvec2 a, glm::dvec2 b) {
   const auto sector = [](glm::dvec2 from, glm::dvec2 to) {

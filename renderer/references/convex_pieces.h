@@ -7,6 +7,9 @@
 
 namespace limen::references {
 
+/// Twice the signed area of the triangle (origin, a, b).
+inline double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
 /// Points with n.x x + n.y y + offset >= 0. Made unit by HalfPlane::unit().
 struct HalfPlane {
   glm::dvec2 n{0.0};

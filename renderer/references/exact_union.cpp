@@ -22,7 +22,7 @@ namespace {
 using techniques::Counter;
 using techniques::TechniqueInfo;
 
-constexpr const char* kName = "soft_shadows/exact_union";
+constexpr const char* kUnionName = "soft_shadows/exact_union";
 
 /// Light-space box of some triangles.
 struct Box {
@@ -77,7 +77,7 @@ class ExactUnion : public techniques::Technique {
     if (static_cast<int64_t>(triangles_->count()) > maxTriangles_)
       throw Error("the scene has " + std::to_string(triangles_->count()) +
                       " triangles, more than 'max_triangles' (" + std::to_string(maxTriangles_) + ")",
-                  kName,
+                  kUnionName,
                   "raise it (time grows with triangles times pixels) or use references/ray_traced_light");
     const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
     for (size_t i = 0; i < triangles_->count(); ++i) {
@@ -204,8 +204,8 @@ class ExactUnion : public techniques::Technique {
   double occludersPerReceiver_ = 0.0;
 };
 
-const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
-    .name = kName,
+const Registered<TechniqueInfo> kExactUnionRegistered{TechniqueInfo{
+    .name = kUnionName,
     .version = 1,
     .summary = "Exact visible area of the light: union of all triangles' projections, double precision",
     .source = "Schwarz 2009, section 3.3 (beam tracing)",

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/references/convex_pieces.h"
+
 namespace limen::references {
 namespace {
 
-double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 double twiceArea(const Triangle2& t) { return cross2(t[1] - t[0], t[2] - t[0]); }
 
 bool covers(const Triangle2& t, glm::dvec2 p) {

@@ -102,7 +102,7 @@ class RayTracedLight : public techniques::Technique {
 
 double halfWidth(const ParameterValues& values) { return hoeffdingHalfWidth(values.integer("samples")); }
 
-const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
+const Registered<TechniqueInfo> kRayTracedLightRegistered{TechniqueInfo{
     .name = "soft_shadows/ray_traced",
     .version = 1,
     .summary = "Shadow rays to points on the light against the true triangles (Embree)",

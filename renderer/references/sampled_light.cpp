@@ -19,12 +19,12 @@ namespace {
 using techniques::Counter;
 using techniques::TechniqueInfo;
 
-constexpr const char* kName = "soft_shadows/sampled_light";
+constexpr const char* kSampledName = "soft_shadows/sampled_light";
 
 int gridSide(int64_t samples) {
   const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
   if (side * side != samples)
-    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kName,
+    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kSampledName,
                 "give " + std::to_string(side * side));
   return static_cast<int>(side);
 }
@@ -116,7 +116,8 @@ class SampledLight : public techniques::Technique {
         const glm::dvec2 unit = (glm::dvec2(x, y) + inCell) / double(side_);
         if (light.contains(unit)) points.push_back(unit);
       }
-    if (points.empty()) throw Error("none of the samples lies on the light", kName, "give more samples");
+    if (points.empty())
+      throw Error("none of the samples lies on the light", kSampledName, "give more samples");
     return points;
   }
 
@@ -138,8 +139,8 @@ double edgeBound(const ParameterValues& values) {
   return std::min(1.0, 2.0 / std::sqrt(double(values.integer("samples"))));
 }
 
-const Registered<TechniqueInfo> kRegistered{TechniqueInfo{
-    .name = kName,
+const Registered<TechniqueInfo> kSampledLightRegistered{TechniqueInfo{
+    .name = kSampledName,
     .version = 1,
     .summary = "Mean of hard shadow maps from a grid of points on the light",
     .source = "Schwarz 2009, section 3.3",

@@ -58,7 +58,7 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kThresholdMapReferenceRegistered{
     {.name = "perception/threshold_map_reference",
      .version = 1,
      .summary = "Threshold map in double precision, any variant, true Gaussians too",

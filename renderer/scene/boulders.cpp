@@ -7,7 +7,7 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kPitch = 0.5;
+constexpr double kBoulderPitch = 0.5;
 
 /// Rows of finely tessellated lumps that touch neither each other nor the ground.
 Scene buildBoulders(const ParameterValues& values) {
@@ -15,18 +15,18 @@ Scene buildBoulders(const ParameterValues& values) {
   const auto cells = static_cast<int>(values.integer("tessellation"));
   const int columns = static_cast<int>(std::ceil(std::sqrt(1.5 * count))),
             rows = (count + columns - 1) / columns;
-  const double reach = 0.5 * kPitch * columns;
+  const double reach = 0.5 * kBoulderPitch * columns;
   const double amplitude = values.real("bumps");
   // The farthest that a lump can reach is just less than half of the way to its neighbour.
-  const double radius = 0.45 * kPitch / (1.0 + amplitude);
+  const double radius = 0.45 * kBoulderPitch / (1.0 + amplitude);
   const Mesh unit = sphere(glm::dvec3(0.0), 1.0, cells);
   Mesh boulders;
   boulders.positions.reserve(unit.positions.size() * static_cast<size_t>(count));
   boulders.triangles.reserve(unit.triangles.size() * static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     const Bumps bumps(radius, amplitude, values.integer("seed") + i);
-    const glm::dvec3 centre(kPitch * (i % columns - 0.5 * (columns - 1)), 0.5 * kPitch,
-                            kPitch * (i / columns - 0.5 * (rows - 1)));
+    const glm::dvec3 centre(kBoulderPitch * (i % columns - 0.5 * (columns - 1)), 0.5 * kBoulderPitch,
+                            kBoulderPitch * (i / columns - 0.5 * (rows - 1)));
     Mesh boulder = unit;
     for (glm::dvec3& position : boulder.positions) position = centre + bumps.radius(position) * position;
     append(boulders, boulder);
@@ -34,12 +34,12 @@ Scene buildBoulders(const ParameterValues& values) {
   Scene scene;
   addGround(scene, 9.0 * reach);
   addPart(scene, "boulders", boulders, {0.6F, 0.57F, 0.52F});
-  frameStanding(scene, kPitch, reach);
+  frameStanding(scene, kBoulderPitch, reach);
   scene.lights[0].size = glm::dvec2(0.2 * reach);
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kBouldersRegistered{SceneInfo{
     .name = "boulders",
     .version = 1,
     .summary = "Field of finely tessellated lumps, a quarter of a million triangles: geometry that weighs",

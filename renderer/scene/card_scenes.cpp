@@ -10,7 +10,7 @@ namespace {
 
 constexpr glm::vec3 kCardAlbedo{0.55F, 0.6F, 0.7F};
 /// Height of the light above the ground.
-constexpr double kLightHeight = 2.0;
+constexpr double kCardLightHeight = 2.0;
 
 /// Horizontal, facing up, centred over (x, z).
 Mesh flatCard(glm::dvec3 centre, glm::dvec2 halfSize) {
@@ -18,7 +18,7 @@ Mesh flatCard(glm::dvec3 centre, glm::dvec2 halfSize) {
 }
 
 AreaLight lightAbove(glm::dvec2 size) {
-  return lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), size);
+  return lightTowards({0.0, kCardLightHeight, 0.0}, glm::dvec3(0.0), size);
 }
 
 /// Occluder fusion: cards below the topmost one, none of which a shadow map from the light's centre can see.
@@ -29,7 +29,7 @@ AreaLight lightAbove(glm::dvec2 size) {
 /// nothing: receivers beyond its deep end see them overlap on the light, the more the more there are.
 Scene buildCardStack(const ParameterValues& values) {
   constexpr double kTop = 1.2, kHalf = 0.35, kLightSize = 0.3, kStripTangent = 0.04;
-  const double depthOfTop = kLightHeight - kTop;
+  const double depthOfTop = kCardLightHeight - kTop;
   const std::string& fit = values.text("fit");
   const int64_t count = values.integer("cards");
   const double spacing = values.real("spacing");

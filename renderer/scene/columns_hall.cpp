@@ -5,14 +5,15 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kPitch = 1.2, kAisle = 1.0, kHeight = 2.2;
+constexpr double kColumnPitch = 1.2, kAisle = 1.0, kHallHeight = 2.2;
 
 /// Plinth, shaft and capital, each closed.
 Mesh column(glm::dvec3 foot, int segments) {
   Mesh mesh = box(foot + glm::dvec3(-0.26, 0.0, -0.26), foot + glm::dvec3(0.26, 0.14, 0.26));
-  append(mesh, frustum(foot + glm::dvec3(0.0, 0.14, 0.0), foot + glm::dvec3(0.0, kHeight - 0.16, 0.0), 0.2,
-                       0.16, segments));
-  append(mesh, box(foot + glm::dvec3(-0.24, kHeight - 0.16, -0.24), foot + glm::dvec3(0.24, kHeight, 0.24)));
+  append(mesh, frustum(foot + glm::dvec3(0.0, 0.14, 0.0), foot + glm::dvec3(0.0, kHallHeight - 0.16, 0.0),
+                       0.2, 0.16, segments));
+  append(mesh, box(foot + glm::dvec3(-0.24, kHallHeight - 0.16, -0.24),
+                   foot + glm::dvec3(0.24, kHallHeight, 0.24)));
   return mesh;
 }
 
@@ -34,11 +35,11 @@ CameraPath walk(double length) {
 Scene buildColumnsHall(const ParameterValues& values) {
   const auto perRow = static_cast<int>(values.integer("columns_per_row"));
   const auto segments = static_cast<int>(values.integer("segments"));
-  const double length = kPitch * (perRow - 1);
+  const double length = kColumnPitch * (perRow - 1);
   Mesh columns;
   for (int i = 0; i < perRow; ++i)
     for (const double side : {-1.0, 1.0})
-      append(columns, column({side * kAisle, 0.0, 0.5 * length - kPitch * i}, segments));
+      append(columns, column({side * kAisle, 0.0, 0.5 * length - kColumnPitch * i}, segments));
   Scene scene;
   const double ground = length + 14.0;
   addGround(scene, ground);
@@ -53,7 +54,7 @@ Scene buildColumnsHall(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kColumnsHallRegistered{SceneInfo{
     .name = "columns_hall",
     .version = 1,
     .summary = "Two rows of columns on a floor: long shadows over floor and other columns",

@@ -26,7 +26,7 @@ Scene buildComb(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kCombRegistered{SceneInfo{
     .name = "comb",
     .version = 1,
     .summary = "Fence of thin slats: many narrow occluders side by side",

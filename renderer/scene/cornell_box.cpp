@@ -64,7 +64,7 @@ Scene buildCornellBox(const ParameterValues&) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kCornellBoxRegistered{SceneInfo{
     .name = "cornell_box",
     .version = 1,
     .summary =

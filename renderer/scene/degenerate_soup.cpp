@@ -9,7 +9,7 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kLightHeight = 3.0, kLightSize = 0.3;
+constexpr double kSoupLightHeight = 3.0, kLightSize = 0.3;
 
 enum class Flaw {
   None,
@@ -63,7 +63,7 @@ class Soup {
         corners();
         const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
         glm::dvec3& highest = *std::max_element(corner_.begin(), corner_.end(), lower);
-        const glm::dvec3 touch(highest.x, kLightHeight, highest.z), from = highest;
+        const glm::dvec3 touch(highest.x, kSoupLightHeight, highest.z), from = highest;
         // Small, since all of them are near the light and would darken the whole ground.
         for (glm::dvec3& corner : corner_) corner = touch + 0.2 * (corner - from);
         break;
@@ -72,7 +72,7 @@ class Soup {
         corners();
         const double side = std::copysign(2.0 * kLightSize, corner_[0].x);
         // Beside the light: whether a triangle on it shadows anything has no answer.
-        for (glm::dvec3& corner : corner_) corner = {corner.x + side, kLightHeight, corner.z};
+        for (glm::dvec3& corner : corner_) corner = {corner.x + side, kSoupLightHeight, corner.z};
         break;
       }
       case Flaw::None:
@@ -111,12 +111,12 @@ Scene buildDegenerateSoup(const ParameterValues& values) {
   Scene scene;
   addGround(scene, 10.0);
   addPart(scene, "soup", soup.mesh(), {0.6F, 0.45F, 0.6F});
-  scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), glm::dvec2(kLightSize))};
+  scene.lights = {lightTowards({0.0, kSoupLightHeight, 0.0}, glm::dvec3(0.0), glm::dvec2(kLightSize))};
   setStillCamera(scene, orbitCamera({0.0, 0.4, 0.0}, 4.4, 15.0, 40.0));
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{
+const Registered<SceneInfo> kDegenerateSoupRegistered{
     SceneInfo{.name = "degenerate_soup",
               .version = 1,
               .summary = "Triangles without area, slivers, duplicates, coplanar overlaps and triangles in "

@@ -17,7 +17,7 @@ Scene buildFoliage(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kFoliageRegistered{SceneInfo{
     .name = "foliage",
     .version = 1,
     .summary = "Small tree with thousands of leaves as plain triangles: huge counts of tiny occluders",

@@ -194,6 +194,13 @@ ImportedMesh importMesh(const std::string& path) {
   return out;
 }
 
+std::string installedModel(const std::string& file) {
+  const std::string path = "/usr/share/glmark2/models/" + file;
+  if (!std::filesystem::exists(path))
+    throw Error("the model is not installed", path, "install the package glmark2-data");
+  return path;
+}
+
 void turnZUpToYUp(Mesh& mesh) {
   for (glm::dvec3& p : mesh.positions) p = {p.x, p.z, -p.y};
 }

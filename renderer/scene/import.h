@@ -21,6 +21,9 @@ struct ImportedMesh {
 /// not finite, a vertex index out of range.
 ImportedMesh importMesh(const std::string& path);
 
+/// Path of a mesh that the package glmark2-data has. Throws Error if it is not installed.
+std::string installedModel(const std::string& file);
+
 /// Makes z-up coordinates y-up.
 void turnZUpToYUp(Mesh& mesh);
 

@@ -2,7 +2,6 @@
 // Meshes over a ground plane: any file, and the three that come with the package glmark2-data.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "base/error.h"
 #include "renderer/scene/import.h"
@@ -10,8 +9,6 @@
 
 namespace limen::scene {
 namespace {
-
-const char* const kModelFolder = "/usr/share/glmark2/models/";
 
 /// Largest distance from the y axis.
 double reachOf(const Mesh& mesh) {
@@ -44,10 +41,7 @@ Scene buildMesh(const ParameterValues& values) {
 enum class Turned { No, Over };
 
 Scene buildModel(const std::string& file, Turned turned) {
-  const std::string path = kModelFolder + file;
-  if (!std::filesystem::exists(path))
-    throw Error("the model is not installed", path, "install the package glmark2-data");
-  ImportedMesh imported = importMesh(path);
+  ImportedMesh imported = importMesh(installedModel(file));
   if (turned == Turned::Over)
     for (glm::dvec3& p : imported.mesh.positions) p = {p.x, -p.z, p.y};
   constexpr double kHeight = 1.0;
@@ -55,7 +49,7 @@ Scene buildModel(const std::string& file, Turned turned) {
   return overGround(imported, kHeight, true);
 }
 
-const Registered<SceneInfo> kMesh{
+const Registered<SceneInfo> kMeshRegistered{
     SceneInfo{.name = "mesh",
               .version = 1,
               .summary = "A mesh from a file, standing on a ground plane, in the file's own units",

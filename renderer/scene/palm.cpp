@@ -9,7 +9,6 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTrunkHeight = 1.7, kFrondLength = 1.15;
 
 /// The trunk leans towards +x, as palms that stand alone do.
@@ -55,7 +54,8 @@ class Frond {
       const auto index = static_cast<size_t>(piece);
       const glm::dvec3 stem = glm::mix(points_[index], points_[index + 1], piece - std::floor(piece));
       const glm::dvec3 forward = glm::normalize(points_[index + 1] - points_[index]);
-      const double length = 0.34 * std::sin(kPi * std::min(0.25 + 0.7 * t, 1.0)) * random.uniform(0.85, 1.0);
+      const double length =
+          0.34 * std::sin(std::numbers::pi * std::min(0.25 + 0.7 * t, 1.0)) * random.uniform(0.85, 1.0);
       for (const double sign : {-1.0, 1.0}) {
         const glm::dvec3 along = glm::normalize(sign * side_ + random.uniform(0.5, 0.8) * forward -
                                                 random.uniform(0.2, 0.5) * up());
@@ -131,7 +131,7 @@ Scene buildPalm(const ParameterValues& values) {
   Random random(values.integer("seed"));
   Mesh wood = trunk(), leaves;
   for (int i = 0; i < fronds; ++i) {
-    const double azimuth = 2.0 * kPi * (i + random.uniform(-0.3, 0.3)) / fronds;
+    const double azimuth = 2.0 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / fronds;
     const Frond frond(trunkPoint(1.0), azimuth, random.uniform(0.5, 1.1),
                       kFrondLength * random.uniform(0.85, 1.1));
     append(wood, frond.rib());
@@ -147,7 +147,7 @@ Scene buildPalm(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kPalmRegistered{SceneInfo{
     .name = "palm",
     .version = 1,
     .summary = "Long-necked animal under a palm: shadows of thin fronds on a body and on the ground",

@@ -25,7 +25,7 @@ Scene buildStreetLight(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kStreetLightRegistered{SceneInfo{
     .name = "street_light",
     .version = 1,
     .summary = "Lamp post and bare tree: shadows that harden on contact, twigs thinner than a pixel",

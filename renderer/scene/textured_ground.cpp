@@ -6,11 +6,11 @@ namespace limen::scene {
 namespace {
 
 constexpr double kGroundSize = 11.0;
-constexpr int kGroundCells = 32;
+constexpr int kTexturedCells = 32;
 
 /// The ground between two x. Grids that meet at an x have bit for bit the same vertices there.
 Mesh groundBetween(double low, double high) {
-  Mesh mesh = planeGrid(glm::dvec3(0.0), 1.0, kGroundSize, kGroundCells);
+  Mesh mesh = planeGrid(glm::dvec3(0.0), 1.0, kGroundSize, kTexturedCells);
   for (glm::dvec3& position : mesh.positions) position.x = glm::mix(low, high, position.x + 0.5);
   return mesh;
 }
@@ -55,7 +55,7 @@ Scene buildTexturedGround(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kRegistered{SceneInfo{
+const Registered<SceneInfo> kTexturedGroundRegistered{SceneInfo{
     .name = "textured_ground",
     .version = 1,
     .summary = "The same penumbrae on plain and on highly textured ground: what texture masks",

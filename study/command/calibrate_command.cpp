@@ -18,7 +18,7 @@
 namespace limen::study {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
   std::string out, name, readings, matches, transfer = "auto";
   std::vector<int> resolutionPx;
   double cardWidthPx = 0.0, distanceCm = 0.0, refreshHz = 0.0;
@@ -35,7 +35,7 @@ double guessCardPx(const gl::Monitor& monitor) {
 }
 
 /// What is not given is set by eye on the screen itself.
-void ask(Options& options) {
+void ask(CalibrateOptions& options) {
   const std::vector<gl::Monitor> all = gl::monitors();
   if (options.monitor < 0 || options.monitor >= static_cast<int>(all.size()))
     throw Error(fmt::format("no monitor {}", options.monitor), "--monitor",
@@ -75,7 +75,7 @@ void ask(Options& options) {
   }
 }
 
-void checkComplete(const Options& options) {
+void checkComplete(const CalibrateOptions& options) {
   std::vector<std::string> missing;
   if (options.resolutionPx.empty()) missing.push_back("--resolution-px");
   if (!(options.cardWidthPx > 0.0)) missing.push_back("--card-width-px");
@@ -92,7 +92,7 @@ struct Result {
   nlohmann::json fit = nlohmann::json::object();
 };
 
-void useReadings(const Options& options, Result& result) {
+void useReadings(const CalibrateOptions& options, Result& result) {
   if (options.blackCdM2 || options.peakCdM2)
     throw Error("black and peak come from the readings", "--readings",
                 "leave --black-cd-m2 and --peak-cd-m2 out");
@@ -117,7 +117,7 @@ void useReadings(const Options& options, Result& result) {
                 {"largest_share", fit.largestShare}};
 }
 
-void useMatches(const Options& options, Result& result) {
+void useMatches(const CalibrateOptions& options, Result& result) {
   const std::vector<Match> matches = parseMatches(options.matches);
   const MatchFit fit = fitMatches(matches);
   result.profile.transfer = perception::TransferCurve::Gamma;
@@ -131,7 +131,7 @@ void useMatches(const Options& options, Result& result) {
                 {"largest_residual", fit.largestResidual}};
 }
 
-Result calibrate(const Options& options) {
+Result calibrate(const CalibrateOptions& options) {
   if (!options.readings.empty() && !options.matches.empty())
     throw Error("readings and matches both give the transfer curve", "--match", "give one of them");
   Result out;
@@ -168,7 +168,7 @@ Result calibrate(const Options& options) {
   return out;
 }
 
-void run(Options options) {
+void run(CalibrateOptions options) {
   if (!options.force && std::filesystem::exists(options.out))
     throw Error("is there already", options.out, "name another file, or give --force to overwrite it");
   if (options.interactive) ask(options);
@@ -194,7 +194,7 @@ void run(Options options) {
 }  // namespace
 
 void addCalibrateCommand(CLI::App& app, Run&) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
       "calibrate", "Makes a display profile of what was measured on a screen and before it.");
   command->add_option("-o,--output", options->out, "Profile to write (YAML)")->required();

@@ -32,12 +32,12 @@ void listExamples(bool asJson) {
 }
 
 // On a terminal a line that is written over, elsewhere a line in ten seconds.
-class Progress {
+class StepProgress {
  public:
-  explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() { clear(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit StepProgress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~StepProgress() { clear(); }
+  StepProgress(const StepProgress&) = delete;
+  StepProgress& operator=(const StepProgress&) = delete;
 
   void step(const std::string& text) {
     clear();
@@ -71,7 +71,7 @@ void runExampleCommand(const ExampleOptions& options, Run& run) {
   const Example example = readExample(options.name);
   ExampleRequest request;
   request.folder = options.folder.empty() ? "results/" + example.name : options.folder;
-  auto progress = std::make_shared<Progress>(options.quiet);
+  auto progress = std::make_shared<StepProgress>(options.quiet);
   request.say = [progress](const std::string& text) { progress->step(text); };
   request.progress = [progress](const std::string& text) { return progress->far(text); };
   installInterruptHandlers();

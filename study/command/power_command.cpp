@@ -127,7 +127,7 @@ void printDesign(const PowerDesign& design, bool all) {
   }
 }
 
-void print(const PowerOptions& options, const PowerResult& result) {
+void printDesigns(const PowerOptions& options, const PowerResult& result) {
   const PowerRequest& request = options.request;
   fmt::print(
       "{:g} % t intervals over observers, {} simulated experiments, seed {}; +- is one standard error of the "
@@ -193,7 +193,7 @@ void runPower(const PowerOptions& given, Run& run) {
   else if (options.asCsv)
     printCsv(result);
   else
-    print(options, result);
+    printDesigns(options, result);
 }
 
 }  // namespace

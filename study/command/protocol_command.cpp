@@ -12,14 +12,14 @@
 namespace limen::study {
 namespace {
 
-struct Options {
+struct ProtocolOptions {
   std::vector<std::string> names;
   int participantNumber = 0;
   uint64_t seed = 1;
   bool json = false, check = false;
 };
 
-void list(bool json) {
+void listProtocols(bool json) {
   nlohmann::json out = nlohmann::json::array();
   std::string text = "Shipped protocols:\n";
   for (const auto& [name, title] : shippedProtocols()) {
@@ -30,7 +30,7 @@ void list(bool json) {
   std::fputs(json ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
 }
 
-void show(const Options& options) {
+void showProtocols(const ProtocolOptions& options) {
   const std::shared_ptr<const Declarations> declarations = declarationsFromRegistries();
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& name : options.names) {
@@ -57,7 +57,7 @@ void show(const Options& options) {
 void addProtocolCommand(CLI::App& app, Run&) {
   CLI::App* command =
       app.add_subcommand("protocol", "Lists protocols; shows conditions, trials and order of one");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ProtocolOptions>();
   command->add_option("protocol", options->names, "Name of a shipped protocol, or a file")
       ->type_name("NAME|FILE");
   command
@@ -67,7 +67,8 @@ void addProtocolCommand(CLI::App& app, Run&) {
   command->add_option("--seed", options->seed, "Seed of the session's orders")->capture_default_str();
   command->add_flag("--check", options->check, "Only say whether it is good");
   command->add_flag("--json", options->json, "As JSON");
-  command->callback([options] { options->names.empty() ? list(options->json) : show(*options); });
+  command->callback(
+      [options] { options->names.empty() ? listProtocols(options->json) : showProtocols(*options); });
 }
 
 }  // namespace limen::study

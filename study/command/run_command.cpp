@@ -23,7 +23,7 @@
 namespace limen::study {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string protocol, participant, session = "1", store, display, screenshots;
   std::optional<uint64_t> seed;
   std::string window, photodiode;
@@ -34,7 +34,7 @@ struct Options {
 };
 
 // A session's orders differ between participants and can be told again without having been written down.
-uint64_t seedOf(const Protocol& protocol, const Options& options) {
+uint64_t seedOf(const Protocol& protocol, const RunOptions& options) {
   if (options.seed) return *options.seed;
   const std::string hash = sha256(protocol.hash + "/" + options.participant + "/" + options.session);
   // 15 digits: below 2^60, which every reader of JSON keeps.
@@ -72,7 +72,7 @@ void checkMonitor(const std::string& option, int number) {
                 all.empty() ? "none is connected" : fmt::format("connected are 0 to {}", all.size() - 1));
 }
 
-std::unique_ptr<window::UiWindow> openWindow(const Options& options, const std::string& title) {
+std::unique_ptr<window::UiWindow> openWindow(const RunOptions& options, const std::string& title) {
   checkMonitor("--monitor", options.monitor);
   if (options.experimenter) checkMonitor("--experimenter-monitor", options.experimenterMonitor);
   window::UiWindowOptions wanted;
@@ -99,7 +99,7 @@ std::vector<std::string> doubts(window::UiWindow& window, const perception::Disp
   return all;
 }
 
-SessionRequest requestOf(const Options& options, const Protocol& protocol) {
+SessionRequest requestOf(const RunOptions& options, const Protocol& protocol) {
   SessionRequest request;
   request.store = options.store.empty() ? "results/" + protocol.name + ".sqlite" : options.store;
   request.participant = options.participant;
@@ -114,7 +114,7 @@ SessionRequest requestOf(const Options& options, const Protocol& protocol) {
 }
 
 void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const SessionWatch& watch,
-            const SessionRequest& request, const Options& options) {
+            const SessionRequest& request, const RunOptions& options) {
   switch (end.kind) {
     case Step::Kind::Finished:
       std::puts("The session is complete.");
@@ -136,7 +136,7 @@ void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const Session
   std::printf("  store: %s\n", request.store.c_str());
 }
 
-void runStudy(const Options& options, Run& run) {
+void runStudy(const RunOptions& options, Run& run) {
   const Protocol protocol = readProtocol(options.protocol, declarationsFromRegistries());
   checkCode(options.participant, "participant");
   checkCode(options.session, "session");
@@ -189,7 +189,7 @@ void runStudy(const Options& options, Run& run) {
 
 void addRunCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("run", "Runs a session with a person at a window");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   command->add_option("protocol", options->protocol, "Name of a shipped protocol, or a file")
       ->type_name("NAME|FILE")
       ->required();

@@ -25,13 +25,13 @@ struct SessionsOptions {
 };
 
 /// Where a session stands. What is planned may be more than is asked: procedures end early.
-struct Progress {
+struct SessionProgress {
   int answered = 0, planned = 0, invalid = 0;
   std::string last;  ///< instant of the last event
 };
 
-Progress progressOf(const store::SessionReader& reader, const store::StudySession& session) {
-  Progress progress;
+SessionProgress progressOf(const store::SessionReader& reader, const store::StudySession& session) {
+  SessionProgress progress;
   for (const store::StudyBlock& block : reader.blocks(session.id))
     progress.planned += block.practice ? 0 : block.trials;
   for (const store::StudyTrial& trial : reader.trials(session.id)) {
@@ -48,14 +48,14 @@ std::string stateOf(const store::StudySession& session) {
   return session.state == "running" && session.owner.empty() ? "interrupted" : session.state;
 }
 
-void list(const SessionsOptions& options) {
+void listSessions(const SessionsOptions& options) {
   const store::SessionReader reader(options.store);
   const std::vector<store::StudySession> sessions = reader.sessions();
   if (!options.asJson)
     fmt::print("{:<16}  {:<16}  {:<20}  {:<11}  {:>9}  {:>7}  {:<24}  {}\n", "participant", "session",
                "protocol", "state", "answered", "invalid", "started", "last event");
   for (const store::StudySession& session : sessions) {
-    const Progress progress = progressOf(reader, session);
+    const SessionProgress progress = progressOf(reader, session);
     const store::StudyProtocol protocol = reader.protocol(session.protocol);
     if (options.asJson) {
       fmt::print("{}\n", json({{"participant", session.participant},
@@ -170,7 +170,7 @@ void addSessionsCommand(CLI::App& app, Run& run) {
   CLI::App* sessions = app.add_subcommand("sessions", "Lists the sessions of a store and how far they are.");
   sessions->add_option("store", options->store, "result store")->required();
   sessions->add_flag("--json", options->asJson, "one JSON object a line");
-  sessions->callback([options] { list(*options); });
+  sessions->callback([options] { listSessions(*options); });
 
   const auto replayed = std::make_shared<SessionsOptions>();
   CLI::App* again = app.add_subcommand(

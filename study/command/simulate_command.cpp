@@ -55,9 +55,9 @@ void listKinds(bool asJson) {
 
 // A line on standard error that is written over, at most ten times a second; on no terminal only the last
 // one.
-class Progress {
+class SimulationProgress {
  public:
-  Progress(int observers, bool quiet)
+  SimulationProgress(int observers, bool quiet)
       : observers_(observers), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
   bool operator()(int64_t steps, int done) {
     const auto now = std::chrono::steady_clock::now();
@@ -102,7 +102,7 @@ void runSimulate(const SimulateOptions& options, Run& run) {
         protocol, request.display,
         options.predictions.empty() ? request.store + ".predictions.json" : options.predictions);
   installInterruptHandlers();
-  auto progress = std::make_shared<Progress>(options.observers, options.quiet);
+  auto progress = std::make_shared<SimulationProgress>(options.observers, options.quiet);
   request.progress = [progress](int64_t steps, int done) { return (*progress)(steps, done); };
   const SimulationEnd end = simulateSessions(protocol, request, model.get());
   progress->finish();

@@ -14,7 +14,7 @@
 namespace limen::study {
 namespace {
 
-struct Options {
+struct TimingOptions {
   double seconds = 10.0;
   int monitor = 0;
   bool windowed = false, json = false;
@@ -23,7 +23,7 @@ struct Options {
 };
 
 /// Frames are numbered as the report does, from the end of the warm-up on.
-TimingReport runVirtual(const Options& options) {
+TimingReport runVirtual(const TimingOptions& options) {
   VirtualDisplay display;
   display.refreshHz = options.virtualHz;
   display.jitterMs = options.jitterMs;
@@ -35,7 +35,7 @@ TimingReport runVirtual(const Options& options) {
   return report;
 }
 
-TimingReport runReal(const Options& options, std::string& device) {
+TimingReport runReal(const TimingOptions& options, std::string& device) {
   gl::WindowSetting setting;
   setting.title = "Limen timing test";
   setting.fullScreen = !options.windowed;
@@ -51,7 +51,7 @@ TimingReport runReal(const Options& options, std::string& device) {
   return report;
 }
 
-void test(const Options& options, Run& run) {
+void test(const TimingOptions& options, Run& run) {
   if (!options.drops.empty() && !(options.virtualHz > 0.0))
     throw Error("frames are dropped on a virtual display only", "--drop", "add --virtual HZ");
   std::string device = fmt::format("virtual display of {:.4g} Hz", options.virtualHz);
@@ -69,7 +69,7 @@ void test(const Options& options, Run& run) {
 }  // namespace
 
 void addTimingCommand(CLI::App& app, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TimingOptions>();
   CLI::App* command = app.add_subcommand(
       "timing-test",
       "Tells whether frames reach the screen when they should; exits with 1 if a lab must not rest on it.");

@@ -79,7 +79,7 @@ std::string estimateText(const json& estimate) {
   return out.empty() ? "-" : join(out, "; ");
 }
 
-void print(const json& result) {
+void printTrace(const json& result) {
   const json& procedure = result["procedure"];
   std::cout << "procedure: " << procedure["type"].get<std::string>() << ", seed "
             << result["seed"].get<std::string>() << '\n';
@@ -120,7 +120,7 @@ void runTrace(const TraceOptions& options) {
   if (options.asJson)
     std::cout << result.dump(2) << '\n';
   else
-    print(result);
+    printTrace(result);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 using psychometrics::childSeed;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 struct CellKey {
   int part = 0;
@@ -160,7 +160,7 @@ class Experimenter {
 
 // Width where all observers have the same value, which tells nothing of their spread.
 double agreedWidth(double value, int n, double confidence, bool isRate) {
-  if (!isRate) return kInfinity;
+  if (!isRate) return kUnbounded;
   const double k = std::clamp(value, 0.0, 1.0) * n, tail = (1.0 - confidence) / 2.0;
   const double low = k < 1e-9 ? 0.0 : boost::math::ibeta_inv(k, n - k + 1.0, tail);
   const double high = k > n - 1e-9 ? 1.0 : boost::math::ibetac_inv(k + 1.0, n - k, tail);
@@ -182,7 +182,7 @@ void addExperiment(Tally& tally, const std::vector<double>& values, int n, doubl
   const bool degenerate = variance < 1e-24;
   double width = 2.0 * t * std::sqrt(variance / n);
   if (degenerate) width = agreedWidth(mean, n, confidence, isRate);
-  if (std::isnan(width)) width = kInfinity;
+  if (std::isnan(width)) width = kUnbounded;
   ++tally.experiments;
   tally.mean += mean;
   tally.variance += variance;

@@ -20,12 +20,12 @@ Weights basis(double t) {
           (3.0 * s * s * s - 6.0 * s * s + 4.0) / 6.0, t * t * t / 6.0};
 }
 
-Weights slope(double t) {
+Weights basisSlope(double t) {
   const double s = 1.0 - t;
   return {-s * s / 2.0, (3.0 * t * t - 4.0 * t) / 2.0, (4.0 * s - 3.0 * s * s) / 2.0, t * t / 2.0};
 }
 
-glm::dvec3 combine(const BicubicPatch& patch, const Weights& u, const Weights& v) {
+glm::dvec3 weigh(const BicubicPatch& patch, const Weights& u, const Weights& v) {
   glm::dvec3 sum(0.0);
   for (size_t j = 0; j < 4; ++j)
     for (size_t i = 0; i < 4; ++i) sum += u[i] * v[j] * patch.points[i + 4 * j];
@@ -48,13 +48,13 @@ double parametricError(const BicubicPatch& patch, int factor) {
 }  // namespace
 
 glm::dvec3 patchPoint(const BicubicPatch& patch, double u, double v) {
-  return combine(patch, basis(u), basis(v));
+  return weigh(patch, basis(u), basis(v));
 }
 glm::dvec3 patchAlongU(const BicubicPatch& patch, double u, double v) {
-  return combine(patch, slope(u), basis(v));
+  return weigh(patch, basisSlope(u), basis(v));
 }
 glm::dvec3 patchAlongV(const BicubicPatch& patch, double u, double v) {
-  return combine(patch, basis(u), slope(v));
+  return weigh(patch, basis(u), basisSlope(v));
 }
 
 Mesh tessellated(const BicubicPatch& patch, int factor) {

@@ -90,7 +90,7 @@ Scene buildField(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> fieldParameters() {
   std::vector<Parameter> out = {
       integerParameter("rows", 5, 0, 32, "", "Rows of objects, one behind another"),
       integerParameter("columns", 4, 0, 32, "", "Objects in a row"),
@@ -121,7 +121,7 @@ const Registered<SceneInfo> kField{SceneInfo{
     .version = 1,
     .summary = "Rows of bumpy spheres with levels behind a fence, before a patterned wall: masked LODs",
     .source = "stand-in for Schwarz 2009, Fig. 9.8",
-    .parameters = parameters(),
+    .parameters = fieldParameters(),
     .build = buildField}};
 
 }  // namespace

@@ -19,8 +19,6 @@
 namespace limen::scene {
 namespace {
 
-const char* const kModelFolder = "/usr/share/glmark2/models/";
-
 /// Chain of a mesh file, its finest level standing on y = 0 at the origin with height 1.
 std::shared_ptr<const LodSet> makeChain(const std::string& path, const ParameterValues& values) {
   ImportedMesh imported = importMesh(path);
@@ -37,9 +35,7 @@ std::shared_ptr<const LodSet> makeChain(const std::string& path, const Parameter
 
 /// The installed models do not change while a program runs, and a chain takes seconds: each is made once.
 std::shared_ptr<const LodSet> installedChain(const std::string& model, const ParameterValues& values) {
-  const std::string path = kModelFolder + model + (model == "bunny" ? ".obj" : ".3ds");
-  if (!std::filesystem::exists(path))
-    throw Error("the model is not installed", path, "install the package glmark2-data");
+  const std::string path = installedModel(model + (model == "bunny" ? ".obj" : ".3ds"));
   static std::mutex guard;
   static std::map<std::string, std::shared_ptr<const LodSet>> chains;
   const std::string key = path + "|" + toText(ParameterValue(values.integer("levels"))) + "|" +
@@ -94,7 +90,7 @@ Scene stage(const LodSet& set, const ParameterValues& values) {
   return scene;
 }
 
-std::vector<Parameter> parameters(std::vector<Parameter> own) {
+std::vector<Parameter> objectParameters(std::vector<Parameter> own) {
   const auto add = [&](std::vector<Parameter> more) { own.insert(own.end(), more.begin(), more.end()); };
   add({integerParameter("levels", 4, 2, 8, "", "Levels of detail, the mesh itself included"),
        realParameter("reduction", 0.88, 0.03, 0.99, "",
@@ -121,18 +117,18 @@ const Registered<SceneInfo> kObject{SceneInfo{
     .version = 1,
     .summary = "Bunny or horse of height 1 in simplified levels on a textured ground, approached or passed",
     .source = "Schwarz 2009, sections 10.3.5 and 10.4.2",
-    .parameters =
-        parameters({choiceParameter("model", "bunny", {"bunny", "horse"}, "Mesh (package glmark2-data)")}),
+    .parameters = objectParameters(
+        {choiceParameter("model", "bunny", {"bunny", "horse"}, "Mesh (package glmark2-data)")}),
     .build = [](const ParameterValues& values) {
       return stage(*installedChain(values.text("model"), values), values);
     }}};
 
-const Registered<SceneInfo> kMesh{
+const Registered<SceneInfo> kLodMeshRegistered{
     SceneInfo{.name = "lod/mesh",
               .version = 1,
               .summary = "Like lod/object with a mesh from a file, scaled to height 1",
               .source = "bench",
-              .parameters = parameters({fileParameter("file", "OBJ, PLY, glTF or 3DS file, y up")}),
+              .parameters = objectParameters({fileParameter("file", "OBJ, PLY, glTF or 3DS file, y up")}),
               .build = [](const ParameterValues& values) {
                 return stage(*makeChain(values.text("file"), values), values);
               }}};

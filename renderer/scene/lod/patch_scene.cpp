@@ -27,7 +27,7 @@ BicubicPatch tent(double tip, double pinch) {
   return patch;
 }
 
-Scene build(const ParameterValues& values) {
+Scene buildPatches(const ParameterValues& values) {
   Scene scene;
   scene.patches = {tent(values.real("tip_height"), values.real("pinch"))};
   const std::vector<int> factors = {static_cast<int>(values.integer("factor_fine")),
@@ -51,7 +51,7 @@ Scene build(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> patchParameters() {
   const char* const kSource = "Schwarz 2009, section 10.4.1";
   std::vector<Parameter> out = {
       integerParameter("factor_fine", 9, 1, 64, "", "Tessellation factor of the finest level", kSource),
@@ -71,13 +71,13 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<SceneInfo> kRegistered{
+const Registered<SceneInfo> kPatchSceneRegistered{
     SceneInfo{.name = "lod/patch",
               .version = 1,
               .summary = "Bicubic B-spline patch with a tip, tessellated 9, 3 or 2 times a side, approached",
               .source = "Schwarz 2009, section 10.4.1",
-              .parameters = parameters(),
-              .build = build}};
+              .parameters = patchParameters(),
+              .build = buildPatches}};
 
 }  // namespace
 }  // namespace limen::scene

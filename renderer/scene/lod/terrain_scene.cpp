@@ -42,7 +42,7 @@ std::shared_ptr<const Ground> groundOf(const MountainSetting& setting, int azimu
   return kept;
 }
 
-Scene build(const ParameterValues& values) {
+Scene buildTerrain(const ParameterValues& values) {
   TileSetting tiling;
   tiling.tiles = static_cast<int>(values.integer("tiles"));
   tiling.cells = std::stoi(values.text("cells"));
@@ -97,7 +97,7 @@ Scene build(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> terrainParameters() {
   const char* const kThesis = "Schwarz 2009, section 10.3.5";
   std::vector<Parameter> out = {
       integerParameter("tiles", 8, 1, 16, "",
@@ -132,13 +132,13 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<SceneInfo> kRegistered{
+const Registered<SceneInfo> kTerrainSceneRegistered{
     SceneInfo{.name = "lod/terrain",
               .version = 1,
               .summary = "Mountains in tiles with levels of detail under a sun, flown over",
               .source = "Schwarz 2009, section 10.3.5",
-              .parameters = parameters(),
-              .build = build}};
+              .parameters = terrainParameters(),
+              .build = buildTerrain}};
 
 }  // namespace
 }  // namespace limen::scene

@@ -83,7 +83,7 @@ class DistanceMatched : public Technique {
   const gl::Texture* product_ = nullptr;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> matchedParameters() {
   std::vector<Parameter> out = {integerParameter("triangle_budget", 0, 0, 4'000'000'000, "triangles",
                                                  "Triangles to draw at least, background included; 0: as "
                                                  "many as lod/perceptual draws with the same parameters")};
@@ -91,25 +91,25 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-std::vector<std::string> counterNames() {
+std::vector<std::string> matchedCounterNames() {
   std::vector<std::string> out = levelCounterNames();
   out.emplace_back("distance_factor");
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kDistanceMatchedRegistered{
     {.name = "lod/distance_matched",
      .version = 1,
      .summary = "Levels by distance alone, scaled to draw no fewer triangles than lod/perceptual",
      .source = "Schwarz 2009, section 9.5, Fig. 9.8 (SP-38)",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = matchedParameters(),
      .needs = {"lod_sets"},
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<DistanceMatched>(values); },
      .errorBound = {},
-     .counters = counterNames()}};
+     .counters = matchedCounterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -11,7 +11,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kSource = "Schwarz 2009, section 9.5 (not given there)";
+constexpr const char* kLayerSource = "Schwarz 2009, section 9.5 (not given there)";
 constexpr int kMostLayers = 8;
 
 std::vector<double> readBorders(const std::string& text) {
@@ -46,16 +46,17 @@ std::vector<Parameter> LayerSettings::parameters() {
   borders.defaultValue = std::string("5, 10");
   borders.unit = "world units";
   borders.description = "partition explicit: distances at which the next layer begins, ascending";
-  return {integerParameter("layers", 4, 1, kMostLayers, "",
-                           "Layers of objects beside the background; partition explicit has its own number",
-                           kSource),
-          choiceParameter("partition", "log", {"uniform", "log", "explicit"},
-                          "Where layers meet: at even distances, even ratios, or given distances", kSource),
-          realParameter("nearest", 0.0, 0.0, 1e9, "world units",
-                        "Where the first layer begins; 0: at the nearest object of each frame", kSource),
-          realParameter("farthest", 0.0, 0.0, 1e9, "world units",
-                        "Where the last layer ends; 0: at the farthest object of each frame", kSource),
-          borders};
+  return {
+      integerParameter("layers", 4, 1, kMostLayers, "",
+                       "Layers of objects beside the background; partition explicit has its own number",
+                       kLayerSource),
+      choiceParameter("partition", "log", {"uniform", "log", "explicit"},
+                      "Where layers meet: at even distances, even ratios, or given distances", kLayerSource),
+      realParameter("nearest", 0.0, 0.0, 1e9, "world units",
+                    "Where the first layer begins; 0: at the nearest object of each frame", kLayerSource),
+      realParameter("farthest", 0.0, 0.0, 1e9, "world units",
+                    "Where the last layer ends; 0: at the farthest object of each frame", kLayerSource),
+      borders};
 }
 
 LayerSettings LayerSettings::from(const ParameterValues& values) {

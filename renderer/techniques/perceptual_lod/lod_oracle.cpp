@@ -42,7 +42,7 @@ class LodOracle : public Technique {
   const gl::Texture* product_ = nullptr;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> oracleParameters() {
   std::vector<Parameter> out = {
       realParameter("limit", 16.0, 0.0, 1e8, "limit_unit",
                     "Most visible pixels of a level that counts as invisible",
@@ -54,13 +54,13 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kLodOracleRegistered{
     {.name = "lod/oracle",
      .version = 1,
      .summary = "Coarsest levels without a visible difference, by trying all in double precision (slow)",
      .source = "bench, for Schwarz 2009, section 9.5",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = oracleParameters(),
      .needs = {"lod_sets"},
      .reference = true,
      .onCpu = true,

@@ -69,7 +69,7 @@ class PerceptualLod : public Technique {
   double timeS_ = 0.0;
 };
 
-std::vector<std::string> counterNames() {
+std::vector<std::string> layeredCounterNames() {
   std::vector<std::string> out = levelCounterNames();
   for (const char* name : {"triangles_tested", "objects_tested", "tests_dropped", "level_switches",
                            "level_reversals", "layers_drawn", "threshold_maps"})
@@ -77,7 +77,7 @@ std::vector<std::string> counterNames() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kPerceptualLodRegistered{
     {.name = "lod/perceptual",
      .version = 1,
      .summary =
@@ -90,7 +90,7 @@ const Registered<TechniqueInfo> kRegistered{
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<PerceptualLod>(values); },
      .errorBound = {},
-     .counters = counterNames()}};
+     .counters = layeredCounterNames()}};
 
 }  // namespace
 }  // namespace limen::techniques

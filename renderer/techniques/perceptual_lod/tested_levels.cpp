@@ -9,16 +9,16 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kSource = "Schwarz 2009, section 9.5 (values not given there)";
+constexpr const char* kRuleSource = "Schwarz 2009, section 9.5 (values not given there)";
 
 }  // namespace
 
 std::vector<Parameter> LevelRule::parameters() {
   return {
       realParameter("delta_l", 4.0, 0.0, 1e8, "delta_unit", "Fewer visible pixels: to the next coarser level",
-                    kSource),
+                    kRuleSource),
       realParameter("delta_u", 16.0, 0.0, 1e8, "delta_unit", "More visible pixels: to the next finer level",
-                    kSource),
+                    kRuleSource),
       choiceParameter("delta_unit", "px", {"px", "share"},
                       "Of delta_l and delta_u: pixels, or shares (0..1) of the pixels that the object covers",
                       "Schwarz 2009, section 9.5 (px)"),

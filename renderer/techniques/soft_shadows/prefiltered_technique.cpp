@@ -7,7 +7,7 @@ namespace limen::techniques {
 namespace {
 
 constexpr double kDefaultScale = 1.0, kDefaultRadius = 4.0;
-constexpr int64_t kDefaultTaps = 8, kDefaultBits = 0;
+constexpr int64_t kDefaultSearchTaps = 8, kDefaultBits = 0;
 constexpr const char* kDefaultForm = "float";
 
 std::string shaderOf(const std::string& name) {
@@ -38,7 +38,7 @@ std::vector<Parameter> PrefilteredTechnique::prefilterParameters(std::vector<std
       realParameter("filter_radius", kDefaultRadius, 0.5, 256.0, "texel", "Half the side of a fixed window"));
   all.push_back(realParameter("search_scale", kDefaultScale, 0.01, 4.0, "",
                               "Window of the blocker search as a share of the light's extents"));
-  all.push_back(integerParameter("search_taps", kDefaultTaps, 1, 32, "",
+  all.push_back(integerParameter("search_taps", kDefaultSearchTaps, 1, 32, "",
                                  "Taps of a searched window's blocker search along a side"));
   all.push_back(
       choiceParameter("prefilter", prefilter, std::move(prefilters),
@@ -63,7 +63,7 @@ void PrefilteredTechnique::checkPrefilter(const ParameterValues& values) {
   if (window == "fixed" && values.real("search_scale") != kDefaultScale)
     throw Error("'search_scale' is about a search, and a fixed window has none", "search_scale",
                 "leave it out, or give window: searched");
-  if (window != "searched" && values.integer("search_taps") != kDefaultTaps)
+  if (window != "searched" && values.integer("search_taps") != kDefaultSearchTaps)
     throw Error("'search_taps' is about a searched window, and this one is " + window, "search_taps",
                 "leave it out, or give window: searched");
   if (values.text("prefilter") != "sums" && sums != kDefaultForm)

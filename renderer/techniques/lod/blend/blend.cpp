@@ -19,7 +19,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPass = "lod/blend";
+constexpr const char* kBlendPass = "lod/blend";
 
 class Blend : public Technique {
  public:
@@ -40,7 +40,7 @@ class Blend : public Technique {
     if (reproject_) defines["REPROJECT"] = "1";
     program_ = &frame.context().programs().compute("renderer/techniques/lod/blend/blend.comp.glsl", defines);
     product_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    frame.passes().setBytesHeld(kPass, product_->bytes());
+    frame.passes().setBytesHeld(kBlendPass, product_->bytes());
     old_.emplace(frame, "old", shaded_, samples_);
     new_.emplace(frame, "new", shaded_, samples_);
     old_->setLevels(uniformLevels(frame.scene(), from_));
@@ -68,7 +68,7 @@ class Blend : public Technique {
       displacement = &motion_->get<frame::Motion>(frame::MotionSetting{dtS_}).displacement();
       motion_->end();
     }
-    const auto scope = frame.passes().open(kPass);
+    const auto scope = frame.passes().open(kBlendPass);
     program_->set("weight", static_cast<float>(weight()));
     program_->set("sizePx", frame.sizePx());
     program_->set("previousIsNew", newIsNow() ? 0 : 1);
@@ -117,7 +117,7 @@ class Blend : public Technique {
   double beforeOf_ = 0.0;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> blendParameters() {
   const char* const kSource = "Schwarz 2009, section 2.4";
   std::vector<Parameter> out = {
       choiceParameter("mode", "image_space", {"image_space", "alternating"},
@@ -136,13 +136,13 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kBlendRegistered{
     {.name = "lod/blend",
      .version = 1,
      .summary = "A frame of a blend from one level to another, both mixed or one a frame",
      .source = "Schwarz 2009, section 2.4 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = blendParameters(),
      .needs = {"lod_sets"},
      .reference = false,
      .onCpu = false,

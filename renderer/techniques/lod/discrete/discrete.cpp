@@ -37,20 +37,20 @@ class Discrete : public Technique {
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> discreteParameters() {
   std::vector<Parameter> out = LevelControl::parameters();
   out.push_back(samplesParameter(1));
   for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kDiscreteRegistered{
     {.name = "lod/discrete",
      .version = 1,
      .summary = "One level an object and frame, chosen by distance, extent or error on the screen",
      .source = "Schwarz 2009, sections 2.4 and 10.3.5 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = discreteParameters(),
      .needs = {"lod_sets"},
      .reference = false,
      .onCpu = false,

@@ -31,19 +31,19 @@ class Finest : public Technique {
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> finestParameters() {
   std::vector<Parameter> out{samplesParameter(4)};
   for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kFinestRegistered{
     {.name = "lod/finest",
      .version = 1,
      .summary = "The finest level of every object, supersampled",
      .source = "bench",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = finestParameters(),
      .needs = {"lod_sets"},
      .reference = true,
      .onCpu = false,

@@ -18,7 +18,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPass = "lod/geomorph";
+constexpr const char* kMorphPass = "lod/geomorph";
 
 /// Vertices of one level of one object, and group 0 for all that never moves.
 std::vector<uint32_t> groupsOf(const scene::Scene& scene) {
@@ -69,7 +69,7 @@ class Geomorph : public Technique {
     groups_.emplace(groupsOf(scene));
     shares_.emplace(static_cast<int64_t>(groupCount(scene) * sizeof(float)), nullptr);
     moved_.emplace(frame.gpuScene().positions().bytes(), nullptr);
-    frame.passes().setBytesHeld(kPass,
+    frame.passes().setBytesHeld(kMorphPass,
                                 targets_->bytes() + groups_->bytes() + shares_->bytes() + moved_->bytes());
     view_.emplace(frame, "morphed", shaded_, samples_);
     view_->frame().setPositions(&*moved_);
@@ -82,7 +82,7 @@ class Geomorph : public Technique {
     const std::vector<float> shares = sharesOf(frame.scene(), chosen, view);
     shares_->write(0, static_cast<int64_t>(shares.size() * sizeof(float)), shares.data());
     {
-      const auto scope = frame.passes().open(kPass);
+      const auto scope = frame.passes().open(kMorphPass);
       const auto vertices = static_cast<int>(frame.gpuScene().vertexCount());
       constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
       frame.gpuScene().positions().bindStorage(0);
@@ -150,7 +150,7 @@ class Geomorph : public Technique {
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> geomorphParameters() {
   const char* const kSource = "Schwarz 2009, section 2.4";
   std::vector<Parameter> out = {
       choiceParameter("control", "distance", {"fixed_level", "distance"}, "What decides level and morph",
@@ -166,13 +166,13 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kGeomorphRegistered{
     {.name = "lod/geomorph",
      .version = 1,
      .summary = "Levels whose vertices move onto the next level before it takes over",
      .source = "Schwarz 2009, section 2.4 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = parameters(),
+     .parameters = geomorphParameters(),
      .needs = {"lod_sets"},
      .reference = false,
      .onCpu = false,

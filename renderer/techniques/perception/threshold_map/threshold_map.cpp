@@ -57,7 +57,7 @@ std::vector<Parameter> parameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kThresholdMapRegistered{
     {.name = "perception/threshold_map",
      .version = 1,
      .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",

@@ -82,7 +82,7 @@ class LodSwitch : public Technique {
   std::optional<gl::Texture> disocclusion_, flicker_;
 };
 
-const RegisteredLater<TechniqueInfo> kRegistered{[] {
+const RegisteredLater<TechniqueInfo> kLodSwitchRegistered{[] {
   return TechniqueInfo{
       .name = "popping/lod_switch",
       .version = 1,

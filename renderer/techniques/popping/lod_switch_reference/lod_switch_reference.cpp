@@ -50,7 +50,7 @@ class LodSwitchReference : public Technique {
   perception::PoppingResult result_;
 };
 
-const RegisteredLater<TechniqueInfo> kRegistered{[] {
+const RegisteredLater<TechniqueInfo> kLodSwitchReferenceRegistered{[] {
   return TechniqueInfo{
       .name = "popping/lod_switch_reference",
       .version = 1,

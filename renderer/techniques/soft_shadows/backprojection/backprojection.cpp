@@ -14,12 +14,12 @@ namespace {
 constexpr const char* kDefaultQuadArea = "absolute";
 constexpr double kDefaultInset = 0.0;
 
-gl::ShaderDefines definesOf(const ParameterValues& values) {
+gl::ShaderDefines backprojectionDefines(const ParameterValues& values) {
   if (values.text("quad_area") == "signed") return {{"SIGNED_AREAS", "1"}};
   return {};
 }
 
-void check(const ParameterValues& values) {
+void checkBackprojection(const ParameterValues& values) {
   OccluderSearch::checkSearch(values);
   const std::string& occluders = values.text("occluders");
   if (occluders.find("microquads") == std::string::npos && values.text("quad_area") != kDefaultQuadArea)
@@ -34,9 +34,9 @@ class Backprojection : public OccluderSearch {
  public:
   explicit Backprojection(const ParameterValues& values)
       : OccluderSearch(values, "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl",
-                       "soft_shadows/backprojection", definesOf(values)),
+                       "soft_shadows/backprojection", backprojectionDefines(values)),
         contourInset_(static_cast<float>(values.real("contour_inset"))) {
-    check(values);
+    checkBackprojection(values);
   }
 
  protected:
@@ -49,7 +49,7 @@ class Backprojection : public OccluderSearch {
   float contourInset_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> backprojectionParameters() {
   std::vector<Parameter> all =
       OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris", "contours",
                                         "microrects", "morphing_microquads"});
@@ -64,20 +64,20 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kBackprojectionRegistered{
     {.name = "soft_shadows/backprojection",
      .version = 1,
      .summary = "Micro-occluders backprojected onto the light, their areas summed",
      .source = "Schwarz 2009, sections 4.1 and 4.4 (SS-10, SS-11, SS-26, SS-30, SS-31)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = backprojectionParameters(),
      .needs = {"rectangular_light"},
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Backprojection>(values); },
      .errorBound = {},
      .counters = OccluderSearch::counterNames(),
-     .check = check}};
+     .check = checkBackprojection}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -16,7 +16,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kPass = "soft_shadows/bitmask", *kTables = "soft_shadows/mask_tables",
+constexpr const char *kBitmaskPass = "soft_shadows/bitmask", *kTables = "soft_shadows/mask_tables",
                      *kKept = "soft_shadows/kept_masks", *kJoin = "soft_shadows/join_masks";
 constexpr uint32_t kRectangleUnit = 6, kHalfSpaceUnit = 7, kLightMaskBinding = 0;
 constexpr const char *kDefaultTableSize = "256", *kDefaultRectangles = "128";
@@ -32,7 +32,7 @@ gl::ShaderDefines maskDefinesOf(const ParameterValues& values) {
           {"RECTANGLES", values.text("rectangle_table")}};
 }
 
-gl::ShaderDefines definesOf(const ParameterValues& values) {
+gl::ShaderDefines bitmaskDefines(const ParameterValues& values) {
   const std::string& mask = values.text("quad_mask");
   gl::ShaderDefines defines = maskDefinesOf(values);
   defines["QUAD_MASK"] = mask == "approximate" ? "0" : mask == "half_space_table" ? "1" : "2";
@@ -82,8 +82,8 @@ void Bitmask::checkValues(const ParameterValues& values) {
 }
 
 Bitmask::Bitmask(const ParameterValues& values, bool keepsMasks)
-    : OccluderSearch(values, "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl", kPass,
-                     definesOf(values)),
+    : OccluderSearch(values, "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl", kBitmaskPass,
+                     bitmaskDefines(values)),
       pattern_(values.text("pattern")),
       seed_(values.integer("pattern_seed")),
       halfSpaceSize_(values.text("quad_mask") == "half_space_table" ? std::stoi(values.text("table_size"))
@@ -261,7 +261,7 @@ class BitmaskVisibility : public Bitmask {
   VisibilityFilter filter_;
 };
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kBitmaskRegistered{
     {.name = "soft_shadows/bitmask",
      .version = 1,
      .summary = "Micro-occluders backprojected onto a bit field of light samples",

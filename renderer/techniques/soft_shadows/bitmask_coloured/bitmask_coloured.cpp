@@ -16,13 +16,14 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kPass = "soft_shadows/light_colours", *kDefaultGroup = "8",
-                     *kShader = "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
+constexpr const char *kColourPass = "soft_shadows/light_colours", *kDefaultGroup = "8",
+                     *kColourShader =
+                         "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
 constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
 /// Colours up to which masks are of any use: each costs as many operations as the samples have words.
 constexpr size_t kMostColours = 64;
 
-void check(const ParameterValues& values) {
+void checkBitmaskColoured(const ParameterValues& values) {
   Bitmask::checkValues(values);
   Bitmask::checkKept(values, "colours follow from the masks of all pixels");
   if (values.text("colours") != "table" && values.text("group_bits") != kDefaultGroup)
@@ -40,7 +41,7 @@ class BitmaskColoured : public Bitmask {
         colours_(values.text("colours")),
         groupBits_(std::stoi(values.text("group_bits"))),
         filters_(values.boolean("prefilter") && isGridPattern(values.text("pattern"))) {
-    check(values);
+    checkBitmaskColoured(values);
   }
 
   const gl::Texture& product() const override { return *colour_; }
@@ -85,15 +86,15 @@ class BitmaskColoured : public Bitmask {
       for (const glm::dvec3 share : shares) rows.emplace_back(glm::vec3(share), 0.0F);
     }
     shares_.emplace(rows);
-    program_ = &frame.context().programs().compute(kShader, defines);
+    program_ = &frame.context().programs().compute(kColourShader, defines);
     colour_.emplace(gl::Format::RGBA32F, frame.sizePx());
     tableBytes_ = (table_ ? table_->bytes() : 0) + shares_->bytes();
-    frame.passes().setBytesHeld(kPass, colour_->bytes() + tableBytes_);
+    frame.passes().setBytesHeld(kColourPass, colour_->bytes() + tableBytes_);
   }
 
   void finish(frame::Frame& frame) override {
     const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
-    const auto scope = frame.passes().open(kPass);
+    const auto scope = frame.passes().open(kColourPass);
     program_->set("sizePx", frame.sizePx());
     program_->set("sets", bindMasks());
     program_->set("absent", absent_);
@@ -117,7 +118,7 @@ class BitmaskColoured : public Bitmask {
   int64_t tableBytes_ = 0;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> bitmaskColouredParameters() {
   std::vector<Parameter> all = Bitmask::parameters();
   all.push_back(choiceParameter("colours", "table", {"masks", "table", "samples"},
                                 "How what visible samples emit is added up: a mask for each colour, a table "
@@ -138,20 +139,20 @@ std::vector<std::string> counterNames() {
   return names;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kBitmaskColouredRegistered{
     {.name = "soft_shadows/bitmask_coloured",
      .version = 1,
      .summary = "Share of a coloured or textured light's radiance that a bit field of light samples leaves",
      .source = "Schwarz 2009, section 4.2.2 (SS-17, SS-18)",
      .product = ProductKind::LightColour,
-     .parameters = parameters(),
+     .parameters = bitmaskColouredParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<BitmaskColoured>(values); },
      .errorBound = {},
      .counters = counterNames(),
-     .check = check}};
+     .check = checkBitmaskColoured}};
 
 }  // namespace
 }  // namespace limen::techniques

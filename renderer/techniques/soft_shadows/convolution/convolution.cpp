@@ -23,7 +23,7 @@ frame::PrefilterSettings fourierSettings(const ParameterValues& values) {
   return settings;
 }
 
-void check(const ParameterValues& values) {
+void checkConvolution(const ParameterValues& values) {
   PrefilteredTechnique::checkPrefilter(values);
   if (values.text("window") != "convolved" && values.real("search_threshold") != kDefaultThreshold)
     throw Error("'search_threshold' is about a convolved search, and there is none", "search_threshold",
@@ -36,7 +36,7 @@ class Convolution : public PrefilteredTechnique {
       : PrefilteredTechnique(values, "convolution", fourierSettings(values)),
         shift_(values.real("shift")),
         threshold_(values.real("search_threshold")) {
-    check(values);
+    checkConvolution(values);
   }
 
  protected:
@@ -50,7 +50,7 @@ class Convolution : public PrefilteredTechnique {
   double shift_, threshold_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> convolutionParameters() {
   std::vector<Parameter> all =
       PrefilteredTechnique::prefilterParameters({"searched", "convolved", "fixed"}, {"sums", "mips"});
   // A texture a term: 64 MiB for eight of them at 1024 x 1024.
@@ -72,20 +72,20 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kConvolutionRegistered{
     {.name = "soft_shadows/convolution",
      .version = 1,
      .summary = "Convolution shadow map: averaged terms of a Fourier series of the comparison",
      .source = "Schwarz 2009, section 3.2.1 (SS-03)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = convolutionParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<Convolution>(values); },
      .errorBound = {},
      .counters = PrefilteredTechnique::counterNames(),
-     .check = check}};
+     .check = checkConvolution}};
 
 }  // namespace
 }  // namespace limen::techniques

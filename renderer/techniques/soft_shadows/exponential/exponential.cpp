@@ -25,7 +25,7 @@ class Exponential : public PrefilteredTechnique {
       : PrefilteredTechnique(values, "exponential", exponentialSettings(values)) {}
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> exponentialParameters() {
   std::vector<Parameter> all =
       PrefilteredTechnique::prefilterParameters({"searched", "fixed"}, {"mips", "sums"});
   all.push_back(realParameter(
@@ -36,13 +36,13 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kExponentialRegistered{
     {.name = "soft_shadows/exponential",
      .version = 1,
      .summary = "Exponential shadow map: averaged exponentials of depth stand for the comparison",
      .source = "Schwarz 2009, section 3.2.1 (SS-03)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = exponentialParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,

@@ -16,7 +16,7 @@ class HardShadow : public VisibilityTechnique {
   void configure(const gl::Program&) const override {}
 };
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kHardRegistered{
     {.name = "soft_shadows/hard",
      .version = 1,
      .summary = "Hard shadow map: one comparison with the depth seen from the light's centre",

@@ -109,7 +109,7 @@ std::vector<Parameter> traversalParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kHsmTraversalRegistered{
     {.name = "soft_shadows/hsm_traversal",
      .version = 1,
      .summary = "Each receiver walks down the min/max pyramid to the tiles that hide the light",

@@ -23,8 +23,8 @@ namespace {
 
 constexpr const char *kRaster = "multisample/raster", *kSelect = "multisample/select",
                      *kResolve = "multisample/resolve";
-constexpr const char* kFolder = "renderer/techniques/soft_shadows/multisample/";
-constexpr const char* kSection = "Schwarz 2009, section 4.6";
+constexpr const char* kMultisampleFolder = "renderer/techniques/soft_shadows/multisample/";
+constexpr const char* kMultisampleSection = "Schwarz 2009, section 4.6";
 constexpr double kDefaultTolerance = 0.01;
 
 enum class Method { Interpolate, Centre, PerSample };
@@ -37,12 +37,12 @@ Method methodOf(const ParameterValues& values) {
 std::vector<Parameter> multisampleParameters() {
   std::vector<Parameter> out = {
       choiceParameter("samples", "4", {"1", "2", "4", "8"},
-                      "Samples a pixel; a driver need not have every number", kSection),
+                      "Samples a pixel; a driver need not have every number", kMultisampleSection),
       choiceParameter(
           "method", "interpolate", {"interpolate", "centre", "per_sample"},
           "Samples take the visibility of what is closest in depth, or all that of the pixel, or each "
           "gets its own",
-          kSection),
+          kMultisampleSection),
       choiceParameter(
           "representative", "first", {"first", "nearest", "farthest", "median"},
           "Sample that the visibility is found for; all but the first are chosen by depth among those "
@@ -162,7 +162,7 @@ class Multisample : public Technique {
  private:
   static const gl::Program& shader(frame::Frame& frame, const std::string& name,
                                    const gl::ShaderDefines& defines = {}) {
-    return frame.context().programs().compute(kFolder + name, defines);
+    return frame.context().programs().compute(kMultisampleFolder + name, defines);
   }
 
   void requireSize(glm::ivec2 pointsPx) const {
@@ -251,7 +251,7 @@ class Multisample : public Technique {
   std::optional<frame::Frame> points_;
 };
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
      .version = 1,
      .summary = "Another technique's visibility at one sample a pixel, shared by the pixel's other samples",

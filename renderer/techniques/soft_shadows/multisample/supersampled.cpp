@@ -13,7 +13,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPass = "supersampled/mean";
+constexpr const char* kSupersampledPass = "supersampled/mean";
 
 class Supersampled : public Technique {
  public:
@@ -35,7 +35,7 @@ class Supersampled : public Technique {
     mean_ = &frame.context().programs().compute(
         "renderer/techniques/soft_shadows/multisample/box_mean.comp.glsl");
     visibility_.emplace(gl::Format::R32F, frame.sizePx());
-    frame.passes().setBytesHeld(kPass, visibility_->bytes());
+    frame.passes().setBytesHeld(kSupersampledPass, visibility_->bytes());
     sampled_.emplace(frame, "supersampled/inner", sizePx);
     inner_->prepare(*sampled_);
   }
@@ -45,7 +45,7 @@ class Supersampled : public Technique {
     sampled_->begin();
     inner_->render(*sampled_);
     sampled_->end();
-    const auto scope = frame.passes().open(kPass);
+    const auto scope = frame.passes().open(kSupersampledPass);
     mean_->set("samples", samples_);
     mean_->set("sizePx", frame.sizePx());
     inner_->product().bindTexture(0);
@@ -71,7 +71,7 @@ std::vector<Parameter> supersampledParameters() {
   return out;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kSupersampledRegistered{
     {.name = "soft_shadows/supersampled",
      .version = 1,
      .summary = "Another technique's visibility at many samples over each pixel, averaged",

@@ -16,12 +16,12 @@ frame::Prefilter prefilterOf(const ParameterValues& values) {
   return values.text("prefilter") == "sums" ? frame::Prefilter::Sums : frame::Prefilter::Mips;
 }
 
-gl::ShaderDefines definesOf(const ParameterValues& values) {
+gl::ShaderDefines occlusionTexturesDefines(const ParameterValues& values) {
   if (prefilterOf(values) == frame::Prefilter::Mips) return {{"MIPS", "1"}};
   return frame::SummedAreaTable::defines(frame::SumForm::Fixed);
 }
 
-void check(const ParameterValues& values) {
+void checkOcclusionTextures(const ParameterValues& values) {
   if (values.text("raster") == "compute")
     throw Error("slices are rasterised by the driver alone", "raster",
                 "leave it out, or give raster: hardware");
@@ -32,9 +32,9 @@ class OcclusionTextures : public VisibilityTechnique {
   explicit OcclusionTextures(const ParameterValues& values)
       : VisibilityTechnique(
             values, "renderer/techniques/soft_shadows/occlusion_textures/occlusion_textures.comp.glsl",
-            "soft_shadows/occlusion_textures", definesOf(values)),
+            "soft_shadows/occlusion_textures", occlusionTexturesDefines(values)),
         settings_{mapSettings().resolution, static_cast<int>(values.integer("slices")), prefilterOf(values)} {
-    check(values);
+    checkOcclusionTextures(values);
   }
 
   std::vector<Counter> count(frame::Frame& frame) override {
@@ -62,7 +62,7 @@ class OcclusionTextures : public VisibilityTechnique {
   const frame::OcclusionSlices* slices_ = nullptr;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> occlusionTexturesParameters() {
   std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
   for (Parameter& parameter : all)
     if (parameter.name == "resolution") parameter.defaultValue = std::string("256");
@@ -83,21 +83,21 @@ std::vector<std::string> counterNamesWithBytes() {
   return names;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kOcclusionTexturesRegistered{
     {.name = "soft_shadows/occlusion_textures",
      .version = 1,
      .summary =
          "Occlusion textures: product over slices of the part of the light's cone that each leaves open",
      .source = "Schwarz 2009, section 3.2.1 (SS-08)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = occlusionTexturesParameters(),
      .needs = {"rectangular_light"},
      .reference = false,
      .onCpu = false,
      .make = [](const ParameterValues& values) { return std::make_unique<OcclusionTextures>(values); },
      .errorBound = {},
      .counters = counterNamesWithBytes(),
-     .check = check}};
+     .check = checkOcclusionTextures}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -24,7 +24,7 @@ class Pcf : public VisibilityTechnique {
   int taps_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> pcfParameters() {
   std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
   all.push_back(
       realParameter("filter_radius", 4.0, 0.0, 256.0, "texel", "Half the side of the filter window"));
@@ -32,13 +32,13 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kPcfRegistered{
     {.name = "soft_shadows/pcf",
      .version = 1,
      .summary = "Percentage-closer filtering over a window of fixed size",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = pcfParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,

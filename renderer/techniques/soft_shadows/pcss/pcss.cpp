@@ -29,7 +29,7 @@ class Pcss : public VisibilityTechnique {
   int searchTaps_, filterTaps_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> pcssParameters() {
   std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
   all.push_back(realParameter("search_scale", 1.0, 0.01, 4.0, "",
                               "Window of the blocker search as a share of the light's extents"));
@@ -38,13 +38,13 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kPcssRegistered{
     {.name = "soft_shadows/pcss",
      .version = 1,
      .summary = "Percentage-closer soft shadows: filter window from the blockers' average depth",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = pcssParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,

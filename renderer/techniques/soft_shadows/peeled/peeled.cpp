@@ -64,7 +64,7 @@ std::vector<Parameter> peeledParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kPeeledRegistered{
     {.name = "soft_shadows/peeled",
      .version = 1,
      .summary = "Backprojection of each texel's farthest layer that is nearer than the receiver",

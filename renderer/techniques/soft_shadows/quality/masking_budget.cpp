@@ -13,8 +13,8 @@
 namespace limen::techniques {
 namespace {
 
-const char* const kShader = "renderer/techniques/soft_shadows/quality/masking_budget.comp.glsl";
-const char* const kPass = "soft_shadows/budget_map";
+const char* const kMaskingShader = "renderer/techniques/soft_shadows/quality/masking_budget.comp.glsl";
+const char* const kMaskingPass = "soft_shadows/budget_map";
 
 class MaskingBudget : public BudgetDriver {
  public:
@@ -32,15 +32,15 @@ class MaskingBudget : public BudgetDriver {
   void prepare(frame::Frame& frame) override {
     rows_.emplace(gl::Format::RGBA32F, frame.sizePx());
     map_.emplace(gl::Format::R32F, frame.sizePx());
-    frame.passes().setBytesHeld(kPass, rows_->bytes() + map_->bytes());
-    rowsOf_ = &frame.context().programs().compute(kShader, {{"ROWS", "1"}});
-    budgetOf_ = &frame.context().programs().compute(kShader);
+    frame.passes().setBytesHeld(kMaskingPass, rows_->bytes() + map_->bytes());
+    rowsOf_ = &frame.context().programs().compute(kMaskingShader, {{"ROWS", "1"}});
+    budgetOf_ = &frame.context().programs().compute(kMaskingShader);
   }
 
   const gl::Texture& make(frame::Frame& frame) override {
     const gl::Texture& picture = frame.get<frame::Shaded>(picture_).texture();
     const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
-    const auto scope = frame.passes().open(kPass);
+    const auto scope = frame.passes().open(kMaskingPass);
     rowsOf_->set("sizePx", frame.sizePx());
     rowsOf_->set("radius", radius_);
     picture.bindTexture(0);
@@ -69,7 +69,7 @@ class MaskingBudget : public BudgetDriver {
   const gl::Program *rowsOf_ = nullptr, *budgetOf_ = nullptr;
 };
 
-void check(const ParameterValues& values) {
+void checkMaskingBudget(const ParameterValues& values) {
   BudgetRange::check(values, "masking");
   if (values.real("masking_low_contrast") >= values.real("masking_high_contrast"))
     throw Error("'masking_high_contrast' is not above 'masking_low_contrast'", "masking_high_contrast",
@@ -91,7 +91,7 @@ BudgetDriverInfo maskingBudgetInfo() {
                          realParameter("masking_high_contrast", 0.2, 0.0, 10.0, "",
                                        "RMS contrast from which on 'masking_budget' is allowed", open)},
           .make = [](const ParameterValues& values) { return std::make_unique<MaskingBudget>(values); },
-          .check = check};
+          .check = checkMaskingBudget};
 }
 
 }  // namespace limen::techniques

@@ -95,7 +95,7 @@ class PaintedBudget : public BudgetDriver {
   std::optional<gl::Texture> map_;
 };
 
-void check(const ParameterValues& values) {
+void checkPaintedBudget(const ParameterValues& values) {
   BudgetRange::check(values, "painted");
   if (values.text("painted_file").empty())
     throw Error("a painted budget needs an image", "painted_file",
@@ -155,7 +155,7 @@ BudgetDriverInfo paintedBudgetInfo() {
                                          "Image of other proportions than the frame: an error, stretched, or "
                                          "cut to cover the frame")},
           .make = [](const ParameterValues& values) { return std::make_unique<PaintedBudget>(values); },
-          .check = check};
+          .check = checkPaintedBudget};
 }
 
 }  // namespace limen::techniques

@@ -12,8 +12,8 @@
 namespace limen::techniques {
 namespace {
 
-const char* const kShader = "renderer/techniques/soft_shadows/quality/perceptual_budget.comp.glsl";
-const char* const kPass = "soft_shadows/budget_map";
+const char* const kPerceptualShader = "renderer/techniques/soft_shadows/quality/perceptual_budget.comp.glsl";
+const char* const kPerceptualPass = "soft_shadows/budget_map";
 
 class PerceptualBudget : public BudgetDriver {
  public:
@@ -32,16 +32,16 @@ class PerceptualBudget : public BudgetDriver {
   void prepare(frame::Frame& frame) override {
     map_.emplace(gl::Format::R32F, frame.sizePx());
     thresholdMap_.emplace(frame.context(), frame.sizePx(), display_, perception::ThresholdMapSettings{});
-    frame.passes().setBytesHeld(kPass, map_->bytes());
+    frame.passes().setBytesHeld(kPerceptualPass, map_->bytes());
     frame.passes().setBytesHeld("threshold_map/levels", thresholdMap_->bytesHeld());
-    program_ = &frame.context().programs().compute(kShader);
+    program_ = &frame.context().programs().compute(kPerceptualShader);
   }
 
   const gl::Texture& make(frame::Frame& frame) override {
     const gl::Texture& direct = frame.get<frame::Shaded>(direct_).texture();
     const gl::Texture& thresholds =
         thresholdMap_->run(frame.get<frame::Shaded>(picture_).texture(), &frame.passes());
-    const auto scope = frame.passes().open(kPass);
+    const auto scope = frame.passes().open(kPerceptualPass);
     program_->set("sizePx", frame.sizePx());
     program_->set("whiteCdM2", static_cast<float>(display_.whiteLevelCdM2() - display_.blackLevelCdM2()));
     program_->set("errorOfOne", static_cast<float>(error_));

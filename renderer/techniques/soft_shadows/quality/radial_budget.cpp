@@ -46,7 +46,7 @@ class RadialBudget : public BudgetDriver {
   std::optional<gl::Texture> map_;
 };
 
-void check(const ParameterValues& values) {
+void checkRadialBudget(const ParameterValues& values) {
   if (values.integer("budget") == 0)
     throw Error("a budget without limit has no way down to a rim", "budget",
                 "give 'budget' a number above 0, or budget_map: uniform");
@@ -75,7 +75,7 @@ BudgetDriverInfo radialBudgetInfo() {
                      realParameter("radial_outer", 1.0, 0.001, 10.0, "half width",
                                    "Distance from the centre at which the rim's budget is reached", source)},
       .make = [](const ParameterValues& values) { return std::make_unique<RadialBudget>(values); },
-      .check = check};
+      .check = checkRadialBudget};
 }
 
 }  // namespace limen::techniques

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kAreaUnit = 13, kLevelUnit = 14, kAreaImage = 3, kLevelImage = 4, kHalfSmoothedImage = 5;
 constexpr uint32_t kBinsBinding = 5, kOrderedBinding = 6, kWorkBinding = 7;
-constexpr size_t kBins = 64;  ///< as in order_work.comp.glsl
+constexpr size_t kOrderBins = 64;  ///< as in order_work.comp.glsl
 /// Groups of 64 in a row of an indirect dispatch: a dimension has at most 65,535 of them, which this leaves
 /// to rows, and up to one row less one group finds nothing to do.
 constexpr uint32_t kGroupsPerRow = 64;
@@ -26,7 +26,7 @@ SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders)
       work_(16 + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
   if (smooths) halfSmoothed_.emplace(levelFormat(smooths), frame.sizePx());
   if (orders) {
-    const std::vector<uint32_t> none(2 * kBins, 0);
+    const std::vector<uint32_t> none(2 * kOrderBins, 0);
     order_.emplace(Order{gl::Buffer(work_.bytes(), nullptr), gl::Buffer(none), gl::Buffer(none)});
   }
 }

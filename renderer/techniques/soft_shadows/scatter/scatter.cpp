@@ -199,7 +199,7 @@ std::vector<Parameter> scatterParameters() {
                         "Schwarz 2009, section 4.4.5 (value not given there)")};
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kScatterRegistered{
     {.name = "soft_shadows/scatter",
      .version = 1,
      .summary = "Texels of a map of casters scatter what they hide into a soft shadow map of the receivers",

@@ -44,7 +44,8 @@ class SceneNeeds : public Technique {
  private:
   std::string settingText() const {
     std::string text = decision_.setting.technique;
-    for (const auto& [name, value] : decision_.setting.values) text += ", " + name + "=" + limen::toText(value);
+    for (const auto& [name, value] : decision_.setting.values)
+      text += ", " + name + "=" + limen::toText(value);
     return text;
   }
 
@@ -55,7 +56,7 @@ class SceneNeeds : public Technique {
   std::unique_ptr<Technique> chosen_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> sceneNeedsParameters() {
   std::vector<Parameter> all;
   for (const Parameter& parameter : OccluderSearch::searchParameters({"micropatches"}))
     if (parameter.name == "resolution" || parameter.name == "budget" || parameter.name == "raster")
@@ -88,13 +89,13 @@ std::vector<std::string> counters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kSceneNeedsRegistered{
     {.name = "soft_shadows/scene_needs",
      .version = 1,
      .summary = "The cheapest soft shadows that a scene is measured to need, with the reasons on record",
      .source = "Schwarz 2009, section 5.1.1 (SS-45)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = sceneNeedsParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,

@@ -17,7 +17,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr int64_t kDefaultTaps = 16, kDefaultTapSeed = 1;
+constexpr int64_t kDefaultAreaTaps = 16, kDefaultTapSeed = 1;
 constexpr double kDefaultSigma = 0.3;
 
 gl::ShaderDefines solidAngleDefines(const ParameterValues& values) {
@@ -29,7 +29,7 @@ gl::ShaderDefines solidAngleDefines(const ParameterValues& values) {
 
 void checkSolidAngle(const ParameterValues& values) {
   const std::string& sampling = values.text("sampling");
-  if (sampling == "all" && values.integer("taps") != kDefaultTaps)
+  if (sampling == "all" && values.integer("taps") != kDefaultAreaTaps)
     throw Error("'taps' is about subsampling, and all texels are taken", "taps",
                 "leave it out, or give sampling: regular or gaussian_poisson");
   if (sampling != "gaussian_poisson" &&
@@ -94,7 +94,7 @@ std::vector<Parameter> solidAngleParameters() {
                                 "those at random places, denser towards the middle",
                                 "Schwarz 2009, section 3.2.1"));
   all.push_back(
-      integerParameter("taps", kDefaultTaps, 1, 64, "", "Root of the number of taps in the search area"));
+      integerParameter("taps", kDefaultAreaTaps, 1, 64, "", "Root of the number of taps in the search area"));
   all.push_back(choiceParameter("ball", "bounding", {"bounding", "equal_area"},
                                 "Ball in place of a micropatch: around it, or with a disc of its area",
                                 "Schwarz 2009, section 3.2.1 (bounding)"));
@@ -105,7 +105,7 @@ std::vector<Parameter> solidAngleParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kSolidAngleRegistered{
     {.name = "soft_shadows/solid_angle",
      .version = 1,
      .summary = "Solid angles of balls around micropatches, summed within the cone to a ball-shaped light",

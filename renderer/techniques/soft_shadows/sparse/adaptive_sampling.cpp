@@ -12,12 +12,12 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kChoose = "sparse/choose", *kPull = "sparse/pull", *kPush = "sparse/push";
-constexpr const char* kFolder = "renderer/techniques/soft_shadows/sparse/";
+constexpr const char* kSparseFolder = "renderer/techniques/soft_shadows/sparse/";
 constexpr int kTile = 8;  // pixels a side of a work group
 
 const gl::Program& shader(gl::Context& context, const std::string& name,
                           const gl::ShaderDefines& defines = {}) {
-  return context.programs().compute(kFolder + name, defines);
+  return context.programs().compute(kSparseFolder + name, defines);
 }
 
 glm::ivec2 wholeTiles(glm::ivec2 sizePx) { return (sizePx + kTile - 1) / kTile * kTile; }

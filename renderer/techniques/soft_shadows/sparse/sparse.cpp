@@ -19,22 +19,23 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPass = "sparse/visibility";
-constexpr const char* kSection = "Schwarz 2009, section 5.1.3";
+constexpr const char* kSparsePass = "sparse/visibility";
+constexpr const char* kSparseSection = "Schwarz 2009, section 5.1.3";
 
 bool adaptive(const ParameterValues& values) { return values.text("mode") == "adaptive"; }
 
 std::vector<Parameter> sparseParameters() {
   std::vector<Parameter> out = {
       choiceParameter("mode", "uniform", {"uniform", "adaptive"},
-                      "Samples on a grid, or the fewer the wider the penumbra is on the screen", kSection),
+                      "Samples on a grid, or the fewer the wider the penumbra is on the screen",
+                      kSparseSection),
       choiceParameter("factor", "2", {"1", "2", "4", "8"},
                       "Uniform mode: pixels from sample to sample, along rows and along columns",
                       "Schwarz 2009, section 5.1.3 (value not given there)"),
       choiceParameter(
           "points", "subset", {"subset", "rendered"},
           "Uniform mode: samples are pixels of the picture, or of one rendered at lower resolution",
-          kSection),
+          kSparseSection),
       realParameter(
           "min_samples", 8.0, 1.0, 256.0, "samples",
           "Adaptive mode: samples that a penumbra's width on the screen must hold before pixels are skipped "
@@ -74,7 +75,7 @@ class Sparse : public Technique {
 
   void prepare(frame::Frame& frame) override {
     visibility_.emplace(gl::Format::R32F, frame.sizePx());
-    frame.passes().setBytesHeld(kPass, visibility_->bytes());
+    frame.passes().setBytesHeld(kSparsePass, visibility_->bytes());
     sampling_ =
         adaptive(values_) ? makeAdaptiveSampling(frame, values_) : makeUniformSampling(frame, values_);
     inner_->prepare(sampling_->points());
@@ -125,7 +126,7 @@ class Sparse : public Technique {
   std::optional<gl::Texture> visibility_;
 };
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kSparseRegistered{
     {.name = "soft_shadows/sparse",
      .version = 1,
      .summary = "Another technique's visibility for some of the pixels, interpolated for the others",

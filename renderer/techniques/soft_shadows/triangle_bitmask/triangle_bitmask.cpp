@@ -24,9 +24,10 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kShader =
+constexpr const char *kTriangleShader =
                          "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask.comp.glsl",
-                     *kPass = "soft_shadows/triangle_bitmask", *kBvhPass = "soft_shadows/triangle_bvh";
+                     *kTrianglePass = "soft_shadows/triangle_bitmask",
+                     *kBvhPass = "soft_shadows/triangle_bvh";
 /// A plane this near to a point, in shares of the scene's reach, counts as going through it. Corners and
 /// point are rounded to 2^-25 of their coordinates on each axis, and the point is put onto its plane by a
 /// product of two such numbers: below 2^-22 together.
@@ -100,9 +101,9 @@ TriangleBitmask::TriangleBitmask(const ParameterValues& values)
       defines_({{"PATTERN", pattern_ == "jittered_16" ? "160" : pattern_.substr(pattern_.rfind('_') + 1)}}) {}
 
 void TriangleBitmask::prepare(frame::Frame& frame) {
-  program_ = &frame.context().programs().compute(kShader, defines_);
+  program_ = &frame.context().programs().compute(kTriangleShader, defines_);
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
-  frame.passes().setBytesHeld(kPass, visibility_->bytes());
+  frame.passes().setBytesHeld(kTrianglePass, visibility_->bytes());
 
   const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(pattern_));
   lightSamples_ = bitCount(shape);
@@ -119,7 +120,7 @@ void TriangleBitmask::prepare(frame::Frame& frame) {
 void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const Work* work) {
   const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
   const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
-  const auto scope = frame.passes().open(kPass);
+  const auto scope = frame.passes().open(kTrianglePass);
   program.set("sizePx", frame.sizePx());
   program.set("lightSize", glm::vec2(frame.scene().lights[0].size / reach_));
   const glm::dmat4 toLight = frame.scene().lights[0].toLightSpace(frame.gpuScene().anchor());
@@ -163,7 +164,7 @@ std::vector<Counter> TriangleBitmask::count(frame::Frame& frame) {
   const Work work{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                   gl::Buffer(pixels * lightShape_->bytes(), nullptr)};
   frame.begin();
-  run(frame, frame.context().programs().compute(kShader, defines), &work);
+  run(frame, frame.context().programs().compute(kTriangleShader, defines), &work);
   frame.end();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   masks_ = work.masks.read<uint32_t>();
@@ -176,7 +177,7 @@ std::vector<Counter> TriangleBitmask::count(frame::Frame& frame) {
 
 namespace {
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kTriangleBitmaskRegistered{
     {.name = "soft_shadows/triangle_bitmask",
      .version = 1,
      .summary = "Light samples hidden by the scene's own triangles, through a hierarchy of them",

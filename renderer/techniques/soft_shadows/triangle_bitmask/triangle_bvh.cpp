@@ -8,7 +8,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kSplitBins = 16;
 /// Halves of deeper nodes are split by number: coincident centres must not make a list of the tree.
 constexpr int kDeepest = 48;
 
@@ -76,9 +76,10 @@ class BvhBuilder {
     const auto from = begin + static_cast<std::ptrdiff_t>(first),
                to = begin + static_cast<std::ptrdiff_t>(end);
     if (size[axis] > 0.0F && depth < kDeepest) {
-      const float scale = static_cast<float>(kBins) / size[axis];
+      const float scale = static_cast<float>(kSplitBins) / size[axis];
       const auto binOf = [&](uint32_t triangle) {
-        return std::min(static_cast<int>((centre(triangle)[axis] - centres.low[axis]) * scale), kBins - 1);
+        return std::min(static_cast<int>((centre(triangle)[axis] - centres.low[axis]) * scale),
+                        kSplitBins - 1);
       };
       const int cut = cheapestCut(first, end, binOf);
       const auto middle = std::partition(from, to, [&](uint32_t t) { return binOf(t) < cut; });
@@ -95,17 +96,17 @@ class BvhBuilder {
   /// The bin before which cutting makes the sum of areas times numbers least.
   template <class BinOf>
   int cheapestCut(size_t first, size_t end, const BinOf& binOf) const {
-    std::array<Box3, kBins> bins{};
-    std::array<float, kBins> counts{};
+    std::array<Box3, kSplitBins> bins{};
+    std::array<float, kSplitBins> counts{};
     for (size_t i = first; i < end; ++i) {
       const auto bin = static_cast<size_t>(binOf(order_[i]));
       bins.at(bin).extend(boxes_[order_[i]]);
       counts.at(bin) += 1.0F;
     }
-    std::array<float, kBins> above{};  // cost of the bins from one on
+    std::array<float, kSplitBins> above{};  // cost of the bins from one on
     Box3 box;
     float count = 0.0F;
-    for (size_t bin = kBins; bin-- > 1;) {
+    for (size_t bin = kSplitBins; bin-- > 1;) {
       box.extend(bins.at(bin)), count += counts.at(bin);
       above.at(bin) = count > 0.0F ? box.halfArea() * count : 0.0F;
     }
@@ -113,7 +114,7 @@ class BvhBuilder {
     float bestCost = INFINITY;
     box = Box3();
     count = 0.0F;
-    for (size_t bin = 1; bin < kBins; ++bin) {
+    for (size_t bin = 1; bin < kSplitBins; ++bin) {
       box.extend(bins.at(bin - 1)), count += counts.at(bin - 1);
       const float cost = (count > 0.0F ? box.halfArea() * count : 0.0F) + above.at(bin);
       if (cost < bestCost) best = static_cast<int>(bin), bestCost = cost;

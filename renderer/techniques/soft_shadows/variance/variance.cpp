@@ -26,7 +26,7 @@ class Variance : public PrefilteredTechnique {
   double minVariance_, bleedClamp_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> varianceParameters() {
   std::vector<Parameter> all =
       PrefilteredTechnique::prefilterParameters({"searched", "fixed"}, {"sums", "mips"});
   all.push_back(realParameter("min_variance", 1e-6, 1e-12, 0.01, "",
@@ -40,13 +40,13 @@ std::vector<Parameter> parameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kRegistered{
+const Registered<TechniqueInfo> kVarianceRegistered{
     {.name = "soft_shadows/variance",
      .version = 1,
      .summary = "Variance shadow map: Chebyshev's bound from averaged moments of depth",
      .source = "Schwarz 2009, section 3.2.1 (SS-03)",
      .product = ProductKind::Visibility,
-     .parameters = parameters(),
+     .parameters = varianceParameters(),
      .needs = {"area_light"},
      .reference = false,
      .onCpu = false,
