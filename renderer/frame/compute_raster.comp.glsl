@@ -35,6 +35,7 @@ layout(std430, binding = 6) readonly buffer Ranges { uvec2 ranges[]; };
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
 const int kBandPixels = 16384;                     // of a bounding box, in a band
 const int kFewestBandRows = 4, kMostBandRows = 32;  // but so many rows it has; see rowsOfBand
+const int kPlain = 1024;  // pixels of a band that a group goes through without cutting rows first, which costs it barriers
 
 struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
@@ -191,13 +192,29 @@ void shadeBand(Triangle t, uint index, int first, int end) {
   }
 }
 
+// The same where a band is so small that pixels next to the triangle cost less than finding its spans.
+void shadeBox(Triangle t, uint index, int first, int end) {
+  const int pixels = (end - first) * t.size.x, stepX = 64 % t.size.x, stepY = 64 / t.size.x;
+  const int lane = int(gl_LocalInvocationID.x);
+  ivec2 at = ivec2(lane % t.size.x, first + lane / t.size.x);
+  for (int i = lane; i < pixels; i += 64) {
+    shade(t, index, t.low + at);
+    at += ivec2(stepX, stepY);
+    if (at.x >= t.size.x) at += ivec2(-t.size.x, 1);
+  }
+}
+
 void main() {
   const uint count = min(queued, QUEUE_CAPACITY);
   for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
     const uint index = bands[item].x;
     const Triangle t = load(index);
     const int first = int(bands[item].y);
-    shadeBand(t, index, first, min(first + rowsOfBand(t), t.size.y));
+    const int end = min(first + rowsOfBand(t), t.size.y);
+    if ((end - first) * t.size.x <= kPlain)
+      shadeBox(t, index, first, end);
+    else
+      shadeBand(t, index, first, end);
   }
 }
 #else

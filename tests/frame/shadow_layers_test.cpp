@@ -21,10 +21,7 @@ class RaysFrom {
       : truth_(only(scene, part), anchor), light_(scene.lights[0]), anchor_(anchor), frustum_(frustum) {}
 
   std::vector<Hit> through(glm::dvec2 texel) const {
-    const glm::dvec2 tangent = frustum_.low + texel / double(kTexels) * (frustum_.high - frustum_.low);
-    const glm::dvec3 eye =
-        light_.centre + light_.axisX * frustum_.offset.x + light_.axisY * frustum_.offset.y - anchor_;
-    const glm::dvec3 ray = light_.axisX * tangent.x + light_.axisY * tangent.y + light_.direction();
+    const auto [eye, ray] = rayThrough(texel);
     std::vector<Hit> hits;
     double nearest = frustum_.near;
     while (hits.size() < kLayers) {
@@ -36,7 +33,20 @@ class RaysFrom {
     return hits;
   }
 
+  /// Whether the ray has come to where two surfaces are one: the undersides of boxes lie on the ground, at
+  /// height 0. A raster rounds their depths apart, so that a map may hold one of them or both in turn.
+  bool coincident(glm::dvec2 texel, double t) const {
+    const auto [eye, ray] = rayThrough(texel);
+    return std::abs(eye.y + ray.y * t + anchor_.y) < 1e-4;
+  }
+
  private:
+  std::pair<glm::dvec3, glm::dvec3> rayThrough(glm::dvec2 texel) const {
+    const glm::dvec2 tangent = frustum_.low + texel / double(kTexels) * (frustum_.high - frustum_.low);
+    return {light_.centre + light_.axisX * frustum_.offset.x + light_.axisY * frustum_.offset.y - anchor_,
+            light_.axisX * tangent.x + light_.axisY * tangent.y + light_.direction()};
+  }
+
   static scene::Scene only(scene::Scene scene, int part) {
     if (part < 0) return scene;
     const scene::Part& chosen = scene.parts[static_cast<size_t>(part)];
@@ -85,10 +95,18 @@ class ShadowLayers : public gl::GlTest {
         }
         if (!same) continue;
         ++settled;
-        for (size_t layer = 0; layer < kLayers; ++layer) {
+        std::vector<double> measured;
+        for (const Image& layer : layers) {
+          const double depth = layer.at(x, y);
+          const bool again = !measured.empty() && depth < 1.001 * measured.back() &&
+                             rays.coincident(glm::dvec2(x, y) + 0.5, measured.back()) &&
+                             rays.coincident(glm::dvec2(x, y) + 0.5, depth);
+          if (!again) measured.push_back(depth);
+        }
+        for (size_t layer = 0; layer < measured.size(); ++layer) {
           const double expected = layer < hits.size() ? hits[layer].t : double(kEmptyDepth);
           const double change = layer < hits.size() ? changes[layer] : 0.0;
-          EXPECT_NEAR(layers[layer].at(x, y), expected, 1e-5 * expected + change)
+          EXPECT_NEAR(measured[layer], expected, 1e-5 * expected + change)
               << what << ", layer " << layer << " at " << x << ' ' << y;
         }
       }

@@ -40,7 +40,8 @@ float interpolated(vec2 at) {
     sum += part.x * part.y * visibilityAt(texel);
     weights += part.x * part.y;
   }
-  return weights > 0.0 ? sum / weights : -1.0;
+  // A mean of shares is one, however its parts are rounded; pixels in full light are told by it.
+  return weights > 0.0 ? clamp(sum / weights, 0.0, 1.0) : -1.0;
 }
 
 void main() {
