@@ -3,9 +3,10 @@
 
 #include <epoxy/gl.h>
 
-#include <chrono>
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace limen::gl {
 namespace {
@@ -36,14 +37,23 @@ std::string programLog(GLuint program) {
   return log;
 }
 
+std::vector<ShaderText> loadAll(const std::vector<std::string>& paths, const ShaderDefines& defines) {
+  std::vector<ShaderText> stages;
+  for (const std::string& path : paths) stages.push_back(loadShader(path, defines));
+  return stages;
+}
+
 }  // namespace
 
-Program::Program(const std::vector<std::string>& paths, const ShaderDefines& defines) {
+Program::Program(const std::vector<std::string>& paths, const ShaderDefines& defines)
+    : Program(loadAll(paths, defines)) {}
+
+Program::Program(const std::vector<ShaderText>& stages) {
   const GLuint program = glCreateProgram();
   std::string names;
-  for (const std::string& path : paths) {
+  for (const ShaderText& source : stages) {
+    const std::string& path = source.files.front();
     names += (names.empty() ? "" : ", ") + path;
-    const ShaderText source = loadShader(path, defines);
     const GLuint shader = glCreateShader(stageOf(path));
     const char* text = source.text.c_str();
     glShaderSource(shader, 1, &text, nullptr);
@@ -68,6 +78,12 @@ Program::Program(const std::vector<std::string>& paths, const ShaderDefines& def
     throw std::runtime_error("program of " + names + " does not link:\n" + log);
   }
   id_ = program;
+}
+
+void Program::become(Program&& fresh) {
+  std::swap(id_, fresh.id_);
+  locations_.clear();
+  fresh.locations_.clear();
 }
 
 Program::~Program() { glDeleteProgram(id_); }
@@ -106,18 +122,6 @@ void Program::dispatch(glm::ivec2 size, glm::ivec2 localSize) const {
   use();
   const glm::ivec2 groups = (size + localSize - 1) / localSize;
   glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
-}
-
-const Program& ProgramCache::get(const std::vector<std::string>& paths, const ShaderDefines& defines) {
-  std::string key;
-  for (const std::string& path : paths) key += path + "\n";
-  for (const auto& [name, value] : defines) key += name + "=" + value + "\n";
-  const auto known = programs_.find(key);
-  if (known != programs_.end()) return *known->second;
-  const auto start = std::chrono::steady_clock::now();
-  auto program = std::make_unique<Program>(paths, defines);
-  compileMs_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return *(programs_[key] = std::move(program));
 }
 
 }  // namespace limen::gl

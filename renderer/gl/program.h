@@ -18,9 +18,15 @@ class Program {
   /// Shader paths end in .vert.glsl, .frag.glsl, .comp.glsl, .geom.glsl, .tesc.glsl or .tese.glsl. Throws
   /// std::runtime_error with file, line and the driver's log.
   Program(const std::vector<std::string>& paths, const ShaderDefines& defines);
+  /// Of stages that are already read.
+  explicit Program(const std::vector<ShaderText>& stages);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
+
+  /// Takes the place of what `fresh` is: users of this object render with it from now on. Uniforms have the
+  /// values that `fresh` was given.
+  void become(Program&& fresh);
 
   uint32_t id() const { return id_; }
   void use() const;
@@ -46,17 +52,44 @@ class Program {
 /// Programs of a context, each built once.
 class ProgramCache {
  public:
+  /// Programs by the paths of their shaders and their defines: "a.comp.glsl (SIZE=8)".
+  struct Reload {
+    std::vector<std::string> rebuilt;
+    std::vector<std::string> failures;  ///< the program and why: file, line and the driver's log
+  };
+
   const Program& get(const std::vector<std::string>& paths, const ShaderDefines& defines = {});
   const Program& compute(const std::string& path, const ShaderDefines& defines = {}) {
     return get({path}, defines);
   }
   /// Time spent compiling so far; lets preparation be told from it.
   double compileMs() const { return compileMs_; }
+  /// Builds anew each program whose source has changed in the source tree since it was last built or tried.
+  /// References stay valid and mean the new program; where it fails they mean the old one, and the failure is
+  /// told once. Uniforms of a rebuilt program are lost: whoever set some for longer than a frame must set
+  /// them again, as Technique::prepare() does. Drivers repeat the log of a failure as debug messages of the
+  /// context. Without a source tree (see setShaderRoot()) nothing happens.
+  Reload reloadChanged();
   /// Forgets all programs, so that changed sources are read again. References die.
   void clear() { programs_.clear(); }
 
  private:
-  std::map<std::string, std::unique_ptr<Program>> programs_;
+  struct Entry {
+    std::vector<std::string> paths;
+    ShaderDefines defines;
+    std::unique_ptr<Program> program;
+    std::string textHash;            ///< of what was last built or tried; "" if it could not even be read
+    std::vector<std::string> files;  ///< that it was made of
+    std::vector<FileStamp> stamps;   ///< theirs, from before they were read
+    std::string unreadable;          ///< why it could not be read when last tried
+  };
+  static std::vector<ShaderText> read(Entry& entry);
+  using Stamps = std::map<std::string, FileStamp>;
+  /// `now`: what was looked at already, as most programs share files.
+  static bool mayHaveChanged(const Entry& entry, Stamps& now);
+  void reload(Entry& entry, Reload& out);
+
+  std::map<std::string, Entry> programs_;
   double compileMs_ = 0.0;
 };
 

@@ -2,7 +2,9 @@
 #include "renderer/gl/shader_source.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -17,17 +19,8 @@ std::map<std::string, std::string>& embedded() {
   return shaders;
 }
 
-std::string sourceRoot() {
-  if (const char* root = std::getenv("LIMEN_SHADER_ROOT")) return root;
-#ifdef LIMEN_SHADER_ROOT_DEFAULT
-  return LIMEN_SHADER_ROOT_DEFAULT;
-#else
-  return {};
-#endif
-}
-
 std::string readShaderFile(const std::string& path, const std::string& includedFrom) {
-  const std::string root = sourceRoot();
+  const std::string root = shaderRoot();
   if (root.empty()) {
     const auto found = embedded().find(path);
     if (found != embedded().end()) return found->second;
@@ -45,6 +38,7 @@ void append(const std::string& path, const std::string& includedFrom, ShaderText
   if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) return;
   const size_t number = out.files.size();
   out.files.push_back(path);
+  out.stamps.push_back(shaderStamp(path));  // before reading, lest a change in between goes unseen
   std::istringstream in(readShaderFile(path, includedFrom));
   std::string line;
   out.text += "#line 1 " + std::to_string(number) + "\n";
@@ -63,6 +57,33 @@ void append(const std::string& path, const std::string& includedFrom, ShaderText
 }  // namespace
 
 EmbeddedShader::EmbeddedShader(const char* path, const char* text) { embedded()[path] = text; }
+
+void setShaderRoot(const std::string& root) { ::setenv("LIMEN_SHADER_ROOT", root.c_str(), 1); }
+
+std::string shaderRoot() {
+  if (const char* root = std::getenv("LIMEN_SHADER_ROOT")) return root;
+#ifdef LIMEN_SHADER_ROOT_DEFAULT
+  return LIMEN_SHADER_ROOT_DEFAULT;
+#else
+  return {};
+#endif
+}
+
+FileStamp shaderStamp(const std::string& path) {
+  namespace fs = std::filesystem;
+  const std::string root = shaderRoot();
+  if (root.empty()) return {};
+  std::error_code code;
+  const fs::path file = fs::path(root) / path;
+  const fs::file_time_type modified = fs::last_write_time(file, code);
+  if (code) return {};
+  const uintmax_t bytes = fs::file_size(file, code);
+  if (code) return {};
+  // The coarsest clock of a common file system (FAT) has steps of 2 s.
+  const bool settled = fs::file_time_type::clock::now() - modified > std::chrono::seconds(3);
+  const auto sinceEpoch = std::chrono::duration_cast<std::chrono::nanoseconds>(modified.time_since_epoch());
+  return {true, sinceEpoch.count(), bytes, settled};
+}
 
 ShaderText loadShader(const std::string& path, const ShaderDefines& defines) {
   ShaderText out;

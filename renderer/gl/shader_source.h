@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -15,11 +16,32 @@ struct EmbeddedShader {
 
 using ShaderDefines = std::map<std::string, std::string>;
 
+/// What tells, without reading it, that a file has changed.
+struct FileStamp {
+  bool there = false;
+  int64_t modifiedNs = 0;
+  uintmax_t bytes = 0;
+  /// Old enough when looked at for a later change to have another time of modification. Where it was not,
+  /// equal stamps say nothing.
+  bool settled = false;
+};
+
 /// A shader ready for the driver.
 struct ShaderText {
   std::string text;                ///< #version, defines, then the file with its includes
-  std::vector<std::string> files;  ///< number in #line directives -> path
+  std::vector<std::string> files;  ///< number in #line directives -> path; the shader's own first
+  std::vector<FileStamp>
+      stamps;  ///< of each file, from before it was read; not there: from the program itself
 };
+
+/// From now on files come from the source tree below `root`: sets LIMEN_SHADER_ROOT for this process.
+void setShaderRoot(const std::string& root);
+
+/// Folder that shader files are read from; "" if they come from the program itself.
+std::string shaderRoot();
+
+/// The file's state in the source tree; not there if shaders come from the program itself.
+FileStamp shaderStamp(const std::string& path);
 
 /// Reads shader `path` (from the repository root, e.g. "renderer/frame/g_buffer.comp.glsl"), resolves
 /// `#include "path"` (each file once) and puts `#version 450 core` and the defines in front. Files come from

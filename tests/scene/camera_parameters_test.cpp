@@ -91,7 +91,8 @@ TEST(CameraParameters, CameraForGivesTheVeryPathOfABuiltScene) {
 }
 
 TEST(CameraParameters, RefuseBadOnesAndBothTogether) {
-  EXPECT_THAT(sceneRefusal({{"camera", std::string("walk")}}), HasSubstr("camera 'walk': 'walk' stands where"));
+  EXPECT_THAT(sceneRefusal({{"camera", std::string("walk")}}),
+              HasSubstr("camera 'walk': 'walk' stands where"));
   EXPECT_THAT(sceneRefusal({{"camera", std::string("eye 0 0 1 target 0 0 1")}}), HasSubstr("same point"));
   EXPECT_THAT(sceneRefusal({{"camera_path", std::string("/nowhere/p.yaml")}}),
               HasSubstr("'camera_path': /nowhere/p.yaml: no such file"));

@@ -79,7 +79,8 @@ TEST(CameraText, ReadsBackToTheSameDoublesWhateverTheirBits) {
 
 TEST(CameraText, RefusesOtherTextWithWhatWasFoundAndTheForm) {
   const auto form = HasSubstr("write 'eye X Y Z target X Y Z'");
-  EXPECT_THAT(cameraRefusal("walk"), AllOf(HasSubstr("here: camera 'walk'"), HasSubstr("'walk' stands"), form));
+  EXPECT_THAT(cameraRefusal("walk"),
+              AllOf(HasSubstr("here: camera 'walk'"), HasSubstr("'walk' stands"), form));
   EXPECT_THAT(cameraRefusal(""), AllOf(HasSubstr("'eye' is missing"), form));
   EXPECT_THAT(cameraRefusal("eye 0 0 5"), HasSubstr("'target' is missing"));
   EXPECT_THAT(cameraRefusal("eye 0 0"), HasSubstr("a number of 'eye' is missing"));
