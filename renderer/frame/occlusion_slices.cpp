@@ -4,26 +4,12 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <bit>
-
-#include "base/error.h"
 
 namespace limen::frame {
 namespace {
 
 constexpr const char* kRasterPass = "frame/occlusion_slices_raster";
 constexpr const char* kFilterPass = "frame/occlusion_slices";
-
-gl::Texture allocateSliceMips(const OcclusionSliceSettings& settings) {
-  try {
-    return {gl::Format::R16F, glm::ivec2(settings.resolution),
-            static_cast<int>(std::bit_width(static_cast<unsigned>(settings.resolution))), settings.slices,
-            gl::Sampling::Linear};
-  } catch (const Error& error) {
-    throw Error("the occlusion textures do not fit: " + error.message(), {},
-                "choose a smaller map, or fewer slices");
-  }
-}
 
 /// Light-space z of the farthest point of what casts shadows; 0 if none is before the light.
 double farthestCaster(const scene::Scene& scene) {
@@ -55,32 +41,18 @@ OcclusionSlices::OcclusionSlices(Frame& frame, OcclusionSliceSettings settings)
           settings.prefilter == Prefilter::Sums ? gl::ShaderDefines{{"SUMS", "1"}} : gl::ShaderDefines{})),
       bits_(gl::Format::R32UI, glm::ivec2(settings.resolution)),
       target_(gl::Format::R8, glm::ivec2(settings.resolution)),
-      framebuffer_({&target_}, nullptr) {
+      framebuffer_({&target_}, nullptr),
+      averages_(frame.context(),
+                {settings.prefilter, settings.resolution, settings.slices, 1, SumForm::Fixed,
+                 gl::Format::R16F, "r16f"},
+                "the array of occlusion textures", "choose a smaller map, or fewer slices") {
   frustum_ = LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution);
   begin_ = frustum_.near;
   // The farthest caster itself, for all rounding, belongs to the last slice.
   const double end = std::max(farthestCaster(frame.scene()), begin_) * (1.0 + 1e-5);
   depth_ = (end - begin_) / settings.slices;
-  if (settings.prefilter == Prefilter::Sums) {
-    sums_.emplace(frame.context(), settings.resolution, settings.slices, 1, SumForm::Fixed);
-  } else {
-    mips_ = allocateSliceMips(settings);
-    reduce_ =
-        &frame.context().programs().compute("renderer/frame/average_pyramid.comp.glsl", {{"TEXEL", "r16f"}});
-  }
   frame.passes().setBytesHeld(kRasterPass, bits_.bytes() + target_.bytes());
-  frame.passes().setBytesHeld(kFilterPass, sums_ ? sums_->bytes() : mips_->bytes());
-}
-
-int64_t OcclusionSlices::bytes() const {
-  return bits_.bytes() + target_.bytes() + (sums_ ? sums_->bytes() : mips_->bytes());
-}
-
-void OcclusionSlices::bind(uint32_t unit) const {
-  if (sums_)
-    sums_->bind(unit);
-  else
-    mips_->bindTexture(unit);
+  frame.passes().setBytesHeld(kFilterPass, averages_.bytes());
 }
 
 void OcclusionSlices::make(Frame& frame) {
@@ -104,24 +76,11 @@ void OcclusionSlices::make(Frame& frame) {
   }
   const auto scope = frame.passes().open(kFilterPass);
   bits_.bindTexture(0);
-  const gl::Texture& layers = sums_ ? sums_->texture() : *mips_;
-  layers.bindImage(0, gl::Access::Write);
+  averages_.texture().bindImage(0, gl::Access::Write);
   unpack_.set("resolution", settings_.resolution);
   unpack_.set("slices", settings_.slices);
   unpack_.dispatch(glm::ivec2(settings_.resolution));
-  if (sums_) {
-    sums_->build();
-    return;
-  }
-  for (int level = 1; level < mips_->levels(); ++level) {
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    mips_->bindImage(0, gl::Access::Read, level - 1);
-    mips_->bindImage(1, gl::Access::Write, level);
-    reduce_->set("side", settings_.resolution >> level);
-    reduce_->set("layers", settings_.slices);
-    reduce_->dispatch(glm::ivec2(settings_.resolution >> level));
-  }
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  averages_.build();
 }
 
 }  // namespace limen::frame

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "renderer/frame/prefiltered_map.h"
+#include "renderer/frame/layer_averages.h"
+#include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
 
@@ -28,22 +28,21 @@ class OcclusionSlices : public FrameInput {
   /// R32UI: bit k is set where something lies in slice k.
   const gl::Texture& bits() const { return bits_; }
   /// Sums or averages to a texture unit.
-  void bind(uint32_t unit) const;
+  void bind(uint32_t unit) const { averages_.bind(unit); }
   /// Light-space z where the first slice begins, and how deep each is. Slice k ends at the plane that its
   /// contents are taken to lie in, at begin() + (k + 1) * depth().
   double begin() const { return begin_; }
   double depth() const { return depth_; }
-  int64_t bytes() const;
+  int64_t bytes() const { return bits_.bytes() + target_.bytes() + averages_.bytes(); }
 
  private:
   OcclusionSliceSettings settings_;
   LightFrustum frustum_;
   double begin_, depth_;
-  const gl::Program &raster_, &unpack_, *reduce_ = nullptr;
+  const gl::Program &raster_, &unpack_;
   gl::Texture bits_, target_;
   gl::Framebuffer framebuffer_;
-  std::optional<SummedAreaTable> sums_;
-  std::optional<gl::Texture> mips_;
+  LayerAverages averages_;
 };
 
 }  // namespace limen::frame

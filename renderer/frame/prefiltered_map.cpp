@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/frame/prefiltered_map.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <vector>
 
-#include "base/error.h"
-
 namespace limen::frame {
 namespace {
 
 /// What a float, from which values are rounded, tells apart.
 constexpr int kValueBits = 24;
+
+constexpr const char* kPrefilterPass = "frame/prefiltered_map";
 
 int layersOf(const PrefilterSettings& settings) {
   if (settings.basis != DepthBasis::Fourier) return 1;
@@ -25,16 +24,15 @@ int channelsOf(const PrefilterSettings& settings) {
   return settings.basis == DepthBasis::Exponential ? 1 : 2;
 }
 
-gl::Texture allocateMips(const PrefilterSettings& settings) {
-  try {
-    return {channelsOf(settings) == 1 ? gl::Format::R32F : gl::Format::RG32F,
-            glm::ivec2(settings.map.resolution),
-            static_cast<int>(std::bit_width(static_cast<unsigned>(settings.map.resolution))),
-            layersOf(settings), gl::Sampling::Linear};
-  } catch (const Error& error) {
-    throw Error("the prefiltered map does not fit: " + error.message(), {},
-                "choose a smaller map, or fewer terms");
-  }
+LayerAverages::Form arrayOf(const PrefilterSettings& settings) {
+  const int channels = channelsOf(settings);
+  return {settings.prefilter,
+          settings.map.resolution,
+          layersOf(settings),
+          channels,
+          settings.form,
+          channels == 1 ? gl::Format::R32F : gl::Format::RG32F,
+          SummedAreaTable::texelLayout(channels, SumForm::Float)};
 }
 
 SumForm formOf(const PrefilterSettings& settings) {
@@ -111,20 +109,12 @@ PrefilteredMap::PrefilteredMap(Frame& frame, PrefilterSettings settings)
       deepest_(deepestSeen(frame.scene(), frustum_)),
       fill_(frame.context().programs().compute("renderer/frame/prefiltered_map.comp.glsl",
                                                fillDefines(settings))),
-      pass_("frame/prefiltered_map") {
+      averages_(frame.context(), arrayOf(settings), "the prefiltered map",
+                "choose a smaller map, or fewer terms") {
   // A scene without depth, or without casters, still needs a scale.
   deepest_ = std::max(deepest_, frustum_.near * 1.001);
   if (settings_.bits == 0) settings_.bits = sumBits(settings.map.resolution);
-  if (settings_.prefilter == Prefilter::Sums) {
-    sums_.emplace(frame.context(), settings.map.resolution, layersOf(settings), channelsOf(settings),
-                  settings.form);
-  } else {
-    mips_ = allocateMips(settings);
-    reduce_ = &frame.context().programs().compute(
-        "renderer/frame/average_pyramid.comp.glsl",
-        {{"TEXEL", SummedAreaTable::texelLayout(channelsOf(settings), SumForm::Float)}});
-  }
-  frame.passes().setBytesHeld(pass_, bytes());
+  frame.passes().setBytesHeld(kPrefilterPass, bytes());
 }
 
 void PrefilteredMap::configure(const gl::Program& program) const {
@@ -136,36 +126,16 @@ void PrefilteredMap::configure(const gl::Program& program) const {
   program.set("sumsUnit", 1.0F / static_cast<float>((1U << settings_.bits) - 1U));
 }
 
-void PrefilteredMap::bind(uint32_t unit) const {
-  if (sums_)
-    sums_->bind(unit);
-  else
-    mips_->bindTexture(unit);
-}
-
 void PrefilteredMap::make(Frame& frame) {
   const auto& map = frame.get<ShadowMap>(settings_.map);
-  const auto scope = frame.passes().open(pass_);
+  const auto scope = frame.passes().open(kPrefilterPass);
   const int resolution = settings_.map.resolution;
   configure(fill_);
   fill_.set("resolution", resolution);
   map.texture().bindTexture(0);
   texture().bindImage(0, gl::Access::Write);
   fill_.dispatch(glm::ivec2(resolution));
-  if (sums_) {
-    sums_->build();
-    return;
-  }
-  for (int level = 1; level < mips_->levels(); ++level) {
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    mips_->bindImage(0, gl::Access::Read, level - 1);
-    mips_->bindImage(1, gl::Access::Write, level);
-    const int side = resolution >> level;
-    reduce_->set("side", side);
-    reduce_->set("layers", layersOf(settings_));
-    reduce_->dispatch(glm::ivec2(side));
-  }
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  averages_.build();
 }
 
 }  // namespace limen::frame

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "renderer/frame/layer_averages.h"
 #include "renderer/frame/shadow_map.h"
-#include "renderer/frame/summed_area_table.h"
 
 namespace limen::frame {
 
@@ -14,12 +13,6 @@ enum class DepthBasis {
   Moments,      ///< d and d^2: variance shadow map
   Exponential,  ///< exp(c (d - d0)): exponential shadow map
   Fourier       ///< cos and sin of odd multiples of pi d: convolution shadow map, a layer a term
-};
-
-/// What averages of many texels are taken from.
-enum class Prefilter {
-  Sums,  ///< summed-area table: any rectangle
-  Mips   ///< pyramid of averages: squares of a power of two, blended
 };
 
 struct PrefilterSettings {
@@ -54,12 +47,12 @@ class PrefilteredMap : public FrameInput {
   /// Light-space z that becomes 1.
   double deepest() const { return deepest_; }
   /// Sums or averages to a texture unit (and means to storage binding 0).
-  void bind(uint32_t unit) const;
+  void bind(uint32_t unit) const { averages_.bind(unit); }
   /// Sets the uniforms of prefiltered_map.glsl.
   void configure(const gl::Program& program) const;
   /// Sums or averages as they are held, an array of layers.
-  const gl::Texture& texture() const { return sums_ ? sums_->texture() : *mips_; }
-  int64_t bytes() const { return sums_ ? sums_->bytes() : mips_->bytes(); }
+  const gl::Texture& texture() const { return averages_.texture(); }
+  int64_t bytes() const { return averages_.bytes(); }
   /// For shaders that include prefiltered_map.glsl.
   static gl::ShaderDefines defines(const PrefilterSettings& settings);
 
@@ -67,10 +60,8 @@ class PrefilteredMap : public FrameInput {
   PrefilterSettings settings_;
   LightFrustum frustum_;
   double deepest_;
-  std::optional<SummedAreaTable> sums_;
-  std::optional<gl::Texture> mips_;
-  const gl::Program &fill_, *reduce_ = nullptr;
-  std::string pass_;
+  const gl::Program& fill_;
+  LayerAverages averages_;
 };
 
 /// Light-space z of the farthest point of the scene's surfaces within the frustum; the near plane's if there

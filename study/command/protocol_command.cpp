@@ -19,7 +19,7 @@ struct ProtocolOptions {
   bool json = false, check = false;
 };
 
-void listProtocols(bool json) {
+void listProtocols(bool asJson) {
   nlohmann::json out = nlohmann::json::array();
   std::string text = "Shipped protocols:\n";
   for (const auto& [name, title] : shippedProtocols()) {
@@ -27,7 +27,7 @@ void listProtocols(bool json) {
     text += fmt::format("  {:<16}  {}\n", name, title);
   }
   text += "limen study protocol NAME shows conditions, trials and order; FILE takes one of your own.\n";
-  std::fputs(json ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
+  std::fputs(asJson ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
 }
 
 void showProtocols(const ProtocolOptions& options) {

@@ -82,13 +82,8 @@ class BudgetDrivers : public TechniqueTest {
   }
 
   static std::string refused(const Given& given) {
-    const TechniqueInfo& info = TechniqueRegistry::instance().get(kSteered);
-    try {
-      info.check(ParameterValues(info.parameters, given));
-    } catch (const Error& error) {
-      return error.where();
-    }
-    return {};
+    const std::optional<Error> error = refusal(kSteered, given);
+    return error ? error->where() : std::string();
   }
 };
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 #include "renderer/gl/context.h"
@@ -46,6 +48,17 @@ class TechniqueTest : public testing::Test {
   static scene::Scene makeScene(const std::string& name, const Given& given = {}) {
     return scene::buildScene(
         name, ParameterValues(scene::SceneRegistry::instance().get(name).allParameters(), given));
+  }
+
+  /// The Error with which a technique refuses values that do not go together; none where it takes them.
+  static std::optional<Error> refusal(const std::string& technique, const Given& given) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+    try {
+      if (info.check) info.check(ParameterValues(info.parameters, given));
+      return std::nullopt;
+    } catch (const Error& error) {
+      return error;
+    }
   }
 
   static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given,

@@ -5,7 +5,7 @@
 // In tangents t = x/z the backprojection of a texel edge at depth z from receiver p is, in unit light coordinates,
 //   s = z / (p_z - z) * (p_z t - p_x) / w + e,
 // e being the map's eye in these coordinates, to which p is relative; 1/2 in the light's centre.
-void accumulate(vec2 low, vec2 high);
+#include "renderer/techniques/soft_shadows/light_rectangle.glsl"
 
 Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 
@@ -54,13 +54,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
           start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
         }
 #endif
-        ++occluderCount;
-        // Clamped in an order that turns a NaN, were there one, into a bound.
-        const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
-        if (a.x < b.x && a.y < b.y) {
-          ++usedCount;
-          accumulate(a, b);
-        }
+        accumulateOnLight(start, end);
       }
 #if GAP_FILL > 0
       left = z;

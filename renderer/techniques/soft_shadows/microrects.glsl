@@ -8,7 +8,7 @@
 layout(binding = 10) uniform sampler2D rectDepths;  // its level i is level i + 1
 layout(binding = 11) uniform usampler2D rectExtents;
 
-void accumulate(vec2 low, vec2 high);
+#include "renderer/techniques/soft_shadows/light_rectangle.glsl"
 
 // A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in
 // either's.
@@ -70,13 +70,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #if GAP_FILL > 1
         if (lowerLeft < depth) start = min(start, throwOf(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
-        ++occluderCount;
-        // Clamped in an order that turns a NaN, were there one, into a bound.
-        const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
-        if (a.x < b.x && a.y < b.y) {
-          ++usedCount;
-          accumulate(a, b);
-        }
+        accumulateOnLight(start, end);
       }
 #if GAP_FILL > 0
       left = z;

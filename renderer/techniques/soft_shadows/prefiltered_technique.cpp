@@ -25,10 +25,22 @@ gl::ShaderDefines windowDefines(const ParameterValues& values, const frame::Pref
 
 }  // namespace
 
+Parameter prefilterParameter(std::vector<std::string> prefilters) {
+  const std::string usual = prefilters.front();
+  return choiceParameter("prefilter", usual, std::move(prefilters),
+                         "What averages are taken from: sums: summed-area table, any rectangle; mips: "
+                         "pyramid, squares of the window's area",
+                         "Schwarz 2009, section 3.2.1");
+}
+
+frame::Prefilter prefilterOf(const ParameterValues& values) {
+  return values.text("prefilter") == "sums" ? frame::Prefilter::Sums : frame::Prefilter::Mips;
+}
+
 std::vector<Parameter> PrefilteredTechnique::prefilterParameters(std::vector<std::string> windows,
                                                                  std::vector<std::string> prefilters) {
   std::vector<Parameter> all = commonParameters(1.0);
-  const std::string window = windows.front(), prefilter = prefilters.front();
+  const std::string window = windows.front();
   all.push_back(
       choiceParameter("window", window, std::move(windows),
                       "What is averaged: a window of fixed size, or of the size that the blockers' average "
@@ -40,11 +52,7 @@ std::vector<Parameter> PrefilteredTechnique::prefilterParameters(std::vector<std
                               "Window of the blocker search as a share of the light's extents"));
   all.push_back(integerParameter("search_taps", kDefaultSearchTaps, 1, 32, "",
                                  "Taps of a searched window's blocker search along a side"));
-  all.push_back(
-      choiceParameter("prefilter", prefilter, std::move(prefilters),
-                      "What averages are taken from: sums: summed-area table, any rectangle; mips: pyramid, "
-                      "squares of the window's area",
-                      "Schwarz 2009, section 3.2.1"));
+  all.push_back(prefilterParameter(std::move(prefilters)));
   all.push_back(
       choiceParameter("sums", kDefaultForm, {"float", "float_mean", "fixed"},
                       "Summed-area table in 32-bit floats, the same of values less their mean, or 32-bit "
@@ -53,6 +61,25 @@ std::vector<Parameter> PrefilteredTechnique::prefilterParameters(std::vector<std
   all.push_back(integerParameter("sum_bits", kDefaultBits, 0, 24, "bit",
                                  "Bits of a value in sums of whole numbers; 0: as many as never overflow"));
   return all;
+}
+
+TechniqueInfo PrefilteredTechnique::declare(std::string name, int version, std::string summary,
+                                            std::vector<Parameter> parameters,
+                                            decltype(TechniqueInfo::make) make,
+                                            decltype(TechniqueInfo::check) check) {
+  return {.name = std::move(name),
+          .version = version,
+          .summary = std::move(summary),
+          .source = "Schwarz 2009, section 3.2.1 (SS-03)",
+          .product = ProductKind::Visibility,
+          .parameters = std::move(parameters),
+          .needs = {"area_light"},
+          .reference = false,
+          .onCpu = false,
+          .make = std::move(make),
+          .errorBound = {},
+          .counters = counterNames(),
+          .check = std::move(check)};
 }
 
 void PrefilteredTechnique::checkPrefilter(const ParameterValues& values) {
@@ -82,7 +109,7 @@ void PrefilteredTechnique::checkPrefilter(const ParameterValues& values) {
 
 frame::PrefilterSettings PrefilteredTechnique::settingsOf(const ParameterValues& values) {
   frame::PrefilterSettings settings;
-  settings.prefilter = values.text("prefilter") == "sums" ? frame::Prefilter::Sums : frame::Prefilter::Mips;
+  settings.prefilter = prefilterOf(values);
   const std::string& sums = values.text("sums");
   settings.form = sums == "float"        ? frame::SumForm::Float
                   : sums == "float_mean" ? frame::SumForm::FloatMean

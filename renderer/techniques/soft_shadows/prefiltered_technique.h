@@ -9,6 +9,10 @@
 
 namespace limen::techniques {
 
+/// What averages are taken from, the first of `prefilters` being the default.
+Parameter prefilterParameter(std::vector<std::string> prefilters);
+frame::Prefilter prefilterOf(const ParameterValues& values);
+
 /// Base of the techniques that average a shadow map before they compare with it (SS-03): one look-up of a
 /// window instead of many comparisons. The window is fixed, or as wide as percentage-closer soft shadows have
 /// it, from the average depth of the blockers; the part of it that lies beyond the map is lit, as nothing is
@@ -21,6 +25,11 @@ class PrefilteredTechnique : public VisibilityTechnique {
   /// has, the first being the default; `prefilters` likewise.
   static std::vector<Parameter> prefilterParameters(std::vector<std::string> windows,
                                                     std::vector<std::string> prefilters);
+  /// What they all declare, with a name, a version, a summary and parameters of its own. `check` holds
+  /// checkPrefilter().
+  static TechniqueInfo declare(std::string name, int version, std::string summary,
+                               std::vector<Parameter> parameters, decltype(TechniqueInfo::make) make,
+                               decltype(TechniqueInfo::check) check = checkPrefilter);
   /// Refuses parameters of what is not there, and values too long for their sums.
   static void checkPrefilter(const ParameterValues& values);
   /// Map, way of averaging, form of the sums, as `values` has them.

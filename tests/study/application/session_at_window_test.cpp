@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "base/image.h"
 #include "tests/study/application/study_run.h"
@@ -26,15 +28,25 @@ class SessionAtWindow : public testing::Test {
     folder_ = fs::temp_directory_path() / ("limen_window_" + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
+    // The shipped protocol in a window that a software renderer fills in no time; its 320 x 240 take half of
+    // the test's.
+    std::ostringstream text;
+    text << std::ifstream(LIMEN_SOURCE_DIR "/study/protocols/quick.yaml").rdbuf();
+    std::string protocol = text.str();
+    const std::string window = "{width_px: 320, height_px: 240}";
+    const size_t at = protocol.find(window);
+    EXPECT_NE(at, std::string::npos);
+    if (at != std::string::npos) protocol.replace(at, window.size(), "{width_px: 96, height_px: 72}");
+    std::ofstream(folder_ / "quick.yaml") << protocol;
   }
   ~SessionAtWindow() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"quick",   "--participant",  "p01",
-                                    "--store", path("s.sqlite"), "--seed",
-                                    "7",       "--announce",     "--any-timing"};
+    std::vector<std::string> all = {path("quick.yaml"), "--participant", "p01", "--store",
+                                    path("s.sqlite"),   "--seed",        "7",   "--announce",
+                                    "--any-timing"};
     if (std::find(more.begin(), more.end(), "--full-screen") == more.end())
       all.insert(all.end(), {"--window", "640x480"});
     all.insert(all.end(), more.begin(), more.end());

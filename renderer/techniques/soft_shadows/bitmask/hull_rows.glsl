@@ -3,31 +3,26 @@
 // entered with one bitfieldInsert each, where the thesis joins one mask for each edge (Schwarz 2009, section 4.4.4).
 //
 // The rule for samples on an edge is that of rectangles (x0 < s <= x1, y0 < s <= y1): a sample counts as lying a little to
-// the left of its place, and far less below it. The jittered pattern has two rows of samples in each row of bits, one of
-// even and one of odd columns.
-#if PATTERN == 160
-const int kSide = 16;
-#else
-const int kSide = PATTERN;
-#endif
+// the left of its place, and far less below it.
+#include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
 
-// Number of places k * kSteps + offset, k = 0 .. kSide - 1, at or below v.
-int placesUpTo(int v, int offset) { return clamp(((v - offset) >> 12) + 1, 0, kSide); }
+// Number of places k * kSteps + offset, k = 0 .. kSamplesAlong - 1, at or below v.
+int placesUpTo(int v, int offset) { return clamp(((v - offset) >> 12) + 1, 0, kSamplesAlong); }
 
 // Number of samples of the row at `height` that lie on the edge or to its left; lower.y < height <= upper.y.
 int samplesUpToEdge(ivec2 lower, ivec2 upper, int height, int offset) {
   const ivec2 edge = upper - lower;
   const float start = float(lower.x - offset), run = float(edge.x);
   const float crossing = start + float(height - lower.y) * (run / float(edge.y));
-  const float place = clamp(crossing / float(kSteps), -1.0, float(kSide));
+  const float place = clamp(crossing / float(kSteps), -1.0, float(kSamplesAlong));
   // Rounding: less than eight parts in 2^24 of either length, and what the conversion to samples adds.
   const float nearest = roundEven(place);
   const float rounding = (exp2(-20.0) * (abs(start) + abs(run)) + 0.25) / float(kSteps);
-  if (abs(place - nearest) > rounding) return clamp(int(floor(place)) + 1, 0, kSide);
+  if (abs(place - nearest) > rounding) return clamp(int(floor(place)) + 1, 0, kSamplesAlong);
   const int candidate = int(nearest);
   const int across = candidate * kSteps + offset - lower.x;
   const bool within = compareProducts(across, edge.y, height - lower.y, edge.x) <= 0;
-  return clamp(candidate + int(within), 0, kSide);
+  return clamp(candidate + int(within), 0, kSamplesAlong);
 }
 
 // Bits of the samples of a row that lie within the hull: each row crosses one edge upwards and one downwards.
@@ -45,8 +40,8 @@ uint rowWithin(ivec2 hull[4], int height, int offset) {
 }
 
 void addQuadToMask(vec2 cornerA, vec2 cornerB, vec2 cornerC, vec2 cornerD) {
-  const ivec2 a = toSteps(cornerA, kSide), b = toSteps(cornerB, kSide), c = toSteps(cornerC, kSide),
-              d = toSteps(cornerD, kSide);
+  const ivec2 a = toSteps(cornerA, kSamplesAlong), b = toSteps(cornerB, kSamplesAlong), c = toSteps(cornerC, kSamplesAlong),
+              d = toSteps(cornerD, kSamplesAlong);
   const ivec2 low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
 #if PATTERN == 160
   const int kFirst = kSteps / 4, kLast = 3 * kSteps / 4;
@@ -62,16 +57,9 @@ void addQuadToMask(vec2 cornerA, vec2 cornerB, vec2 cornerC, vec2 cornerD) {
 #if PATTERN == 160
     const int offset = (j & 1) == 0 ? kFirst : kLast;
     const uint even = rowWithin(hull, height + kLast, offset), odd = rowWithin(hull, height + kFirst, offset);
-    mask[j >> 1] |= ((even & 0x5555u) | (odd & 0xaaaau)) << (16 * (j & 1));
+    addRow(j, joinedColumns(even, odd));
 #else
-    const uint row = rowWithin(hull, height + kFirst, kFirst);
-#if PATTERN == 32
-    mask[j] |= row;
-#elif PATTERN == 16
-    mask[j >> 1] |= row << (16 * (j & 1));
-#else
-    mask[j >> 2] |= row << (8 * (j & 3));
-#endif
+    addRow(j, rowWithin(hull, height + kFirst, kFirst));
 #endif
   }
 }

@@ -72,20 +72,10 @@ std::vector<Parameter> convolutionParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kConvolutionRegistered{
-    {.name = "soft_shadows/convolution",
-     .version = 1,
-     .summary = "Convolution shadow map: averaged terms of a Fourier series of the comparison",
-     .source = "Schwarz 2009, section 3.2.1 (SS-03)",
-     .product = ProductKind::Visibility,
-     .parameters = convolutionParameters(),
-     .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Convolution>(values); },
-     .errorBound = {},
-     .counters = PrefilteredTechnique::counterNames(),
-     .check = checkConvolution}};
+const Registered<TechniqueInfo> kConvolutionRegistered{PrefilteredTechnique::declare(
+    "soft_shadows/convolution", 1,
+    "Convolution shadow map: averaged terms of a Fourier series of the comparison", convolutionParameters(),
+    [](const ParameterValues& values) { return std::make_unique<Convolution>(values); }, checkConvolution)};
 
 }  // namespace
 }  // namespace limen::techniques

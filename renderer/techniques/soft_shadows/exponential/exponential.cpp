@@ -36,20 +36,11 @@ std::vector<Parameter> exponentialParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kExponentialRegistered{
-    {.name = "soft_shadows/exponential",
-     .version = 1,
-     .summary = "Exponential shadow map: averaged exponentials of depth stand for the comparison",
-     .source = "Schwarz 2009, section 3.2.1 (SS-03)",
-     .product = ProductKind::Visibility,
-     .parameters = exponentialParameters(),
-     .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Exponential>(values); },
-     .errorBound = {},
-     .counters = PrefilteredTechnique::counterNames(),
-     .check = PrefilteredTechnique::checkPrefilter}};
+const Registered<TechniqueInfo> kExponentialRegistered{PrefilteredTechnique::declare(
+    "soft_shadows/exponential", 1,
+    "Exponential shadow map: averaged exponentials of depth stand for the comparison",
+    exponentialParameters(),
+    [](const ParameterValues& values) { return std::make_unique<Exponential>(values); })};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -7,14 +7,10 @@
 // one pass, a bit of a texel each.
 #include "base/error.h"
 #include "renderer/frame/occlusion_slices.h"
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
+#include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 
 namespace limen::techniques {
 namespace {
-
-frame::Prefilter prefilterOf(const ParameterValues& values) {
-  return values.text("prefilter") == "sums" ? frame::Prefilter::Sums : frame::Prefilter::Mips;
-}
 
 gl::ShaderDefines occlusionTexturesDefines(const ParameterValues& values) {
   if (prefilterOf(values) == frame::Prefilter::Mips) return {{"MIPS", "1"}};
@@ -69,11 +65,7 @@ std::vector<Parameter> occlusionTexturesParameters() {
   all.push_back(integerParameter("slices", 16, 1, 32, "",
                                  "Slices between the nearest and the farthest caster",
                                  "Schwarz 2009, section 3.2.1 (number not given there)"));
-  all.push_back(
-      choiceParameter("prefilter", "sums", {"sums", "mips"},
-                      "What averages are taken from: sums: summed-area table, any rectangle; mips: pyramid, "
-                      "squares of the window's area",
-                      "Schwarz 2009, section 3.2.1"));
+  all.push_back(prefilterParameter({"sums", "mips"}));
   return all;
 }
 

@@ -6,11 +6,7 @@
 //
 // A line is the same for both triangles at an edge: worked out from the corners in one order, then turned. A sample is taken
 // by exactly one side of it.
-#if PATTERN == 160
-const int kSamplesAlong = 16;
-#else
-const int kSamplesAlong = PATTERN;
-#endif
+#include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
 
 // slope . s + constant >= 0, s in light extents from the light's centre.
 struct HalfSpaceOfLight {
@@ -71,16 +67,9 @@ void addToMaskWithin(HalfSpaceOfLight bounds[4], int first, int end) {
     const float offset = (j & 1) == 0 ? 0.25 : 0.75;
     const uint even = rowWithinAll(bounds, (float(j) + 0.75) / 16.0 - 0.5, offset),
                odd = rowWithinAll(bounds, (float(j) + 0.25) / 16.0 - 0.5, offset);
-    mask[j >> 1] |= ((even & 0x5555u) | (odd & 0xaaaau)) << (16 * (j & 1));
+    addRow(j, joinedColumns(even, odd));
 #else
-    const uint row = rowWithinAll(bounds, (float(j) + 0.5) / float(kSamplesAlong) - 0.5, 0.5);
-#if PATTERN == 32
-    mask[j] |= row;
-#elif PATTERN == 16
-    mask[j >> 1] |= row << (16 * (j & 1));
-#else
-    mask[j >> 2] |= row << (8 * (j & 3));
-#endif
+    addRow(j, rowWithinAll(bounds, (float(j) + 0.5) / float(kSamplesAlong) - 0.5, 0.5));
 #endif
   }
 }

@@ -40,20 +40,9 @@ std::vector<Parameter> varianceParameters() {
   return all;
 }
 
-const Registered<TechniqueInfo> kVarianceRegistered{
-    {.name = "soft_shadows/variance",
-     .version = 1,
-     .summary = "Variance shadow map: Chebyshev's bound from averaged moments of depth",
-     .source = "Schwarz 2009, section 3.2.1 (SS-03)",
-     .product = ProductKind::Visibility,
-     .parameters = varianceParameters(),
-     .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Variance>(values); },
-     .errorBound = {},
-     .counters = PrefilteredTechnique::counterNames(),
-     .check = PrefilteredTechnique::checkPrefilter}};
+const Registered<TechniqueInfo> kVarianceRegistered{PrefilteredTechnique::declare(
+    "soft_shadows/variance", 1, "Variance shadow map: Chebyshev's bound from averaged moments of depth",
+    varianceParameters(), [](const ParameterValues& values) { return std::make_unique<Variance>(values); })};
 
 }  // namespace
 }  // namespace limen::techniques

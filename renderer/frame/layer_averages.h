@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/frame/summed_area_table.h"
+
+namespace limen::frame {
+
+/// What averages of many texels are taken from.
+enum class Prefilter {
+  Sums,  ///< summed-area table: any rectangle
+  Mips   ///< pyramid of averages: squares of a power of two, blended
+};
+
+/// A square array of layers, and what averages over any part of each are taken from.
+class LayerAverages {
+ public:
+  struct Form {
+    Prefilter prefilter = Prefilter::Sums;
+    int resolution = 256;  ///< texels a side; a power of two
+    int layers = 1, channels = 1;
+    SumForm sums = SumForm::Float;        ///< of the sums
+    gl::Format texel = gl::Format::R32F;  ///< of the pyramid
+    const char* texelLayout = "r32f";     ///< the same as image layouts name it
+  };
+  /// `name` of the array ("the occlusion textures") and `mend` are for the Error that it throws where the
+  /// device has no room.
+  LayerAverages(gl::Context& context, const Form& form, const std::string& name, const std::string& mend);
+  /// Before build(): level 0 holds the values, to be written by a shader as an image.
+  const gl::Texture& texture() const { return sums_ ? sums_->texture() : *mips_; }
+  /// Makes the sums or averages of the values. Work that wrote these needs no barrier of its own.
+  void build() const;
+  /// Sums or averages to a texture unit (and means to storage binding 0).
+  void bind(uint32_t unit) const;
+  int64_t bytes() const { return sums_ ? sums_->bytes() : mips_->bytes(); }
+
+ private:
+  int resolution_, layers_;
+  std::optional<SummedAreaTable> sums_;
+  std::optional<gl::Texture> mips_;
+  const gl::Program* reduce_ = nullptr;
+};
+
+}  // namespace limen::frame
