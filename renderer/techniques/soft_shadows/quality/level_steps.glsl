@@ -40,13 +40,14 @@ bool differs(ivec2 pixel, ivec2 neighbour) {
   return isPair(pixel, neighbour) && choiceAt(pixel) != choiceAt(neighbour);
 }
 
-// Visibility of `pixel` at the level that `chooser` has chosen.
+// Visibility of `pixel` at the level that `chooser` has chosen; below 0: this program, compiled apart from the one that
+// counted, finds a pixel at the brink of it in no need of processing.
 float visibilityAsChosen(ivec2 pixel, ivec2 chooser) {
   const vec4 receiver = texelFetch(receivers, pixel, 0);
   Area area;
   float visibility;
   readBudget(pixel);
-  if (!findArea(receiver, area, visibility)) return uintBitsToFloat(0x7fc00000u);  // it was processed
+  if (!findArea(receiver, area, visibility)) return -1.0;
   return visibilityAt(receiver, area, levelChosen(chooser), chooser);
 }
 
@@ -61,6 +62,7 @@ void main() {
     const bool counts = own ? differs(pixel, pixel + ivec2(1, 0)) || differs(pixel, pixel + ivec2(0, 1))
                             : choiceAt(pixel) != result.y;
     if (counts) result.x = visibilityAsChosen(pixel, chooser);
+    if (result.x < 0.0) result = vec2(0.0, -1.0);
   }
   imageStore(outSteps, pixel, vec4(result, 0.0, 0.0));
 }
