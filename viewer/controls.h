@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/parameter.h"
-#include "viewer/setup.h"
+#include "viewer/choices.h"
 
 namespace limen::viewer {
 

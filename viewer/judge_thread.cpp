@@ -19,17 +19,17 @@ namespace limen::viewer {
 namespace {
 
 /// Everything that decides a reference's product.
-std::string identityOf(const Setup& setup, const Chosen& reference) {
-  std::string out = std::to_string(setup.sizePx.x) + "x" + std::to_string(setup.sizePx.y);
-  for (const Chosen* chosen : {&setup.scene, &reference}) {
+std::string identityOf(const Choices& choices, const Chosen& reference) {
+  std::string out = std::to_string(choices.sizePx.x) + "x" + std::to_string(choices.sizePx.y);
+  for (const Chosen* chosen : {&choices.scene, &reference}) {
     out += "|" + chosen->name;
     for (const auto& [name, value] : chosen->given) out += "," + name + "=" + toText(value);
   }
   return out;
 }
 
-std::string identityOf(const Setup& setup) {
-  return setup.reference ? identityOf(setup, *setup.reference) : std::string{};
+std::string identityOf(const Choices& choices) {
+  return choices.reference ? identityOf(choices, *choices.reference) : std::string{};
 }
 
 /// "samples 64 of 1024"
@@ -51,13 +51,13 @@ class JudgeThread::Work {
   /// The reference's product for one step, from memory if it is the last one made. Null if it was cancelled.
   std::shared_ptr<const Image> reference(const JudgeRequest& request, const Chosen& step,
                                          const std::stop_token& cancelled, std::atomic<int64_t>& made) {
-    const std::string identity = identityOf(request.setup, step);
+    const std::string identity = identityOf(request.choices, step);
     if (identity == identity_) return reference_;
-    stage_.choose(completeScene(request.setup.scene));
+    stage_.choose(completeScene(request.choices.scene));
     const experiments::Choice choice = completeTechnique(step);
     const CancelScope scope(cancelled);
     auto product = std::make_shared<Image>(
-        experiments::renderOnce(context_, stage_.stage(), request.setup.sizePx, choice));
+        experiments::renderOnce(context_, stage_.stage(), request.choices.sizePx, choice));
     ++made;
     if (cancelled.stop_requested()) return nullptr;
     identity_ = identity;
@@ -65,7 +65,7 @@ class JudgeThread::Work {
     return reference_;
   }
   bool has(const JudgeRequest& request) const {
-    return request.setup.reference && identityOf(request.setup) == identity_;
+    return request.choices.reference && identityOf(request.choices) == identity_;
   }
 
   void judge(const JudgeRequest& request, JudgeResult& out) {
@@ -118,7 +118,7 @@ JudgeThread::~JudgeThread() {
 void JudgeThread::ask(JudgeRequest request) {
   {
     const std::scoped_lock lock(guard_);
-    std::string identity = identityOf(request.setup);
+    std::string identity = identityOf(request.choices);
     if (identity != asked_) {
       cancel_.request_stop();
       cancel_ = std::stop_source();
@@ -154,13 +154,13 @@ void JudgeThread::run(const std::function<void()>& wake) {
       wake();
     };
     const auto seen = [&] { paintOverlay(*request, result); };
-    if (!request->setup.reference) {
+    if (!request->choices.reference) {
       seen();
       publish();
       continue;
     }
     try {
-      const Chosen& wanted = *request->setup.reference;
+      const Chosen& wanted = *request->choices.reference;
       const techniques::TechniqueInfo& info =
           techniques::TechniqueRegistry::instance().get(wanted.name, "reference");
       if (info.product != request->kind)
@@ -173,7 +173,7 @@ void JudgeThread::run(const std::function<void()>& wake) {
         // The same reference for another product: go on with that one.
         if (requests_.waiting() && !cancelled.stop_requested()) {
           std::optional<JudgeRequest> next = requests_.take();
-          if (next && identityOf(next->setup) != identityOf(request->setup)) {
+          if (next && identityOf(next->choices) != identityOf(request->choices)) {
             requests_.putBack(std::move(*next));
             break;
           }

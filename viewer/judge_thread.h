@@ -16,9 +16,9 @@
 #include "base/image.h"
 #include "experiments/stage.h"
 #include "perception/vision/display.h"
+#include "viewer/choices.h"
 #include "viewer/latest.h"
 #include "viewer/presenter.h"
-#include "viewer/setup.h"
 
 namespace limen::viewer {
 
@@ -32,7 +32,7 @@ enum class Overlay {
 /// Products at rest that are to be judged.
 struct JudgeRequest {
   uint64_t number = 0;  ///< comes back with every result
-  Setup setup;
+  Choices choices;
   techniques::ProductKind kind = techniques::ProductKind::Visibility;
   std::shared_ptr<const Image> product, other;  ///< `other`: null, or of the second technique, same kind
   std::shared_ptr<const experiments::ViewImages> view;

@@ -78,32 +78,32 @@ Chosen withoutDefaults(const experiments::Choice& choice, const std::vector<Para
 
 }  // namespace
 
-std::string descriptorOf(const Setup& setup) {
+std::string descriptorOf(const Choices& choices) {
   const techniques::ProductKind kind =
-      techniques::TechniqueRegistry::instance().get(setup.technique.name).product;
-  const std::vector<Parameter> technique = techniqueParameters(setup.technique.name);
+      techniques::TechniqueRegistry::instance().get(choices.technique.name).product;
+  const std::vector<Parameter> technique = techniqueParameters(choices.technique.name);
   std::ostringstream out;
   out << "title: "
-      << quoted(setup.technique.name + " on " + setup.scene.name + ", as it was seen in the viewer")
+      << quoted(choices.technique.name + " on " + choices.scene.name + ", as it was seen in the viewer")
       << "\nquestion: What was looked at?\nsource: \"kept from limen view\"\nscenes:\n  - "
-      << entry(setup.scene, sceneParameters(setup.scene.name)) << "\ntechniques:\n  - "
-      << entry(setup.technique, technique) << '\n';
-  if (setup.other && !(*setup.other == setup.technique) &&
-      techniques::TechniqueRegistry::instance().get(setup.other->name).product == kind)
-    out << "  - " << entry(*setup.other, techniqueParameters(setup.other->name)) << '\n';
-  if (setup.reference)
-    out << "reference: " << entry(*setup.reference, techniqueParameters(setup.reference->name)) << '\n';
-  out << "image: {width: " << setup.sizePx.x << ", height: " << setup.sizePx.y << "}\n"
+      << entry(choices.scene, sceneParameters(choices.scene.name)) << "\ntechniques:\n  - "
+      << entry(choices.technique, technique) << '\n';
+  if (choices.other && !(*choices.other == choices.technique) &&
+      techniques::TechniqueRegistry::instance().get(choices.other->name).product == kind)
+    out << "  - " << entry(*choices.other, techniqueParameters(choices.other->name)) << '\n';
+  if (choices.reference)
+    out << "reference: " << entry(*choices.reference, techniqueParameters(choices.reference->name)) << '\n';
+  out << "image: {width: " << choices.sizePx.x << ", height: " << choices.sizePx.y << "}\n"
       << "timing: {warmup: 8, frames: 64}\n"
-      << "metrics: " << (setup.reference ? "[rmse, largest_error]" : "[non_finite]") << '\n'
+      << "metrics: " << (choices.reference ? "[rmse, largest_error]" : "[non_finite]") << '\n'
       << "artefacts: {pictures: true, exr: true}\n";
   return out.str();
 }
 
-std::string keep(const Setup& setup, const std::string& folder) {
+std::string keep(const Choices& choices, const std::string& folder) {
   makeFolder(folder);
   const fs::path path = freshName(folder, "kept", ".yaml");
-  const std::string text = descriptorOf(setup);
+  const std::string text = descriptorOf(choices);
   // Whatever a sweep would refuse is said now, while the picture is still on screen.
   const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
   experiments::makePlan(experiments::parseDescriptor(text, path.string(), catalogue, {}), catalogue);
@@ -119,12 +119,12 @@ std::string keep(const Setup& setup, const std::string& folder) {
   return path.string();
 }
 
-Setup setupOf(const std::string& descriptorPath) {
+Choices choicesOf(const std::string& descriptorPath) {
   const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
   const experiments::Plan plan =
       experiments::makePlan(experiments::readDescriptor(descriptorPath, catalogue, {}), catalogue);
   const experiments::PlannedRun& run = plan.runs.at(0);
-  Setup out;
+  Choices out;
   out.scene = withoutDefaults(run.scene, sceneParameters(run.scene.name));
   out.technique = withoutDefaults(run.technique, techniqueParameters(run.technique.name));
   if (!run.reference.name.empty())
@@ -133,18 +133,18 @@ Setup setupOf(const std::string& descriptorPath) {
   return out;
 }
 
-std::string writeProducts(const std::map<std::string, ProductImages>& images, const Setup& setup,
+std::string writeProducts(const std::map<std::string, ProductImages>& images, const Choices& choices,
                           const std::string& folder) {
   makeFolder(folder);
   const fs::path into = freshName(folder, "pictures", "");
   makeFolder(into);
-  const std::string about = setup.technique.name + " on " + setup.scene.name;
+  const std::string about = choices.technique.name + " on " + choices.scene.name;
   for (const auto& [name, image] : images) {
     if (image.values) writeExr((into / (name + ".exr")).string(), *image.values, name + ": " + about);
     if (image.picture) writePng((into / (name + ".png")).string(), *image.picture, name + ": " + about);
   }
   std::ofstream descriptor(into / "descriptor.yaml");
-  descriptor << descriptorOf(setup);
+  descriptor << descriptorOf(choices);
   return into.string();
 }
 

@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "base/image.h"
-#include "viewer/setup.h"
+#include "viewer/choices.h"
 
 namespace limen::viewer {
 
 /// What is on screen as a descriptor: `limen sweep` makes the same picture of it. Parameters at their default
 /// are left out.
-std::string descriptorOf(const Setup& setup);
+std::string descriptorOf(const Choices& choices);
 
 /// Writes descriptorOf() to a new file "kept_NNN.yaml" in `folder` and returns its path. Throws Error if the
 /// descriptor would not be accepted by a sweep, or the file cannot be written; what is there already stays.
-std::string keep(const Setup& setup, const std::string& folder);
+std::string keep(const Choices& choices, const std::string& folder);
 
 /// The first run of a descriptor. Throws Error as a sweep would.
-Setup setupOf(const std::string& descriptorPath);
+Choices choicesOf(const std::string& descriptorPath);
 
 /// Images to be written, by name: values as they are, and as a picture.
 struct ProductImages {
@@ -30,7 +30,7 @@ struct ProductImages {
 
 /// Writes "NAME.exr" and "NAME.png" into a new folder "pictures_NNN" of `folder`; returns its path. Throws
 /// Error where a file cannot be written.
-std::string writeProducts(const std::map<std::string, ProductImages>& images, const Setup& setup,
+std::string writeProducts(const std::map<std::string, ProductImages>& images, const Choices& choices,
                           const std::string& folder);
 
 }  // namespace limen::viewer

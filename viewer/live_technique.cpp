@@ -71,6 +71,7 @@ void LiveTechnique::render(int frames, double seconds) {
 std::vector<PassFigure> LiveTechnique::passes() {
   std::vector<PassFigure> out;
   for (const gl::PassList::Pass& pass : frame_.passes().passes()) {
+    if (!pass.ran) continue;  // counting has passes of its own
     const auto ms = passMs_.find(pass.name);
     out.push_back({pass.name, ms == passMs_.end() ? -1.0 : ms->second, pass.bytesHeld});
   }

@@ -80,18 +80,18 @@ ParameterValue valueOf(const Parameter& parameter, const std::string& text, cons
 }
 
 /// "scene.light_size=2"
-void apply(Setup& setup, const std::string& text) {
+void apply(Choices& choices, const std::string& text) {
   const size_t dot = text.find('.'), equals = text.find('=');
   const std::string mend =
       "give it as scene.NAME=VALUE, technique.NAME=VALUE, second.NAME=VALUE or reference.NAME=VALUE";
   if (dot == std::string::npos || equals == std::string::npos || dot > equals)
     throw Error("'" + text + "' names no parameter", "--set", mend);
   const std::string what = text.substr(0, dot), name = text.substr(dot + 1, equals - dot - 1);
-  Chosen* chosen = what == "scene"                          ? &setup.scene
-                   : what == "technique"                    ? &setup.technique
-                   : what == "second" && setup.other        ? &*setup.other
-                   : what == "reference" && setup.reference ? &*setup.reference
-                                                            : nullptr;
+  Chosen* chosen = what == "scene"                            ? &choices.scene
+                   : what == "technique"                      ? &choices.technique
+                   : what == "second" && choices.other        ? &*choices.other
+                   : what == "reference" && choices.reference ? &*choices.reference
+                                                              : nullptr;
   if (!chosen) throw Error("nothing is called '" + what + "' here", "--set " + text, mend);
   const std::vector<Parameter> declared =
       what == "scene" ? sceneParameters(chosen->name) : techniqueParameters(chosen->name);
@@ -107,31 +107,31 @@ void apply(Setup& setup, const std::string& text) {
               suggest(name, names));
 }
 
-Setup setupFrom(const ViewOptions& options) {
-  Setup setup;
+Choices choicesFrom(const ViewOptions& options) {
+  Choices choices;
   if (!options.descriptor.empty()) {
-    setup = setupOf(options.descriptor);
+    choices = choicesOf(options.descriptor);
   } else {
-    setup.scene.name = options.scene;
-    setup.technique.name = options.technique;
-    sceneParameters(setup.scene.name);
-    setup.reference = options.reference == "none" ? std::nullopt
-                      : options.reference.empty() ? usualReference(options.technique)
-                                                  : std::optional(Chosen{options.reference, {}});
-    if (setup.reference) techniqueParameters(setup.reference->name);
-    setup.sizePx = sizeOf(options.size, "--size");
+    choices.scene.name = options.scene;
+    choices.technique.name = options.technique;
+    sceneParameters(choices.scene.name);
+    choices.reference = options.reference == "none" ? std::nullopt
+                        : options.reference.empty() ? usualReference(options.technique)
+                                                    : std::optional(Chosen{options.reference, {}});
+    if (choices.reference) techniqueParameters(choices.reference->name);
+    choices.sizePx = sizeOf(options.size, "--size");
   }
   if (!options.second.empty()) {
     techniqueParameters(options.second);
-    setup.other = Chosen{options.second, {}};
+    choices.other = Chosen{options.second, {}};
   }
-  for (const std::string& text : options.set) apply(setup, text);
+  for (const std::string& text : options.set) apply(choices, text);
   // What is not there or does not go together is said before any window opens.
-  completeScene(setup.scene);
-  completeTechnique(setup.technique);
-  if (setup.other) completeTechnique(*setup.other);
-  if (setup.reference) completeTechnique(*setup.reference);
-  return setup;
+  completeScene(choices.scene);
+  completeTechnique(choices.technique);
+  if (choices.other) completeTechnique(*choices.other);
+  if (choices.reference) completeTechnique(*choices.reference);
+  return choices;
 }
 
 int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Arrangement arrangement) {
@@ -180,7 +180,7 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
 
 int view(const ViewOptions& options) {
   ViewerOptions viewerOptions;
-  viewerOptions.setup = setupFrom(options);
+  viewerOptions.choices = choicesFrom(options);
   viewerOptions.resultsFolder = options.results;
   viewerOptions.shaderRoot = options.shaders;
   if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);

@@ -27,10 +27,17 @@ void wrong(const std::string& text) {
 }
 
 std::string bytesText(int64_t bytes) {
-  const double mib = static_cast<double>(bytes) / (1024.0 * 1024.0);
+  const double mb = 1e-6 * static_cast<double>(bytes);
   char text[32];
-  std::snprintf(text, sizeof text, mib < 10.0 ? "%.2f MiB" : "%.0f MiB", mib);
+  std::snprintf(text, sizeof text, mb < 10.0 ? "%.2f MB" : "%.0f MB", mb);
   return text;
+}
+
+/// A name in the first column, which gives way, and figures in the others, which do not.
+bool figureTable(const char* id, int columns) {
+  if (!ImGui::BeginTable(id, columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+  return true;
 }
 
 bool heading(const char* text) { return ImGui::CollapsingHeader(text, ImGuiTreeNodeFlags_DefaultOpen); }
@@ -93,19 +100,19 @@ void Panes::choices() {
 
 void Panes::scene() {
   if (!heading("Scene")) return;
-  Setup& setup = viewer_.setup_;
-  std::string name = setup.scene.name;
+  Choices& choices = viewer_.choices_;
+  std::string name = choices.scene.name;
   if (nameChooser("scene", scene::SceneRegistry::instance().names(), name, aboutScene, viewer_.controls_)) {
-    setup.scene = {name, {}};
+    choices.scene = {name, {}};
     viewer_.timeS_ = 0.0;
   }
-  parameterControls("scene", sceneParameters(setup.scene.name), setup.scene, viewer_.controls_);
-  int side[2] = {setup.sizePx.x, setup.sizePx.y};
+  parameterControls("scene", sceneParameters(choices.scene.name), choices.scene, viewer_.controls_);
+  int side[2] = {choices.sizePx.x, choices.sizePx.y};
   ImGui::SetNextItemWidth(-8.0F * ImGui::GetFontSize());
   ImGui::InputInt2("picture, px", side);
   viewer_.controls_.note("scene.picture");
   if (ImGui::IsItemDeactivatedAfterEdit())
-    setup.sizePx = glm::clamp(glm::ivec2(side[0], side[1]), glm::ivec2(1), glm::ivec2(8192));
+    choices.sizePx = glm::clamp(glm::ivec2(side[0], side[1]), glm::ivec2(1), glm::ivec2(8192));
   if (viewer_.shown_ && !viewer_.shown_->error.empty()) wrong(viewer_.shown_->error);
   if (viewer_.shown_ && viewer_.shown_->error.empty())
     ImGui::TextDisabled("%zu triangles", viewer_.shown_->triangles);
@@ -118,34 +125,35 @@ void Panes::technique(const std::string& title, const std::string& prefix, bool 
   }
   viewer_.controls_.note(prefix + ".heading");
   ImGui::PushID(prefix.c_str());
-  Setup& setup = viewer_.setup_;
+  Choices& choices = viewer_.choices_;
   const std::set<std::string> traits = viewer_.shown_ ? viewer_.shown_->traits : std::set<std::string>{};
   std::vector<std::string> names =
-      second ? comparable(setup.technique.name) : techniques::TechniqueRegistry::instance().names();
+      second ? comparable(choices.technique.name) : techniques::TechniqueRegistry::instance().names();
   if (second) names.insert(names.begin(), "");
-  std::string name = second ? (setup.other ? setup.other->name : "") : setup.technique.name;
+  std::string name = second ? (choices.other ? choices.other->name : "") : choices.technique.name;
   if (nameChooser(
           prefix, names, name, [&](const std::string& of) { return aboutTechnique(of, traits); },
           viewer_.controls_)) {
     viewer_.view_.clear();
     if (second) {
-      setup.other = name.empty() ? std::nullopt : std::optional(Chosen{name, {}});
-      if (setup.other && viewer_.arrangement == Arrangement::First) viewer_.arrangement = Arrangement::Split;
+      choices.other = name.empty() ? std::nullopt : std::optional(Chosen{name, {}});
+      if (choices.other && viewer_.arrangement == Arrangement::First)
+        viewer_.arrangement = Arrangement::Split;
     } else {
-      const bool otherKind = comparable(name) != comparable(setup.technique.name);
-      setup.technique = {name, {}};
-      if (otherKind) setup.reference = usualReference(name), setup.other.reset();
+      const bool otherKind = comparable(name) != comparable(choices.technique.name);
+      choices.technique = {name, {}};
+      if (otherKind) choices.reference = usualReference(name), choices.other.reset();
     }
   }
   if (second) {
-    if (ImGui::Button("same as the first")) setup.other = setup.technique;
+    if (ImGui::Button("same as the first")) choices.other = choices.technique;
     viewer_.controls_.note("second.copy");
     ImGui::SameLine();
-    if (ImGui::Button("swap") && setup.other) std::swap(setup.technique, *setup.other);
+    if (ImGui::Button("swap") && choices.other) std::swap(choices.technique, *choices.other);
     viewer_.controls_.note("second.swap");
   }
-  if (!second || setup.other) {
-    Chosen& chosen = second ? *setup.other : setup.technique;
+  if (!second || choices.other) {
+    Chosen& chosen = second ? *choices.other : choices.technique;
     parameterControls(prefix, techniqueParameters(chosen.name), chosen, viewer_.controls_);
     const size_t index = second ? 1 : 0;
     if (viewer_.shown_ && viewer_.shown_->rendered.size() > index) {
@@ -171,17 +179,17 @@ void Panes::technique(const std::string& title, const std::string& prefix, bool 
 void Panes::reference() {
   if (!heading("Reference")) return;
   ImGui::PushID("reference");
-  Setup& setup = viewer_.setup_;
-  std::vector<std::string> names = comparable(setup.technique.name);
+  Choices& choices = viewer_.choices_;
+  std::vector<std::string> names = comparable(choices.technique.name);
   names.insert(names.begin(), "");
-  std::string name = setup.reference ? setup.reference->name : "";
+  std::string name = choices.reference ? choices.reference->name : "";
   const std::set<std::string> traits = viewer_.shown_ ? viewer_.shown_->traits : std::set<std::string>{};
   if (nameChooser(
           "reference", names, name, [&](const std::string& of) { return aboutTechnique(of, traits); },
           viewer_.controls_))
-    setup.reference = name.empty() ? std::nullopt : std::optional(Chosen{name, {}});
-  if (setup.reference)
-    parameterControls("reference", techniqueParameters(setup.reference->name), *setup.reference,
+    choices.reference = name.empty() ? std::nullopt : std::optional(Chosen{name, {}});
+  if (choices.reference)
+    parameterControls("reference", techniqueParameters(choices.reference->name), *choices.reference,
                       viewer_.controls_);
   if (viewer_.judged_ && !viewer_.judged_->error.empty()) wrong(viewer_.judged_->error);
   ImGui::PopID();
@@ -232,6 +240,7 @@ void Panes::figures() {
   ImGui::Begin("figures", nullptr, kFixed);
   times();
   errors();
+  costs();
   pixel();
   ImGui::End();
 }
@@ -261,7 +270,7 @@ void Panes::times() {
     ImGui::PlotLines("##history", history.data(), static_cast<int>(history.size()), 0, range, 0.0F, most,
                      {-1.0F, 3.0F * ImGui::GetFontSize()});
   }
-  if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+  if (figureTable("passes", 3)) {
     int64_t bytes = 0;
     for (const PassFigure& pass : first.passes) {
       ImGui::TableNextRow();
@@ -282,34 +291,44 @@ void Panes::times() {
     ImGui::EndTable();
   }
   if (first.prepareMs >= 0.0) ImGui::TextDisabled("prepared in %.2f ms", first.prepareMs);
-  if (!first.counters.empty() &&
-      ImGui::BeginTable("counters", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    for (const techniques::Counter& counter : first.counters) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(counter.name.c_str());
-      ImGui::TableNextColumn();
-      ImGui::Text("%s %s", figureText(counter.value).c_str(), counter.unit.c_str());
-    }
-    ImGui::EndTable();
+}
+
+void Panes::costs() {
+  if (!viewer_.shown_ || viewer_.shown_->rendered.empty() || viewer_.shown_->rendered[0].counters.empty())
+    return;
+  if (!heading("Counted")) return;
+  const Rendered& first = viewer_.shown_->rendered[0];
+  const Rendered* second = viewer_.shown_->rendered.size() > 1 ? &viewer_.shown_->rendered[1] : nullptr;
+  if (!figureTable("counters", second ? 3 : 2)) return;
+  for (const techniques::Counter& counter : first.counters) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(counter.name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%s %s", figureText(counter.value).c_str(), counter.unit.c_str());
+    if (!second) continue;
+    ImGui::TableNextColumn();
+    for (const techniques::Counter& other : second->counters)
+      if (other.name == counter.name) ImGui::TextDisabled("%s", figureText(other.value).c_str());
   }
+  ImGui::EndTable();
 }
 
 void Panes::errors() {
   if (!heading("Error")) return;
-  if (!viewer_.setup_.reference) {
+  if (!viewer_.choices_.reference) {
     ImGui::TextDisabled("no reference is chosen");
   } else if (!viewer_.judged_) {
     ImGui::TextDisabled("the reference is being made");
   } else if (viewer_.judged_->error.empty()) {
     const JudgeResult& judged = *viewer_.judged_;
-    ImGui::TextDisabled("against %s", viewer_.setup_.reference->name.c_str());
+    ImGui::TextDisabled("against %s", viewer_.choices_.reference->name.c_str());
     if (!judged.step.empty()) ImGui::TextColored({1.0F, 0.8F, 0.4F, 1.0F}, "so far: %s", judged.step.c_str());
     if (judged.bound >= 0.0)
       ImGui::TextDisabled("a pixel of it is within %s (99.9 %%)", figureText(judged.bound).c_str());
     const bool two = std::any_of(judged.figures.begin(), judged.figures.end(),
                                  [](const ErrorFigure& figure) { return !std::isnan(figure.other); });
-    if (ImGui::BeginTable("errors", two ? 3 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    if (figureTable("errors", two ? 3 : 2)) {
       for (const ErrorFigure& figure : judged.figures) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();

@@ -26,6 +26,7 @@ class Panes {
   void figures();
   void times();
   void errors();
+  void costs();
   void pixel();
   void messages();
 

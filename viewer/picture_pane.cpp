@@ -127,10 +127,10 @@ void PicturePane::show(double secondsPassed) {
       map = &found->second;
   viewer_.map_.show(map ? map->picture : nullptr);
   viewer_.painted_.show(viewer_.judged_ ? viewer_.judged_->overlay : nullptr);
-  const std::string firstName = viewer_.setup_.technique.name;
-  const std::string secondName = viewer_.setup_.other       ? viewer_.setup_.other->name
-                                 : viewer_.setup_.reference ? viewer_.setup_.reference->name
-                                                            : "";
+  const std::string firstName = viewer_.choices_.technique.name;
+  const std::string secondName = viewer_.choices_.other       ? viewer_.choices_.other->name
+                                 : viewer_.choices_.reference ? viewer_.choices_.reference->name
+                                                              : "";
 
   ImGui::PushClipRect(toIm(least), toIm(most), true);
   Placed where = place(viewer_.first_, least, most);

@@ -77,7 +77,7 @@ class RenderThread::Work {
       out.rendered.push_back(std::move(one));
     }
     try {
-      *view = stage_.stage().view(context_, request.setup.sizePx);
+      *view = stage_.stage().view(context_, request.choices.sizePx);
       out.view = std::move(view);
     } catch (const std::exception& error) {
       out.error = error.what();
@@ -114,9 +114,9 @@ class RenderThread::Work {
   RenderResult begin(const RenderRequest& request) {
     RenderResult out;
     out.number = request.number;
-    out.setup = request.setup;
+    out.choices = request.choices;
     try {
-      const experiments::Choice scene = completeScene(request.setup.scene);
+      const experiments::Choice scene = completeScene(request.choices.scene);
       if (stage_.empty() || !(scene.name == scene_.name && scene.values.all() == scene_.values.all())) {
         // Whoever holds on to a scene goes before it does.
         scene_ = {};
@@ -125,9 +125,9 @@ class RenderThread::Work {
         scene_ = scene;
         if (presenter_) presenter_->refresh();
       }
-      if (request.setup.sizePx != sizePx_) {
+      if (request.choices.sizePx != sizePx_) {
         forgetTechniques();
-        sizePx_ = request.setup.sizePx;
+        sizePx_ = request.choices.sizePx;
       }
       if (!presenter_) presenter_ = std::make_unique<Presenter>(context_, stage_.stage(), sizePx_);
     } catch (const std::exception& error) {
@@ -135,7 +135,7 @@ class RenderThread::Work {
       out.error = error.what();
       return out;
     }
-    choose(request.setup);
+    choose(request.choices);
     const scene::Scene& scene = stage_.stage().scene;
     out.traits = scene.traits();
     out.camera = scene.camera.at(0.0);
@@ -147,9 +147,9 @@ class RenderThread::Work {
 
   bool needsBuilding(const experiments::Choice& scene) const { return stage_.needsBuilding(scene); }
 
-  void choose(const Setup& setup) {
-    std::vector<Chosen> wanted = {setup.technique};
-    if (setup.other) wanted.push_back(*setup.other);
+  void choose(const Choices& choices) {
+    std::vector<Chosen> wanted = {choices.technique};
+    if (choices.other) wanted.push_back(*choices.other);
     for (size_t i = 0; i < live_.size(); ++i)
       if (i >= wanted.size() || i >= choices_.size() || !(choices_[i] == wanted[i])) live_[i].reset();
     choices_ = std::move(wanted);
@@ -259,12 +259,12 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
     if (!working) requests_.wait(kWatchInterval);
     if (requests_.closed()) break;
     if (std::optional<RenderRequest> next = requests_.take()) {
-      const bool sameSetup = settled && settled->setup == next->setup;
+      const bool sameChoices = settled && settled->choices == next->choices;
       current = std::move(*next);
       if (current.moving) {
         settled.reset();
         publish(work.live(current));
-      } else if (sameSetup) {
+      } else if (sameChoices) {
         work.refresh(*settled, current, false);
         publish(*settled);
       } else {

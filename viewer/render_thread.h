@@ -16,17 +16,17 @@
 #include "base/image.h"
 #include "renderer/gl/context.h"
 #include "renderer/techniques/technique.h"
+#include "viewer/choices.h"
 #include "viewer/latest.h"
 #include "viewer/live_technique.h"
 #include "viewer/presenter.h"
-#include "viewer/setup.h"
 
 namespace limen::viewer {
 
 /// What the render thread is to show.
 struct RenderRequest {
   uint64_t number = 0;  ///< comes back with the result
-  Setup setup;
+  Choices choices;
   std::string view;                    ///< debug view in place of the first product; "": the product
   std::optional<glm::ivec2> pickedPx;  ///< pixel whose values are wanted
   bool moving = false;      ///< the user is at it, the camera moves: settled frames would be in the way
@@ -63,7 +63,7 @@ struct Rendered {
 
 struct RenderResult {
   uint64_t number = 0;
-  Setup setup;  ///< what was rendered
+  Choices choices;  ///< what was rendered
   bool settled = false;
   std::string error;               ///< of the scene
   std::vector<Rendered> rendered;  ///< one or two; none if the scene is in error

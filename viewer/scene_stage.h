@@ -6,7 +6,7 @@
 #include <string>
 
 #include "experiments/stage.h"
-#include "viewer/setup.h"
+#include "viewer/choices.h"
 
 namespace limen::viewer {
 

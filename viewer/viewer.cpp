@@ -29,15 +29,15 @@ Viewer::Viewer(window::UiSurface& surface, ViewerOptions options, std::function<
       device_(render_.device()),
       displayName_(options_.display.name) {
   readViews();
-  choose(options_.setup);
+  choose(options_.choices);
 }
 
 Viewer::~Viewer() = default;
 
-void Viewer::choose(Setup setup) {
-  completeScene(setup.scene);
-  completeTechnique(setup.technique);
-  setup_ = std::move(setup);
+void Viewer::choose(Choices choices) {
+  completeScene(choices.scene);
+  completeTechnique(choices.technique);
+  choices_ = std::move(choices);
   ask();
 }
 
@@ -47,8 +47,8 @@ void Viewer::say(const std::string& message) {
 }
 
 void Viewer::ask() {
-  asked_ = setup_;
-  request_ = {++number_, setup_, view_, pickedPx_, moving_ || playing_, continuous_};
+  asked_ = choices_;
+  request_ = {++number_, choices_, view_, pickedPx_, moving_ || playing_, continuous_};
   render_.ask(request_);
 }
 
@@ -58,7 +58,7 @@ void Viewer::askJudge() {
   if (!first.product || !shown_->view) return;
   JudgeRequest request;
   request.number = judgedNumber_ = shown_->number;
-  request.setup = shown_->setup;
+  request.choices = shown_->choices;
   request.kind = first.kind;
   request.product = first.product;
   if (shown_->rendered.size() > 1 && shown_->rendered[1].kind == first.kind)
@@ -66,12 +66,17 @@ void Viewer::askJudge() {
   request.view = shown_->view;
   request.overlay = overlay_;
   request.display = options_.display;
-  judgePending_ = request.setup.reference.has_value() || overlay_ != Overlay::None;
+  judgePending_ = request.choices.reference.has_value() || overlay_ != Overlay::None;
   if (!judgePending_) {
     judged_.reset();
     return;
   }
   judge_.ask(std::move(request));
+}
+
+void Viewer::predict(Overlay overlay) {
+  overlay_ = overlay;
+  askJudge();
 }
 
 bool Viewer::takeResults() {
@@ -107,7 +112,7 @@ bool Viewer::animated() const {
 }
 
 bool Viewer::atRest() const {
-  if (!shown_ || !shown_->settled || shown_->number != number_ || !(setup_ == asked_)) return false;
+  if (!shown_ || !shown_->settled || shown_->number != number_ || !(choices_ == asked_)) return false;
   if (!shown_->error.empty()) return true;
   const bool timed = std::all_of(shown_->rendered.begin(), shown_->rendered.end(), [](const Rendered& one) {
     return !one.error.empty() || one.frameMs >= 0.0;
@@ -116,9 +121,9 @@ bool Viewer::atRest() const {
 }
 
 void Viewer::setCamera(const scene::Camera& camera) {
-  setup_.scene.given.erase("camera_path");
-  setup_.scene.given.erase("time_s");
-  setup_.scene.given["camera"] = scene::toText(camera);
+  choices_.scene.given.erase("camera_path");
+  choices_.scene.given.erase("time_s");
+  choices_.scene.given["camera"] = scene::toText(camera);
 }
 
 void Viewer::moveTo(const scene::Camera& camera) {
@@ -128,23 +133,23 @@ void Viewer::moveTo(const scene::Camera& camera) {
 }
 
 scene::Camera Viewer::cameraNow() const {
-  const auto given = setup_.scene.given.find("camera");
-  if (given != setup_.scene.given.end()) return scene::parseCamera(std::get<std::string>(given->second));
+  const auto given = choices_.scene.given.find("camera");
+  if (given != choices_.scene.given.end()) return scene::parseCamera(std::get<std::string>(given->second));
   return shown_ ? shown_->path.at(timeS_) : scene::Camera{};
 }
 
 void Viewer::dropCamera() {
-  for (const char* name : {"camera", "camera_path", "time_s"}) setup_.scene.given.erase(name);
+  for (const char* name : {"camera", "camera_path", "time_s"}) choices_.scene.given.erase(name);
   timeS_ = 0.0;
 }
 
 void Viewer::setTime(double timeS) {
   timeS_ = timeS;
-  setup_.scene.given.erase("camera");
+  choices_.scene.given.erase("camera");
   if (timeS == 0.0)
-    setup_.scene.given.erase("time_s");
+    choices_.scene.given.erase("time_s");
   else
-    setup_.scene.given["time_s"] = timeS;
+    choices_.scene.given["time_s"] = timeS;
 }
 
 std::shared_ptr<const ScreenPicture> Viewer::secondPicture() const {
@@ -154,7 +159,7 @@ std::shared_ptr<const ScreenPicture> Viewer::secondPicture() const {
 
 std::string Viewer::keepDescriptor() {
   try {
-    const std::string path = keep(setup_, options_.resultsFolder);
+    const std::string path = keep(choices_, options_.resultsFolder);
     say("kept as " + path);
     return path;
   } catch (const std::exception& error) {
@@ -181,7 +186,7 @@ std::string Viewer::savePictures() {
       for (const auto& [name, map] : judged_->maps)
         images[name] = {map.values,
                         std::make_shared<Image>(perception::errorPicture(*map.values, map.white))};
-    const std::string path = writeProducts(images, shown_->setup, options_.resultsFolder);
+    const std::string path = writeProducts(images, shown_->choices, options_.resultsFolder);
     say("pictures in " + path);
     return path;
   } catch (const std::exception& error) {
@@ -207,7 +212,7 @@ void Viewer::handleKeys() {
     if (pressed('1' + i)) arrangement = kByNumber[i];
 }
 
-double Viewer::aspect() const { return double(setup_.sizePx.x) / setup_.sizePx.y; }
+double Viewer::aspect() const { return double(choices_.sizePx.x) / choices_.sizePx.y; }
 
 double Viewer::durationS() const { return shown_ ? shown_->path.durationS() : 0.0; }
 
@@ -237,14 +242,14 @@ void Viewer::build(double secondsPassed) {
   PicturePane(*this, {left, 0.0F}, {size.x - right, size.y - panes.bottomPx()}).build(secondsPassed);
   // A control that is held: what it shows now is not what it will rest at.
   if (ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
-      !ImGui::GetIO().WantTextInput && !(setup_ == asked_))
+      !ImGui::GetIO().WantTextInput && !(choices_ == asked_))
     moving_ = true;
   else if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Right) &&
            !ImGui::IsMouseDown(ImGuiMouseButton_Middle) && !flying_)
     moving_ = false;
-  const bool otherRequest = !(setup_ == asked_) || view_ != request_.view || pickedPx_ != request_.pickedPx ||
-                            continuous_ != request_.continuous || (moving_ || playing_) != request_.moving ||
-                            wasMoving != moving_;
+  const bool otherRequest = !(choices_ == asked_) || view_ != request_.view ||
+                            pickedPx_ != request_.pickedPx || continuous_ != request_.continuous ||
+                            (moving_ || playing_) != request_.moving || wasMoving != moving_;
   if (otherRequest) ask();
   if (overlay_ != overlayBefore || options_.display.hash() != displayBefore) askJudge();
 }

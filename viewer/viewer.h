@@ -11,19 +11,19 @@
 
 #include "perception/vision/display.h"
 #include "viewer/camera_control.h"
+#include "viewer/choices.h"
 #include "viewer/controls.h"
 #include "viewer/judge_thread.h"
 #include "viewer/path_recorder.h"
 #include "viewer/render_thread.h"
 #include "viewer/saved_views.h"
-#include "viewer/setup.h"
 #include "viewer/ui_texture.h"
 #include "window/ui_surface.h"
 
 namespace limen::viewer {
 
 struct ViewerOptions {
-  Setup setup;
+  Choices choices;
   std::string resultsFolder = "results/viewer";
   std::string shaderRoot;  ///< source tree whose shaders are watched; "": none
   perception::DisplayProfile display;
@@ -53,9 +53,9 @@ class Viewer {
   /// All that was asked for is on screen, the reference included.
   bool atRest() const;
 
-  const Setup& setup() const { return setup_; }
+  const Choices& choices() const { return choices_; }
   /// As if the controls had been used.
-  void choose(Setup setup);
+  void choose(Choices choices);
   const ControlMap& controls() const { return controls_; }
   const std::optional<RenderResult>& shown() const { return shown_; }
   const std::optional<JudgeResult>& judged() const { return judged_; }
@@ -64,6 +64,11 @@ class Viewer {
   const JudgeThread& judge() const { return judge_; }
   Arrangement arrangement = Arrangement::First;
 
+  /// What is to be predicted of a person's seeing the picture.
+  void predict(Overlay overlay);
+
+  /// The driver's words about changed shaders that it refused; "" if there are none.
+  const std::string& shaderFailure() const { return shaderFailure_; }
   /// What the keys K and P do; they return the paths written, "" where that failed (see messages()).
   std::string keepDescriptor();
   std::string savePictures();
@@ -103,7 +108,7 @@ class Viewer {
   JudgeThread judge_;
   gl::DeviceInfo device_;
 
-  Setup setup_, asked_;
+  Choices choices_, asked_;
   uint64_t number_ = 0, judgedNumber_ = 0;
   bool judgePending_ = false;
   RenderRequest request_;  // the last one

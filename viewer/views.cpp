@@ -33,7 +33,7 @@ void Viewer::readViews() {
 void Viewer::saveViewNow(const std::string& name) {
   try {
     std::filesystem::create_directories(options_.resultsFolder);
-    saveView(viewsFile(), {name, setup_.scene.name, scene::toText(cameraNow())});
+    saveView(viewsFile(), {name, choices_.scene.name, scene::toText(cameraNow())});
     readViews();
     say("view '" + name + "' saved in " + viewsFile());
   } catch (const std::exception& error) {
@@ -42,7 +42,7 @@ void Viewer::saveViewNow(const std::string& name) {
 }
 
 void Viewer::goTo(const SavedView& view) {
-  if (view.scene != setup_.scene.name) setup_.scene = {view.scene, {}};
+  if (view.scene != choices_.scene.name) choices_.scene = {view.scene, {}};
   setCamera(scene::parseCamera(view.camera));
 }
 
@@ -64,7 +64,7 @@ void Viewer::toggleRecording() {
       file = std::filesystem::absolute(options_.resultsFolder) / ("path_" + std::to_string(number) + ".yaml");
     scene::writeCameraPath(file.string(), path);
     dropCamera();
-    setup_.scene.given["camera_path"] = file.string();
+    choices_.scene.given["camera_path"] = file.string();
     say("a path of " + std::to_string(path.keys.size()) + " keys recorded in " + file.string());
   } catch (const std::exception& error) {
     recorder_.reset();

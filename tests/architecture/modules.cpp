@@ -74,10 +74,6 @@ const std::vector<Module>& modules() {
        {"base", "psychometrics", "study/procedures", "experiments/store", "renderer/gl", "renderer/scene",
         "renderer/frame", "renderer/techniques", "renderer/references", "renderer", "perception", "window"},
        true},
-      {"viewer",
-       {"base", "renderer/gl", "renderer/scene", "renderer/frame", "renderer/techniques",
-        "renderer/references", "renderer", "perception", "experiments", "experiments/store"},
-       true},
   };
   return kModules;
 }

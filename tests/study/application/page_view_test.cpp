@@ -11,7 +11,7 @@
 #include "study/application/lettering.h"
 #include "study/application/question.h"
 #include "study/application/screens.h"
-#include "tests/study/application/x_server.h"
+#include "tests/window/x_server.h"
 #include "window/ui_window.h"
 
 namespace limen::study {

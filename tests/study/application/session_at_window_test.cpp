@@ -14,7 +14,7 @@
 
 #include "base/image.h"
 #include "tests/study/application/study_run.h"
-#include "tests/study/application/x_server.h"
+#include "tests/window/x_server.h"
 
 namespace limen {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "perception/vision/display.h"
 #include "tests/run_program.h"
-#include "tests/study/application/x_server.h"
+#include "tests/window/x_server.h"
 
 namespace limen::study {
 namespace {

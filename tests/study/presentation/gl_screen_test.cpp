@@ -10,7 +10,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gl/window_system.h"
 #include "study/presentation/gl_screen.h"
-#include "tests/study/application/x_server.h"
+#include "tests/window/x_server.h"
 #include "tests/study/presentation/x_picture.h"
 
 // After the GL headers, whose names Xlib's macros would change.

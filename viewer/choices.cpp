@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viewer/setup.h"
+#include "viewer/choices.h"
 
 #include <algorithm>
 #include <array>

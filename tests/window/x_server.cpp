@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/study/application/x_server.h"
+#include "tests/window/x_server.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Techniques are chosen and their parameters set to both ends by the mouse. By default a few of them; all
+// where LIMEN_EVERY_CONTROL is set, which takes minutes on a GPU and an hour without.
+#include <algorithm>
+#include <cstdlib>
+
+#include "renderer/scene/scene.h"
+#include "tests/viewer/viewer_fixture.h"
+
+namespace limen::viewer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+bool all() {
+  const char* value = std::getenv("LIMEN_EVERY_CONTROL");
+  return value && *value;
+}
+
+/// One that has what the technique needs.
+std::string sceneFor(const techniques::TechniqueInfo& info) {
+  for (const char* name :
+       {"box_under_light", "sphere_grid", "lod/terrain", "lod/object", "palm", "street_light"}) {
+    if (!scene::SceneRegistry::instance().find(name)) continue;
+    const std::set<std::string> traits = scene::buildScene(name, {}).traits();
+    if (std::all_of(info.needs.begin(), info.needs.end(),
+                    [&](const std::string& need) { return traits.count(need); }))
+      return name;
+  }
+  return {};
+}
+
+class EveryControl : public ViewerTest {
+ protected:
+  /// Fails where the picture is wrong; a refusal with a way out is none.
+  void expectSound(const std::string& what) {
+    const RenderResult& shown = *viewer_->shown();
+    EXPECT_EQ(shown.error, "") << what;
+    for (const Rendered& one : shown.rendered) {
+      EXPECT_EQ(one.failure, "") << what;
+      EXPECT_THAT(one.error, Not(HasSubstr("OpenGL driver reports"))) << what;
+      EXPECT_THAT(one.error, Not(HasSubstr("does not compile"))) << what;
+    }
+  }
+
+  void throughItsEnds(const techniques::TechniqueInfo& info) {
+    for (size_t i = 0; i < info.parameters.size(); ++i) {
+      const Parameter& parameter = info.parameters[i];
+      const std::string control = "technique." + parameter.name, what = info.name + ", " + parameter.name;
+      std::vector<std::string> seen;
+      const auto now = [&] { return toText(viewer::shown(viewer_->choices().technique, parameter)); };
+      switch (parameter.type) {
+        case ParameterType::Boolean:
+          click(control);
+          EXPECT_EQ(now(), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
+          rest();
+          expectSound(what);
+          break;
+        case ParameterType::Integer:
+        case ParameterType::Real:
+          for (const float end : {0.0F, 1.0F}) {
+            // From one end to the other as a hand does, past the end.
+            drag(along(control, 0.5F), along(control, end) + glm::vec2(end > 0.5F ? 40.0F : -40.0F, 0.0F));
+            const double expected = end > 0.5F ? *parameter.maximum : *parameter.minimum;
+            const ParameterValue value = viewer::shown(viewer_->choices().technique, parameter);
+            const double is = parameter.type == ParameterType::Integer
+                                  ? static_cast<double>(std::get<int64_t>(value))
+                                  : std::get<double>(value);
+            EXPECT_EQ(is, expected) << what;
+            if (costly(parameter, is)) continue;
+            rest();
+            expectSound(what + " = " + toText(value));
+          }
+          break;
+        case ParameterType::Choice:
+          for (const std::string& choice : {parameter.choices.front(), parameter.choices.back()}) {
+            Choices choices = viewer_->choices();
+            give(choices.technique, parameter, choice);
+            try {
+              viewer_->choose(choices);
+            } catch (const Error&) {
+              continue;  // does not go with the others at their default
+            }
+            rest();
+            expectSound(what + " = " + choice);
+          }
+          break;
+        default:
+          break;
+      }
+      Choices choices = viewer_->choices();
+      choices.technique.given.clear();
+      viewer_->choose(choices);
+    }
+  }
+
+  /// Counts of samples and maps at their upper end are hours of a software renderer's time.
+  static bool costly(const Parameter& parameter, double value) {
+    return parameter.type == ParameterType::Integer && value > 256.0 &&
+           (parameter.name == "samples" || parameter.name == "frames" || parameter.name == "steps");
+  }
+};
+
+TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
+  Choices choices = smallChoices("soft_shadows/pcf", "box_under_light");
+  choices.sizePx = {24, 18};
+  open(choices, {}, {1400, 4200});
+  rest();
+  const std::vector<std::string> few = {"soft_shadows/hard", "soft_shadows/pcss", "lod/blend"};
+  for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
+    if (name.rfind("test/", 0) == 0) continue;
+    if (!all() && std::find(few.begin(), few.end(), name) == few.end()) continue;
+    const std::string scene = sceneFor(info);
+    ASSERT_NE(scene, "") << "no scene here has what " << name << " needs";
+    Choices fitting = viewer_->choices();
+    fitting.scene = {scene, {}};
+    fitting.reference.reset();
+    fitting.other.reset();
+    viewer_->choose(fitting);
+    rest();
+    click("technique");
+    draw();
+    ASSERT_TRUE(viewer_->controls().find("technique/" + name)) << "not in the list: " << name;
+    // The list scrolls; what is far down is reached through the filter.
+    ui_->type(name);
+    draw();
+    draw();
+    click("technique/" + name);
+    ASSERT_EQ(viewer_->choices().technique.name, name);
+    fitting = viewer_->choices();
+    fitting.reference.reset();
+    viewer_->choose(fitting);
+    rest();
+    expectSound(name);
+    EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "") << name;
+    throughItsEnds(info);
+  }
+}
+
+}  // namespace
+}  // namespace limen::viewer
