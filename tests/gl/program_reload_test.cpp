@@ -120,6 +120,16 @@ TEST_F(ProgramReload, AChangeIsSeenByTheFilesTimeOrSize) {
   EXPECT_EQ(resultOf(a), 40U);
 }
 
+TEST_F(ProgramReload, AChangeWithinOneTickOfTheFilesClockIsSeen) {
+  write("a.comp.glsl", giving("1u"));
+  const fs::file_time_type tick = fs::last_write_time(root_ / "a.comp.glsl");
+  const Program& a = cache_.compute("a.comp.glsl");
+  write("a.comp.glsl", giving("2u"));
+  fs::last_write_time(root_ / "a.comp.glsl", tick);
+  EXPECT_EQ(reload().rebuilt.size(), 1U);
+  EXPECT_EQ(resultOf(a), 2U);
+}
+
 TEST_F(ProgramReload, ATouchWithoutAChangeBuildsNothing) {
   write("a.comp.glsl", giving("1u"));
   age("a.comp.glsl", 60);
@@ -199,6 +209,18 @@ TEST_F(ProgramReload, AFileThatIsIncludedBeforeItIsThereIsAwaited) {
   write("later.glsl", "uint later() { return 6u; }\n");
   EXPECT_THAT(reload().rebuilt, ElementsAre("a.comp.glsl"));
   EXPECT_EQ(resultOf(a), 6U);
+}
+
+TEST_F(ProgramReload, AFileThatIsPutBackAsItWasIsSaidToBeMended) {
+  write("a.comp.glsl", giving("1u"));
+  age("a.comp.glsl", 60);
+  const fs::file_time_type before = fs::last_write_time(root_ / "a.comp.glsl");
+  cache_.compute("a.comp.glsl");
+  fs::rename(root_ / "a.comp.glsl", root_ / "away");
+  EXPECT_EQ(reload().failures.size(), 1U);
+  fs::rename(root_ / "away", root_ / "a.comp.glsl");
+  ASSERT_EQ(fs::last_write_time(root_ / "a.comp.glsl"), before);
+  EXPECT_THAT(reload().rebuilt, ElementsAre("a.comp.glsl"));
 }
 
 TEST_F(ProgramReload, AProgramThatNeverWasIsNoBusinessOfReloading) {
