@@ -22,9 +22,10 @@ double medianOf(std::vector<double> values) {
   return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-// A soft edge whose noise and shift grow with the error.
+// A soft edge whose noise and shift grow with the error. Wide, as a page must find room for it beside others;
+// not high, since of hundreds of pictures PNG takes most of a test's time.
 Image picture(int seed, double error, int scene) {
-  Image image(400, 300, 3);
+  Image image(400, 100, 3);
   std::mt19937 random(static_cast<unsigned>(seed));
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {

@@ -5,7 +5,6 @@
 // In tangents t = x/z the backprojection of a texel edge at depth z from receiver p is, in unit light coordinates,
 //   s = z / (p_z - z) * (p_z t - p_x) / w + e,
 // e being the map's eye in these coordinates, to which p is relative; 1/2 in the light's centre.
-#include "renderer/techniques/soft_shadows/light_rectangle.glsl"
 
 Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 

@@ -8,8 +8,6 @@
 layout(binding = 10) uniform sampler2D rectDepths;  // its level i is level i + 1
 layout(binding = 11) uniform usampler2D rectExtents;
 
-#include "renderer/techniques/soft_shadows/light_rectangle.glsl"
-
 // A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in
 // either's.
 Range occluderRange(Area area, int level) {

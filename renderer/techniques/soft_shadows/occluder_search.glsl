@@ -120,6 +120,10 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 #endif
 }
 
+// Here and not in both: a file is taken in once, also where what asks for it first is left out.
+#if OCCLUDERS == 0 || OCCLUDERS == 4
+#include "renderer/techniques/soft_shadows/light_rectangle.glsl"
+#endif
 #if OCCLUDERS == 0
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
 #elif OCCLUDERS == 3
