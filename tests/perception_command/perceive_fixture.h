@@ -5,15 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
-#include <iostream>
 #include <random>
 
 #include "base/image.h"
 #include "base/image_file.h"
-#include "perception/command/perceive.h"
 #include "tests/experiments/cli_fixture.h"
 
 namespace limen::perception {
@@ -25,30 +21,13 @@ struct FileForm {
   std::vector<std::pair<std::string, int>> whole;
 };
 
-/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here. The calls
-/// run what the program runs in copies of this process: a third of a second goes into finding the names of
-/// OpenImageIO and all that it brings, which is done here already.
+/// Calls limen-perceive as a user does, in a folder that goes with the test, on images made here.
 class PerceiveCli : public experiments::SweepCli {
  protected:
-  PerceiveCli() {
-    program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive";
-    // A copy has none of this process's threads.
-    OIIO::attribute("threads", 1);
-  }
+  PerceiveCli() { program_ = std::string(LIMEN_BIN_DIR) + "/limen-perceive"; }
 
-  void become(int count, char** words) const override {
-    const int code = perceiveMain(count, words);
-    std::cout.flush();
-    std::fflush(nullptr);
-    _exit(code);
-  }
-
-  /// The same by the program itself.
-  experiments::CallResult callProgram(const std::vector<std::string>& arguments) const {
-    std::string line = "cd '" + folder_.string() + "' && exec '" + program_ + "'";
-    for (const std::string& argument : arguments) line += " '" + argument + "'";
-    const int status = std::system((line + " >program.out 2>program.err").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("program.out"), read("program.err")};
+  experiments::CallResult call(const std::vector<std::string>& arguments) const {
+    return wait(start(arguments));
   }
 
   /// Values in [0, 1] (integer types) or as they are, through OpenImageIO alone.
