@@ -132,8 +132,18 @@ void JudgeThread::run(const std::function<void()>& wake) {
   std::unique_ptr<gl::Context> context;
   try {
     context = gl::createHeadlessContext();
-  } catch (const std::exception&) {
-    return;  // the render thread has the same trouble and says so
+  } catch (const std::exception& error) {
+    while (!requests_.closed()) {
+      requests_.wait(std::chrono::seconds(1));
+      if (std::optional<JudgeRequest> request = requests_.take()) {
+        JudgeResult result;
+        result.number = request->number;
+        result.error = error.what();
+        results_.put(std::move(result));
+        wake();
+      }
+    }
+    return;
   }
   Work work(*context);
   while (!requests_.closed()) {

@@ -250,13 +250,14 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
   Work work(*context, frames_);
   RenderRequest current;
   std::optional<RenderResult> settled;  // what the screen shows, if it is at rest
-  bool working = false;
+  bool untimed = false;
   const auto publish = [&](RenderResult result) {
     results_.put(std::move(result));
     wake();
   };
   while (!requests_.closed()) {
-    if (!working) requests_.wait(kWatchInterval);
+    const bool more = settled && (untimed || (current.continuous && settled->error.empty()));
+    if (!more) requests_.wait(kWatchInterval);
     if (requests_.closed()) break;
     if (std::optional<RenderRequest> next = requests_.take()) {
       const bool sameChoices = settled && settled->choices == next->choices;
@@ -270,26 +271,24 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
       } else {
         settled = work.settle(current);
         publish(*settled);
-        if (!requests_.waiting() && settled->error.empty()) {
-          work.refresh(*settled, current, true);
-          publish(*settled);
-        }
       }
-      working = current.continuous && !current.moving;
-    } else if (working) {
-      if (settled) {
-        work.refresh(*settled, current, true);
-        publish(*settled);
-      }
+      // Times come once nobody waits for anything else.
+      untimed = settled && settled->error.empty() && (untimed || !sameChoices);
+    } else if (settled && (untimed || current.continuous)) {
+      work.refresh(*settled, current, true);
+      publish(*settled);
+      untimed = false;
     }
     if (!shaderRoot.empty()) {
       gl::ProgramCache::Reload reload = context->programs().reloadChanged();
       if (!reload.rebuilt.empty() || !reload.failures.empty()) {
+        context->takeDebugMessages();  // drivers say there, too, what they refuse
         if (!reload.rebuilt.empty()) {
           // Uniforms that a technique sets once are gone with the old program.
           work.forgetTechniques();
           settled = work.settle(current);
           publish(*settled);
+          untimed = settled->error.empty();
         }
         news_.put({std::move(reload.rebuilt), std::move(reload.failures)});
         wake();

@@ -66,6 +66,11 @@ void OffscreenUi::resize(glm::ivec2 sizePx) {
   makeTarget();
 }
 
+void OffscreenUi::finish() {
+  context_->makeCurrent();
+  glFinish();
+}
+
 void OffscreenUi::key(int key, bool down) {
   const UiScope scope(imgui_);
   ImGuiIO& io = ImGui::GetIO();

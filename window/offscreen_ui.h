@@ -20,6 +20,8 @@ class OffscreenUi : public UiSurface {
   gl::Context& context() override { return *context_; }
   glm::ivec2 sizePx() const override { return sizePx_; }
   void resize(glm::ivec2 sizePx);
+  /// Waits until all that was drawn is there.
+  void finish();
 
   /// From the next frame on. Buttons: 0 left, 1 right, 2 middle. Keys: as GLFW numbers them (letters and
   /// digits are their upper-case characters).

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <mutex>
 #include <optional>
 
 #include "base/error.h"
@@ -109,6 +110,9 @@ std::optional<int> forcedDevice() {
 const std::vector<std::string>& headlessCandidates() { return candidateLines(); }
 
 std::unique_ptr<Context> createHeadlessContext() {
+  // Threads may want contexts of their own at the same time; what was looked at is told of the last one.
+  static std::mutex guard;
+  const std::scoped_lock lock(guard);
   candidateLines().clear();
   const std::optional<int> forced = forcedDevice();
   std::unique_ptr<Context> best;

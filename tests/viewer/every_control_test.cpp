@@ -105,7 +105,7 @@ class EveryControl : public ViewerTest {
 TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
   Choices choices = smallChoices("soft_shadows/pcf", "box_under_light");
   choices.sizePx = {24, 18};
-  open(choices, {}, {1400, 4200});
+  open(choices, {}, {900, 2600});
   rest();
   const std::vector<std::string> few = {"soft_shadows/hard", "soft_shadows/pcss", "lod/blend"};
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {

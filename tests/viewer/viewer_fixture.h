@@ -40,18 +40,20 @@ class ViewerTest : public testing::Test {
     return choices;
   }
 
-  void open(const Choices& choices, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {1200, 3000}) {
+  /// Small letters on a high surface: all controls are in sight, and a software renderer draws few pixels.
+  void open(const Choices& choices, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {800, 1900}) {
     ViewerOptions options;
     options.choices = choices;
     options.resultsFolder = (folder_ / "kept").string();
     options.shaderRoot = shaderRoot;
     options.display = perception::displayPreset("schwarz_2009");
-    ui_ = std::make_unique<window::OffscreenUi>(windowPx);
+    ui_ = std::make_unique<window::OffscreenUi>(windowPx, 0.6F);
     viewer_ = std::make_unique<Viewer>(*ui_, options, [] {});
   }
   void rest() { runToRest(*ui_, *viewer_, 1, 120.0); }
   void draw() {
     ui_->draw({0, 0, 0}, [&] { viewer_->build(1.0 / 60.0); });
+    ui_->finish();
   }
 
   glm::vec2 centreOf(const std::string& control) {

@@ -127,10 +127,14 @@ TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
     while (!holds() && std::chrono::steady_clock::now() < end) {
       viewer_->takeResults();
       draw();
+      // A window waits for the display between frames; without that a software renderer is kept busy by them.
+      std::this_thread::sleep_for(std::chrono::milliseconds(16));
     }
     return holds();
   };
-  ASSERT_TRUE(until([] { return gate.waiting > 0; }));
+  ASSERT_TRUE(until([] { return gate.waiting > 0; }))
+      << viewer_->shown()->error << viewer_->shown()->rendered.at(0).error
+      << (viewer_->judged() ? viewer_->judged()->error : "nothing judged");
   // While the reference keeps its thread waiting, hands change things and pictures follow.
   const std::string hash = viewer_->shown()->rendered.at(0).productHash;
   click(along("scene.light_size", 0.95F));
@@ -203,8 +207,7 @@ TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
 }
 
 TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
-  Choices choices = smallChoices("soft_shadows/solid_angle");
-  choices.scene.given["light_shape"] = std::string("polygon");
+  Choices choices = smallChoices("lod/blend");
   open(choices);
   rest();
   EXPECT_THAT(viewer_->shown()->rendered.at(0).error, HasSubstr("needs a scene with"));
