@@ -40,6 +40,12 @@ bool figureTable(const char* id, int columns) {
   return true;
 }
 
+/// A name that may be too long for its column.
+void label(const std::string& text) {
+  ImGui::TextUnformatted(text.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
 bool heading(const char* text) { return ImGui::CollapsingHeader(text, ImGuiTreeNodeFlags_DefaultOpen); }
 
 /// A number as figures show it: enough digits to compare by eye; copying gives all of them.
@@ -72,7 +78,7 @@ Panes::Panes(Viewer& viewer) : viewer_(viewer) {
   const float em = viewer_.surface_.fonts().bodyPx;
   // The picture gets what is left, and at least half of the width.
   leftPx_ = std::min(std::max(0.25F * size.x, 22.0F * em), 0.27F * size.x + 4.0F * em);
-  rightPx_ = std::min(std::max(0.21F * size.x, 19.0F * em), 0.23F * size.x + 4.0F * em);
+  rightPx_ = std::min(std::max(0.24F * size.x, 24.0F * em), 0.26F * size.x + 4.0F * em);
   bottomPx_ = std::round(2.0F * em);
 }
 
@@ -262,22 +268,28 @@ void Panes::times() {
     if (first.onCpu && viewer_.device_.software)
       ImGui::TextDisabled("a CPU renders: compare techniques only");
   }
-  if (!viewer_.frameMs_.empty()) {
-    const std::vector<float> history(viewer_.frameMs_.begin(), viewer_.frameMs_.end());
-    const float most = *std::max_element(history.begin(), history.end());
-    char range[48];
-    std::snprintf(range, sizeof range, "0 to %.3g ms", most);
-    ImGui::PlotLines("##history", history.data(), static_cast<int>(history.size()), 0, range, 0.0F, most,
-                     {-1.0F, 3.0F * ImGui::GetFontSize()});
-  }
-  if (figureTable("passes", 3)) {
+  const auto history = [&](const std::string& pass, float height) {
+    const auto found = viewer_.passMs_.find(pass);
+    if (found == viewer_.passMs_.end()) return;
+    const std::vector<float> times(found->second.begin(), found->second.end());
+    const float most = *std::max_element(times.begin(), times.end());
+    ImGui::PlotLines(("##" + pass).c_str(), times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0F,
+                     most,
+                     {height > 2.0F ? -1.0F : 4.0F * ImGui::GetFontSize(), height * ImGui::GetFontSize()});
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s: the last %zu pictures, 0 to %.3g ms", pass.c_str(), times.size(), most);
+  };
+  history("frame", 3.0F);
+  if (figureTable("passes", 4)) {
     int64_t bytes = 0;
     for (const PassFigure& pass : first.passes) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(pass.name.c_str());
+      label(pass.name);
       ImGui::TableNextColumn();
       if (pass.ms >= 0.0) ImGui::Text("%.3f ms", pass.ms);
+      ImGui::TableNextColumn();
+      history(pass.name, 1.0F);
       ImGui::TableNextColumn();
       if (pass.bytes > 0) ImGui::TextUnformatted(bytesText(pass.bytes).c_str());
       bytes += pass.bytes;
@@ -285,8 +297,7 @@ void Panes::times() {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("held in all");
-    ImGui::TableNextColumn();
-    ImGui::TableNextColumn();
+    ImGui::TableSetColumnIndex(3);
     ImGui::TextDisabled("%s", bytesText(bytes).c_str());
     ImGui::EndTable();
   }
@@ -303,7 +314,7 @@ void Panes::costs() {
   for (const techniques::Counter& counter : first.counters) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(counter.name.c_str());
+    label(counter.name);
     ImGui::TableNextColumn();
     ImGui::Text("%s %s", figureText(counter.value).c_str(), counter.unit.c_str());
     if (!second) continue;
@@ -332,7 +343,7 @@ void Panes::errors() {
       for (const ErrorFigure& figure : judged.figures) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(figure.metric.c_str());
+        label(figure.metric);
         ImGui::TableNextColumn();
         ImGui::Text("%s %s", figureText(figure.value).c_str(), figure.unit.c_str());
         if (!two) continue;

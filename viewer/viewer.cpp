@@ -74,6 +74,19 @@ void Viewer::askJudge() {
   judge_.ask(std::move(request));
 }
 
+void Viewer::recordTimes() {
+  if (shown_->rendered.empty() || shown_->rendered[0].frameMs < 0.0) return;
+  const Rendered& first = shown_->rendered[0];
+  const auto add = [&](const std::string& pass, double ms) {
+    std::deque<float>& history = passMs_[pass];
+    history.push_back(static_cast<float>(ms));
+    if (history.size() > kTimesShown) history.pop_front();
+  };
+  add("frame", first.frameMs);
+  for (const PassFigure& pass : first.passes)
+    if (pass.ms >= 0.0) add(pass.name, pass.ms);
+}
+
 void Viewer::predict(Overlay overlay) {
   overlay_ = overlay;
   askJudge();
@@ -85,10 +98,7 @@ bool Viewer::takeResults() {
     const bool another = !shown_ || !shown_->settled || result->number != shown_->number;
     shown_ = std::move(result);
     changed = true;
-    if (!shown_->rendered.empty() && shown_->rendered[0].frameMs >= 0.0) {
-      frameMs_.push_back(static_cast<float>(shown_->rendered[0].frameMs));
-      if (frameMs_.size() > kTimesShown) frameMs_.pop_front();
-    }
+    recordTimes();
     if (shown_->settled && shown_->number == number_ && another) askJudge();
     if (!shown_->settled) judged_.reset();
   }

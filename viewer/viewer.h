@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +79,7 @@ class Viewer {
   friend class PicturePane;
 
   void ask();
+  void recordTimes();
   void askJudge();
   void say(const std::string& message);
   /// A view of the user's own, in place of the scene's path.
@@ -120,7 +122,8 @@ class Viewer {
 
   std::optional<RenderResult> shown_;
   std::optional<JudgeResult> judged_;
-  std::deque<float> frameMs_;  // of the first technique, latest last
+  // Of the first technique, latest last: the whole frame under its own name, "frame".
+  std::map<std::string, std::deque<float>> passMs_;
   std::vector<std::string> messages_;
   std::string shaderFailure_;
 
