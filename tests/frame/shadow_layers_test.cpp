@@ -37,7 +37,7 @@ class RaysFrom {
   /// height 0. A raster rounds their depths apart, so that a map may hold one of them or both in turn.
   bool coincident(glm::dvec2 texel, double t) const {
     const auto [eye, ray] = rayThrough(texel);
-    return std::abs(eye.y + ray.y * t + anchor_.y) < 1e-4;
+    return std::abs(eye.y + ray.y * t + anchor_.y) < 1e-6;
   }
 
  private:
@@ -96,11 +96,12 @@ class ShadowLayers : public gl::GlTest {
         if (!same) continue;
         ++settled;
         std::vector<double> measured;
-        for (const Image& layer : layers) {
-          const double depth = layer.at(x, y);
-          const bool again = !measured.empty() && depth < 1.001 * measured.back() &&
-                             rays.coincident(glm::dvec2(x, y) + 0.5, measured.back()) &&
-                             rays.coincident(glm::dvec2(x, y) + 0.5, depth);
+        for (const Image& image : layers) {
+          const double depth = image.at(x, y);
+          const size_t last = measured.size() - 1;
+          const bool again = !measured.empty() && last < hits.size() &&
+                             rays.coincident(glm::dvec2(x, y) + 0.5, hits[last].t) &&
+                             std::abs(depth - hits[last].t) <= 1e-5 * hits[last].t + changes[last];
           if (!again) measured.push_back(depth);
         }
         for (size_t layer = 0; layer < measured.size(); ++layer) {
