@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/replace_file.h"
 #include "base/text.h"
 #include "experiments/catalogue.h"
 #include "experiments/descriptor.h"
@@ -107,15 +108,7 @@ std::string keep(const Choices& choices, const std::string& folder) {
   // Whatever a sweep would refuse is said now, while the picture is still on screen.
   const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
   experiments::makePlan(experiments::parseDescriptor(text, path.string(), catalogue, {}), catalogue);
-  const fs::path unfinished = path.string() + ".new";
-  {
-    std::ofstream file(unfinished);
-    file << text;
-    file.close();
-    if (!file)
-      throw Error("cannot write this file", unfinished.string(), "choose another folder with --results");
-  }
-  fs::rename(unfinished, path);
+  replaceFile(path.string(), text);
   return path.string();
 }
 

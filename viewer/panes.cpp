@@ -280,7 +280,8 @@ void Panes::times() {
       ImGui::SetTooltip("%s: the last %zu pictures, 0 to %.3g ms", pass.c_str(), times.size(), most);
   };
   history("frame", 3.0F);
-  if (figureTable("passes", 4)) {
+  const bool wide = rightPx_ > 22.0F * ImGui::GetFontSize();  // else names are worth more
+  if (figureTable("passes", wide ? 4 : 2)) {
     int64_t bytes = 0;
     for (const PassFigure& pass : first.passes) {
       ImGui::TableNextRow();
@@ -288,16 +289,17 @@ void Panes::times() {
       label(pass.name);
       ImGui::TableNextColumn();
       if (pass.ms >= 0.0) ImGui::Text("%.3f ms", pass.ms);
+      bytes += pass.bytes;
+      if (!wide) continue;
       ImGui::TableNextColumn();
       history(pass.name, 1.0F);
       ImGui::TableNextColumn();
       if (pass.bytes > 0) ImGui::TextUnformatted(bytesText(pass.bytes).c_str());
-      bytes += pass.bytes;
     }
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("held in all");
-    ImGui::TableSetColumnIndex(3);
+    ImGui::TableSetColumnIndex(wide ? 3 : 1);
     ImGui::TextDisabled("%s", bytesText(bytes).c_str());
     ImGui::EndTable();
   }
