@@ -53,7 +53,7 @@ class EveryControl : public ViewerTest {
     for (size_t i = 0; i < info.parameters.size(); ++i) {
       const Parameter& parameter = info.parameters[i];
       const std::string control = "technique." + parameter.name, what = info.name + ", " + parameter.name;
-      std::vector<std::string> seen;
+      if (std::getenv("LIMEN_EVERY_CONTROL")) std::printf("%s\n", what.c_str()), std::fflush(stdout);
       const auto now = [&] { return toText(viewer::shown(viewer_->choices().technique, parameter)); };
       switch (parameter.type) {
         case ParameterType::Boolean:
