@@ -217,6 +217,59 @@ TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
   EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "");
 }
 
+TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
+  open(smallChoices());
+  rest();
+  for (const glm::ivec2 size :
+       {glm::ivec2(320, 200), glm::ivec2(1600, 300), glm::ivec2(200, 900), glm::ivec2(1, 1)}) {
+    ui_->resize(size);
+    draw();
+    draw();
+    const ControlMap::Place* picture = viewer_->controls().find("picture");
+    ASSERT_TRUE(picture);
+    if (size.x < 300) continue;
+    // All of it between the panes, as large as there is room.
+    EXPECT_GT(picture->mostPx.x, picture->leastPx.x + 10.0F);
+    EXPECT_GE(picture->leastPx.x, 0.0F);
+    EXPECT_LE(picture->mostPx.x, static_cast<float>(size.x));
+    EXPECT_LE(picture->mostPx.y, static_cast<float>(size.y));
+  }
+  key(GLFW_KEY_TAB);
+  ui_->resize({400, 400});
+  draw();
+  EXPECT_LT(viewer_->controls().find("picture")->leastPx.x, 5.0F) << "panes are hidden";
+  for (const gl::DebugMessage& message : ui_->context().takeDebugMessages())
+    EXPECT_TRUE(message.performance) << message.text;
+}
+
+TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
+  open(smallChoices());
+  rest();
+  click("camera.view_name");
+  ui_->type("from the front");
+  draw();
+  click("camera.save_view");
+  const scene::Camera front = viewer_->shown()->camera;
+  const glm::vec2 centre = centreOf("picture");
+  click("camera.record");
+  drag(centre, centre + glm::vec2(60.0F, 0.0F));
+  drag(centre, centre + glm::vec2(0.0F, 30.0F));
+  click("camera.record");
+  rest();
+  ASSERT_TRUE(viewer_->choices().scene.given.count("camera_path")) << viewer_->messages().back();
+  EXPECT_GT(viewer_->shown()->path.durationS(), 0.05);
+  EXPECT_NEAR(glm::length(viewer_->shown()->camera.eye - front.eye), 0.0, 0.01 * glm::length(front.eye));
+  click("camera.play");
+  EXPECT_TRUE(viewer_->animated());
+  for (int i = 0; i < 3; ++i) draw();
+  EXPECT_TRUE(viewer_->choices().scene.given.count("time_s"));
+  click("camera.play");
+  EXPECT_FALSE(viewer_->animated());
+  click("camera.view.from the front");
+  rest();
+  EXPECT_EQ(viewer_->shown()->camera.eye, front.eye);
+}
+
 TEST_F(ViewerHand, PicturesAreSavedOfAllProducts) {
   Choices choices = smallChoices();
   choices.other = Chosen{"soft_shadows/hard", {}};
