@@ -235,7 +235,13 @@ int viewMain(int argc, char** argv) {
   app.add_option("--frames", options.frames, "With --screenshot: frames after all is on screen")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.callback([&] { exitCode = view(options); });
+  app.callback([&] {
+    try {
+      exitCode = view(options);
+    } catch (const Interrupted&) {
+      exitCode = 128 + interruptSignal();
+    }
+  });
   return runProgram(app, argc, argv, exitCode);
 }
 

@@ -25,8 +25,7 @@ bool looksAt(size_t index, const std::string& name) {
 
 /// One that has what the technique needs.
 std::string sceneFor(const techniques::TechniqueInfo& info) {
-  for (const char* name :
-       {"box_under_light", "sphere_grid", "lod/terrain", "lod/object", "palm", "street_light"}) {
+  for (const char* name : {"sphere_grid", "lod/terrain", "lod/object", "palm", "street_light"}) {
     if (!scene::SceneRegistry::instance().find(name)) continue;
     const std::set<std::string> traits = scene::buildScene(name, {}).traits();
     if (std::all_of(info.needs.begin(), info.needs.end(),
@@ -108,7 +107,7 @@ class EveryControl : public ViewerTest {
 };
 
 TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
-  Choices choices = smallChoices("soft_shadows/pcf", "box_under_light");
+  Choices choices = smallChoices("soft_shadows/pcf", "sphere_grid");
   choices.sizePx = {24, 18};
   open(choices, {}, {900, 2600});
   rest();
