@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -122,7 +123,11 @@ class ViewWindow : public ViewProgram {
   bool windowIsThere() const {
     return until([&] { return xdotool("search --name '^Limen$'") == 0; });
   }
-  std::string kept(int number) const { return path("kept/kept_00" + std::to_string(number) + ".yaml"); }
+  std::string kept(int number) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "kept/kept_%03d.yaml", number);
+    return path(name);
+  }
   static std::string read(const std::string& file) {
     std::stringstream text;
     text << std::ifstream(file).rdbuf();
@@ -157,10 +162,10 @@ TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
   int number = 1;
   while (fs::exists(kept(number))) ++number;
   ASSERT_TRUE(until([&] {
-    // With pauses in which the window draws a frame, as a hand leaves them.
+    // With pauses in which the window draws a frame, however slow the machine: a hand leaves them too.
     xdotool(
-        "mousemove 500 400 sleep 0.15 mousedown 1 sleep 0.15 mousemove 520 405 sleep 0.15 "
-        "mousemove 590 420 sleep 0.15 mouseup 1 sleep 0.15");
+        "mousemove 500 400 sleep 0.4 mousedown 1 sleep 0.4 mousemove 520 405 sleep 0.4 "
+        "mousemove 590 420 sleep 0.4 mouseup 1 sleep 0.4");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
