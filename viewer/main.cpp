@@ -40,17 +40,25 @@ glm::ivec2 sizeOf(const std::string& text, const std::string& option) {
   return {width, height};
 }
 
-Arrangement arrangementNamed(const std::string& name) {
-  const std::vector<std::pair<std::string, Arrangement>> all = {{"first", Arrangement::First},
-                                                                {"second", Arrangement::Second},
-                                                                {"side_by_side", Arrangement::SideBySide},
-                                                                {"split", Arrangement::Split},
-                                                                {"flicker", Arrangement::Flicker},
-                                                                {"error", Arrangement::ErrorMap},
-                                                                {"predicted", Arrangement::Overlay}};
+/// How the viewer begins: what stands beside what, and what is predicted.
+struct Shown {
+  Arrangement arrangement = Arrangement::First;
+  Overlay overlay = Overlay::None;
+};
+
+Shown shownAs(const std::string& name) {
+  const std::vector<std::pair<std::string, Shown>> all = {
+      {"first", {Arrangement::First, Overlay::None}},
+      {"second", {Arrangement::Second, Overlay::None}},
+      {"side_by_side", {Arrangement::SideBySide, Overlay::None}},
+      {"split", {Arrangement::Split, Overlay::None}},
+      {"flicker", {Arrangement::Flicker, Overlay::None}},
+      {"error", {Arrangement::ErrorMap, Overlay::None}},
+      {"thresholds", {Arrangement::Overlay, Overlay::Thresholds}},
+      {"popping", {Arrangement::Overlay, Overlay::Popping}}};
   std::vector<std::string> names;
-  for (const auto& [known, arrangement] : all) {
-    if (known == name) return arrangement;
+  for (const auto& [known, shown] : all) {
+    if (known == name) return shown;
     names.push_back(known);
   }
   throw Error("no arrangement '" + name + "'", "--arrangement", suggest(name, names));
@@ -134,7 +142,7 @@ Choices choicesFrom(const ViewOptions& options) {
   return choices;
 }
 
-int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Arrangement arrangement) {
+int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Shown shownFirst) {
   window::UiWindowOptions windowOptions;
   windowOptions.title = "Limen";
   windowOptions.sizePx = sizeOf(options.windowSize, "--window");
@@ -151,7 +159,8 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
   }
   window::UiWindow& window = *made;
   Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
-  viewer.arrangement = arrangement;
+  viewer.arrangement = shownFirst.arrangement;
+  viewer.predict(shownFirst.overlay);
   using Clock = std::chrono::steady_clock;
   auto before = Clock::now();
   // The interface needs a few frames to come to rest after an event.
@@ -185,12 +194,13 @@ int view(const ViewOptions& options) {
   viewerOptions.shaderRoot = options.shaders;
   if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);
   viewerOptions.display = perception::readDisplay(options.display);
-  const Arrangement arrangement = arrangementNamed(options.arrangement);
-  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, arrangement);
+  const Shown shownFirst = shownAs(options.arrangement);
+  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, shownFirst);
   window::OffscreenUi ui(sizeOf(options.windowSize, "--window"),
                          options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0F);
   Viewer viewer(ui, viewerOptions, [] {});
-  viewer.arrangement = arrangement;
+  viewer.arrangement = shownFirst.arrangement;
+  viewer.predict(shownFirst.overlay);
   writeScreenshot(ui, viewer, options.frames, options.screenshot);
   std::printf("%s\n", options.screenshot.c_str());
   const RenderResult& shown = *viewer.shown();
@@ -225,7 +235,7 @@ int viewMain(int argc, char** argv) {
   app.add_option("--display", options.display, "Display that predictions are for: preset or YAML file")
       ->capture_default_str();
   app.add_option("--arrangement", options.arrangement,
-                 "first, second, side_by_side, split, flicker, error or predicted")
+                 "first, second, side_by_side, split, flicker, error, thresholds or popping")
       ->capture_default_str();
   app.add_option("--results", options.results, "Folder for kept descriptors and pictures")
       ->capture_default_str();

@@ -20,7 +20,7 @@ constexpr std::array<std::pair<Arrangement, const char*>, 7> kArrangements = {
      {Arrangement::Split, "split"},
      {Arrangement::Flicker, "flicker"},
      {Arrangement::ErrorMap, "error"},
-     {Arrangement::Overlay, "seen"}}};
+     {Arrangement::Overlay, "predicted"}}};
 
 constexpr double kLeastFlickerHz = 0.5, kMostFlickerHz = 30.0;
 /// A press that moves no farther than this picks a pixel; others drag the camera.
@@ -58,6 +58,10 @@ void PicturePane::arrangementBar() {
     if (chosen) ImGui::PopStyleColor();
     viewer_.controls_.note(std::string("arrangement.") + name);
     ImGui::SameLine();
+  }
+  if (ImGui::GetContentRegionAvail().x < 7.0F * em) {
+    ImGui::NewLine();
+    ImGui::SetCursorPosX(0.4F * em);
   }
   ImGui::SetNextItemWidth(7.0F * em);
   if (viewer_.arrangement == Arrangement::Flicker) {
