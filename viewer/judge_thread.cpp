@@ -12,8 +12,8 @@
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
+#include "viewer/predicted_overlay.h"
 #include "viewer/scene_stage.h"
-#include "viewer/seen.h"
 
 namespace limen::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viewer/seen.h"
+#include "viewer/predicted_overlay.h"
 
 #include <algorithm>
 #include <cmath>
