@@ -7,8 +7,8 @@
 #include <array>
 #include <utility>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::experiments {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::experiments {
 namespace {

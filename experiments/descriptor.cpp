@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/problems.h"
-#include "base/text.h"
-#include "base/value_reader.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/text.h"
+#include "experiments/base/value_reader.h"
 #include "experiments/expectation_reader.h"
 #include "experiments/measurement_name.h"
 #include "experiments/published.h"

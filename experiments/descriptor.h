@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 #include "experiments/catalogue.h"
 #include "experiments/executor.h"
 

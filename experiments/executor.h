@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "experiments/store/store.h"
 
 namespace limen::experiments {
@@ -61,7 +61,7 @@ struct RunOutcome {
 /// Executes runs. The runner hands it batches of runs that share scene and image size; their timed rounds are
 /// interleaved. An error of one run is its outcome, never an exception; an exception means that the executor
 /// itself cannot go on (no GL context). During long work it may call throwIfInterrupted()
-/// (base/interrupt.h); what it has not reported by then is measured by a later sweep.
+/// (experiments/base/interrupt.h); what it has not reported by then is measured by a later sweep.
 class Executor {
  public:
   virtual ~Executor() = default;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "experiments/plan.h"
 #include "experiments/selection.h"
 

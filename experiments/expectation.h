@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/problems.h"
+#include "experiments/base/problems.h"
 #include "experiments/descriptor.h"
 #include "experiments/executor.h"
 #include "experiments/store/store.h"

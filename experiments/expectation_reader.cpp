@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "experiments/selection_reader.h"
 
 namespace limen::experiments {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/problems.h"
+#include "experiments/base/problems.h"
 #include "experiments/descriptor.h"
 
 namespace limen::experiments {

@@ -8,9 +8,9 @@
 #include <functional>
 #include <regex>
 
-#include "base/problems.h"
-#include "base/text.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/text.h"
+#include "experiments/base/yaml_tree.h"
 
 namespace limen::experiments {
 namespace {

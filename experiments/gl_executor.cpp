@@ -8,9 +8,9 @@
 #include <future>
 #include <map>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/interrupt.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
 #include "experiments/product.h"

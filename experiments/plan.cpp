@@ -7,10 +7,10 @@
 #include <limits>
 #include <map>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/problems.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/text.h"
 #include "experiments/expectation.h"
 #include "experiments/published.h"
 

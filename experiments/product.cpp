@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "perception/metrics/error_map.h"
 
 namespace limen::experiments {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {

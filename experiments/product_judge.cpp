@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
 #include "renderer/techniques/technique.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "experiments/executor.h"
 #include "experiments/product.h"
 #include "perception/metrics/metric.h"

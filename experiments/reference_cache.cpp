@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::experiments {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 
 namespace limen::experiments {
 

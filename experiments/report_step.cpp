@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/environment.h"
+#include "experiments/base/environment.h"
 
 namespace limen::experiments {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <thread>
 
-#include "base/error.h"
-#include "base/interrupt.h"
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/expectation.h"
 
 namespace limen::experiments {

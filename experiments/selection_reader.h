@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/problems.h"
-#include "base/value_reader.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/value_reader.h"
 #include "experiments/catalogue.h"
 #include "experiments/descriptor.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/g_buffer.h"
 

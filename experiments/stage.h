@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "experiments/executor.h"
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/gl/context.h"

@@ -9,10 +9,10 @@
 #include <map>
 #include <system_error>
 
-#include "base/environment.h"
-#include "base/error.h"
-#include "base/interrupt.h"
-#include "base/text.h"
+#include "experiments/base/environment.h"
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/text.h"
 #include "experiments/console.h"
 #include "experiments/features.h"
 #include "experiments/plan.h"

@@ -4,9 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::experiments {
 namespace {

@@ -8,7 +8,7 @@
 #include "analysis/relations/areas.h"
 #include "analysis/relations/correlations.h"
 #include "analysis/study/measures.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -10,8 +10,8 @@
 #include "analysis/fits/fit_options.h"
 #include "analysis/study/fitted_parts.h"
 #include "analysis/study/part_fits.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

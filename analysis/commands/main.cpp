@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 
 #include "analysis/commands/commands.h"
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/program.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/program.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Says what sweeps and studies found. Needs no GPU.", "limen-analyse");

@@ -7,7 +7,7 @@
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
 #include "analysis/study/published_comparison.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

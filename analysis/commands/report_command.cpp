@@ -9,7 +9,7 @@
 #include "analysis/commands/study_input.h"
 #include "analysis/study_page/study_page.h"
 #include "analysis/sweep/report.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include "analysis/commands/table_result.h"
 #include "analysis/relations/scale.h"
 #include "analysis/study/pairs.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include "analysis/commands/table_command.h"
 #include "analysis/groups/sensitivity_table.h"
 #include "analysis/study/sensitivity.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

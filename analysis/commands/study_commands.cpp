@@ -9,7 +9,7 @@
 #include "analysis/commands/study_input.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/validation.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

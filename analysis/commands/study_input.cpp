@@ -5,7 +5,7 @@
 #include <map>
 
 #include "analysis/data/source.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

@@ -10,7 +10,7 @@
 #include "analysis/commands/commands.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/switch_distances.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/commands/table_result.h"
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

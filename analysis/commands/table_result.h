@@ -6,7 +6,7 @@
 
 #include "analysis/commands/study_input.h"
 #include "analysis/data/table.h"
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 
 namespace limen::analysis {
 

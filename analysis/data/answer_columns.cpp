@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

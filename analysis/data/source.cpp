@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

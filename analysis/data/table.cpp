@@ -9,8 +9,8 @@
 #include <set>
 
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

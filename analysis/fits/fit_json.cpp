@@ -6,7 +6,7 @@
 #include "analysis/fits/fit_answer.h"
 #include "analysis/psychometric/coverage.h"
 #include "analysis/psychometric/objective.h"
-#include "base/build_facts.h"
+#include "experiments/base/build_facts.h"
 
 namespace limen::analysis {
 namespace {

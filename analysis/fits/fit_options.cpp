@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "analysis/data/table.h"
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "analysis/fits/fit_chart.h"
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::analysis {
 namespace {

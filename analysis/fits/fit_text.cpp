@@ -8,8 +8,8 @@
 #include "analysis/output/text_output.h"
 #include "analysis/psychometric/coverage.h"
 #include "analysis/psychometric/objective.h"
-#include "base/build_facts.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

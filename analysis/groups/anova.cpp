@@ -8,7 +8,7 @@
 #include <set>
 
 #include "analysis/statistics/multiple_comparisons.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

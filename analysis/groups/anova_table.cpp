@@ -7,7 +7,7 @@
 #include <set>
 
 #include "analysis/data/levels.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "analysis/groups/anova.h"
 #include "analysis/output/text_table.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "analysis/data/levels.h"
 #include "analysis/groups/mixed_design.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

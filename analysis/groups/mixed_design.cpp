@@ -6,8 +6,8 @@
 #include <set>
 
 #include "analysis/data/levels.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

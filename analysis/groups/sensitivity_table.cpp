@@ -5,8 +5,8 @@
 #include <functional>
 #include <map>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

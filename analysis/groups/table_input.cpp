@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/data/row_filter.h"
-#include "base/hash.h"
-#include "base/text.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/output/text_output.h"
-#include "base/gnuplot.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::embedded {
 extern const char* const kPageCss;

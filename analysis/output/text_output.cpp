@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

@@ -13,8 +13,8 @@
 
 #include "analysis/psychometric/likelihood.h"
 #include "analysis/psychometric/log_math.h"
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::analysis {
 

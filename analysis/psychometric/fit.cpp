@@ -12,7 +12,7 @@
 #include "analysis/psychometric/optimiser.h"
 #include "analysis/psychometric/starts.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "analysis/psychometric/likelihood.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

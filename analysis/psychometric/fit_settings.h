@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "psychometrics/sigmoid.h"
+#include "perception/psychometrics/sigmoid.h"
 
 namespace limen::analysis {
 

@@ -9,8 +9,8 @@
 #include "analysis/psychometric/intervals.h"
 #include "analysis/psychometric/log_math.h"
 #include "analysis/psychometric/objective.h"
-#include "base/error.h"
-#include "psychometrics/grid_posterior.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/grid_posterior.h"
 
 namespace limen::analysis {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "analysis/relations/areas.h"
 #include "analysis/relations/chart_file.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::analysis {
 namespace {

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::analysis {
 

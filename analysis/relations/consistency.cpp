@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

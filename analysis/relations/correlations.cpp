@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "analysis/statistics/multiple_comparisons.h"
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::analysis {
 namespace {

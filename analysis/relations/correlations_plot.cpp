@@ -6,8 +6,8 @@
 #include "analysis/output/text_table.h"
 #include "analysis/relations/chart_file.h"
 #include "analysis/relations/correlations.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::analysis {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "analysis/relations/relation_table.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 

@@ -7,9 +7,9 @@
 
 #include "analysis/statistics/distributions.h"
 #include "analysis/statistics/multiple_comparisons.h"
-#include "base/error.h"
-#include "base/text.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::analysis {
 namespace {

@@ -6,8 +6,8 @@
 #include "analysis/relations/chart_file.h"
 #include "analysis/relations/relation_text.h"
 #include "analysis/relations/scale.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
 
 namespace limen::analysis {
 namespace {

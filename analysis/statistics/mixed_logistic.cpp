@@ -18,7 +18,7 @@
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detail/laplace.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

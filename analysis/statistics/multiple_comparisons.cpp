@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "analysis/statistics/detail/check.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -13,7 +13,7 @@
 #include "analysis/statistics/detail/draw.h"
 #include "analysis/statistics/distributions.h"
 #include "analysis/statistics/summary.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -10,7 +10,7 @@
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detail/ranks.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

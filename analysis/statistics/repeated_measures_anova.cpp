@@ -14,7 +14,7 @@
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/distributions.h"
 #include "analysis/statistics/multiple_comparisons.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -12,7 +12,7 @@
 #include "analysis/statistics/detail/ranks.h"
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -14,7 +14,7 @@
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

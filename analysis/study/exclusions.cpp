@@ -5,7 +5,7 @@
 
 #include "analysis/study/answers.h"
 #include "analysis/study/lapse_rule.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "analysis/psychometric/fit.h"
 #include "analysis/study/fitted_parts.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "analysis/psychometric/fit.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit_settings.h"
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::analysis {
 namespace {

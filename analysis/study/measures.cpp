@@ -6,7 +6,7 @@
 #include <set>
 
 #include "analysis/statistics/summary.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

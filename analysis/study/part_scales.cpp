@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "analysis/study/pairs.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 
 namespace limen::analysis {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "analysis/output/text_table.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

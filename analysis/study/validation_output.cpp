@@ -6,7 +6,7 @@
 #include "analysis/output/text_output.h"
 #include "analysis/output/text_table.h"
 #include "analysis/study/validation.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/text.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/text.h"
+#include "experiments/base/yaml_tree.h"
 
 namespace limen::analysis {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "analysis/output/text_table.h"
 #include "analysis/study_page/sections.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -10,8 +10,8 @@
 #include "analysis/output/text_table.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/study_page/sections.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

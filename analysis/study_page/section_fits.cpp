@@ -10,9 +10,9 @@
 #include "analysis/output/text_table.h"
 #include "analysis/psychometric/coverage.h"
 #include "analysis/study_page/sections.h"
-#include "base/build_facts.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

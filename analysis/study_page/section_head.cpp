@@ -4,7 +4,7 @@
 
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 

@@ -8,9 +8,9 @@
 #include "analysis/output/text_output.h"
 #include "analysis/psychometric/fit.h"
 #include "analysis/study_page/methods.h"
-#include "base/build_facts.h"
-#include "base/environment.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/environment.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

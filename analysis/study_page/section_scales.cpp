@@ -9,8 +9,8 @@
 #include "analysis/output/text_table.h"
 #include "analysis/relations/relation_text.h"
 #include "analysis/study_page/sections.h"
-#include "base/build_facts.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

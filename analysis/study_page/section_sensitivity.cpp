@@ -7,7 +7,7 @@
 #include "analysis/output/text_output.h"
 #include "analysis/output/text_table.h"
 #include "analysis/study_page/sections.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 #include "experiments/store/sessions.h"
 
 namespace limen::analysis {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,8 +9,8 @@
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
 #include "analysis/study_page/staged_folder.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::embedded {
 extern const char* const kStudyPageCss;

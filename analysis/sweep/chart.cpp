@@ -12,9 +12,9 @@
 
 #include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

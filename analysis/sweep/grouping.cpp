@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,7 +9,7 @@
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/printed_tables.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::embedded {
 extern const char* const kReportCss;

@@ -11,7 +11,7 @@
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/grouping.h"
 #include "analysis/sweep/page.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,9 +9,9 @@
 #include <map>
 
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/image.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/image.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

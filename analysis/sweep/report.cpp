@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <system_error>
 
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/experiments.h"
 #include "analysis/sweep/export.h"
 #include "analysis/sweep/page.h"
-#include "analysis/output/text_output.h"
 #include "analysis/sweep/trade_off.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

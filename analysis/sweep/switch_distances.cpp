@@ -11,8 +11,8 @@
 
 #include "analysis/sweep/experiments.h"
 #include "analysis/sweep/grouping.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

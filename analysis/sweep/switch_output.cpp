@@ -7,10 +7,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "analysis/sweep/switch_distances.h"
 #include "analysis/output/text_output.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "analysis/sweep/switch_distances.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

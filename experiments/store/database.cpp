@@ -3,7 +3,7 @@
 
 #include <sqlite3.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::store {
 

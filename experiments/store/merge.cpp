@@ -4,8 +4,8 @@
 #include <map>
 #include <system_error>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {

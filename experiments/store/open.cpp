@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/database.h"
 
 namespace limen::embedded {

@@ -3,7 +3,7 @@
 
 #include <sqlite3.h>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/session_rows.h"
 
 namespace limen::store {

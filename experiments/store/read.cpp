@@ -2,7 +2,7 @@
 #include <cassert>
 #include <unordered_map>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {

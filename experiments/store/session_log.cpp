@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sqlite3.h>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/session_rows.h"
 
 namespace limen::store {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sqlite3.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/session_rows.h"
 
 namespace limen::store {

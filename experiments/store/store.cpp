@@ -5,9 +5,9 @@
 
 #include <cassert>
 
-#include "base/clock.h"
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/metrics/quantile.h"
 #include "perception/metrics/row_sums.h"
 

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::perception {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 
 namespace limen::perception {
 namespace {

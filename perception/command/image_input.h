@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/image_file.h"
-#include "base/parameter.h"
+#include "experiments/base/image_file.h"
+#include "experiments/base/parameter.h"
 #include "perception/vision/display.h"
 
 namespace limen::perception {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/gl/context.h"

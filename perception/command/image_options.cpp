@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <map>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/image_input.h"
 
 namespace limen::perception {

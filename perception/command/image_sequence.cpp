@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::perception {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/quantile.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 
 namespace limen::perception {
 

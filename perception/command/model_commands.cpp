@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/commands.h"
 
 namespace limen::perception {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/vision/csf.h"
 
 /// What the commands about vision models share.

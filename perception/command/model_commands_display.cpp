@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/model_commands.h"
 #include "perception/vision/display.h"
 #include "perception/vision/eye_movement.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/model_commands.h"
 #include "perception/vision/csf_data.h"
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/gnuplot.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
+#include "experiments/base/text.h"
 #include "perception/command/model_commands.h"
 
 namespace limen::perception {

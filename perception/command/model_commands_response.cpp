@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/model_commands.h"
 #include "perception/vision/masking.h"
 #include "perception/vision/tvi.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/command/perceive.h"
 
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/program.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/program.h"
 #include "perception/command/commands.h"
 
 namespace limen::perception {

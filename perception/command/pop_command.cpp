@@ -5,8 +5,8 @@
 #include <memory>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
 #include "perception/command/image_options.h"

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <map>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::perception {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 
 namespace limen::perception {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
 #include "perception/command/image_options.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/row_sums.h"
 
 namespace limen::perception {

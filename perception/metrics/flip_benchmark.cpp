@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/flip/flip_gpu.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
-#include "base/parameter.h"
-#include "base/registry.h"
+#include "experiments/base/image.h"
+#include "experiments/base/parameter.h"
+#include "experiments/base/registry.h"
 
 namespace limen::gl {
 class Texture;

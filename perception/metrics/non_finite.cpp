@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/row_sums.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 
 namespace limen::perception {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::perception {
 namespace {

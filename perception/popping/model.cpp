@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/multiscale/pyramid.h"
 #include "perception/popping/predictor.h"
 #include "perception/popping/sensitivity.h"

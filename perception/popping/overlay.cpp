@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 
 namespace limen::perception {

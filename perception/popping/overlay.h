@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/popping/regions.h"
 
 namespace limen::perception {

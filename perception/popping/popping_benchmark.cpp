@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/popping/popping_gpu.h"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <mutex>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/popping/gpu/open_pass.h"
 #include "perception/popping/sensitivity.h"
 #include "perception/vision/colour.h"

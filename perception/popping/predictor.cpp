@@ -15,8 +15,8 @@
 #include <limits>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/metrics/row_sums.h"
 #include "perception/multiscale/pyramid.h"
 #include "perception/popping/input.h"

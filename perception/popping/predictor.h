@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/popping/regions.h"
 #include "perception/popping/settings.h"
 #include "perception/vision/display.h"

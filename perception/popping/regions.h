@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/popping/settings.h"
 
 namespace limen::perception {

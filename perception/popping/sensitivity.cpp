@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/adaptation.h"
 #include "perception/vision/csf_models.h"
 

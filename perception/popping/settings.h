@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/multiscale/band_peaks.h"
 #include "perception/popping/detection.h"
 #include "perception/vision/eye_movement.h"

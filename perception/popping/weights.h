@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/popping/settings.h"
 
 /// Weight maps that tell the predictor where a difference is less likely to be noticed. Schwarz 2009, section

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/threshold_maps/reference.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
 

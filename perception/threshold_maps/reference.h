@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/multiscale/plane.h"
 #include "perception/threshold_maps/settings.h"
 #include "perception/vision/display.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/multiscale/band_peaks.h"
 
 /// Threshold maps: for each pixel of one image the luminance increment that stays invisible. Sources:

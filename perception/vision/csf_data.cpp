@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::perception {
 namespace {

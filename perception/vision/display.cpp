@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/text.h"
 #include "perception/vision/colour.h"
 
 namespace limen::perception {

@@ -22,8 +22,8 @@
 #include <iterator>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/vision/display.h"
 #include "perception/vision/display_yaml.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
-#include "base/registry.h"
+#include "experiments/base/parameter.h"
+#include "experiments/base/registry.h"
 
 /// Contrast masking within a channel. Contrasts c are CSF-normalised (1: just visible). All are finite for
 /// any finite argument; NaN and infinity give 0. Source: Schwarz 2009, section 9.1.2.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::frame {
 

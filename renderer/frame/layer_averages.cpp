@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::frame {
 

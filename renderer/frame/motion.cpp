@@ -5,7 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::frame {

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cassert>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::frame {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 

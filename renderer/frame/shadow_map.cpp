@@ -7,7 +7,7 @@
 #include <bit>
 #include <cassert>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::frame {
 namespace {

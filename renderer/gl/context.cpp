@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::gl {
 namespace {

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/gl/context.h"
 
 namespace limen::gl {

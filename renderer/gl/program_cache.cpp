@@ -3,8 +3,8 @@
 #include <chrono>
 #include <exception>
 
-#include "base/hash.h"
-#include "base/text.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/text.h"
 #include "renderer/gl/program.h"
 
 namespace limen::gl {

@@ -9,7 +9,7 @@
 #include <regex>
 #include <sstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::gl {
 namespace {

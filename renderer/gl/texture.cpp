@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::gl {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 
 namespace limen::gl {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/gl/window_library.h"
 
 namespace limen::gl {

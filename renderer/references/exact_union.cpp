@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/references/convex_pieces.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"

@@ -6,14 +6,14 @@
 #include <thread>
 #include <vector>
 
-#include "base/cancel.h"
+#include "experiments/base/cancel.h"
 
 namespace limen::references {
 
 /// Calls work(thread, first, last) for pieces that cover [0, count) on all cores. The pieces of a thread
 /// depend on `count` and the number of cores alone; with work that treats every index by itself, results do
 /// not even depend on that. `work` must not throw. Ends early where the calling thread's work is cancelled
-/// (see base/cancel.h): then some pieces are missing.
+/// (see experiments/base/cancel.h): then some pieces are missing.
 template <class Work>
 void parallelFor(size_t count, const Work& work) {
   constexpr size_t kPiece = 16;  // small: costs differ widely between lit pixels and penumbrae

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/references/counter_random.h"
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 #include "renderer/scene/shapes.h"

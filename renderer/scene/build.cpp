@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/light.h"
 #include "renderer/scene/scene.h"
 

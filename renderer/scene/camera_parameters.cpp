@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/camera_path_file.h"
 #include "renderer/scene/camera_text.h"
 #include "renderer/scene/scene.h"

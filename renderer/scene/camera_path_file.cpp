@@ -5,12 +5,12 @@
 #include <array>
 #include <optional>
 
-#include "base/error.h"
-#include "base/problems.h"
-#include "base/replace_file.h"
-#include "base/text.h"
-#include "base/value_reader.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/replace_file.h"
+#include "experiments/base/text.h"
+#include "experiments/base/value_reader.h"
+#include "experiments/base/yaml_tree.h"
 #include "renderer/scene/camera_text.h"
 
 namespace limen::scene {

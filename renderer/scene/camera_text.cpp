@@ -9,8 +9,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::scene {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flat occluders parallel to a horizontal light, for which visibility has a closed form.
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 

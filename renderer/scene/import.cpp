@@ -13,7 +13,7 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/shapes.h"
 
 namespace limen::scene {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::scene {
 namespace {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/shapes.h"
 
 namespace limen::scene {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/import.h"
 #include "renderer/scene/stage.h"
 

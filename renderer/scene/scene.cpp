@@ -5,7 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 
 namespace limen::scene {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
-#include "base/registry.h"
+#include "experiments/base/parameter.h"
+#include "experiments/base/registry.h"
 
 namespace limen::scene {
 

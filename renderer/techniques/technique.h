@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
-#include "base/registry.h"
+#include "experiments/base/parameter.h"
+#include "experiments/base/registry.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "window/ui_window.h"
+#include "renderer/window/ui_window.h"
 
 namespace limen::study {
 namespace {

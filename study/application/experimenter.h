@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/window/input.h"
 #include "study/application/session_watch.h"
-#include "window/input.h"
 
 namespace limen::study {
 

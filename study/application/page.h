@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "window/input.h"
+#include "renderer/window/input.h"
 
 namespace limen::study {
 

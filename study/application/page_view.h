@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/window/ui_fonts.h"
 #include "study/application/page.h"
-#include "window/ui_fonts.h"
 
 namespace limen::study {
 

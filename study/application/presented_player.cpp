@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "renderer/gl/window_context.h"
+#include "renderer/window/ui_window.h"
 #include "study/presentation/presenter.h"
 #include "study/stimulus/prepared_stimulus.h"
-#include "window/ui_window.h"
 
 namespace limen::study {
 

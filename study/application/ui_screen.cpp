@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "window/ui_window.h"
+#include "renderer/window/ui_window.h"
 
 namespace limen::study {
 namespace {

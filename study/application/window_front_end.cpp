@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/image.h"
-#include "base/interrupt.h"
+#include "experiments/base/image.h"
+#include "experiments/base/interrupt.h"
 #include "renderer/gl/window_context.h"
 #include "study/application/question.h"
 #include "study/application/screens.h"

@@ -6,12 +6,12 @@
 #include <memory>
 #include <string>
 
+#include "renderer/window/ui_window.h"
 #include "study/application/experimenter.h"
 #include "study/application/page_screen.h"
 #include "study/application/page_view.h"
 #include "study/application/stimulus_player.h"
 #include "study/session/front_end.h"
-#include "window/ui_window.h"
 
 namespace limen::study {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "renderer/gl/window_system.h"
 #include "study/command/commands.h"
 #include "study/presentation/calibration.h"

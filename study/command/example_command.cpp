@@ -8,7 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/interrupt.h"
+#include "experiments/base/interrupt.h"
 #include "study/command/commands.h"
 #include "study/example/run_example.h"
 

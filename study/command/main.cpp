@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/build_facts.h"
-#include "base/program.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/program.h"
 #include "study/command/commands.h"
 
 int main(int argc, char** argv) {

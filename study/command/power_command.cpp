@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/interrupt.h"
-#include "base/text.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/text.h"
 #include "study/command/commands.h"
 #include "study/observers/popping_model.h"
 #include "study/observers/power.h"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/interrupt.h"
-#include "base/text.h"
-#include "base/value_reader.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/text.h"
+#include "experiments/base/value_reader.h"
 #include "perception/popping/settings.h"
 #include "study/command/commands.h"
 #include "study/stimulus/store_predictions.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "study/command/commands.h"
 #include "study/protocol/describe.h"
 

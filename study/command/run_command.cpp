@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include "base/build_facts.h"
-#include "base/hash.h"
-#include "base/interrupt.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/interrupt.h"
 #include "renderer/gl/window_context.h"
 #include "renderer/gl/window_system.h"
 #include "study/application/presented_player.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "experiments/store/sessions.h"
 #include "study/command/commands.h"
 #include "study/session/replay.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "experiments/base/yaml_tree.h"
 #include "study/command/commands.h"
 #include "study/procedures/trace.h"
 #include "study/protocol/expression.h"

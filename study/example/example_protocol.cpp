@@ -5,8 +5,8 @@
 #include <sstream>
 #include <vector>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "study/example/example.h"
 
 namespace limen::study {

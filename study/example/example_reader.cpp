@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <map>
 
-#include "base/error.h"
-#include "base/shipped_files.h"
-#include "base/text.h"
-#include "base/value_reader.h"
+#include "experiments/base/error.h"
+#include "experiments/base/shipped_files.h"
+#include "experiments/base/text.h"
+#include "experiments/base/value_reader.h"
 #include "perception/vision/display.h"
 #include "study/example/example.h"
 #include "study/protocol/node_reader.h"

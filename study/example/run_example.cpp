@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/build_facts.h"
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/text.h"
 #include "perception/popping/settings.h"
 #include "perception/vision/display.h"
 #include "study/example/sibling.h"

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <system_error>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "study/export/pseudonyms.h"
 
 namespace limen::study {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/build_facts.h"
+#include "experiments/base/build_facts.h"
 #include "study/export/export.h"
 
 namespace limen::study {

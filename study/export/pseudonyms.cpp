@@ -12,8 +12,8 @@
 #include <random>
 #include <set>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::study {
 namespace {

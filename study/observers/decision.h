@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/observers/simulation.h"
 
 namespace limen::study {

@@ -5,12 +5,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
-#include "base/problems.h"
-#include "base/registry.h"
-#include "base/text.h"
-#include "base/value_reader.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/problems.h"
+#include "experiments/base/registry.h"
+#include "experiments/base/text.h"
+#include "experiments/base/value_reader.h"
+#include "experiments/base/yaml_tree.h"
 
 namespace limen::study {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/popping/detection.h"
 
 namespace limen::study {

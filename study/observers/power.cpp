@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "study/observers/simulated_front_end.h"
 #include "study/procedures/student_t.h"
 

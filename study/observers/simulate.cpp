@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/observers/simulated_front_end.h"
 
 namespace limen::study {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 

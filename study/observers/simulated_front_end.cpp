@@ -5,7 +5,7 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::study {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "experiments/base/yaml_tree.h"
 
 namespace limen::study {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "psychometrics/sigmoid.h"
+#include "perception/psychometrics/sigmoid.h"
 #include "study/protocol/design.h"
 #include "study/protocol/protocol.h"
 
@@ -64,7 +64,7 @@ struct SimulationRules {
 ///
 ///     theory              high_threshold (default) or signal_detection (needs a guess rate above 0)
 ///     variable            stimulus variable x: a name, or "= expression" over the trial's variables
-///     sigmoid             family of F (psychometrics/standard_sigmoid.h); logistic
+///     sigmoid             family of F (perception/psychometrics/standard_sigmoid.h); logistic
 ///     axis                linear (default) or log: F is a function of ln x
 ///     direction           rising (default) or falling with x
 ///     threshold           x at which F is `level` (0.5); a number or "= expression"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
 #include "study/observers/simulate.h"
 #include "study/observers/true_threshold.h"

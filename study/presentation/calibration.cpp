@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 
 namespace limen::study {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/presentation/calibration.h"
 
 namespace limen::study {

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/presentation/screen_device.h"
 
 namespace limen::study {

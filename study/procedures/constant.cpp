@@ -5,10 +5,10 @@
 #include <map>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "psychometrics/random.h"
-#include "psychometrics/standard_sigmoid.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "perception/psychometrics/random.h"
+#include "perception/psychometrics/standard_sigmoid.h"
 #include "study/procedures/details.h"
 #include "study/procedures/model_settings.h"
 #include "study/procedures/settings_reader.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "psychometrics/grid_posterior.h"
+#include "perception/psychometrics/grid_posterior.h"
 #include "study/procedures/model_settings.h"
 
 namespace limen::study {

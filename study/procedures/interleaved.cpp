@@ -4,8 +4,8 @@
 // itself.
 #include <cmath>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/details.h"
 #include "study/procedures/settings_reader.h"
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "psychometrics/psychometric_function.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "perception/psychometrics/psychometric_function.h"
 #include "study/procedures/settings_reader.h"
 
 namespace limen::study {

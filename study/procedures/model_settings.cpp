@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "psychometrics/grid_posterior.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "perception/psychometrics/grid_posterior.h"
 #include "study/procedures/settings_reader.h"
 
 namespace limen::study {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "psychometrics/grid.h"
+#include "perception/psychometrics/grid.h"
 #include "study/procedures/model.h"
 #include "study/procedures/procedure.h"
 

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "psychometrics/grid_posterior.h"
-#include "psychometrics/psychometric_function.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "perception/psychometrics/grid_posterior.h"
+#include "perception/psychometrics/psychometric_function.h"
 #include "study/procedures/details.h"
 #include "study/procedures/settings_reader.h"
 

@@ -4,8 +4,8 @@
 // is expected to leave the least entropy. Psi is QUEST+ with one stimulus dimension and two outcomes.
 #include <cmath>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/details.h"
 #include "study/procedures/entropy_search.h"
 #include "study/procedures/model_settings.h"

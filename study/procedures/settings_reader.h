@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "psychometrics/grid.h"
+#include "perception/psychometrics/grid.h"
 
 namespace limen::study {
 

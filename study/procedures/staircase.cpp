@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "study/procedures/details.h"
 #include "study/procedures/settings_reader.h"
 #include "study/procedures/student_t.h"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 #include "study/procedures/procedure.h"
 #include "study/protocol/conditions.h"
 

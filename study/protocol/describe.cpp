@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "study/protocol/blocks.h"
 #include "study/protocol/conditions.h"
 #include "study/protocol/words.h"

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <numeric>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/protocol/blocks.h"
 #include "study/protocol/conditions.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 
 namespace limen::study {
 

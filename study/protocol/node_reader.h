@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/value_reader.h"
+#include "experiments/base/value_reader.h"
 #include "study/protocol/protocol.h"
 
 namespace limen::study {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::study {
 

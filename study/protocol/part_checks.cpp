@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "study/protocol/blocks.h"
 #include "study/protocol/conditions.h"
 #include "study/protocol/order.h"

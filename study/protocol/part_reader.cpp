@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "study/protocol/conditions.h"
 #include "study/protocol/expression.h"
 #include "study/protocol/words.h"

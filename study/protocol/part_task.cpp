@@ -2,7 +2,7 @@
 // What a part asks.
 #include <fmt/format.h>
 
-#include "base/text.h"
+#include "experiments/base/text.h"
 #include "study/protocol/part_reader.h"
 #include "study/protocol/words.h"
 

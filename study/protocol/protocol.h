@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 #include "study/protocol/declarations.h"
 
 namespace limen {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/shipped_files.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/shipped_files.h"
+#include "experiments/base/text.h"
 #include "perception/vision/display.h"
 #include "study/protocol/expression.h"
 #include "study/protocol/node_reader.h"

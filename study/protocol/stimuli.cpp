@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/problems.h"
+#include "experiments/base/problems.h"
 #include "study/protocol/conditions.h"
 #include "study/protocol/design.h"
 #include "study/protocol/stimulus_reader.h"

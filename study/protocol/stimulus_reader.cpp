@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "study/protocol/expression.h"
 
 namespace limen::study {

@@ -2,8 +2,8 @@
 // How events move a session on.
 #include <algorithm>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "study/session/session.h"
 
 namespace limen::study {

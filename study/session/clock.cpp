@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/clock.h"
+#include "experiments/base/clock.h"
 #include "study/session/run.h"
 
 namespace limen::study {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 namespace {

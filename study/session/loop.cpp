@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "base/error.h"
-#include "base/interrupt.h"
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "study/session/clock.h"
 #include "study/session/privacy.h"
 #include "study/session/rows.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "study/session/rows.h"
 
 namespace limen::study {

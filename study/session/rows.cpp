@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 
 namespace limen::study {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/build_facts.h"
-#include "base/environment.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/environment.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "experiments/store/sessions.h"
 #include "study/session/clock.h"
 #include "study/session/loop.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::study {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "perception/popping/comparator.h"
 #include "perception/popping/predictor.h"
 #include "perception/popping/weights.h"

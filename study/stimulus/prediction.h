@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
 #include "study/stimulus/stage.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/stimulus/prediction.h"
 
 namespace limen::study {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_control.h"
 

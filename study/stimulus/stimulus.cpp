@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 
 namespace limen::study {
 namespace {

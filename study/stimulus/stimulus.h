@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 
 namespace limen::study {
 

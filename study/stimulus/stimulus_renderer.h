@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "base/build_facts.h"
-#include "base/clock.h"
-#include "base/error.h"
-#include "base/interrupt.h"
-#include "base/text.h"
+#include "experiments/base/build_facts.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/text.h"
 #include "experiments/store/predictions.h"
 #include "perception/vision/display_yaml.h"
 #include "renderer/gl/context.h"

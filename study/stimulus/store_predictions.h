@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 
 namespace limen::study {
 

@@ -5,7 +5,7 @@
 
 #include "analysis/relations/cluster_bootstrap.h"
 #include "analysis/relations/consistency.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

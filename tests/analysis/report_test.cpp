@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "analysis/output/text_output.h"
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "tests/analysis/synthetic_store.h"
 
 namespace limen::analysis {

@@ -7,7 +7,7 @@
 
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/study_page.h"
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "tests/analysis/browser.h"
 #include "tests/analysis/study/hand_made.h"
 

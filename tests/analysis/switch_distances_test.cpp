@@ -9,7 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "tests/analysis/synthetic_store.h"
 
 namespace limen::analysis {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "base/image.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+#include "experiments/base/image.h"
 
 namespace limen::analysis {
 namespace {

@@ -9,7 +9,7 @@
 #include "analysis/data/answer_columns.h"
 #include "analysis/data/levels.h"
 #include "analysis/data/row_filter.h"
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {

@@ -41,7 +41,8 @@ TEST_F(PlantedTree, AllowedIncludesPass) {
   plant("renderer/references/area/area.cpp", "#include \"renderer/techniques/technique.h\"\n");
   plant("renderer/gl/context.cpp", "#include <epoxy/egl.h>\n");
   plant("experiments/runner.cpp", "#include \"experiments/store/store.h\"\n#include <glm/glm.hpp>\n");
-  plant("analysis/sweep/report.cpp", "#include \"experiments/store/store.h\"\n#include \"base/text.h\"\n");
+  plant("analysis/sweep/report.cpp",
+        "#include \"experiments/store/store.h\"\n#include \"experiments/base/text.h\"\n");
   plant("tests/renderer/inside_test.cpp", "#include \"renderer/techniques/soft_shadows/hard/hard.h\"\n");
   EXPECT_THAT(checkIncludes(root_), IsEmpty());
 }
@@ -74,25 +75,25 @@ TEST_F(PlantedTree, AReferenceSharesOnlyTheInterfaceOfTechniques) {
 
 TEST_F(PlantedTree, OpenGlInAModuleWithoutItIsFound) {
   plant("analysis/fits/fit.cpp", "#include <epoxy/gl.h>\n#include <glm/glm.hpp>\n");
-  plant("base/window.h", "#include <GLFW/glfw3.h>\n");
+  plant("experiments/base/window.h", "#include <GLFW/glfw3.h>\n");
   plant("renderer/scene/upload.cpp", "#include <GL/gl.h>\n");
   EXPECT_THAT(checkIncludes(root_), SizeIs(3));
 }
 
 TEST_F(PlantedTree, AnIncludeOfATestIsFound) {
-  plant("base/text.cpp", "#include \"tests/base/helper.h\"\n");
+  plant("experiments/base/text.cpp", "#include \"tests/experiments/base/helper.h\"\n");
   EXPECT_THAT(checkIncludes(root_), ElementsAre(HasSubstr("only tests use tests")));
 }
 
 TEST_F(PlantedTree, AMissingLicenceLineIsFound) {
-  plant("base/good.h", "// SPDX-License-Identifier: BSD-3-Clause\n#pragma once\n");
-  plant("base/late.cpp", "\n// SPDX-License-Identifier: BSD-3-Clause\n");
-  plant("tests/base/other.cpp", "// SPDX-License-Identifier: MIT\n");
+  plant("experiments/base/good.h", "// SPDX-License-Identifier: BSD-3-Clause\n#pragma once\n");
+  plant("experiments/base/late.cpp", "\n// SPDX-License-Identifier: BSD-3-Clause\n");
+  plant("tests/experiments/base/other.cpp", "// SPDX-License-Identifier: MIT\n");
   plant("renderer/frame/empty.glsl", "");
   plant("results/scratch.cpp", "int x;\n");
-  EXPECT_THAT(checkLicenceLines(root_),
-              UnorderedElementsAre(HasSubstr("base/late.cpp"), HasSubstr("tests/base/other.cpp"),
-                                   HasSubstr("renderer/frame/empty.glsl")));
+  EXPECT_THAT(checkLicenceLines(root_), UnorderedElementsAre(HasSubstr("experiments/base/late.cpp"),
+                                                             HasSubstr("tests/experiments/base/other.cpp"),
+                                                             HasSubstr("renderer/frame/empty.glsl")));
 }
 
 TEST(TargetRules, ALinkAgainstTheDirectionIsFoundInsideGeneratorExpressions) {

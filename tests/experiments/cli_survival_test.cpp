@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/store.h"
 #include "tests/experiments/cli_fixture.h"
 #include "tests/experiments/fake_bench.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/plan.h"
 #include "tests/experiments/fake_bench.h"
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "base/interrupt.h"
+#include "experiments/base/interrupt.h"
 
 namespace limen::experiments {
 namespace {

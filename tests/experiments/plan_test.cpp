@@ -8,7 +8,7 @@
 #include <fstream>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {

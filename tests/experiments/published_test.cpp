@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/plan.h"
 #include "tests/experiments/fake_bench.h"
 

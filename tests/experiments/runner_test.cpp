@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {

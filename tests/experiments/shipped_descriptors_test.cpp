@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "base/hash.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/store.h"
 #include "tests/experiments/cli_fixture.h"
 

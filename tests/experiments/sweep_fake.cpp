@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdlib>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/sweep.h"
 #include "tests/experiments/fake_bench.h"
 

@@ -87,13 +87,13 @@ age() { # makes all of the tree old, but for what was built
 }
 make_tree() { # a fresh tree and machine: root, nothing installed, package lists at hand
   rm -rf "$tree" "$state" "$scratch/elsewhere"
-  mkdir -p "$tree"/{base,experiments/descriptors,analysis,tests} "$state" "$scratch/elsewhere"
+  mkdir -p "$tree"/{experiments/{base,descriptors},analysis,tests} "$state" "$scratch/elsewhere"
   cp "$source_tree/limen" "$source_tree/packages.txt" "$tree"
   echo 'project(limen VERSION 9.8.7 LANGUAGES CXX)' >"$tree/CMakeLists.txt"
   echo '{"configurePresets": [{"name": "release"}, {"name": "asan"}]}' >"$tree/CMakePresets.json"
   echo 'add_executable(limen-sweep main.cpp)' >"$tree/experiments/CMakeLists.txt"
   printf 'add_executable(\n  limen-analyse main.cpp)\n' >"$tree/analysis/CMakeLists.txt"
-  touch "$tree/base/text.cpp" "$tree/base/hash.cpp" "$tree/tests/text_test.cpp"
+  touch "$tree/experiments/base/text.cpp" "$tree/experiments/base/hash.cpp" "$tree/tests/text_test.cpp"
   age
   : >"$state/installed"
   : >"$state/calls"
@@ -117,7 +117,7 @@ check "the exit code is the program's" is $status 7
 run sweep
 check "a second call asks nothing of anybody" is "$(calls)" ""
 check "and says nothing of its own" is "$(<"$scratch/err")" ""
-for ((i = 0; i < 400; ++i)); do : >"$tree/base/file$i.cpp"; done
+for ((i = 0; i < 400; ++i)); do : >"$tree/experiments/base/file$i.cpp"; done
 age
 best=1000000
 for _ in 1 2 3 4 5; do
@@ -128,7 +128,7 @@ for _ in 1 2 3 4 5; do
 done
 check "a call with nothing to do costs less than 0.3 s ($((best / 1000)) ms)" test $best -lt 300000
 
-touch "$tree/base/text.cpp"
+touch "$tree/experiments/base/text.cpp"
 run sweep
 check "a changed source is built" called '--target limen-sweep'
 check "without configuring again" not called '--preset'
@@ -139,7 +139,7 @@ check "a sweep without its report's program builds it" called '--target limen-sw
 run analyse
 check "analyse is built alone" called '--target limen-analyse$'
 age
-rm "$tree/base/hash.cpp"
+rm "$tree/experiments/base/hash.cpp"
 run sweep
 check "a deleted source is noticed" called '--target limen-sweep'
 age

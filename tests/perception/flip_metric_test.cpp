@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "flip_reference.h"
 #include "metric_helpers.h"
 #include "perception/metrics/metric_gpu.h"

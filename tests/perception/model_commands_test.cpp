@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/command/commands.h"
 #include "tests/experiments/cli_fixture.h"
 

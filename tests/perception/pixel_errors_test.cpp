@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "metric_helpers.h"
 
 namespace limen::perception {

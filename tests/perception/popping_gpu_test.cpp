@@ -7,12 +7,12 @@
 #include <limits>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/popping/popping_gpu.h"
 #include "perception/popping/weights.h"
 #include "perception/popping/weights_gpu.h"
-#include "tests/gl/gl_fixture.h"
 #include "tests/perception/popping_images.h"
+#include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::perception {
 namespace {

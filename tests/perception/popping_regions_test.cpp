@@ -5,7 +5,7 @@
 #include <limits>
 #include <queue>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/popping/detection.h"
 #include "perception/popping/overlay.h"
 #include "perception/popping/regions.h"

@@ -15,8 +15,8 @@
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
-#include "tests/gl/gl_fixture.h"
 #include "tests/perception/popping_images.h"
+#include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::perception {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/popping/comparator.h"
 #include "perception/popping/predictor.h"
 #include "perception/popping/sensitivity.h"

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "metric_helpers.h"
 
 namespace limen::perception {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/error_map.h"
 #include "tests/perception/metric_helpers.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/adaptation.h"
 #include "perception/vision/csf_models.h"
 #include "perception/vision/stela_csf.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/csf_data.h"
 
 namespace limen::perception {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/eye_movement.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/masking.h"
 #include "perception/vision/tvi.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/flip/flip_gpu.h"
 #include "perception/metrics/metric_gpu.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/import.h"
 #include "renderer/scene/lod/mesh_chain.h"
 #include "renderer/scene/lod_scene_parameters.h"

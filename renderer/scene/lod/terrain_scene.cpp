@@ -7,7 +7,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/scene/lod/terrain_tiles.h"
 #include "renderer/scene/lod_scene_parameters.h"
 #include "renderer/scene/shapes.h"

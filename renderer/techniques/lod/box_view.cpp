@@ -3,7 +3,7 @@
 
 #include <epoxy/gl.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 

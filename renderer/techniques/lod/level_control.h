@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "renderer/scene/lod_control.h"
 #include "renderer/techniques/technique.h"
 

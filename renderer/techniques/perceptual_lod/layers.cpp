@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 namespace {

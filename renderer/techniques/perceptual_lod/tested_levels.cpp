@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 namespace {

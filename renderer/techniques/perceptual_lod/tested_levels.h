@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 
 namespace limen::techniques {
 

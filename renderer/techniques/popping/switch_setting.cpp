@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_control.h"

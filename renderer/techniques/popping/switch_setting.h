@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "perception/popping/settings.h"
 #include "perception/vision/display.h"
 #include "renderer/frame/frame.h"

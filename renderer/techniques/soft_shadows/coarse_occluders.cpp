@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 
 namespace limen::techniques {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
 namespace limen::techniques {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/multi_scale_map.h"
 #include "renderer/techniques/soft_shadows/quality/quality_counters.h"

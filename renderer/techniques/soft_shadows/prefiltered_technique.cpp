@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 namespace {

@@ -8,8 +8,8 @@
 #include <bit>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/receivers_from.h"
 

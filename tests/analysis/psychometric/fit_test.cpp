@@ -9,9 +9,9 @@
 
 #include "analysis/psychometric/objective.h"
 #include "analysis/psychometric/optimiser.h"
-#include "base/error.h"
-#include "psychometrics/psychometric_function.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/psychometric_function.h"
+#include "perception/psychometrics/random.h"
 #include "tests/analysis/psychometric/simulated_sets.h"
 
 namespace limen::analysis {

@@ -9,8 +9,8 @@
 #include "analysis/psychometric/coverage.h"
 #include "analysis/psychometric/goodness.h"
 #include "analysis/statistics/distributions.h"
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "tests/analysis/psychometric/simulated_sets.h"
 
 namespace limen::analysis {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/analysis/psychometric/simulated_sets.h"
 
-#include "psychometrics/psychometric_function.h"
-#include "psychometrics/random.h"
+#include "perception/psychometrics/psychometric_function.h"
+#include "perception/psychometrics/random.h"
 
 namespace limen::analysis {
 

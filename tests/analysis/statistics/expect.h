@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 

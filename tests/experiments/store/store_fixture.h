@@ -12,8 +12,8 @@
 #include <functional>
 #include <string>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "experiments/store/store.h"
 
 namespace limen::store {

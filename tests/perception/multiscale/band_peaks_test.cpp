@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::perception {
 namespace {

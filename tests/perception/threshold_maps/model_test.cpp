@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/csf_models.h"
 #include "perception/vision/tvi.h"
 #include "tests/perception/threshold_maps/patterns.h"
@@ -81,8 +81,9 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
 TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
   // Band 2 of the six-tap pyramid at 41.07 ppd peaks at 2.459 cpd.
   const ThresholdModel one(settingsOf({{"f_low", textValue("one")}}), kStudyPpd, 256, 256);
-  const ThresholdModel computed(settingsOf({{"f_low", textValue("as_computed")}, {"f_rule", textValue("original")}}),
-                                kStudyPpd, 256, 256);
+  const ThresholdModel computed(
+      settingsOf({{"f_low", textValue("as_computed")}, {"f_rule", textValue("original")}}), kStudyPpd, 256,
+      256);
   EXPECT_NEAR(one.peaks()[2].frequencyCpd(kStudyPpd), 2.459, 0.001);
   EXPECT_EQ(one.frequencyElevation(2, 30.0), 1.0);
   EXPECT_GT(one.frequencyElevation(1, 30.0), 1.0);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/threshold_maps/model.h"
 #include "perception/vision/csf_models.h"
 #include "perception/vision/masking.h"

@@ -5,12 +5,12 @@
 
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/threshold_maps/model.h"
 #include "perception/threshold_maps/reference.h"
-#include "tests/gl/gl_fixture.h"
 #include "tests/perception/threshold_maps/edge_support.h"
 #include "tests/perception/threshold_maps/patterns.h"
+#include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::perception {
 namespace {

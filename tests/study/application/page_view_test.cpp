@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "renderer/gl/window_context.h"
+#include "renderer/window/ui_window.h"
 #include "study/application/lettering.h"
 #include "study/application/question.h"
 #include "study/application/screens.h"
-#include "tests/window/x_server.h"
-#include "window/ui_window.h"
+#include "tests/renderer/window/x_server.h"
 
 namespace limen::study {
 namespace {

@@ -12,9 +12,9 @@
 #include <map>
 #include <sstream>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
+#include "tests/renderer/window/x_server.h"
 #include "tests/study/application/study_run.h"
-#include "tests/window/x_server.h"
 
 namespace limen {
 namespace {

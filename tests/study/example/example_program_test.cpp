@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/error.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/yaml_tree.h"
 #include "experiments/store/predictions.h"
 #include "experiments/store/sessions.h"
 #include "tests/run_program.h"

@@ -3,8 +3,8 @@
 
 #include <sstream>
 
-#include "base/error.h"
-#include "base/yaml_tree.h"
+#include "experiments/base/error.h"
+#include "experiments/base/yaml_tree.h"
 #include "study/example/example.h"
 
 namespace limen::study {

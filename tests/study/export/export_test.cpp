@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/export/pseudonyms.h"
 
 namespace limen::study {

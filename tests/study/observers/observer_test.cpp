@@ -8,8 +8,8 @@
 #include <cmath>
 #include <functional>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "tests/study/observers/binomial.h"
 #include "tests/study/observers/example.h"
 

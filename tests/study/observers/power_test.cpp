@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "tests/study/observers/binomial.h"
 #include "tests/study/observers/example.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
 #include "study/observers/simulate.h"
 #include "study/observers/simulated_front_end.h"

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "psychometrics/random.h"
+#include "experiments/base/error.h"
+#include "perception/psychometrics/random.h"
 #include "study/presentation/calibration_screens.h"
 #include "study/presentation/virtual_screen.h"
 

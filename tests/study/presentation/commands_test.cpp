@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "perception/vision/display.h"
+#include "tests/renderer/window/x_server.h"
 #include "tests/run_program.h"
-#include "tests/window/x_server.h"
 
 namespace limen::study {
 namespace {

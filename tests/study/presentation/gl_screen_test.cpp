@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/window_system.h"
 #include "study/presentation/gl_screen.h"
-#include "tests/window/x_server.h"
+#include "tests/renderer/window/x_server.h"
 #include "tests/study/presentation/x_picture.h"
 
 // After the GL headers, whose names Xlib's macros would change.

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/presentation/virtual_screen.h"
 
 namespace limen::study {

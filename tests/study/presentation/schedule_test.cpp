@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 namespace {

@@ -9,8 +9,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "psychometrics/psychometric_function.h"
-#include "psychometrics/random.h"
+#include "perception/psychometrics/psychometric_function.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 
 namespace limen::study {

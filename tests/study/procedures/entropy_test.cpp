@@ -7,7 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 
 namespace limen::study {

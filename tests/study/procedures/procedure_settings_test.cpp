@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/procedures/procedure.h"
 #include "tests/study/procedures/example_settings.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 
 namespace limen::study {

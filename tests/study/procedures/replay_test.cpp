@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 #include "tests/study/procedures/example_settings.h"
 
@@ -142,7 +142,8 @@ TEST(Interleaved, RotationGoesRoundAndSkipsTheFinished) {
     shown.push_back(trial.stimulus);
   }
   using Answers = std::vector<double>;
-  EXPECT_THAT(shown, ElementsAre(Answers{0, 1}, Answers{1, 10}, Answers{0, 2}, Answers{1, 20}, Answers{1, 30}));
+  EXPECT_THAT(shown,
+              ElementsAre(Answers{0, 1}, Answers{1, 10}, Answers{0, 2}, Answers{1, 20}, Answers{1, 30}));
 }
 
 TEST(Interleaved, RandomOrderIsEvenAndEachGetsItsOwnTrials) {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 
 int main() {

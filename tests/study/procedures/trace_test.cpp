@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "tests/study/procedures/example_settings.h"
 
 namespace limen::study {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/study/protocol/example.h"
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 

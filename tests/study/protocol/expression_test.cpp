@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/yaml_tree.h"
+#include "experiments/base/yaml_tree.h"
 #include "renderer/scene/scene.h"
 #include "study/protocol/design.h"
 

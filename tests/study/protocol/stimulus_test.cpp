@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::study {
 namespace {

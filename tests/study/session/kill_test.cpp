@@ -6,7 +6,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "tests/study/session/session_fixture.h"
 
 namespace limen::study {

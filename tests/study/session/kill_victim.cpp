@@ -9,7 +9,7 @@
 #include <iostream>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
 #include "tests/study/session/scripted.h"
 

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "psychometrics/random.h"
+#include "perception/psychometrics/random.h"
 #include "study/protocol/declarations.h"
 
 namespace limen::study {

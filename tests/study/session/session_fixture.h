@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
 #include "study/session/replay.h"
 #include "study/session/run.h"

@@ -12,7 +12,7 @@
 #include "experiments/store/predictions.h"
 #include "perception/vision/display.h"
 #include "study/stimulus/prediction.h"
-#include "tests/gl/gl_fixture.h"
+#include "tests/renderer/gl/gl_fixture.h"
 #include "tests/run_program.h"
 
 namespace limen::study {

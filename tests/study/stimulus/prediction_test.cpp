@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "perception/popping/predictor.h"
 #include "perception/vision/colour.h"
 #include "study/stimulus/prediction.h"
@@ -171,8 +171,9 @@ TEST_F(PreparedStimulusTest, LayersAreTheFramesWhetherAheadOrLive) {
   const int64_t needed = int64_t{12} * kPredictionSize.x * kPredictionSize.y * 4;
   for (const int64_t budget : {needed, needed - 1}) {
     int told = 0;
-    PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()),
-                              budget, [&](int, int all) { told += all == 12 ? 1 : 100; });
+    PreparedStimulus prepared(
+        std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()), budget,
+        [&](int, int all) { told += all == 12 ? 1 : 100; });
     EXPECT_EQ(prepared.ahead(), budget == needed);
     EXPECT_EQ(prepared.warning().empty(), prepared.ahead());
     EXPECT_LE(prepared.bytes(), budget);
@@ -187,8 +188,9 @@ TEST_F(PreparedStimulusTest, LayersAreTheFramesWhetherAheadOrLive) {
 TEST_F(PreparedStimulusTest, AStaticSequenceTakesTwoLayers) {
   Stimulus stimulus = patchStimulus();
   stimulus.presentation = Presentation::Static;
-  PreparedStimulus prepared(std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()),
-                            pictureBudgetBytes());
+  PreparedStimulus prepared(
+      std::make_unique<StimulusRenderer>(context(), stimulus, kPredictionSize, studyDisplay()),
+      pictureBudgetBytes());
   EXPECT_EQ(prepared.layerOfFrame(), (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(prepared.bytes(), int64_t{2} * kPredictionSize.x * kPredictionSize.y * 4);
 }

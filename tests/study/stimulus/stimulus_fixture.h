@@ -7,7 +7,7 @@
 #include "renderer/scene/scene.h"
 #include "renderer/techniques/technique.h"
 #include "study/stimulus/stimulus.h"
-#include "tests/gl/gl_fixture.h"
+#include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::study {
 

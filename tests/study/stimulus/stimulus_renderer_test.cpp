@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/hash.h"
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
 #include "perception/vision/colour.h"
 #include "renderer/scene/shapes.h"
 #include "study/stimulus/state_view.h"

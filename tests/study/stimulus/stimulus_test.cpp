@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "study/stimulus/display_coding.h"
 #include "study/stimulus/timeline.h"
 #include "tests/study/stimulus/stimulus_fixture.h"

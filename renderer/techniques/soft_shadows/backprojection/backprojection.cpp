@@ -5,7 +5,7 @@
 //
 // Whether a microquad that folds over on the light adds or takes away is left open by the thesis: it sums the
 // signed areas of a quad's two triangles. `quad_area` has both readings.
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
 namespace limen::techniques {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"

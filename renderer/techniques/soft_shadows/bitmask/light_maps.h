@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "renderer/frame/shadow_map.h"
 #include "renderer/scene/scene.h"
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <random>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {

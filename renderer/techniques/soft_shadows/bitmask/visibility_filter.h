@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 

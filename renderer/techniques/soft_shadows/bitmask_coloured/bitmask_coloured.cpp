@@ -7,7 +7,7 @@
 // that groups of 16 samples fit, too.
 #include <epoxy/gl.h>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"

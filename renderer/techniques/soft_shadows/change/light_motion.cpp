@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {

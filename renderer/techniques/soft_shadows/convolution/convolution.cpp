@@ -6,7 +6,7 @@
 //
 // The step is blurred over 1 / M of the depths that the series spans, and rings: occluders so close are lost,
 // and light leaks by up to 9 % of what is blocked.
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 
 namespace limen::techniques {

@@ -8,7 +8,7 @@
 // sides cut are taken apart, so blocks are the only approximation beside micropatches.
 #include <bit>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {

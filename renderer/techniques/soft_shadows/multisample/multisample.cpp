@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 
 namespace limen::techniques {

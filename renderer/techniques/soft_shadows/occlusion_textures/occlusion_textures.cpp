@@ -5,7 +5,7 @@
 // receiver's own slice is missed. Source: Schwarz 2009, section 3.2.1 (after Eisemann and Décoret 2006 and
 // 2008; formula reconstructed). Here the slices are seen in perspective from the light's centre and made in
 // one pass, a bit of a texel each.
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/occlusion_slices.h"
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 

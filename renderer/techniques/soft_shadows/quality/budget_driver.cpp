@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/quality/budget_driver.h"
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/quality/frame_time_budget.h"
 #include "renderer/techniques/soft_shadows/quality/masking_budget.h"
 #include "renderer/techniques/soft_shadows/quality/painted_budget.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parameter.h"
+#include "experiments/base/parameter.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"

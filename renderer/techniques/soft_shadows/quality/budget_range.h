@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
-#include "base/parameter.h"
+#include "experiments/base/error.h"
+#include "experiments/base/parameter.h"
 #include "renderer/gl/program.h"
 
 namespace limen::techniques {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 
 namespace limen::techniques {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {

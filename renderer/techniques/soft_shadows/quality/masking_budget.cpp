@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/soft_shadows/quality/budget_range.h"

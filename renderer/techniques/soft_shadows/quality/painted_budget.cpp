@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
-#include "base/image_file.h"
+#include "experiments/base/error.h"
+#include "experiments/base/image_file.h"
 #include "renderer/techniques/soft_shadows/quality/budget_range.h"
 
 namespace limen::techniques {

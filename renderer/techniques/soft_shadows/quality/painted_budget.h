@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/image.h"
+#include "experiments/base/image.h"
 #include "renderer/techniques/soft_shadows/quality/budget_driver.h"
 
 namespace limen::techniques {

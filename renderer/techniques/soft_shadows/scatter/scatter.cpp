@@ -13,8 +13,8 @@
 #include <array>
 #include <optional>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/scatter/light_layers.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"

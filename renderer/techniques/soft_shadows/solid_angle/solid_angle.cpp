@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/techniques/soft_shadows/solid_angle/gaussian_taps.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"

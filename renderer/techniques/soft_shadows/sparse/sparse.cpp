@@ -11,7 +11,7 @@
 #include <array>
 #include <optional>
 
-#include "base/error.h"
+#include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 #include "renderer/techniques/soft_shadows/sparse/sampling.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"

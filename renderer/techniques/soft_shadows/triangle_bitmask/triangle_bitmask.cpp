@@ -14,8 +14,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bvh.h"

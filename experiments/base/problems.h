@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/base/yaml_tree.h"
+
+namespace limen {
+
+/// Collects what is wrong with one file, so that a user sees all of it at once.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  /// The same problem at the same place counts once.
+  void add(Mark mark, const std::string& what, const std::string& mend = {});
+  bool empty() const { return lines_.empty(); }
+  size_t size() const { return lines_.size(); }
+  const std::string& file() const { return file_; }
+
+  /// Throws one Error with a line for each problem (the first twenty), in the file's order; returns if there
+  /// is none.
+  void throwIfAny() const;
+
+ private:
+  struct Line {
+    Mark mark;
+    std::string text;
+  };
+  std::string file_;
+  std::vector<Line> lines_;
+};
+
+}  // namespace limen

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limen view: look at any scene with any technique, turn any parameter, keep what was found.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/program.h"
+#include "experiments/base/text.h"
+#include "experiments/viewer/keep.h"
+#include "experiments/viewer/screenshot.h"
+#include "experiments/viewer/viewer.h"
+#include "renderer/gl/shader_source.h"
+#include "renderer/window/ui_window.h"
+
+namespace limen::viewer {
+namespace {
+
+struct ViewOptions {
+  std::string descriptor, scene = "bunny", technique = "soft_shadows/bitmask", reference, second;
+  std::vector<std::string> set;
+  std::string size = "640x480", windowSize = "1600x1000", results = "results/viewer";
+  std::string display = "schwarz_2009", arrangement = "first";
+  std::string screenshot, shaders;
+  int frames = 1, monitor = 0;
+  double scale = 0.0;
+  bool fullScreen = false;
+};
+
+glm::ivec2 sizeOf(const std::string& text, const std::string& option) {
+  int width = 0, height = 0, end = 0;
+  const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end) == 2 &&
+                    end == static_cast<int>(text.size());
+  if (!read || width < 1 || height < 1 || width > 16384 || height > 16384)
+    throw Error("'" + text + "' is no size", option, "give it as WIDTHxHEIGHT in pixels, 1x1 to 16384x16384");
+  return {width, height};
+}
+
+/// How the viewer begins: what stands beside what, and what is predicted.
+struct Shown {
+  Arrangement arrangement = Arrangement::First;
+  Overlay overlay = Overlay::None;
+};
+
+Shown shownAs(const std::string& name) {
+  const std::vector<std::pair<std::string, Shown>> all = {
+      {"first", {Arrangement::First, Overlay::None}},
+      {"second", {Arrangement::Second, Overlay::None}},
+      {"side_by_side", {Arrangement::SideBySide, Overlay::None}},
+      {"split", {Arrangement::Split, Overlay::None}},
+      {"flicker", {Arrangement::Flicker, Overlay::None}},
+      {"error", {Arrangement::ErrorMap, Overlay::None}},
+      {"thresholds", {Arrangement::Overlay, Overlay::Thresholds}},
+      {"popping", {Arrangement::Overlay, Overlay::Popping}}};
+  std::vector<std::string> names;
+  for (const auto& [known, shown] : all) {
+    if (known == name) return shown;
+    names.push_back(known);
+  }
+  throw Error("no arrangement '" + name + "'", "--arrangement", suggest(name, names));
+}
+
+/// The value that `text` is for this parameter.
+ParameterValue valueOf(const Parameter& parameter, const std::string& text, const std::string& where) {
+  const auto refuse = [&] {
+    return Error("'" + parameter.name + "' is '" + text + "'", where, "allowed: " + describeRange(parameter));
+  };
+  switch (parameter.type) {
+    case ParameterType::Boolean:
+      if (text != "true" && text != "false") throw refuse();
+      return text == "true";
+    case ParameterType::Integer:
+    case ParameterType::Real: {
+      char* end = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0') throw refuse();
+      if (parameter.type == ParameterType::Real) return number;
+      if (number != std::floor(number) || std::abs(number) > 9e15) throw refuse();
+      return static_cast<int64_t>(number);
+    }
+    default:
+      return text;
+  }
+}
+
+/// "scene.light_size=2"
+void apply(Choices& choices, const std::string& text) {
+  const size_t dot = text.find('.'), equals = text.find('=');
+  const std::string mend =
+      "give it as scene.NAME=VALUE, technique.NAME=VALUE, second.NAME=VALUE or reference.NAME=VALUE";
+  if (dot == std::string::npos || equals == std::string::npos || dot > equals)
+    throw Error("'" + text + "' names no parameter", "--set", mend);
+  const std::string what = text.substr(0, dot), name = text.substr(dot + 1, equals - dot - 1);
+  Chosen* chosen = what == "scene"                            ? &choices.scene
+                   : what == "technique"                      ? &choices.technique
+                   : what == "second" && choices.other        ? &*choices.other
+                   : what == "reference" && choices.reference ? &*choices.reference
+                                                              : nullptr;
+  if (!chosen) throw Error("nothing is called '" + what + "' here", "--set " + text, mend);
+  const std::vector<Parameter> declared =
+      what == "scene" ? sceneParameters(chosen->name) : techniqueParameters(chosen->name);
+  std::vector<std::string> names;
+  for (const Parameter& parameter : declared) {
+    if (parameter.name == name) {
+      give(*chosen, parameter, valueOf(parameter, text.substr(equals + 1), "--set " + text));
+      return;
+    }
+    names.push_back(parameter.name);
+  }
+  throw Error("'" + chosen->name + "' has no parameter '" + name + "'", "--set " + text,
+              suggest(name, names));
+}
+
+Choices choicesFrom(const ViewOptions& options) {
+  Choices choices;
+  if (!options.descriptor.empty()) {
+    choices = choicesOf(options.descriptor);
+  } else {
+    choices.scene.name = options.scene;
+    choices.technique.name = options.technique;
+    sceneParameters(choices.scene.name);
+    choices.reference = options.reference == "none" ? std::nullopt
+                        : options.reference.empty() ? usualReference(options.technique)
+                                                    : std::optional(Chosen{options.reference, {}});
+    if (choices.reference) techniqueParameters(choices.reference->name);
+    choices.sizePx = sizeOf(options.size, "--size");
+  }
+  if (!options.second.empty()) {
+    techniqueParameters(options.second);
+    choices.other = Chosen{options.second, {}};
+  }
+  for (const std::string& text : options.set) apply(choices, text);
+  // What is not there or does not go together is said before any window opens.
+  completeScene(choices.scene);
+  completeTechnique(choices.technique);
+  if (choices.other) completeTechnique(*choices.other);
+  if (choices.reference) completeTechnique(*choices.reference);
+  return choices;
+}
+
+int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Shown shownFirst) {
+  window::UiWindowOptions windowOptions;
+  windowOptions.title = "Limen";
+  windowOptions.sizePx = sizeOf(options.windowSize, "--window");
+  windowOptions.fullScreen = options.fullScreen;
+  windowOptions.monitor = options.monitor;
+  windowOptions.scale = static_cast<float>(options.scale);
+  windowOptions.resizable = true;
+  windowOptions.density = window::UiDensity::Workbench;
+  std::unique_ptr<window::UiWindow> made;
+  try {
+    made = std::make_unique<window::UiWindow>(windowOptions);
+  } catch (const Error& error) {
+    throw Error(error.what(), {}, "without a display, --screenshot FILE makes a picture of the viewer");
+  }
+  window::UiWindow& window = *made;
+  Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
+  viewer.arrangement = shownFirst.arrangement;
+  viewer.predict(shownFirst.overlay);
+  using Clock = std::chrono::steady_clock;
+  auto before = Clock::now();
+  // The interface needs a few frames to come to rest after an event.
+  constexpr int kFramesAfterEvent = 3;
+  int framesLeft = kFramesAfterEvent;
+  while (!window.takeCloseRequest() && interruptSignal() == 0) {
+    const bool busy = framesLeft > 0 || viewer.animated();
+    const bool woken = window.waitForAnything(busy ? 0.0 : 0.5);
+    const bool changed = viewer.takeResults();
+    if (woken || changed) framesLeft = kFramesAfterEvent;
+    if (window.contextLost()) throw Error("the graphics driver was reset", {}, "start the viewer again");
+    if (framesLeft == 0 && !viewer.animated()) {
+      before = Clock::now();
+      continue;
+    }
+    const auto now = Clock::now();
+    // After a rest nothing has moved.
+    const double passed = std::min(std::chrono::duration<double>(now - before).count(), 0.1);
+    before = now;
+    window.draw({0.06F, 0.06F, 0.07F}, [&] { viewer.build(passed); });
+    window.show(1);
+    framesLeft = std::max(framesLeft - 1, 0);
+  }
+  return 0;
+}
+
+int view(const ViewOptions& options) {
+  ViewerOptions viewerOptions;
+  viewerOptions.choices = choicesFrom(options);
+  viewerOptions.resultsFolder = options.results;
+  viewerOptions.shaderRoot = options.shaders;
+  if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);
+  viewerOptions.display = perception::readDisplay(options.display);
+  const Shown shownFirst = shownAs(options.arrangement);
+  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, shownFirst);
+  window::OffscreenUi ui(sizeOf(options.windowSize, "--window"),
+                         options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0F);
+  Viewer viewer(ui, viewerOptions, [] {});
+  viewer.arrangement = shownFirst.arrangement;
+  viewer.predict(shownFirst.overlay);
+  writeScreenshot(ui, viewer, options.frames, options.screenshot);
+  std::printf("%s\n", options.screenshot.c_str());
+  const RenderResult& shown = *viewer.shown();
+  std::string wrong = shown.error;
+  for (const Rendered& one : shown.rendered) wrong += one.error + one.failure;
+  if (wrong.empty()) return 0;
+  std::fprintf(stderr, "limen-view: %s\n", wrong.c_str());
+  return 1;
+}
+
+int viewMain(int argc, char** argv) {
+  installInterruptHandlers();
+  ViewOptions options;
+  int exitCode = 0;
+  CLI::App app("Look at any scene with any technique, turn any parameter, keep what was found.",
+               "limen-view");
+  app.set_version_flag("--version", versionText("limen-view"));
+  app.add_option("descriptor", options.descriptor, "Show the first run of this descriptor");
+  app.add_option("--scene", options.scene, "Scene to begin with")->capture_default_str();
+  app.add_option("--technique", options.technique, "Technique to begin with")->capture_default_str();
+  app.add_option("--second", options.second, "Second technique to compare with");
+  app.add_option("--reference", options.reference,
+                 "Reference for errors; none: without (default: the usual one)");
+  app.add_option("--set", options.set, "Parameter: scene.NAME=VALUE, technique.NAME=VALUE, ...");
+  app.add_option("--size", options.size, "Size of the picture that is rendered, pixels")
+      ->capture_default_str();
+  app.add_option("--window", options.windowSize, "Size of the window, pixels")->capture_default_str();
+  app.add_option("--scale", options.scale, "Of lettering (default: as the monitor asks for)")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_flag("--full-screen", options.fullScreen, "Window as large as the monitor");
+  app.add_option("--monitor", options.monitor, "Which monitor, from 0")->capture_default_str();
+  app.add_option("--display", options.display, "Display that predictions are for: preset or YAML file")
+      ->capture_default_str();
+  app.add_option("--arrangement", options.arrangement,
+                 "first, second, side_by_side, split, flicker, error, thresholds or popping")
+      ->capture_default_str();
+  app.add_option("--results", options.results, "Folder for kept descriptors and pictures")
+      ->capture_default_str();
+  app.add_option("--shaders", options.shaders, "Source tree whose shaders are read and watched for changes");
+  app.add_option("--screenshot", options.screenshot,
+                 "Write a picture of the viewer (PNG) and end; needs no display");
+  app.add_option("--frames", options.frames, "With --screenshot: frames after all is on screen")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.callback([&] {
+    try {
+      exitCode = view(options);
+    } catch (const Interrupted&) {
+      exitCode = 128 + interruptSignal();
+    }
+  });
+  return runProgram(app, argc, argv, exitCode);
+}
+
+}  // namespace
+}  // namespace limen::viewer
+
+int main(int argc, char** argv) { return limen::viewer::viewMain(argc, argv); }

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "experiments/base/image.h"
+#include "experiments/viewer/choices.h"
+#include "experiments/viewer/latest.h"
+#include "experiments/viewer/live_technique.h"
+#include "experiments/viewer/presenter.h"
+#include "renderer/gl/context.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::viewer {
+
+/// What the render thread is to show.
+struct RenderRequest {
+  uint64_t number = 0;  ///< comes back with the result
+  Choices choices;
+  std::string view;                    ///< debug view in place of the first product; "": the product
+  std::optional<glm::ivec2> pickedPx;  ///< pixel whose values are wanted
+  bool moving = false;      ///< the user is at it, the camera moves: settled frames would be in the way
+  bool continuous = false;  ///< render on and on, to see times
+};
+
+/// Values of one image at the picked pixel.
+struct PickedValues {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// What one technique gave.
+struct Rendered {
+  std::string error;    ///< why there is no picture, "" if there is one
+  std::string failure;  ///< what is wrong with the picture that there is
+  std::shared_ptr<const ScreenPicture> picture;
+  techniques::ProductKind kind = techniques::ProductKind::Visibility;
+  std::vector<PassFigure> passes;
+  double frameMs = -1.0;           ///< < 0: not timed yet
+  bool onCpu = false;              ///< timed by the host's clock
+  std::vector<std::string> views;  ///< names of debug views
+  double viewWhite = 0.0;          ///< value of the brightest colour where a debug view of values is shown
+
+  // Settled frames alone: from a technique made anew, as a sweep makes it.
+  std::shared_ptr<const Image> product;
+  std::string productHash;  ///< see experiments/product.h
+  int64_t nonFinite = 0;
+  double prepareMs = -1.0;
+  std::vector<techniques::Counter> counters;
+  std::vector<std::string> remarks;
+  std::vector<PickedValues> picked;  ///< of the product, debug views and, for the first, the G-buffer
+};
+
+struct RenderResult {
+  uint64_t number = 0;
+  Choices choices;  ///< what was rendered
+  bool settled = false;
+  std::string error;               ///< of the scene
+  std::vector<Rendered> rendered;  ///< one or two; none if the scene is in error
+  std::set<std::string> traits;
+  scene::CameraPath path;  ///< of the camera, whatever time is chosen
+  scene::Camera camera;
+  scene::Bounds bounds;
+  size_t triangles = 0;
+  std::shared_ptr<const experiments::ViewImages> view;  ///< settled frames alone
+};
+
+/// Shaders that were read again since the last one of these.
+struct ShaderNews {
+  std::vector<std::string> rebuilt;
+  std::vector<std::string> failures;  ///< the driver's words, with file and line; the old program runs on
+};
+
+/// Renders the newest request in an OpenGL context of its own, made as a sweep makes it, so that what is seen
+/// is what a sweep measures, and nothing that it does holds up the window. After the last request it renders
+/// once more with techniques made anew (settled), reads product and counters, and rests.
+class RenderThread {
+ public:
+  /// `wake` is called from the thread when there is a result or news. `shaderRoot`: source tree whose shaders
+  /// are read instead of the program's own and watched for changes; "": none.
+  RenderThread(std::function<void()> wake, const std::string& shaderRoot);
+  ~RenderThread();
+  RenderThread(const RenderThread&) = delete;
+  RenderThread& operator=(const RenderThread&) = delete;
+
+  void ask(RenderRequest request) { requests_.put(std::move(request)); }
+  std::optional<RenderResult> take() { return results_.take(); }
+  std::optional<ShaderNews> takeNews() { return news_.take(); }
+  /// Of the context; waits until there is one. Throws Error if there is none to be had.
+  gl::DeviceInfo device() const { return device_.get(); }
+  /// Frames rendered so far.
+  int64_t frames() const { return frames_; }
+
+ private:
+  class Work;
+  void run(const std::function<void()>& wake, const std::string& shaderRoot);
+
+  Latest<RenderRequest> requests_;
+  Latest<RenderResult> results_;
+  Latest<ShaderNews> news_;
+  std::promise<gl::DeviceInfo> deviceMade_;
+  std::shared_future<gl::DeviceInfo> device_;
+  std::atomic<int64_t> frames_ = 0;
+  std::jthread thread_;  // last: it uses the others
+};
+
+}  // namespace limen::viewer

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/base/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "experiments/base/error.h"
+
+namespace limen {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class ImageFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "limen_image_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Values count up from 0 in steps of 1/255, channel by channel, pixel by pixel.
+  void save(const std::string& name, const OIIO::ImageSpec& spec) const {
+    std::vector<float> values(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) / 255.0F;
+    const auto out = OIIO::ImageOutput::create(path(name));
+    ASSERT_TRUE(out && out->open(path(name), spec)) << OIIO::geterror();
+    ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    ASSERT_TRUE(out->close());
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(ImageFileTest, TellsWhatTheFileHolds) {
+  save("a.png", {5, 4, 3, OIIO::TypeDesc::UINT8});
+  save("a.tif", {5, 4, 1, OIIO::TypeDesc::UINT16});
+  save("a.exr", {5, 4, 3, OIIO::TypeDesc::HALF});
+  const ImageFile png = readImageFile(path("a.png")), tif = readImageFile(path("a.tif")),
+                  exr = readImageFile(path("a.exr"));
+  EXPECT_EQ(png.kind(), "8-bit png");
+  EXPECT_EQ(tif.kind(), "16-bit tiff");
+  EXPECT_EQ(exr.kind(), "16-bit float openexr");
+  EXPECT_TRUE(png.integer && tif.integer && !exr.integer);
+  EXPECT_EQ(png.image.channels, 3);
+  EXPECT_EQ(tif.image.channels, 1);
+  EXPECT_TRUE(png.alpha.data.empty());
+  EXPECT_THAT(png.remarks, IsEmpty());
+  EXPECT_FLOAT_EQ(png.image.at(2, 1, 1), (3 * (5 + 2) + 1) / 255.0F);
+}
+
+TEST_F(ImageFileTest, AlphaComesApartAndColoursAreLeftAlone) {
+  OIIO::ImageSpec spec(3, 2, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  save("a.png", spec);
+  const ImageFile file = readImageFile(path("a.png"));
+  EXPECT_FALSE(file.premultiplied);
+  ASSERT_EQ(file.image.channels, 3);
+  EXPECT_FLOAT_EQ(file.image.at(1, 1, 2), (4 * 4 + 2) / 255.0F);
+  EXPECT_FLOAT_EQ(file.alpha.at(1, 1), (4 * 4 + 3) / 255.0F);
+}
+
+TEST_F(ImageFileTest, DataWindowIsSetIntoTheDisplayWindow) {
+  // A 2 x 2 crop at (1, 1) of a picture of 4 x 3; and one that reaches beyond it to the left and above.
+  OIIO::ImageSpec crop(2, 2, 1, OIIO::TypeDesc::FLOAT);
+  crop.x = crop.y = 1;
+  crop.full_width = 4;
+  crop.full_height = 3;
+  save("crop.exr", crop);
+  const ImageFile inside = readImageFile(path("crop.exr"));
+  EXPECT_EQ(inside.image.width, 4);
+  EXPECT_EQ(inside.image.height, 3);
+  const float one = 1.0F / 255.0F;
+  EXPECT_THAT(inside.image.data, ElementsAre(0, 0, 0, 0, 0, 0, testing::FloatEq(one), 0, 0,
+                                             testing::FloatEq(2 * one), testing::FloatEq(3 * one), 0));
+  crop.x = crop.y = -1;
+  save("beyond.exr", crop);
+  const ImageFile beyond = readImageFile(path("beyond.exr"));
+  EXPECT_EQ(beyond.image.width, 4);
+  EXPECT_FLOAT_EQ(beyond.image.at(0, 0), 3 * one);
+  EXPECT_EQ(beyond.image.at(1, 0), 0.0F);
+}
+
+TEST_F(ImageFileTest, ChannelsAreFoundByName) {
+  OIIO::ImageSpec spec(2, 2, 6, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"Z", "B", "normal.x", "G", "R", "A"};
+  save("a.exr", spec);
+  const ImageFile file = readImageFile(path("a.exr"));
+  ASSERT_EQ(file.image.channels, 3);
+  EXPECT_FLOAT_EQ(file.image.at(0, 0, 0), 4.0F / 255);
+  EXPECT_FLOAT_EQ(file.image.at(0, 0, 1), 3.0F / 255);
+  EXPECT_FLOAT_EQ(file.image.at(0, 0, 2), 1.0F / 255);
+  EXPECT_FLOAT_EQ(file.alpha.at(0, 0), 5.0F / 255);
+  ASSERT_EQ(file.remarks.size(), 1U);
+  EXPECT_THAT(file.remarks.front(), HasSubstr("only the picture's"));
+}
+
+TEST_F(ImageFileTest, SeveralPicturesInOneFileAreRemarkedOn) {
+  const OIIO::ImageSpec spec(2, 2, 3, OIIO::TypeDesc::UINT8);
+  const std::vector<float> values(12, 0.5F);
+  const auto out = OIIO::ImageOutput::create(path("a.tif"));
+  ASSERT_TRUE(out->open(path("a.tif"), spec) && out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+  ASSERT_TRUE(out->open(path("a.tif"), spec, OIIO::ImageOutput::AppendSubimage));
+  ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()) && out->close());
+  ASSERT_EQ(readImageFile(path("a.tif")).remarks.size(), 1U);
+}
+
+TEST_F(ImageFileTest, OrientationsAreUndone) {
+  // Exif names the sides at which the file's row 0 and column 0 lie. The file is 0 1 / 2 3.
+  const std::pair<int, std::vector<int>> cases[] = {{1, {0, 1, 2, 3}},   // top, left
+                                                    {2, {1, 0, 3, 2}},   // top, right
+                                                    {3, {3, 2, 1, 0}},   // bottom, right
+                                                    {4, {2, 3, 0, 1}},   // bottom, left
+                                                    {5, {0, 2, 1, 3}},   // left, top
+                                                    {6, {2, 0, 3, 1}},   // right, top
+                                                    {7, {3, 1, 2, 0}},   // right, bottom
+                                                    {8, {1, 3, 0, 2}}};  // left, bottom
+  for (const auto& [orientation, order] : cases) {
+    OIIO::ImageSpec spec(2, 2, 1, OIIO::TypeDesc::UINT8);
+    spec.attribute("Orientation", orientation);
+    save("a.tif", spec);
+    const Image image = readImageFile(path("a.tif")).image;
+    for (size_t i = 0; i < 4; ++i)
+      EXPECT_FLOAT_EQ(image.data[i], static_cast<float>(order[i]) / 255.0F) << orientation;
+  }
+}
+
+TEST_F(ImageFileTest, DescriptionsTravelWithWrittenFiles) {
+  const Image image(2, 2, 3, 0.5F);
+  writePng(path("a.png"), image, "what this is");
+  writeExr(path("a.exr"), image, "what this is");
+  for (const char* name : {"a.png", "a.exr"})
+    EXPECT_EQ(OIIO::ImageInput::open(path(name))->spec().get_string_attribute("ImageDescription"),
+              "what this is")
+        << name;
+}
+
+TEST_F(ImageFileTest, RefusesWhatIsNoImage) {
+  EXPECT_THROW(readImageFile(path("none.png")), Error);
+  EXPECT_THROW(readImageFile(folder_.string()), Error);
+  save("two.tif", {2, 2, 2, OIIO::TypeDesc::UINT8});
+  EXPECT_THROW(readImageFile(path("two.tif")), Error);
+}
+
+}  // namespace
+}  // namespace limen

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Techniques are chosen and their parameters set to both ends by the mouse. By default a few of them; all
+// where LIMEN_EVERY_CONTROL is set, which takes minutes on a GPU and an hour without.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "renderer/scene/scene.h"
+#include "tests/experiments/viewer/viewer_fixture.h"
+
+namespace limen::viewer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Whether the `index`-th technique is looked at.
+bool looksAt(size_t index, const std::string& name) {
+  const char* value = std::getenv("LIMEN_EVERY_CONTROL");
+  int part = 0, parts = 0;
+  if (value && std::sscanf(value, "%d/%d", &part, &parts) == 2 && parts > 0)
+    return static_cast<int>(index % static_cast<size_t>(parts)) == part - 1;
+  return name == "soft_shadows/hard" || name == "lod/blend";
+}
+
+/// One that has what the technique needs.
+std::string sceneFor(const techniques::TechniqueInfo& info) {
+  for (const char* name : {"sphere_grid", "lod/terrain", "lod/object", "palm", "street_light"}) {
+    if (!scene::SceneRegistry::instance().find(name)) continue;
+    const std::set<std::string> traits = scene::buildScene(name, {}).traits();
+    if (std::all_of(info.needs.begin(), info.needs.end(),
+                    [&](const std::string& need) { return traits.count(need); }))
+      return name;
+  }
+  return {};
+}
+
+class EveryControl : public ViewerTest {
+ protected:
+  /// Fails where the picture is wrong; a refusal with a way out is none.
+  void expectSound(const std::string& what) {
+    const RenderResult& shown = *viewer_->shown();
+    EXPECT_EQ(shown.error, "") << what;
+    for (const Rendered& one : shown.rendered) {
+      EXPECT_EQ(one.failure, "") << what;
+      EXPECT_THAT(one.error, Not(HasSubstr("OpenGL driver reports"))) << what;
+      EXPECT_THAT(one.error, Not(HasSubstr("does not compile"))) << what;
+    }
+  }
+
+  void throughItsEnds(const techniques::TechniqueInfo& info) {
+    for (size_t i = 0; i < info.parameters.size(); ++i) {
+      const Parameter& parameter = info.parameters[i];
+      const std::string control = "technique." + parameter.name, what = info.name + ", " + parameter.name;
+      if (std::getenv("LIMEN_EVERY_CONTROL")) std::printf("%s\n", what.c_str()), std::fflush(stdout);
+      const auto now = [&] { return toText(viewer::shown(viewer_->choices().technique, parameter)); };
+      switch (parameter.type) {
+        case ParameterType::Boolean:
+          click(control);
+          EXPECT_EQ(now(), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
+          rest();
+          expectSound(what);
+          break;
+        case ParameterType::Integer:
+        case ParameterType::Real:
+          for (const float end : {0.0F, 1.0F}) {
+            if (end > 0.5F && costly(parameter)) continue;
+            // From one end to the other as a hand does, past the end.
+            drag(along(control, 0.5F), along(control, end) + glm::vec2(end > 0.5F ? 40.0F : -40.0F, 0.0F));
+            const double expected = end > 0.5F ? *parameter.maximum : *parameter.minimum;
+            const ParameterValue value = viewer::shown(viewer_->choices().technique, parameter);
+            const double is = parameter.type == ParameterType::Integer
+                                  ? static_cast<double>(std::get<int64_t>(value))
+                                  : std::get<double>(value);
+            EXPECT_EQ(is, expected) << what;
+            rest();
+            expectSound(what + " = " + toText(value));
+          }
+          break;
+        case ParameterType::Choice:
+          for (const std::string& choice : {parameter.choices.front(), parameter.choices.back()}) {
+            Choices choices = viewer_->choices();
+            give(choices.technique, parameter, choice);
+            try {
+              viewer_->choose(choices);
+            } catch (const Error&) {
+              continue;  // does not go with the others at their default
+            }
+            rest();
+            expectSound(what + " = " + choice);
+          }
+          break;
+        default:
+          break;
+      }
+      Choices choices = viewer_->choices();
+      choices.technique.given.clear();
+      viewer_->choose(choices);
+    }
+  }
+
+  /// The upper end of a count of samples or frames takes minutes of any machine's time.
+  static bool costly(const Parameter& parameter) {
+    return parameter.type == ParameterType::Integer && *parameter.maximum > 256.0 &&
+           (parameter.name == "samples" || parameter.name == "frames" || parameter.name == "settle_frames");
+  }
+};
+
+TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
+  Choices choices = smallChoices("soft_shadows/pcf", "sphere_grid");
+  choices.sizePx = {24, 18};
+  open(choices, {}, {900, 2600});
+  rest();
+  size_t index = 0;
+  for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
+    if (name.rfind("test/", 0) == 0) continue;
+    if (!looksAt(index++, name)) continue;
+    SCOPED_TRACE(name);
+    const std::string scene = sceneFor(info);
+    ASSERT_NE(scene, "") << "no scene here has what " << name << " needs";
+    Choices fitting = viewer_->choices();
+    fitting.scene = {scene, {}};
+    fitting.reference.reset();
+    fitting.other.reset();
+    viewer_->choose(fitting);
+    rest();
+    click("technique");
+    draw();
+    ASSERT_TRUE(viewer_->controls().find("technique/" + name)) << "not in the list: " << name;
+    // The list scrolls; what is far down is reached through the filter.
+    ui_->type(name);
+    draw();
+    draw();
+    click("technique/" + name);
+    ASSERT_EQ(viewer_->choices().technique.name, name);
+    fitting = viewer_->choices();
+    fitting.reference.reset();
+    viewer_->choose(fitting);
+    rest();
+    expectSound(name);
+    EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "") << name;
+    throughItsEnds(info);
+  }
+}
+
+}  // namespace
+}  // namespace limen::viewer

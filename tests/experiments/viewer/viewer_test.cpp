@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The viewer as a hand uses it, without a window.
+#include <GLFW/glfw3.h>
+
+#include <chrono>
+#include <fstream>
+#include <future>
+#include <sstream>
+#include <thread>
+
+#include "experiments/base/image.h"
+#include "experiments/product.h"
+#include "renderer/scene/camera_text.h"
+#include "tests/experiments/viewer/viewer_fixture.h"
+
+namespace limen::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+/// A reference that takes as long as a test wants it to.
+struct Gate {
+  std::atomic<bool> closed = false;
+  std::atomic<int> waiting = 0;
+} gate;
+
+class SlowReference : public techniques::Technique {
+ public:
+  void prepare(frame::Frame& frame) override { product_.emplace(gl::Format::R32F, frame.sizePx()); }
+  void render(frame::Frame&) override {
+    ++gate.waiting;
+    while (gate.closed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --gate.waiting;
+    product_->clear(glm::vec4(0.5F));
+  }
+  const gl::Texture& product() const override { return *product_; }
+
+ private:
+  std::optional<gl::Texture> product_;
+};
+
+techniques::TechniqueInfo slowReference() {
+  techniques::TechniqueInfo info;
+  info.name = "test/slow_reference";
+  info.summary = "Waits";
+  info.reference = true;
+  info.make = [](const ParameterValues&) { return std::make_unique<SlowReference>(); };
+  return info;
+}
+const Registered<techniques::TechniqueInfo> kSlowReference{slowReference()};
+
+class ViewerHand : public ViewerTest {};
+
+TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
+  Choices choices = smallChoices();
+  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
+  open(choices);
+  rest();
+  const RenderResult& shown = *viewer_->shown();
+  ASSERT_EQ(shown.rendered.size(), 1U);
+  EXPECT_EQ(shown.rendered[0].error, "");
+  EXPECT_EQ(shown.rendered[0].nonFinite, 0);
+  EXPECT_GE(shown.rendered[0].frameMs, 0.0);
+  ASSERT_TRUE(viewer_->judged());
+  const JudgeResult& judged = *viewer_->judged();
+  EXPECT_EQ(judged.error, "");
+  // The root of the mean square over receivers, worked out here from the two products.
+  const Image &product = *shown.rendered[0].product, &reference = *judged.reference, &mask = shown.view->mask;
+  double sum = 0.0, pixels = 0.0;
+  for (size_t i = 0; i < product.pixels(); ++i) {
+    if (mask.data[i] == 0.0F) continue;
+    sum += std::pow(double{product.data[i]} - reference.data[i], 2.0);
+    ++pixels;
+  }
+  ASSERT_GT(pixels, 100.0);
+  bool found = false;
+  for (const ErrorFigure& figure : judged.figures)
+    if (figure.metric == "rmse") {
+      found = true;
+      EXPECT_NEAR(figure.value, std::sqrt(sum / pixels), 1e-6);
+    }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(ViewerHand, ThePictureOnScreenIsTheOneThatASweepWrites) {
+  for (const char* technique : {"soft_shadows/pcf", "soft_shadows/bitmask_coloured", "lod/finest"}) {
+    Choices choices =
+        smallChoices(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
+    open(choices);
+    rest();
+    const Rendered& one = viewer_->shown()->rendered.at(0);
+    ASSERT_EQ(one.error, "") << technique;
+    const ScreenPicture expected =
+        screenPicture(experiments::productPicture(one.kind, *one.product, viewer_->shown()->view->shading));
+    ASSERT_EQ(one.picture->rgba.size(), expected.rgba.size());
+    // The shader rounds in single precision: a step of a byte either way.
+    for (size_t i = 0; i < expected.rgba.size(); ++i)
+      ASSERT_NEAR(one.picture->rgba[i], expected.rgba[i], 1) << technique << ", byte " << i;
+  }
+}
+
+TEST_F(ViewerHand, RendersNothingAtRest) {
+  open(smallChoices());
+  rest();
+  // Times may still be on their way; after them nothing is.
+  for (int i = 0; i < 5; ++i) draw();
+  const int64_t before = viewer_->framesRendered();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_FALSE(viewer_->takeResults());
+  for (int i = 0; i < 5; ++i) draw();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(viewer_->framesRendered(), before);
+  click(along("scene.light_size", 0.9F));
+  rest();
+  EXPECT_GT(viewer_->framesRendered(), before);
+}
+
+TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
+  open(smallChoices());
+  rest();
+  gate.closed = true;
+  Choices choices = viewer_->choices();
+  choices.reference = Chosen{"test/slow_reference", {}};
+  viewer_->choose(choices);
+  const auto until = [&](const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!holds() && std::chrono::steady_clock::now() < end) {
+      viewer_->takeResults();
+      draw();
+      // A window waits for the display between frames; without that a software renderer is kept busy by them.
+      std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    }
+    return holds();
+  };
+  ASSERT_TRUE(until([] { return gate.waiting > 0; }))
+      << viewer_->shown()->error << viewer_->shown()->rendered.at(0).error
+      << (viewer_->judged() ? viewer_->judged()->error : "nothing judged");
+  // While the reference keeps its thread waiting, hands change things and pictures follow.
+  const std::string hash = viewer_->shown()->rendered.at(0).productHash;
+  click(along("scene.light_size", 0.95F));
+  const uint64_t asked = viewer_->shown()->number;
+  EXPECT_TRUE(until([&] {
+    const auto& shown = viewer_->shown();
+    return shown && shown->settled && shown->number > asked && shown->rendered.at(0).productHash != hash;
+  }));
+  EXPECT_GT(gate.waiting, 0);
+  EXPECT_FALSE(viewer_->atRest());
+  gate.closed = false;
+  rest();
+  EXPECT_TRUE(viewer_->judged() && viewer_->judged()->error.empty());
+}
+
+TEST_F(ViewerHand, AReferenceGetsBetterAndBetter) {
+  Choices choices = smallChoices();
+  choices.sizePx = {16, 12};
+  choices.reference = Chosen{"soft_shadows/ray_traced", {}};  // 1,024 rays: after 16, 64 and 256
+  open(choices);
+  rest();
+  EXPECT_EQ(viewer_->judge().referencesMade(), 4);
+  EXPECT_EQ(viewer_->judged()->step, "");
+  // Another technique needs no other reference.
+  Choices other = viewer_->choices();
+  other.technique.name = "soft_shadows/pcf";
+  viewer_->choose(other);
+  rest();
+  EXPECT_EQ(viewer_->judge().referencesMade(), 4);
+}
+
+TEST_F(ViewerHand, DragsOrbitAndTheSceneIsNotBuiltAgain) {
+  open(smallChoices());
+  rest();
+  const scene::Camera before = viewer_->shown()->camera;
+  const ControlMap::Place* picture = viewer_->controls().find("picture");
+  ASSERT_TRUE(picture);
+  const glm::vec2 centre = picture->centre();
+  drag(centre, centre + glm::vec2(80.0F, 20.0F));
+  rest();
+  const scene::Camera after = viewer_->shown()->camera;
+  EXPECT_NEAR(glm::length(after.eye - after.target), glm::length(before.eye - before.target), 1e-9);
+  EXPECT_EQ(after.target, before.target);
+  EXPECT_GT(glm::length(after.eye - before.eye), 0.1);
+  ASSERT_TRUE(viewer_->choices().scene.given.count("camera"));
+  // What is asked for is what is shown, to the last bit.
+  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->choices().scene.given.at("camera")));
+  key('R');
+  rest();
+  EXPECT_EQ(viewer_->shown()->camera.eye, before.eye);
+}
+
+TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
+  open(smallChoices());
+  rest();
+  const ControlMap::Place place = *viewer_->controls().find("picture");
+  const glm::vec2 texel = (place.mostPx - place.leastPx) / glm::vec2(40.0F, 30.0F);
+  const glm::ivec2 pixel(22, 19);
+  click(place.leastPx + (glm::vec2(pixel) + 0.5F) * texel);
+  rest();
+  const Rendered& one = viewer_->shown()->rendered.at(0);
+  ASSERT_FALSE(one.picked.empty());
+  EXPECT_EQ(one.picked[0].name, "product");
+  ASSERT_EQ(one.picked[0].values.size(), 1U);
+  EXPECT_EQ(one.picked[0].values[0], one.product->at(pixel.x, pixel.y));
+  const auto albedo = std::find_if(one.picked.begin(), one.picked.end(),
+                                   [](const PickedValues& values) { return values.name == "albedo"; });
+  ASSERT_NE(albedo, one.picked.end());
+  EXPECT_EQ(albedo->values.size(), 4U);
+}
+
+TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
+  Choices choices = smallChoices("lod/blend");
+  open(choices);
+  rest();
+  EXPECT_THAT(viewer_->shown()->rendered.at(0).error, HasSubstr("needs a scene with"));
+  choices.technique = {"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  viewer_->choose(choices);
+  rest();
+  EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "");
+}
+
+TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
+  open(smallChoices());
+  rest();
+  for (const glm::ivec2 size :
+       {glm::ivec2(320, 200), glm::ivec2(1600, 300), glm::ivec2(200, 900), glm::ivec2(1, 1)}) {
+    ui_->resize(size);
+    draw();
+    draw();
+    const ControlMap::Place* picture = viewer_->controls().find("picture");
+    ASSERT_TRUE(picture);
+    if (size.x < 300) continue;
+    // All of it between the panes, as large as there is room.
+    EXPECT_GT(picture->mostPx.x, picture->leastPx.x + 10.0F);
+    EXPECT_GE(picture->leastPx.x, 0.0F);
+    EXPECT_LE(picture->mostPx.x, static_cast<float>(size.x));
+    EXPECT_LE(picture->mostPx.y, static_cast<float>(size.y));
+  }
+  key(GLFW_KEY_TAB);
+  ui_->resize({400, 400});
+  draw();
+  EXPECT_LT(viewer_->controls().find("picture")->leastPx.x, 5.0F) << "panes are hidden";
+  for (const gl::DebugMessage& message : ui_->context().takeDebugMessages())
+    EXPECT_TRUE(message.performance) << message.text;
+}
+
+TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
+  open(smallChoices());
+  rest();
+  click("camera.view_name");
+  ui_->type("from the front");
+  draw();
+  click("camera.save_view");
+  const scene::Camera front = viewer_->shown()->camera;
+  const glm::vec2 centre = centreOf("picture");
+  click("camera.record");
+  drag(centre, centre + glm::vec2(60.0F, 0.0F));
+  drag(centre, centre + glm::vec2(0.0F, 30.0F));
+  click("camera.record");
+  rest();
+  ASSERT_TRUE(viewer_->choices().scene.given.count("camera_path")) << viewer_->messages().back();
+  EXPECT_GT(viewer_->shown()->path.durationS(), 0.05);
+  EXPECT_NEAR(glm::length(viewer_->shown()->camera.eye - front.eye), 0.0, 0.01 * glm::length(front.eye));
+  click("camera.play");
+  EXPECT_TRUE(viewer_->animated());
+  for (int i = 0; i < 3; ++i) draw();
+  EXPECT_TRUE(viewer_->choices().scene.given.count("time_s"));
+  click("camera.play");
+  EXPECT_FALSE(viewer_->animated());
+  click("camera.view.from the front");
+  rest();
+  EXPECT_EQ(viewer_->shown()->camera.eye, front.eye);
+}
+
+TEST_F(ViewerHand, PicturesAreSavedOfAllProducts) {
+  Choices choices = smallChoices();
+  choices.other = Chosen{"soft_shadows/hard", {}};
+  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  open(choices);
+  rest();
+  const std::string folder = viewer_->savePictures();
+  ASSERT_NE(folder, "") << viewer_->messages().back();
+  for (const char* name : {"product", "second_product", "reference", "absolute_error"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".png")) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".exr")) << name;
+  }
+  EXPECT_EQ(experiments::productHash(readImage(folder + "/product.exr")),
+            viewer_->shown()->rendered.at(0).productHash);
+}
+
+TEST_F(ViewerHand, WhatCannotBeWrittenIsSaid) {
+  open(smallChoices());
+  rest();
+  std::ofstream(folder_ / "kept") << "a file where the folder should be";
+  EXPECT_EQ(viewer_->keepDescriptor(), "");
+  EXPECT_THAT(viewer_->messages().back(), HasSubstr("--results"));
+}
+
+TEST_F(ViewerHand, PredictionsArePaintedOver) {
+  Choices choices = smallChoices("soft_shadows/hard");
+  choices.sizePx = {96, 72};
+  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
+  open(choices);
+  rest();
+  for (const Overlay overlay : {Overlay::Thresholds, Overlay::Popping}) {
+    viewer_->predict(overlay);
+    rest();
+    ASSERT_TRUE(viewer_->judged() && viewer_->judged()->overlay);
+    EXPECT_EQ(viewer_->judged()->overlay->sizePx, choices.sizePx);
+    EXPECT_THAT(viewer_->judged()->overlayNote, HasSubstr("schwarz_2009"));
+  }
+  // Hard edges in place of soft ones are seen.
+  EXPECT_THAT(viewer_->judged()->overlayNote, HasSubstr("popping region"));
+}
+
+}  // namespace
+}  // namespace limen::viewer

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "renderer/scene/camera_path_file.h"
+#include "renderer/scene/camera_text.h"
+#include "tests/renderer/scene/scene_fixtures.h"
+
+namespace limen::scene {
+namespace {
+
+using fixtures::build;
+using fixtures::Given;
+using testing::HasSubstr;
+
+const std::string kView = "eye 3.1 1.7 4.2 target 0.1 0.3 -0.2 up 0.1 1 0 fov 38.5";
+
+ParameterValues complete(const std::string& scene, const Given& given) {
+  return {SceneRegistry::instance().get(scene).allParameters(), given};
+}
+
+void expectSamePath(const CameraPath& a, const CameraPath& b) {
+  ASSERT_EQ(a.keys.size(), b.keys.size());
+  EXPECT_EQ(std::memcmp(a.keys.data(), b.keys.data(), a.keys.size() * sizeof(CameraPath::Key)), 0);
+  EXPECT_EQ(a.runIn, b.runIn);
+}
+
+std::string sceneRefusal(const Given& given) {
+  try {
+    build("columns_hall", given);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(CameraParameters, AGivenViewIsTheScenesAndNothingElseChanges) {
+  // In place of a still view and of a path alike.
+  for (const char* motion : {"still", "walk"}) {
+    const Scene own = build("columns_hall", {{"motion", std::string(motion)}});
+    const Scene given = build("columns_hall", {{"motion", std::string(motion)}, {"camera", kView}});
+    expectSamePath(given.camera, {{{0.0, parseCamera(kView)}}});
+    EXPECT_FALSE(given.traits().count("moving_camera"));
+    EXPECT_EQ(given.mesh.positions, own.mesh.positions);
+    EXPECT_EQ(given.lights[0].centre, own.lights[0].centre);
+    EXPECT_NE(given.contentHash(), own.contentHash());
+  }
+}
+
+TEST(CameraParameters, AGivenViewIsInUnitsOfTheBuiltWorld) {
+  const Scene moved = build("columns_hall", {{"camera", kView}, {"scale", 3.0}, {"offset", 10.0}});
+  expectSamePath(moved.camera, {{{0.0, parseCamera(kView)}}});
+}
+
+TEST(CameraParameters, WhatABuiltScenesCameraSaysGivesTheSameScene) {
+  // Far from the origin, where a rounded number would show.
+  const Given far = {{"offset", 1e6}, {"scale", 1.0 / 3.0}};
+  const Scene own = build("columns_hall", far);
+  Given given = far;
+  given["camera"] = toText(own.camera.at(0.0));
+  EXPECT_EQ(build("columns_hall", given).contentHash(), own.contentHash());
+}
+
+TEST(CameraParameters, APathFromAFileReplacesTheScenesAndTimeMovesAlongIt) {
+  const fixtures::TemporaryFolder folder;
+  const std::string file = folder.path() + "/walk.yaml";
+  const Scene walk = build("columns_hall", {{"motion", std::string("walk")}});
+  writeCameraPath(file, walk.camera);
+  expectSamePath(build("columns_hall", {{"camera_path", file}}).camera, walk.camera);
+  const Scene later = build("columns_hall", {{"camera_path", file}, {"time_s", 2.7}});
+  expectSamePath(later.camera,
+                 build("columns_hall", {{"motion", std::string("walk")}, {"time_s", 2.7}}).camera);
+  EXPECT_TRUE(later.traits().count("moving_camera"));
+}
+
+TEST(CameraParameters, CameraForGivesTheVeryPathOfABuiltScene) {
+  const fixtures::TemporaryFolder folder;
+  const std::string file = folder.path() + "/walk.yaml";
+  writeCameraPath(file, build("columns_hall", {{"motion", std::string("walk")}, {"scale", 0.7}}).camera);
+  const Given world = {{"motion", std::string("walk")}, {"scale", 1.1}, {"offset", 1e3}};
+  const CameraPath built = build("columns_hall", world).camera;
+  for (const Given& chosen : {Given{}, Given{{"time_s", 1.0 / 3.0}}, Given{{"time_s", 3600.0}},
+                              Given{{"camera", kView}}, Given{{"camera", kView}, {"time_s", 1.0}},
+                              Given{{"camera_path", file}}, Given{{"camera_path", file}, {"time_s", 0.1}}}) {
+    Given all = world;
+    all.insert(chosen.begin(), chosen.end());
+    expectSamePath(cameraFor(built, complete("columns_hall", all)), build("columns_hall", all).camera);
+  }
+}
+
+TEST(CameraParameters, RefuseBadOnesAndBothTogether) {
+  EXPECT_THAT(sceneRefusal({{"camera", std::string("walk")}}),
+              HasSubstr("camera 'walk': 'walk' stands where"));
+  EXPECT_THAT(sceneRefusal({{"camera", std::string("eye 0 0 1 target 0 0 1")}}), HasSubstr("same point"));
+  EXPECT_THAT(sceneRefusal({{"camera_path", std::string("/nowhere/p.yaml")}}),
+              HasSubstr("'camera_path': /nowhere/p.yaml: no such file"));
+  const fixtures::TemporaryFolder folder;
+  const std::string file = folder.write("bad.yaml", "camera_path:\n  - {time_s: 0}\n");
+  EXPECT_THAT(sceneRefusal({{"camera_path", file}}), HasSubstr("bad.yaml:2:5: 'eye'"));
+  EXPECT_THAT(sceneRefusal({{"camera", kView}, {"camera_path", file}}), HasSubstr("both given"));
+  EXPECT_THROW(checkCameraParameters(complete("columns_hall", {{"camera", std::string("walk")}})), Error);
+  EXPECT_NO_THROW(checkCameraParameters(complete("columns_hall", {{"camera", kView}})));
+}
+
+}  // namespace
+}  // namespace limen::scene

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes with their defaults, including those that need a file.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "experiments/base/error.h"
+#include "renderer/scene/scene.h"
+#include "renderer/scene/shapes.h"
+
+namespace limen::scene::fixtures {
+
+using Given = std::map<std::string, ParameterValue>;
+
+/// Folder of this process that goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "limen_scene_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string write(const std::string& name, const std::string& content) const {
+    const std::filesystem::path file = path_ / name;
+    std::ofstream(file, std::ios::binary) << content;
+    return file.string();
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A closed box of six quads, 0.6 x 1 x 0.5.
+inline const std::string& smallMeshFile() {
+  static const TemporaryFolder folder;
+  static const std::string file = folder.write(
+      "box.obj",
+      "v 0 0 0\nv 0.6 0 0\nv 0.6 0 -0.5\nv 0 0 -0.5\nv 0 1 0\nv 0.6 1 0\nv 0.6 1 -0.5\nv 0 1 -0.5\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  return file;
+}
+
+/// A sphere of 512 triangles: something to take triangles from.
+inline const std::string& roundMeshFile() {
+  static const TemporaryFolder folder;
+  static const std::string file = [] {
+    const Mesh mesh = sphere(glm::dvec3(0.0), 1.0, 8);
+    std::string text;
+    for (const glm::dvec3& p : mesh.positions)
+      text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+    for (const glm::uvec3& t : mesh.triangles)
+      text += "f " + std::to_string(t.x + 1) + ' ' + std::to_string(t.y + 1) + ' ' + std::to_string(t.z + 1) +
+              '\n';
+    return folder.write("ball.obj", text);
+  }();
+  return file;
+}
+
+/// What the scene cannot do without, and a coarser form of one that is made to be large.
+inline Given needed(const std::string& scene) {
+  if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
+  if (scene == "boulders") return {{"tessellation", int64_t{4}}};
+  return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
+}
+
+inline bool installed(const std::string& scene) {
+  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object") ||
+         std::filesystem::exists("/usr/share/glmark2/models");
+}
+
+inline Scene build(const std::string& scene, Given given = {}) {
+  given.merge(needed(scene));
+  return buildScene(scene, ParameterValues(SceneRegistry::instance().get(scene).allParameters(), given));
+}
+
+/// One test for every registered scene.
+class EveryScene : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!installed(GetParam())) GTEST_SKIP() << "the package glmark2-data is not installed";
+  }
+};
+
+inline std::string nameOf(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+}  // namespace limen::scene::fixtures

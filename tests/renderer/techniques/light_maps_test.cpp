@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several shadow maps joined by one mask, against brute force over the same maps and against the exact
+// visible area of the light.
+#include <cmath>
+
+#include "experiments/base/error.h"
+#include "renderer/frame/receivers_from.h"
+#include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
+#include "tests/renderer/techniques/mask_twin.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kBitmask = "soft_shadows/bitmask";
+
+class LightMapsTest : public TechniqueTest {
+ protected:
+  static ParameterValues valuesOf(const Given& given) {
+    return {TechniqueRegistry::instance().get(kBitmask).parameters, given};
+  }
+
+  struct Errors {
+    double rmse = 0.0, mean = 0.0;
+  };
+  static Errors errorsOf(const Image& product, const Rendered& truth) {
+    Errors out;
+    int count = 0;
+    for (size_t i = 0; i < product.pixels(); ++i) {
+      if (truth.receivers.data[4 * i + 3] < 0.0F) continue;
+      const double error = double(product.data[i]) - truth.product.data[i];
+      out.rmse += error * error;
+      out.mean += error;
+      ++count;
+    }
+    out.rmse = std::sqrt(out.rmse / count);
+    out.mean /= count;
+    return out;
+  }
+
+  /// Compares with micropatches of all maps thrown onto all samples. A sample within float rounding of a
+  /// patch's edge may fall on either side and take a row along. What the search calls umbra without looking
+  /// is dark here, while patches leave gaps: left out where brute force says nearly dark, too.
+  static void expectTwin(const scene::Scene& scene, Given given, const std::string& what) {
+    given.insert({{"resolution", std::string("64")},
+                  {"budget", int64_t{0}},
+                  {"gap_fill", std::string("none")},
+                  {"pattern", std::string("regular_16")}});
+    const ParameterValues values = valuesOf(given);
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {24, 18});
+    const auto made = TechniqueRegistry::instance().get(kBitmask).make(values);
+    made->prepare(frame);
+    frame.begin();
+    made->render(frame);
+    std::vector<MaskTwin> twins;
+    for (const frame::ShadowMapSettings& map : LightMaps(values).of(scene, {.resolution = 64})) {
+      const auto& depth = frame.get<frame::ShadowMap>(map);
+      twins.push_back({depth.texture().read(), frame.get<frame::Receivers>().texture().read(),
+                       depth.frustum(), scene.lights[0].size});
+      if (map.eye != glm::dvec2(0.5))
+        twins.back().receivers = frame.get<frame::ReceiversFrom>(frame::EyeSetting{map.eye}).texture().read();
+    }
+    frame.end();
+    const Image product = made->product().read();
+    const std::vector<glm::dvec2> samples = lightSamples("regular_16");
+    int compared = 0, differing = 0, shadowed = 0;
+    for (int y = 0; y < product.height; ++y)
+      for (int x = 0; x < product.width; ++x) {
+        if (twins[0].receivers.at(x, y, 3) < 0.0F) {
+          EXPECT_EQ(product.at(x, y), 1.0F);
+          continue;
+        }
+        std::vector<bool> covered(samples.size(), false);
+        for (const MaskTwin& twin : twins) twin.cover(x, y, samples, covered);
+        const double expected = 1.0 - double(std::count(covered.begin(), covered.end(), true)) / 256.0;
+        if (product.at(x, y) == 0.0F && expected < 0.2) continue;
+        ++compared;
+        shadowed += expected < 1.0;
+        const double error = std::abs(product.at(x, y) - expected);
+        EXPECT_LE(error, 16.0 / 256.0 + 1e-6) << what << " at " << x << ' ' << y;
+        differing += error > 1e-6;
+      }
+    EXPECT_GT(compared, 150) << what;
+    EXPECT_GT(shadowed, 20) << what;
+    EXPECT_LE(differing, compared / 50) << what << ": " << differing << " of " << compared;
+  }
+};
+
+TEST_F(LightMapsTest, AllMicropatchesOfAllMapsAreJoined) {
+  const scene::Scene boxes = makeScene("two_boxes", {{"light_size", 3.0}});
+  const scene::Scene box = makeScene("box_under_light");
+  const auto text = [](const char* value) { return std::string(value); };
+  for (const auto& [scene, name] : {std::pair(&boxes, "two_boxes"), std::pair(&box, "box_under_light")}) {
+    const std::string what = name;
+    expectTwin(*scene, {{"maps", text("peeled")}, {"layers", int64_t{3}}}, what + ", peeled");
+    expectTwin(*scene, {{"maps", text("peeled")}, {"later_extent", 0.6}}, what + ", later layers smaller");
+    expectTwin(*scene, {{"maps", text("light_points")}, {"light_points", text("5")}}, what + ", points");
+    expectTwin(*scene, {{"maps", text("light_points")}, {"light_points", text("2")}, {"point_spread", 0.4}},
+               what + ", points without the centre");
+    expectTwin(*scene, {{"maps", text("per_object")}}, what + ", per object");
+  }
+}
+
+/// Figure 4.3. The map from the centre shows the box's top alone, while rays from the ground to the light's
+/// far rim meet the sides and pass beneath the top: too much light. The layer behind the top holds the sides,
+/// seen from inside, and with them all of a convex body. What is left are the places of two silhouettes on
+/// either axis, each to half a row of 16 at worst: 1/32 on average over both signs.
+TEST_F(LightMapsTest, ASecondLayerBringsTheShadowOfTheSidesBack) {
+  constexpr glm::ivec2 kSize{48, 36};
+  const scene::Scene scene = makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}});
+  const Rendered truth = render(scene, "soft_shadows/exact_union", {}, kSize);
+  const auto withLayers = [&](int64_t layers) {
+    return errorsOf(render(scene, kBitmask,
+                           {{"resolution", std::string("64")},
+                            {"budget", int64_t{0}},
+                            {"maps", std::string("peeled")},
+                            {"layers", layers}},
+                           kSize)
+                        .product,
+                    truth);
+  };
+  const Errors one = withLayers(1), two = withLayers(2);
+  EXPECT_GT(one.mean, 1.0 / 32.0);
+  EXPECT_LT(two.rmse, 1.0 / 32.0);
+  EXPECT_LT(two.rmse, one.rmse / 3.0);
+}
+
+TEST_F(LightMapsTest, OneLayerIsTheUsualMap) {
+  const scene::Scene scene = makeScene("two_boxes");
+  const Given usual = {{"resolution", std::string("64")}};
+  Given one = usual;
+  one["maps"] = std::string("peeled");
+  one["layers"] = int64_t{1};
+  Given spread = usual;
+  spread["maps"] = std::string("light_points");
+  spread["point_spread"] = 0.0;
+  const Image expected = render(scene, kBitmask, usual, {32, 24}).product;
+  EXPECT_EQ(render(scene, kBitmask, one, {32, 24}).product.data, expected.data);
+  EXPECT_EQ(render(scene, kBitmask, spread, {32, 24}).product.data, expected.data);
+}
+
+/// Objects in turn: the picture is that of all objects anew, though a frame reads one map; and where the
+/// camera has moved every mask is made again.
+TEST_F(LightMapsTest, MasksOfObjectsAreKeptUntilTheCameraMoves) {
+  scene::Scene scene = makeScene("two_boxes");
+  scene::Camera end = scene.camera.at(0.0);
+  end.eye += glm::dvec3(0.6, 0.1, 0.0);
+  scene.camera.keys.push_back({1.0, end});
+  const Given all = {{"resolution", std::string("64")}, {"maps", std::string("per_object")}};
+  Given turns = all;
+  turns["updates"] = int64_t{1};
+  const frame::GpuScene gpuScene(scene);
+  const TechniqueInfo& info = TechniqueRegistry::instance().get(kBitmask);
+  frame::Frame frame(context(), scene, gpuScene, {32, 24}), whole(context(), scene, gpuScene, {32, 24});
+  const auto kept = info.make(ParameterValues(info.parameters, turns));
+  const auto anew = info.make(ParameterValues(info.parameters, all));
+  kept->prepare(frame);
+  anew->prepare(whole);
+  const auto rastersIn = [](frame::Frame& of) {
+    int count = 0;
+    for (const gl::PassList::Pass& pass : of.passes().passes())
+      count += pass.ran && pass.name.starts_with("frame/shadow_raster");
+    return count;
+  };
+  int number = 0;
+  for (const double time : {0.0, 0.0, 0.0, 1.0, 1.0}) {
+    frame.setTime(time);
+    whole.setTime(time);
+    frame.begin();
+    kept->render(frame);
+    frame.end();
+    whole.begin();
+    anew->render(whole);
+    whole.end();
+    EXPECT_EQ(kept->product().read().data, anew->product().read().data) << number;
+    EXPECT_EQ(rastersIn(whole), 2);
+    EXPECT_EQ(rastersIn(frame), number == 0 || number == 3 ? 2 : 1) << number;
+    ++number;
+  }
+}
+
+TEST_F(LightMapsTest, ParametersOfOtherMapsAreRefused) {
+  const auto refuses = [](const Given& given, const std::string& parameter) {
+    try {
+      TechniqueRegistry::instance().get(kBitmask).check(valuesOf(given));
+      ADD_FAILURE() << "took " << parameter;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("'" + parameter + "'"), std::string::npos) << error.what();
+    }
+  };
+  refuses({{"layers", int64_t{3}}}, "layers");
+  refuses({{"peel_bias", 0.01}}, "peel_bias");
+  refuses({{"maps", std::string("light_points")}, {"later_extent", 0.5}}, "later_extent");
+  refuses({{"maps", std::string("peeled")}, {"light_points", std::string("9")}}, "light_points");
+  refuses({{"maps", std::string("peeled")}, {"point_spread", 0.5}}, "point_spread");
+  refuses({{"maps", std::string("peeled")}, {"updates", int64_t{1}}}, "updates");
+}
+
+/// Areas cannot be joined: what two maps both see would count twice.
+TEST_F(LightMapsTest, AreasHaveNoFurtherMaps) {
+  for (const Parameter& parameter :
+       TechniqueRegistry::instance().get("soft_shadows/backprojection").parameters)
+    EXPECT_NE(parameter.name, "maps");
+}
+
+TEST_F(LightMapsTest, CountsMapsAndMasks) {
+  const scene::Scene scene = makeScene("half_plane");  // two surfaces along a ray at most
+  const Rendered result =
+      render(scene, kBitmask,
+             {{"resolution", std::string("64")}, {"maps", std::string("peeled")}, {"layers", int64_t{8}}},
+             {16, 12}, true);
+  EXPECT_EQ(result.counter("maps_read"), 8.0);
+  EXPECT_EQ(result.counter("maps_with_casters"), 2.0);
+  EXPECT_EQ(result.counter("mask_bytes"), 16.0 * 12.0 * 256.0 / 8.0);
+}
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Peeled layers against a twin in double precision that looks at every texel of every layer, and the umbra
+// that one layer loses.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+class PeeledTest : public TechniqueTest {
+ protected:
+  static constexpr int kSide = 64;
+
+  static double twin(const std::vector<Image>& layers, const frame::LightFrustum& frustum,
+                     glm::dvec2 lightSize, glm::dvec3 p, double slope) {
+    const glm::dvec2 texel = (frustum.high - frustum.low) / double(kSide);
+    const double limit = p.z * (1.0 - 1e-4) - 2.0 * std::min(slope, 10.0 * p.z) * std::max(texel.x, texel.y);
+    double area = 0.0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        double z = -1.0;
+        for (const Image& layer : layers)
+          if (layer.at(x, y) < limit) z = std::max(z, double(layer.at(x, y)));
+        if (z < 0.0) continue;
+        const auto covered = [&](int index, int axis) {
+          const auto toLight = [&](double u) {
+            const double q = (frustum.low[axis] + u * texel[axis]) * z;  // where the texel's edge is at z
+            return std::clamp((q * p.z - p[axis] * z) / (p.z - z) / lightSize[axis] + 0.5, 0.0, 1.0);
+          };
+          return std::max(toLight(index + 1) - toLight(index), 0.0);
+        };
+        area += covered(x, 0) * covered(y, 1);
+      }
+    return 1.0 - std::min(area, 1.0);
+  }
+};
+
+TEST_F(PeeledTest, TakesTheFarthestLayerBeforeTheReceiver) {
+  for (const auto& [name, layerCount] :
+       std::vector<std::pair<std::string, int>>{{"two_boxes", 1}, {"two_boxes", 3}, {"sphere_grid", 4}}) {
+    const scene::Scene scene = makeScene(name);
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {40, 30});
+    const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/peeled");
+    const auto made = info.make(ParameterValues(
+        info.parameters, {{"resolution", std::to_string(kSide)}, {"layers", int64_t{layerCount}}}));
+    made->prepare(frame);
+    frame.begin();
+    made->render(frame);
+    std::vector<Image> layers;
+    frame::LightFrustum frustum;
+    for (int layer = 0; layer < layerCount; ++layer) {
+      frame::ShadowMapSettings settings;
+      settings.resolution = kSide;
+      settings.layer = layer;
+      const auto& map = frame.get<frame::ShadowMap>(settings);
+      layers.push_back(map.texture().read());
+      frustum = map.frustum();
+    }
+    const Image receivers = frame.get<frame::Receivers>().texture().read();
+    frame.end();
+    const Image product = made->product().read();
+    int compared = 0, differing = 0, partly = 0;
+    for (int y = 0; y < product.height; ++y)
+      for (int x = 0; x < product.width; ++x) {
+        if (receivers.at(x, y, 3) < 0.0F) continue;
+        const glm::dvec3 p(receivers.at(x, y, 0), receivers.at(x, y, 1), receivers.at(x, y, 2));
+        const double expected = twin(layers, frustum, scene.lights[0].size, p, receivers.at(x, y, 3));
+        ++compared;
+        partly += expected > 0.0 && expected < 1.0;
+        // Light-space positions carry the rounding of the G-buffer; near contact it is magnified.
+        differing += !(std::abs(double(product.at(x, y)) - expected) <= 1e-3);
+      }
+    EXPECT_GT(partly, 50) << name;
+    EXPECT_LE(differing, compared / 100)
+        << name << " " << layerCount << ": " << differing << " of " << compared;
+  }
+}
+
+TEST_F(PeeledTest, SecondLayerRestoresTheUmbraBelowAHoveringBox) {
+  // As in the test of scattering: from the ground within 1/3 m of the middle the underside, which the second
+  // layer holds, hides all of the light, and the top alone leaves 0.36. Half a texel of the fitted map at the
+  // rim of the top is thrown to 1.6 (0.5 / 62) m of the 2 m, on both sides of both axes.
+  const scene::Scene scene = makeScene("box_under_light", {{"clearance", 0.8}, {"box_height", 1.2}});
+  const glm::dmat4 fromLight = glm::inverse(scene.lights[0].toLightSpace());
+  for (const int64_t layers : {1, 2}) {
+    const Rendered rendered = render(scene, "soft_shadows/peeled",
+                                     {{"resolution", std::to_string(kSide)}, {"layers", layers}}, {64, 48});
+    int umbra = 0;
+    for (size_t i = 0; i < rendered.product.pixels(); ++i) {
+      const float* receiver = rendered.receivers.data.data() + 4 * i;
+      if (receiver[3] < 0.0F) continue;
+      const glm::dvec3 at(fromLight * glm::dvec4(receiver[0], receiver[1], receiver[2], 1.0));
+      if (at.y > 0.01 || std::max(std::abs(at.x), std::abs(at.z)) > 0.3) continue;
+      ++umbra;
+      if (layers == 1)
+        EXPECT_NEAR(rendered.product.data[i], 0.36, 0.03);
+      else
+        EXPECT_LT(rendered.product.data[i], 1e-3F);
+    }
+    EXPECT_GT(umbra, 10);
+  }
+}
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "experiments/base/error.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shadow_map.h"
+#include "renderer/gl/context.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+
+/// A product with the points that it was made for.
+struct Rendered {
+  Image product, receivers;
+  std::vector<Counter> counters;
+  double counter(const std::string& name) const {
+    for (const Counter& counter : counters)
+      if (counter.name == name) return counter.value;
+    ADD_FAILURE() << "no counter " << name;
+    return 0.0;
+  }
+};
+
+/// Renders with registered scenes and techniques in one context for the whole program. A driver message of
+/// medium or high severity fails the test.
+class TechniqueTest : public testing::Test {
+ protected:
+  static gl::Context& context() {
+    static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
+    return *kContext;
+  }
+
+  void SetUp() override { context().makeCurrent(); }
+
+  void TearDown() override {
+    for (const gl::DebugMessage& message : context().takeDebugMessages())
+      if (!message.performance || context().device().software) ADD_FAILURE() << message.text;
+  }
+
+  using Given = std::map<std::string, ParameterValue>;
+
+  static scene::Scene makeScene(const std::string& name, const Given& given = {}) {
+    return scene::buildScene(
+        name, ParameterValues(scene::SceneRegistry::instance().get(name).allParameters(), given));
+  }
+
+  /// The Error with which a technique refuses values that do not go together; none where it takes them.
+  static std::optional<Error> refusal(const std::string& technique, const Given& given) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+    try {
+      if (info.check) info.check(ParameterValues(info.parameters, given));
+      return std::nullopt;
+    } catch (const Error& error) {
+      return error;
+    }
+  }
+
+  static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given,
+                         glm::ivec2 sizePx, bool counting = false) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, sizePx);
+    const auto made = info.make(ParameterValues(info.parameters, given));
+    made->prepare(frame);
+    frame.begin();
+    made->render(frame);
+    Rendered out{made->product().read(), frame.get<frame::Receivers>().texture().read(), {}};
+    frame.end();
+    if (counting) out.counters = made->count(frame);
+    return out;
+  }
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "perception/threshold_maps/reference.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+class ThresholdMapTechniqueTest : public TechniqueTest {
+ protected:
+  static std::string text(const char* value) { return value; }
+
+  static double largestRelative(const Image& test, const Image& reference) {
+    double largest = 0.0;
+    for (size_t i = 0; i < test.data.size(); ++i)
+      largest = std::max(largest, double{std::abs(test.data[i] / reference.data[i] - 1.0F)});
+    return largest;
+  }
+};
+
+TEST_F(ThresholdMapTechniqueTest, AgreesWithTheReferenceOnARendering) {
+  const scene::Scene scene = makeScene("two_boxes");
+  for (const char* decomposition : {"stack", "pyramid"}) {
+    const Given given = {{"decomposition", text(decomposition)}, {"shadow", true}};
+    const Image reference = render(scene, "perception/threshold_map_reference", given, {150, 97}).product;
+    for (const char* precision : {"32", "16"}) {
+      Given own = given;
+      own["precision"] = text(precision);
+      const Image map = render(scene, "perception/threshold_map", own, {150, 97}).product;
+      // 0.5 % and a step of the TVI of 0.72 %, on which rounding puts a pixel to either side.
+      EXPECT_LT(largestRelative(map, reference), text(precision) == "16" ? 0.02 : 0.0123) << precision;
+    }
+  }
+}
+
+TEST_F(ThresholdMapTechniqueTest, ABackgroundAloneIsAFlatField) {
+  // A linear grey of 0.5 between 0.5 and 250 cd/m2 is 125.25; on Ward's last branch tvi = 10^-1.255 L.
+  const scene::Scene scene = makeScene("two_boxes");
+  const Given given = {{"ambient", 0.0}, {"diffuse", 0.0}, {"background", 0.0}, {"pattern", false}};
+  // A black frame: 0.5 cd/m2 everywhere, Ward's fourth branch.
+  const Image map = render(scene, "perception/threshold_map", given, {40, 30}).product;
+  const double expected = 0.2 * std::pow(10.0, std::log10(0.5) - 0.395);
+  for (const float value : map.data) EXPECT_NEAR(value / expected, 1.0, 1e-4);
+}
+
+TEST_F(ThresholdMapTechniqueTest, FollowsTheViewingDistance) {
+  // The reference's pixels per degree double with the distance.
+  const scene::Scene scene = makeScene("two_boxes");
+  const auto ppd = [&](double distanceM) {
+    return render(scene, "perception/threshold_map_reference", {{"distance_m", distanceM}}, {32, 24}, true)
+        .counter("pixels_per_degree");
+  };
+  EXPECT_NEAR(ppd(1.2) / ppd(0.6), 2.0, 1e-9);
+  EXPECT_EQ(ppd(0.0), ppd(0.6));  // the display's own
+}
+
+TEST_F(ThresholdMapTechniqueTest, CountsWhatItDeclares) {
+  const scene::Scene scene = makeScene("two_boxes");
+  for (const char* name : {"perception/threshold_map", "perception/threshold_map_reference"}) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
+    const Rendered rendered = render(scene, name, {}, {64, 48}, true);
+    EXPECT_EQ(rendered.counters.size(), info.counters.size());
+    for (const std::string& counter : info.counters) EXPECT_GE(rendered.counter(counter), 0.0);
+    EXPECT_EQ(toText(info.product), "threshold");
+  }
+  const Rendered rendered = render(scene, "perception/threshold_map", {}, {64, 64}, true);
+  EXPECT_EQ(rendered.counter("gaussian_levels"), 7.0);
+  // Read 16 of colour, write 4, write and read band 0, write level 1 and read it twice: a quarter of 12.
+  EXPECT_NEAR(rendered.counter("bytes_moved_per_px"), 16 + 4 + 8 + 3 * (1 + 0.25 + 0.0625 + 0.02), 0.02);
+}
+
+}  // namespace
+}  // namespace limen::techniques
