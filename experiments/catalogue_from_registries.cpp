@@ -26,7 +26,7 @@ Catalogue catalogueFromRegistries() {
     entry.needs = info.needs;
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
-    entry.counters = info.counters;
+    for (const Quantity& counter : info.counters) entry.counters.push_back(counter.name);
     entry.check = info.check;
   }
   for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {

@@ -206,8 +206,9 @@ class GlExecutor : public Executor {
       countNonFinite(product, run.outcome);
     }
     for (const techniques::Counter& counter : counters) {
-      const std::vector<std::string>& declared = run.info->counters;
-      if (std::find(declared.begin(), declared.end(), counter.name) == declared.end())
+      const std::vector<Quantity>& declared = run.info->counters;
+      if (std::none_of(declared.begin(), declared.end(),
+                       [&](const Quantity& each) { return each.name == counter.name; }))
         throw std::logic_error("technique '" + run.info->name + "' counts '" + counter.name +
                                "', which it does not declare");
       run.outcome.measurements.push_back(

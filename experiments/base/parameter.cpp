@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
@@ -24,79 +25,88 @@ std::string describeType(ParameterType type) {
       return "text";
     case ParameterType::File:
       return "path of a file";
+    case ParameterType::Group:
+      return "group of parameters";
   }
   return {};
 }
 
 Parameter booleanParameter(std::string name, bool defaultValue, std::string description, std::string source) {
-  return {std::move(name),        ParameterType::Boolean, defaultValue, {}, {}, {}, {},
-          std::move(description), std::move(source),      false};
+  Parameter out;
+  out.name = std::move(name);
+  out.type = ParameterType::Boolean;
+  out.defaultValue = defaultValue;
+  out.description = std::move(description);
+  out.source = std::move(source);
+  return out;
 }
 
 Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minimum, int64_t maximum,
                            std::string unit, std::string description, std::string source) {
-  return {std::move(name),
-          ParameterType::Integer,
-          defaultValue,
-          static_cast<double>(minimum),
-          static_cast<double>(maximum),
-          {},
-          std::move(unit),
-          std::move(description),
-          std::move(source),
-          false};
+  Parameter out;
+  out.name = std::move(name);
+  out.type = ParameterType::Integer;
+  out.defaultValue = defaultValue;
+  out.minimum = static_cast<double>(minimum);
+  out.maximum = static_cast<double>(maximum);
+  out.unit = std::move(unit);
+  out.description = std::move(description);
+  out.source = std::move(source);
+  return out;
 }
 
 Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum,
                         std::string unit, std::string description, std::string source) {
-  return {std::move(name), ParameterType::Real,    defaultValue,      minimum, maximum, {},
-          std::move(unit), std::move(description), std::move(source), false};
+  Parameter out =
+      integerParameter(std::move(name), 0, 0, 0, std::move(unit), std::move(description), std::move(source));
+  out.type = ParameterType::Real;
+  out.defaultValue = defaultValue;
+  out.minimum = minimum;
+  out.maximum = maximum;
+  return out;
 }
 
 Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
                           std::string description, std::string source) {
   assert(std::find(choices.begin(), choices.end(), defaultValue) != choices.end());
-  return {std::move(name),
-          ParameterType::Choice,
-          std::move(defaultValue),
-          {},
-          {},
-          std::move(choices),
-          {},
-          std::move(description),
-          std::move(source),
-          false};
+  Parameter out =
+      textParameter(std::move(name), std::move(defaultValue), std::move(description), std::move(source));
+  out.type = ParameterType::Choice;
+  out.choices = std::move(choices);
+  return out;
 }
 
 Parameter textParameter(std::string name, std::string defaultValue, std::string description,
                         std::string source) {
-  return {std::move(name),
-          ParameterType::Text,
-          std::move(defaultValue),
-          {},
-          {},
-          {},
-          {},
-          std::move(description),
-          std::move(source),
-          false};
+  Parameter out;
+  out.name = std::move(name);
+  out.type = ParameterType::Text;
+  out.defaultValue = std::move(defaultValue);
+  out.description = std::move(description);
+  out.source = std::move(source);
+  return out;
 }
 
 Parameter fileParameter(std::string name, std::string description) {
-  return {
-      std::move(name), ParameterType::File, std::string{}, {}, {}, {}, {}, std::move(description), {}, true};
+  Parameter out = optionalFileParameter(std::move(name), std::move(description));
+  out.required = true;
+  return out;
 }
 
 Parameter optionalFileParameter(std::string name, std::string description) {
-  Parameter parameter = fileParameter(std::move(name), std::move(description));
-  parameter.required = false;
-  return parameter;
+  Parameter out = textParameter(std::move(name), {}, std::move(description));
+  out.type = ParameterType::File;
+  return out;
 }
 
 std::string describeRange(const Parameter& parameter) {
   if (parameter.type == ParameterType::Choice) return "one of " + join(parameter.choices);
   std::string out = describeType(parameter.type);
-  if (parameter.minimum && parameter.maximum)
+  if (!parameter.allowed.empty()) {
+    std::vector<std::string> numbers;
+    for (const int64_t number : parameter.allowed) numbers.push_back(std::to_string(number));
+    out = "one of " + join(numbers);
+  } else if (parameter.minimum && parameter.maximum)
     out += " from " + shortestNumber(*parameter.minimum) + " to " + shortestNumber(*parameter.maximum);
   if (!parameter.unit.empty()) out += " (" + parameter.unit + ")";
   return out;
@@ -125,6 +135,8 @@ ParameterValue validate(const Parameter& parameter, const ParameterValue& value,
     case ParameterType::File:
       if (!std::holds_alternative<std::string>(value)) throw refuse();
       break;
+    case ParameterType::Group:
+      throw refuse();
   }
   if (parameter.type == ParameterType::Choice) {
     const std::string& text = std::get<std::string>(value);
@@ -140,31 +152,120 @@ ParameterValue validate(const Parameter& parameter, const ParameterValue& value,
   if ((parameter.minimum && number < *parameter.minimum) ||
       (parameter.maximum && number > *parameter.maximum))
     throw refuse();
+  if (!parameter.allowed.empty() && std::find(parameter.allowed.begin(), parameter.allowed.end(),
+                                              std::get<int64_t>(result)) == parameter.allowed.end())
+    throw refuse();
   return result;
+}
+
+const Alternative* findAlternative(const Parameter& parameter, const std::string& name) {
+  const auto match = std::find_if(parameter.alternatives.begin(), parameter.alternatives.end(),
+                                  [&](const Alternative& alternative) { return alternative.name == name; });
+  return match == parameter.alternatives.end() ? nullptr : &*match;
+}
+
+std::string joinPath(const std::string& prefix, const std::string& name) {
+  return prefix.empty() ? name : prefix + "." + name;
+}
+
+namespace {
+
+void flattenInto(const std::vector<Parameter>& declared, const std::string& prefix,
+                 const std::map<std::string, std::string>& when, std::vector<DeclaredAt>& out) {
+  for (const Parameter& parameter : declared) {
+    const std::string path = joinPath(prefix, parameter.name);
+    if (parameter.type != ParameterType::Group) out.push_back({path, &parameter, when});
+    for (const Alternative& alternative : parameter.alternatives) {
+      std::map<std::string, std::string> inner = when;
+      if (parameter.type != ParameterType::Group) inner[path] = alternative.name;
+      flattenInto(alternative.parameters, path, inner, out);
+    }
+  }
+}
+
+/// "budget: radial", from the choices that a parameter exists under.
+std::string describeWhen(const std::map<std::string, std::string>& when) {
+  std::vector<std::string> parts;
+  for (const auto& [path, kind] : when) parts.push_back(path + ": " + kind);
+  return join(parts, " and ");
+}
+
+/// Fills complete values, choice by choice.
+class Completion {
+ public:
+  Completion(const std::map<std::string, ParameterValue>& given, const std::string& where,
+             std::map<std::string, ParameterValue>& out)
+      : given_(given), where_(where), out_(out) {}
+
+  void fill(const std::vector<Parameter>& declared, const std::string& prefix) {
+    for (const Parameter& parameter : declared) {
+      const std::string path = joinPath(prefix, parameter.name);
+      if (parameter.type == ParameterType::Group) {
+        fill(parameter.alternatives.at(0).parameters, path);
+        continue;
+      }
+      const auto given = given_.find(path);
+      if (given == given_.end() && parameter.required)
+        throw Error("'" + path + "' is missing", where_, "give it: " + describeRange(parameter));
+      out_[path] = given == given_.end() ? parameter.defaultValue : valueOf(parameter, path, given->second);
+      if (parameter.type != ParameterType::Choice) continue;
+      if (const Alternative* chosen = findAlternative(parameter, std::get<std::string>(out_[path])))
+        fill(chosen->parameters, path);
+    }
+  }
+
+ private:
+  ParameterValue valueOf(Parameter parameter, const std::string& path, const ParameterValue& value) const {
+    parameter.name = path;  // as messages are to call it
+    return validate(parameter, value, where_);
+  }
+
+  const std::map<std::string, ParameterValue>& given_;
+  const std::string& where_;
+  std::map<std::string, ParameterValue>& out_;
+};
+
+}  // namespace
+
+std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared) {
+  std::vector<DeclaredAt> out;
+  flattenInto(declared, {}, {}, out);
+  return out;
 }
 
 ParameterValues::ParameterValues(const std::vector<Parameter>& declared,
                                  const std::map<std::string, ParameterValue>& given,
                                  const std::string& where) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : declared) names.push_back(parameter.name);
-  for (const auto& [name, value] : given) {
-    const auto match =
-        std::find_if(declared.begin(), declared.end(),
-                     [&name = name](const Parameter& parameter) { return parameter.name == name; });
-    if (match == declared.end()) throw Error("unknown parameter '" + name + "'", where, suggest(name, names));
-    values_[name] = validate(*match, value, where);
-  }
-  for (const Parameter& parameter : declared) {
-    if (values_.count(parameter.name)) continue;
-    if (parameter.required)
-      throw Error("'" + parameter.name + "' is missing", where, "give it: " + describeRange(parameter));
-    values_[parameter.name] = parameter.defaultValue;
+  Completion(given, where, values_).fill(declared, {});
+  for (const auto& [path, value] : given) {
+    if (values_.count(path)) continue;
+    std::vector<std::string> known, under;
+    for (const DeclaredAt& at : flatten(declared)) {
+      known.push_back(at.path);
+      if (at.path == path) under.push_back(describeWhen(at.when));
+    }
+    if (under.empty()) throw Error("unknown parameter '" + path + "'", where, suggest(path, known));
+    throw Error("'" + path + "' belongs to another choice", where,
+                "it exists with " + join(under, ", or with "));
   }
 }
 
-const ParameterValue& ParameterValues::at(const std::string& name) const {
-  const auto entry = values_.find(name);
+const ParameterValue* ParameterValues::find(const std::string& path) const {
+  const auto entry = values_.find(path);
+  return entry == values_.end() ? nullptr : &entry->second;
+}
+
+ParameterValues ParameterValues::below(const std::string& prefix) const {
+  ParameterValues out;
+  for (auto entry = values_.lower_bound(prefix + "."); entry != values_.end(); ++entry) {
+    if (entry->first.compare(0, prefix.size() + 1, prefix + ".") != 0) break;
+    out.values_.emplace(entry->first.substr(prefix.size() + 1), entry->second);
+  }
+  return out;
+}
+
+const ParameterValue& ParameterValues::at(const std::string& path) const {
+  const auto entry = values_.find(path);
   assert(entry != values_.end() && "parameter was never declared");
   return entry->second;
 }
@@ -198,10 +299,24 @@ nlohmann::json toJson(const Parameter& parameter) {
                         {"type", describeType(parameter.type)},
                         {"range", describeRange(parameter)},
                         {"description", parameter.description}};
-  if (!parameter.required) out["default"] = toJson(parameter.defaultValue);
+  if (!parameter.required && parameter.type != ParameterType::Group)
+    out["default"] = toJson(parameter.defaultValue);
   if (!parameter.unit.empty()) out["unit"] = parameter.unit;
   if (!parameter.source.empty()) out["source"] = parameter.source;
   if (!parameter.choices.empty()) out["choices"] = parameter.choices;
+  if (!parameter.allowed.empty()) out["choices"] = parameter.allowed;
+  if (parameter.type == ParameterType::Group) {
+    out["parameters"] = nlohmann::json::array();
+    for (const Parameter& member : parameter.alternatives.at(0).parameters)
+      out["parameters"].push_back(toJson(member));
+  } else if (!parameter.alternatives.empty()) {
+    for (const Alternative& alternative : parameter.alternatives) {
+      nlohmann::json members = nlohmann::json::array();
+      for (const Parameter& member : alternative.parameters) members.push_back(toJson(member));
+      out["alternatives"].push_back(
+          {{"name", alternative.name}, {"description", alternative.description}, {"parameters", members}});
+    }
+  }
   return out;
 }
 

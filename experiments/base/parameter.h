@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,7 +11,8 @@
 
 namespace limen {
 
-enum class ParameterType { Boolean, Integer, Real, Choice, Text, File };
+/// Group: parameters under one name, without a value of its own.
+enum class ParameterType { Boolean, Integer, Real, Choice, Text, File, Group };
 
 /// Name of a type as messages and help print it: "true or false", "whole number", ...
 std::string describeType(ParameterType type);
@@ -19,13 +20,20 @@ std::string describeType(ParameterType type);
 /// Boolean -> bool, Integer -> int64_t, Real -> double, Choice, Text and File -> string.
 using ParameterValue = std::variant<bool, int64_t, double, std::string>;
 
+struct Alternative;
+
 /// The one declaration of a parameter of a scene, technique or metric. Validation, sweep axes, help, viewer
-/// controls, result columns and axis labels all come from it.
+/// controls, result columns and axis labels all come from it. It is made by a settings table (see
+/// settings_table.h), not by hand.
+///
+/// Parameters form a tree: each alternative of a choice may have parameters of its own, which exist only
+/// where it is chosen. A parameter is known by its path, names joined by dots: "budget.rim".
 struct Parameter {
   std::string name;  ///< snake_case, as in descriptors
   ParameterType type = ParameterType::Real;
   ParameterValue defaultValue;
   std::optional<double> minimum, maximum;  ///< inclusive; Integer and Real only
+  std::vector<int64_t> allowed;            ///< Integer only: these numbers alone; empty: all in range
   std::vector<std::string> choices;        ///< Choice only
   std::string unit;                        ///< "" for pure numbers
   std::string description;                 ///< one line
@@ -33,7 +41,37 @@ struct Parameter {
   bool required = false;                   ///< no default: the descriptor must give it
   /// At its default it is no part of run keys: results from before it was declared keep theirs.
   bool keyedIfGiven = false;
+  /// Choice: none, or one for each of `choices`. Group: one without a name.
+  std::vector<Alternative> alternatives;
+  /// Choice or Group: the parameter of the default alternative, or of the group, that a number in its place
+  /// stands for ("budget: 256" for "budget: {kind: uniform, limit: 256}"); "": a number is refused.
+  std::string shorthand = {};
+  /// How the same was written formerly: names that an error answers with the new form.
+  std::vector<std::string> formerNames = {};
 };
+
+/// One of several values of a Choice, with what belongs to it alone.
+struct Alternative {
+  std::string name;
+  std::string description;  ///< what it is, as a noun phrase; "": the name says it
+  std::vector<Parameter> parameters;
+};
+
+/// The alternative of that name; null if the parameter has none.
+const Alternative* findAlternative(const Parameter& parameter, const std::string& name);
+/// "budget" and "rim" make "budget.rim"; an empty prefix changes nothing.
+std::string joinPath(const std::string& prefix, const std::string& name);
+
+/// A declaration with its place in the tree.
+struct DeclaredAt {
+  std::string path;  ///< "budget.rim"
+  const Parameter* parameter = nullptr;
+  /// Where it exists: values of the choices above it ("budget" -> "radial").
+  std::map<std::string, std::string> when;
+};
+/// All declarations but groups, depth first in order of declaration. One path may come from several
+/// alternatives.
+std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared);
 
 Parameter booleanParameter(std::string name, bool defaultValue, std::string description,
                            std::string source = {});
@@ -58,27 +96,35 @@ std::string describeRange(const Parameter& parameter);
 /// Real). Throws Error whose message says what was found and what is allowed; `where` goes into the error.
 ParameterValue validate(const Parameter& parameter, const ParameterValue& value, const std::string& where);
 
-/// A complete set of values for one declaration list: every declared name has a value.
+/// A complete set of values for one declaration tree, by path: every parameter that exists has a value, and a
+/// choice's value is the name of the chosen alternative.
 class ParameterValues {
  public:
   ParameterValues() = default;
-  /// Takes the defaults of `declared` and overrides them with `given`. Throws Error on an unknown name (with
-  /// the nearest known one), a bad value or a missing required parameter.
+  /// Takes the defaults of `declared` and overrides them with `given`, by path. Throws Error on an unknown
+  /// name (with the nearest known one), one that belongs to an alternative that is not chosen, a bad value or
+  /// a missing required parameter.
   ParameterValues(const std::vector<Parameter>& declared, const std::map<std::string, ParameterValue>& given,
                   const std::string& where = {});
 
-  bool boolean(const std::string& name) const;
-  int64_t integer(const std::string& name) const;
-  double real(const std::string& name) const;
-  const std::string& text(const std::string& name) const;  ///< Choice, Text and File
-  bool has(const std::string& name) const { return values_.count(name) != 0; }
+  bool boolean(const std::string& path) const;
+  int64_t integer(const std::string& path) const;
+  double real(const std::string& path) const;
+  const std::string& text(const std::string& path) const;  ///< Choice, Text and File
+  bool has(const std::string& path) const { return values_.count(path) != 0; }
+  /// Null if no parameter with that path exists under the choices made.
+  const ParameterValue* find(const std::string& path) const;
   const std::map<std::string, ParameterValue>& all() const { return values_; }
+  /// Values below `prefix`, by the rest of their paths.
+  ParameterValues below(const std::string& prefix) const;
 
-  /// Object with sorted keys: the canonical form that run keys are hashed from.
+  /// Object with sorted paths as keys: the canonical form that run keys are hashed from.
   nlohmann::json toJson() const;
 
+  friend bool operator==(const ParameterValues&, const ParameterValues&) = default;
+
  private:
-  const ParameterValue& at(const std::string& name) const;
+  const ParameterValue& at(const std::string& path) const;
   std::map<std::string, ParameterValue> values_;
 };
 

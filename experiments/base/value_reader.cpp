@@ -53,6 +53,8 @@ std::optional<ParameterValue> convert(const YamlNode& node, ParameterType type) 
       if (const auto number = parseNumber<double>(node.text); number && !node.quoted)
         return ParameterValue(*number);
       return {};
+    case ParameterType::Group:
+      return {};
   }
   return {};
 }

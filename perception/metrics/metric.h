@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "experiments/base/image.h"
-#include "experiments/base/parameter.h"
+#include "experiments/base/parameter_list.h"
+#include "experiments/base/quantity.h"
 #include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::gl {
 class Texture;
@@ -55,9 +57,23 @@ struct MetricInfo {
   bool higherIsBetter = false;
   bool needsGl = false;
   bool needsReference = true;  ///< false: judges the test product alone (non-finite count)
-  std::vector<Parameter> parameters;
-  std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare;
+  ParameterList parameters = {};
+  std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare = {};
 };
 using MetricRegistry = Registry<MetricInfo>;
+
+/// Registers a metric with settings S (settings_table.h) at program start. `info` says the rest; its
+/// parameters and compare are filled in.
+template <class S>
+struct RegisteredMetric {
+  RegisteredMetric(MetricInfo info, MetricResult (*compare)(const ComparisonInput&, const S&),
+                   const S& defaults = {}) {
+    info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
+    info.compare = [compare](const ComparisonInput& input, const ParameterValues& values) {
+      return compare(input, S::table().read(values));
+    };
+    MetricRegistry::instance().add(std::move(info));
+  }
+};
 
 }  // namespace limen::perception

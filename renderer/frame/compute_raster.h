@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
@@ -17,6 +18,9 @@ enum class Raster {
   Hardware,  ///< the driver's rasteriser
   Compute    ///< ComputeRaster
 };
+constexpr EnumNames<Raster, 3> enumNames(Raster) {
+  return {{{{Raster::Auto, "auto"}, {Raster::Compute, "compute"}, {Raster::Hardware, "hardware"}}}};
+}
 
 /// Auto resolved: Compute on a GPU, Hardware on a software renderer. On an NVIDIA H200 a shadow map of 72,000
 /// triangles takes 0.11 ms in compute and 0.55 ms by the driver at 1024 x 1024, 0.27 ms and 1.26 ms at 2048 x

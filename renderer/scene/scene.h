@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::scene {
 
@@ -196,13 +197,24 @@ struct SceneInfo {
   int version = 1;  ///< raised when the built scene changes
   std::string summary;
   std::string source;
-  std::vector<Parameter> parameters;
-  std::function<Scene(const ParameterValues&)> build;
+  ParameterList parameters = {};
+  std::function<Scene(const ParameterValues&)> build = {};
 
   /// Own parameters followed by the common ones.
   std::vector<Parameter> allParameters() const;
 };
 using SceneRegistry = Registry<SceneInfo>;
+
+/// Registers a scene that is built from settings S (settings_table.h) at program start. `info` says the rest;
+/// its parameters and build are filled in.
+template <class S>
+struct RegisteredScene {
+  RegisteredScene(SceneInfo info, Scene (*build)(const S&), const S& defaults = {}) {
+    info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
+    info.build = [build](const ParameterValues& values) { return build(S::table().read(values)); };
+    SceneRegistry::instance().add(std::move(info));
+  }
+};
 
 /// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its
 /// own diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100),

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/parameter_list.h"
+#include "experiments/base/quantity.h"
 #include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 
@@ -70,18 +72,18 @@ struct TechniqueInfo {
   std::string summary;
   std::string source;
   ProductKind product = ProductKind::Visibility;
-  std::vector<Parameter> parameters;
-  std::vector<std::string> needs;  ///< scene traits without which it cannot run ("rectangular_light")
-  bool reference = false;          ///< made to be compared with
+  ParameterList parameters = {};
+  std::vector<std::string> needs = {};  ///< scene traits without which it cannot run ("rectangular_light")
+  bool reference = false;               ///< made to be compared with
   /// Runs on the CPU: its time is wall time on any machine.
   bool onCpu = false;
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.
-  std::function<std::unique_ptr<Technique>(const ParameterValues&)> make;
+  std::function<std::unique_ptr<Technique>(const ParameterValues&)> make = {};
   /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
   /// sampling error; null: exact.
-  std::function<double(const ParameterValues&)> errorBound;
-  /// Names of all that count() may return: expectations and report axes may name them.
-  std::vector<std::string> counters = {};
+  std::function<double(const ParameterValues&)> errorBound = {};
+  /// All that count() may return: expectations and report axes may name them.
+  std::vector<Quantity> counters = {};
   /// Throws Error if the values do not go together, so that a sweep refuses them before anything runs; null:
   /// all do.
   std::function<void(const ParameterValues&)> check = {};
@@ -90,5 +92,30 @@ struct TechniqueInfo {
   std::string effort = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
+
+/// Registers technique T at program start. T has a type Settings with a table (settings_table.h) and is made
+/// from such settings. `defaults` are those of this registration. `info` says the rest; its parameters, make
+/// and check are filled in.
+template <class T>
+struct RegisteredTechnique {
+  explicit RegisteredTechnique(TechniqueInfo info, const typename T::Settings& defaults = {}) {
+    using S = typename T::Settings;
+    info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
+    info.make = [](const ParameterValues& values) { return std::make_unique<T>(S::table().read(values)); };
+    info.check = [](const ParameterValues& values) { S::table().read(values); };
+    TechniqueRegistry::instance().add(std::move(info));
+  }
+  /// As above, for a reference: `errorBound` is as TechniqueInfo::errorBound.
+  RegisteredTechnique(TechniqueInfo info, double (*errorBound)(const typename T::Settings&))
+      : RegisteredTechnique(withBound(std::move(info), errorBound)) {}
+
+ private:
+  static TechniqueInfo withBound(TechniqueInfo info, double (*errorBound)(const typename T::Settings&)) {
+    info.errorBound = [errorBound](const ParameterValues& values) {
+      return errorBound(T::Settings::table().read(values));
+    };
+    return info;
+  }
+};
 
 }  // namespace limen::techniques

@@ -91,8 +91,8 @@ std::vector<Parameter> matchedParameters() {
   return out;
 }
 
-std::vector<std::string> matchedCounterNames() {
-  std::vector<std::string> out = levelCounterNames();
+std::vector<Quantity> matchedCounterNames() {
+  std::vector<Quantity> out = levelCounterNames();
   out.emplace_back("distance_factor");
   return out;
 }

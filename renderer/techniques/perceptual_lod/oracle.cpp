@@ -115,7 +115,7 @@ std::vector<Counter> countLevels(frame::Frame& frame, double timeS, const Percep
   return out;
 }
 
-std::vector<std::string> levelCounterNames() {
+std::vector<Quantity> levelCounterNames() {
   return {"triangles_drawn",     "mean_level",          "wrong_invisible_share",
           "levels_above_oracle", "levels_below_oracle", "objects_seen"};
 }

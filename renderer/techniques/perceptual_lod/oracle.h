@@ -40,6 +40,6 @@ OracleComparison compareWithOracle(const std::vector<OracleVerdict>& verdicts, c
 /// "levels_below_oracle", "objects_seen" of a choice of levels.
 std::vector<Counter> countLevels(frame::Frame& frame, double timeS, const PerceptualLodSettings& settings,
                                  const std::vector<int>& levels);
-std::vector<std::string> levelCounterNames();
+std::vector<Quantity> levelCounterNames();
 
 }  // namespace limen::techniques

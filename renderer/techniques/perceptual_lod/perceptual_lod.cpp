@@ -69,8 +69,8 @@ class PerceptualLod : public Technique {
   double timeS_ = 0.0;
 };
 
-std::vector<std::string> layeredCounterNames() {
-  std::vector<std::string> out = levelCounterNames();
+std::vector<Quantity> layeredCounterNames() {
+  std::vector<Quantity> out = levelCounterNames();
   for (const char* name : {"triangles_tested", "objects_tested", "tests_dropped", "level_switches",
                            "level_reversals", "layers_drawn", "threshold_maps"})
     out.emplace_back(name);

@@ -106,7 +106,7 @@ std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& set
           fact("triangles_after", triangles(setting.toLevel))};
 }
 
-std::vector<std::string> switchFigureNames() {
+std::vector<Quantity> switchFigureNames() {
   return {"rating",
           "detection_probability",
           "has_region",

@@ -25,7 +25,7 @@ Image objectMask(frame::Frame& frame, const SwitchSetting& setting);
 std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& setting,
                                    const SwitchImages& images, const SwitchFinding& finding);
 /// Their names.
-std::vector<std::string> switchFigureNames();
+std::vector<Quantity> switchFigureNames();
 
 /// The frame after the change in grey with its popping regions in colour (SP-50).
 Image regionPicture(const SwitchImages& images, const perception::RegionMap& regions);

@@ -84,14 +84,16 @@ frame::ShadowMapSettings innerMap(const ParameterValues& values) {
 
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
   std::vector<Counter> out;
-  const std::vector<std::string> names = innerCounterNames();
+  const std::vector<Quantity> names = innerCounterNames();
   for (Counter& counter : inner.count(frame))
-    if (std::find(names.begin(), names.end(), counter.name) != names.end()) out.push_back(std::move(counter));
+    if (std::any_of(names.begin(), names.end(),
+                    [&](const Quantity& each) { return each.name == counter.name; }))
+      out.push_back(std::move(counter));
   return out;
 }
 
-std::vector<std::string> innerCounterNames() {
-  std::vector<std::string> names = OccluderSearch::counterNames();
+std::vector<Quantity> innerCounterNames() {
+  std::vector<Quantity> names = OccluderSearch::counterNames();
   names.insert(names.end(), {"rays_per_receiver", "rays", "occluders_per_receiver"});
   return names;
 }

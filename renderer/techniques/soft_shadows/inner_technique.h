@@ -34,6 +34,6 @@ frame::ShadowMapSettings innerMap(const ParameterValues& values);
 
 /// What count() of the inner technique returns, as far as innerCounterNames() holds it.
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame);
-std::vector<std::string> innerCounterNames();
+std::vector<Quantity> innerCounterNames();
 
 }  // namespace limen::techniques

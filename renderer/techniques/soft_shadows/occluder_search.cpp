@@ -311,12 +311,12 @@ void OccluderSearch::findLevelSteps(frame::Frame& frame, const CountImages& coun
   levelSteps_.emplace(LevelSteps{from({0, 0}), from({1, 0}), from({0, 1})});
 }
 
-std::vector<std::string> OccluderSearch::counterNames() {
-  std::vector<std::string> names = VisibilityTechnique::counterNames();
+std::vector<Quantity> OccluderSearch::counterNames() {
+  std::vector<Quantity> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
   names.emplace_back("occluder_bytes");
   for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
-  for (std::string& name : levelStepCounterNames()) names.push_back(std::move(name));
+  for (Quantity& name : levelStepCounterNames()) names.push_back(std::move(name));
   for (const BudgetDriverInfo& driver : budgetDrivers())
     names.insert(names.end(), driver.counters.begin(), driver.counters.end());
   return names;

@@ -144,8 +144,8 @@ void PrefilteredTechnique::configure(const gl::Program& program) const {
   program.set("searchTaps", searchTaps_);
 }
 
-std::vector<std::string> PrefilteredTechnique::counterNames() {
-  std::vector<std::string> names = VisibilityTechnique::counterNames();
+std::vector<Quantity> PrefilteredTechnique::counterNames() {
+  std::vector<Quantity> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
   return names;
 }

@@ -20,7 +20,7 @@ frame::Prefilter prefilterOf(const ParameterValues& values);
 class PrefilteredTechnique : public VisibilityTechnique {
  public:
   std::vector<Counter> count(frame::Frame& frame) override;
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
   /// Common parameters and those of window and averages. `windows` are the kinds of window that the technique
   /// has, the first being the default; `prefilters` likewise.
   static std::vector<Parameter> prefilterParameters(std::vector<std::string> windows,

@@ -70,6 +70,16 @@ const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
 
 }  // namespace
 
+VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader,
+                                         std::string pass, gl::ShaderDefines defines)
+    : maps_{{map.resolution, map.raster}},
+      bias_(bias.constant),
+      slopeBias_(bias.slope),
+      maxSlope_(bias.maxSlope),
+      shader_(std::move(shader)),
+      pass_(std::move(pass)),
+      defines_(std::move(defines)) {}
+
 VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                                          gl::ShaderDefines defines)
     : maps_{{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))}},
@@ -180,8 +190,8 @@ void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
   finish(frame);
 }
 
-std::vector<std::string> VisibilityTechnique::counterNames() {
-  std::vector<std::string> out;
+std::vector<Quantity> VisibilityTechnique::counterNames() {
+  std::vector<Quantity> out;
   for (const Counter& counter : summarise({}, {})) out.push_back(counter.name);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "renderer/frame/shadow_map.h"
+#include "renderer/techniques/soft_shadows/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -45,12 +46,14 @@ class VisibilityTechnique : public Technique {
   const Counted& counted() const { return counted_; }
 
   /// Names of what count() returns.
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
   /// Parameters that `values` must hold: resolution, bias, slope_bias, max_slope, raster.
   static std::vector<Parameter> commonParameters(double defaultSlopeBias);
 
  protected:
   /// `shader` is a path from the repository root, `pass` the name in the pass list.
+  VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader, std::string pass,
+                      gl::ShaderDefines defines = {});
   VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                       gl::ShaderDefines defines = {});
 

@@ -169,8 +169,8 @@ void Bitmask::finish(frame::Frame& frame) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-std::vector<std::string> Bitmask::counterNames() {
-  std::vector<std::string> names = OccluderSearch::counterNames();
+std::vector<Quantity> Bitmask::counterNames() {
+  std::vector<Quantity> names = OccluderSearch::counterNames();
   names.insert(names.end(), {"maps_read", "maps_with_casters", "mask_bytes"});
   return names;
 }

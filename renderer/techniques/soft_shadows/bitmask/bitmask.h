@@ -27,7 +27,7 @@ class Bitmask : public OccluderSearch {
   /// Throws Error where values do not go together.
   static void checkValues(const ParameterValues& values);
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
 
   void render(frame::Frame& frame) override;
   std::vector<Counter> count(frame::Frame& frame) override;

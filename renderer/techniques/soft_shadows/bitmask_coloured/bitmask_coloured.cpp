@@ -133,8 +133,8 @@ std::vector<Parameter> bitmaskColouredParameters() {
   return all;
 }
 
-std::vector<std::string> counterNames() {
-  std::vector<std::string> names = Bitmask::counterNames();
+std::vector<Quantity> counterNames() {
+  std::vector<Quantity> names = Bitmask::counterNames();
   names.emplace_back("colour_table_bytes");
   return names;
 }

@@ -92,8 +92,8 @@ std::vector<Parameter> changeParameters() {
   return all;
 }
 
-std::vector<std::string> changeCounters() {
-  std::vector<std::string> names = LightMotion::counterNames();
+std::vector<Quantity> changeCounters() {
+  std::vector<Quantity> names = LightMotion::counterNames();
   names.emplace_back("mean_absolute_change");
   names.emplace_back("changed_share");
   return names;

@@ -96,9 +96,9 @@ std::vector<Counter> LightMotion::count() {
   return all;
 }
 
-std::vector<std::string> LightMotion::counterNames() {
-  std::vector<std::string> names = innerCounterNames();
-  for (std::string& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
+std::vector<Quantity> LightMotion::counterNames() {
+  std::vector<Quantity> names = innerCounterNames();
+  for (Quantity& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
   return names;
 }
 

@@ -47,7 +47,7 @@ class LightMotion {
 
   /// Of the last place.
   std::vector<Counter> count();
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
 
  private:
   struct Place {

@@ -6,28 +6,36 @@
 namespace limen::techniques {
 namespace {
 
+struct HardSettings {
+  MapSettings map;
+  SlopeBias bias;
+  static const SettingsTable<HardSettings>& table() {
+    static const SettingsTable<HardSettings> kTable = {
+        included(&HardSettings::map),
+        Binding(&HardSettings::bias, "bias", "What keeps a surface from shadowing itself")
+            .shorthand("constant")};
+    return kTable;
+  }
+};
+
 class HardShadow : public VisibilityTechnique {
  public:
-  explicit HardShadow(const ParameterValues& values)
-      : VisibilityTechnique(values, "renderer/techniques/soft_shadows/hard/hard.comp.glsl",
-                            "soft_shadows/hard") {}
+  using Settings = HardSettings;
+  explicit HardShadow(const HardSettings& settings)
+      : VisibilityTechnique(settings.map, settings.bias,
+                            "renderer/techniques/soft_shadows/hard/hard.comp.glsl", "soft_shadows/hard") {}
 
  protected:
   void configure(const gl::Program&) const override {}
 };
 
-const Registered<TechniqueInfo> kHardRegistered{
+const RegisteredTechnique<HardShadow> kHardRegistered{
     {.name = "soft_shadows/hard",
      .version = 1,
      .summary = "Hard shadow map: one comparison with the depth seen from the light's centre",
      .source = "Schwarz 2009, section 3.3 (SS-01)",
      .product = ProductKind::Visibility,
-     .parameters = VisibilityTechnique::commonParameters(1.0),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<HardShadow>(values); },
-     .errorBound = {},
      .counters = VisibilityTechnique::counterNames()}};
 
 }  // namespace

@@ -45,9 +45,9 @@ std::vector<Parameter> historyTechniqueParameters() {
   return all;
 }
 
-std::vector<std::string> historyTechniqueCounters() {
-  std::vector<std::string> names = innerCounterNames();
-  for (std::string& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
+std::vector<Quantity> historyTechniqueCounters() {
+  std::vector<Quantity> names = innerCounterNames();
+  for (Quantity& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
   return names;
 }
 

@@ -126,7 +126,7 @@ void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-std::vector<std::string> VisibilityHistory::counterNames() {
+std::vector<Quantity> VisibilityHistory::counterNames() {
   return {"history_taken_share", "history_bounded_share"};
 }
 

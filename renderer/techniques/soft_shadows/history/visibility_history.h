@@ -37,7 +37,7 @@ class VisibilityHistory {
   /// Shares of receivers that find a past, and whose past is bounded by the present, were the frame at hand
   /// added once more. Changes nothing.
   std::vector<Counter> count(frame::Frame& frame, const gl::Texture& visibility);
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
 
  private:
   void run(frame::Frame& frame, const gl::Texture& visibility, const gl::Texture* fates);

@@ -56,8 +56,8 @@ class HsmTraversal : public VisibilityTechnique {
     checkTraversal(values);
   }
 
-  static std::vector<std::string> counterNames() {
-    std::vector<std::string> names = VisibilityTechnique::counterNames();
+  static std::vector<Quantity> counterNames() {
+    std::vector<Quantity> names = VisibilityTechnique::counterNames();
     names.emplace_back("nodes_per_px");
     return names;
   }

@@ -69,8 +69,8 @@ std::vector<Parameter> occlusionTexturesParameters() {
   return all;
 }
 
-std::vector<std::string> counterNamesWithBytes() {
-  std::vector<std::string> names = VisibilityTechnique::counterNames();
+std::vector<Quantity> counterNamesWithBytes() {
+  std::vector<Quantity> names = VisibilityTechnique::counterNames();
   names.emplace_back("structure_bytes");
   return names;
 }

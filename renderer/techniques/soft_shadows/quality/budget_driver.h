@@ -58,7 +58,7 @@ struct BudgetDriverInfo {
   /// Name of the driver that it starts from, whose parameters then count too; null or "uniform": none.
   std::function<std::string(const ParameterValues&)> base = {};
   /// Names of all that count() may return, those of a base aside.
-  std::vector<std::string> counters = {};
+  std::vector<Quantity> counters = {};
 };
 
 /// All drivers, in order of their names' places in the choice. The uniform budget needs no driver.

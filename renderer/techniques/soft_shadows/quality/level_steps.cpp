@@ -44,8 +44,8 @@ std::vector<Counter> levelStepCounters(const LevelSteps& steps) {
                         pairs > 0.0 ? sum / pairs : 0.0, perPixel);
 }
 
-std::vector<std::string> levelStepCounterNames() {
-  std::vector<std::string> names;
+std::vector<Quantity> levelStepCounterNames() {
+  std::vector<Quantity> names;
   for (const Counter& counter : levelStepFacts(0.0, 0.0, 0.0, 0.0)) names.push_back(counter.name);
   return names;
 }

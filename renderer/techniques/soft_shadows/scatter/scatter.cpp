@@ -64,7 +64,7 @@ class Scatter : public Technique {
 
   const gl::Texture& product() const override { return *visibility_; }
 
-  static std::vector<std::string> counterNames() {
+  static std::vector<Quantity> counterNames() {
     return {"caster_texels", "splats_per_caster_texel", "splats_per_receiver", "receivers_share", "lit_share",
             "umbra_share",   "processed_share",         "without_answer_share"};
   }

@@ -82,8 +82,8 @@ std::vector<Parameter> sceneNeedsParameters() {
   return all;
 }
 
-std::vector<std::string> counters() {
-  std::vector<std::string> all = Bitmask::counterNames();
+std::vector<Quantity> counters() {
+  std::vector<Quantity> all = Bitmask::counterNames();
   const std::vector<std::string> evidence = evidenceNames();
   all.insert(all.end(), evidence.begin(), evidence.end());
   return all;

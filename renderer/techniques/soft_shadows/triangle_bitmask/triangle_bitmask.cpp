@@ -150,8 +150,8 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
 
 void TriangleBitmask::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
 
-std::vector<std::string> TriangleBitmask::counterNames() {
-  std::vector<std::string> out;
+std::vector<Quantity> TriangleBitmask::counterNames() {
+  std::vector<Quantity> out;
   for (const Counter& counter : summariseTriangles({})) out.push_back(counter.name);
   out.emplace_back("structure_bytes");
   return out;

@@ -23,7 +23,7 @@ class TriangleBitmask : public Technique {
   /// lightSamples(). None where there is no receiver.
   const std::vector<uint32_t>& masks() const { return masks_; }
 
-  static std::vector<std::string> counterNames();
+  static std::vector<Quantity> counterNames();
 
  private:
   struct Work {
