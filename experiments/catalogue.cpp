@@ -47,7 +47,12 @@ std::string describeEntry(const NamedKind& kind, const std::string& name, const 
   if (!entry.unit.empty()) out += fmt::format("  unit: {}\n", entry.unit);
   if (entry.reference) out += "  a reference: made to be compared with\n";
   if (entry.onCpu) out += "  runs on the CPU\n";
-  if (!entry.counters.empty()) out += fmt::format("  counts: {}\n", join(entry.counters));
+  if (!entry.counters.empty()) out += "  counts:\n";
+  for (const Quantity& counter : entry.counters)
+    out += fmt::format(
+        "    {}: {}\n", counter.name,
+        titleWithUnit(counter.title.empty() ? titleFromName(counter.name, counter.unit) : counter.title,
+                      counter.unit));
   if (entry.parameters.empty()) return out + "  no parameters\n";
   out += "  parameters:\n";
   for (const Parameter& parameter : entry.parameters) {
@@ -69,7 +74,12 @@ nlohmann::json entryAsJson(const NamedKind& kind, const std::string& name, const
     out["needs"] = entry.needs;
     out["reference"] = entry.reference;
     out["on_cpu"] = entry.onCpu;
-    out["counters"] = entry.counters;
+    out["counters"] = nlohmann::json::array();
+    for (const Quantity& counter : entry.counters)
+      out["counters"].push_back({{"name", counter.name},
+                                 {"title", counter.title},
+                                 {"unit", counter.unit},
+                                 {"direction", toText(counter.direction)}});
   }
   if (!entry.unit.empty()) out["unit"] = entry.unit;
   return out;
@@ -90,8 +100,14 @@ std::vector<std::string> counterNames(const Catalogue& catalogue,
                                       const std::vector<std::string>& techniques) {
   std::vector<std::string> out;
   for (const std::string& technique : techniques)
-    for (const std::string& name : catalogue.techniques.at(technique).counters)
-      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    for (const Quantity& counter : catalogue.techniques.at(technique).counters)
+      if (std::find(out.begin(), out.end(), counter.name) == out.end()) out.push_back(counter.name);
+  return out;
+}
+
+std::vector<std::string> measurementNames(const Catalogue& catalogue) {
+  std::vector<std::string> out;
+  for (const store::QuantityRow& row : catalogue.measurements) out.push_back(row.name);
   return out;
 }
 

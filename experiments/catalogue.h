@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "experiments/base/parameter.h"
+#include "experiments/base/quantity.h"
+#include "experiments/store/descriptions.h"
 
 namespace limen::experiments {
 
@@ -24,10 +26,12 @@ struct CatalogueEntry {
   std::vector<std::string> needs;  ///< scene traits
   bool reference = false;          ///< made to be compared with
   bool onCpu = false;
-  std::vector<std::string> counters;  ///< names that its runs may have beside the common ones
+  std::vector<Quantity> counters;  ///< what its runs may have beside the common measurements
 
   // Metrics only.
+  std::string title;  ///< as Quantity::title
   std::string unit;
+  Direction direction = Direction::LowerIsBetter;
   bool needsReference = true;
 };
 
@@ -38,11 +42,13 @@ using CatalogueKind = std::map<std::string, CatalogueEntry>;
 struct Catalogue {
   CatalogueKind scenes, techniques, metrics;
   /// Values that every run has whatever its metrics ("gpu_ms"): expectations and report axes may name them.
-  std::vector<std::string> measurements;
+  std::vector<store::QuantityRow> measurements;
 };
 
 /// Names of one kind, sorted.
 std::vector<std::string> names(const CatalogueKind& kind);
+/// Names of the values that every run has.
+std::vector<std::string> measurementNames(const Catalogue& catalogue);
 /// What the given techniques count, each name once.
 std::vector<std::string> counterNames(const Catalogue& catalogue, const std::vector<std::string>& techniques);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/catalogue.h"
+#include "experiments/measured_quantities.h"
 #include "perception/metrics/metric.h"
 #include "renderer/scene/scene.h"
 #include "renderer/techniques/technique.h"
@@ -26,7 +27,7 @@ Catalogue catalogueFromRegistries() {
     entry.needs = info.needs;
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
-    for (const Quantity& counter : info.counters) entry.counters.push_back(counter.name);
+    entry.counters = info.counters;
     entry.check = info.check;
   }
   for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
@@ -36,10 +37,10 @@ Catalogue catalogueFromRegistries() {
     entry.source = info.source;
     entry.parameters = info.parameters;
     entry.unit = info.unit;
+    entry.direction = info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter;
     entry.needsReference = info.needsReference;
   }
-  out.measurements = {"gpu_ms",     "gpu_ms_p95", "technique_ms",     "wall_ms",      "cpu_ms",
-                      "prepare_ms", "bytes_held", "non_finite_count", "gpu_clock_mhz"};
+  out.measurements = commonQuantities();
   return out;
 }
 

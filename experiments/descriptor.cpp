@@ -343,7 +343,7 @@ class Reader {
     checkKeys(*node, "report", {"x", "y", "series", "panels"});
     std::vector<std::string> groups = variables(), quantities = groups;
     groups.insert(groups.end(), {"technique", "scene", "image"});
-    quantities.insert(quantities.end(), catalogue_.measurements.begin(), catalogue_.measurements.end());
+    for (const std::string& name : measurementNames(catalogue_)) quantities.push_back(name);
     quantities.insert(quantities.end(), out_.metricNames.begin(), out_.metricNames.end());
     std::vector<std::string> techniques;
     for (const Entry& entry : out_.techniques) techniques.push_back(entry.name);

@@ -13,6 +13,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
+#include "experiments/measured_quantities.h"
 #include "experiments/product.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
@@ -64,6 +65,19 @@ struct LiveRun {
   std::future<std::vector<store::Artefact>> artefacts;
   RunOutcome outcome;
 };
+
+store::Measurement measurementOf(const techniques::Counter& counter, const techniques::TechniqueInfo& info) {
+  const auto declared = std::find_if(info.counters.begin(), info.counters.end(),
+                                     [&](const Quantity& each) { return each.name == counter.name; });
+  if (declared == info.counters.end())
+    throw std::logic_error("technique '" + info.name + "' counts '" + counter.name +
+                           "', which it does not declare");
+  // A counter that is declared by its name alone says unit and kind with each value.
+  if (declared->title.empty())
+    return {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"};
+  return {counter.name, counter.value, declared->unit,
+          declared->direction == Direction::Neither ? "fact" : "counter"};
+}
 
 class GlExecutor : public Executor {
  public:
@@ -205,30 +219,22 @@ class GlExecutor : public Executor {
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
     }
-    for (const techniques::Counter& counter : counters) {
-      const std::vector<Quantity>& declared = run.info->counters;
-      if (std::none_of(declared.begin(), declared.end(),
-                       [&](const Quantity& each) { return each.name == counter.name; }))
-        throw std::logic_error("technique '" + run.info->name + "' counts '" + counter.name +
-                               "', which it does not declare");
-      run.outcome.measurements.push_back(
-          {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"});
-    }
+    for (const techniques::Counter& counter : counters)
+      run.outcome.measurements.push_back(measurementOf(counter, *run.info));
     if (reference && plan.artefacts.pictures)
-      run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
+      run.outcome.measurements.push_back(measured("error_png_white", kErrorScale));
     for (const auto& [name, map] : maps)
       if (name == "relative_error" && plan.artefacts.pictures)
-        run.outcome.measurements.push_back({"relative_error_png_white", kErrorScale, "", "fact"});
+        run.outcome.measurements.push_back(measured("relative_error_png_white", kErrorScale));
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::Threshold) {
-      run.outcome.measurements.push_back(
-          {"threshold_png_black", perception::kThresholdPictureBlack, "cd/m2", "fact"});
-      run.outcome.measurements.push_back(
-          {"threshold_png_white", perception::kThresholdPictureWhite, "cd/m2", "fact"});
+      run.outcome.measurements.push_back(measured("threshold_png_black", perception::kThresholdPictureBlack));
+      run.outcome.measurements.push_back(measured("threshold_png_white", perception::kThresholdPictureWhite));
     }
+    // In the product's own unit.
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::JndMap)
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
-      run.outcome.measurements.push_back({"product_png_white", kErrorScale, "", "fact"});
+      run.outcome.measurements.push_back(measured("product_png_white", kErrorScale));
     run.outcome.sceneFacts["product_hash"] = productHash(product);
     startArtefacts(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
@@ -249,7 +255,7 @@ class GlExecutor : public Executor {
     glFinish();
     const double ms = std::chrono::duration<double, std::milli>(steady_clock::now() - start).count();
     const double compileMs = context_->programs().compileMs() - compiledBefore;
-    run.outcome.measurements.push_back({"prepare_ms", ms - compileMs, "ms", "time"});
+    run.outcome.measurements.push_back(measured("prepare_ms", ms - compileMs));
     for (const gl::PassList::Pass& pass : run.frame->passes().passes())
       run.outcome.passes.push_back({pass.name, pass.bytesHeld});
   }
@@ -257,7 +263,7 @@ class GlExecutor : public Executor {
   static void countNonFinite(const Image& product, RunOutcome& outcome) {
     const auto count = std::count_if(product.data.begin(), product.data.end(),
                                      [](float value) { return !std::isfinite(value); });
-    outcome.measurements.push_back({"non_finite_count", static_cast<double>(count), "", "error"});
+    outcome.measurements.push_back(measured("non_finite_count", static_cast<double>(count)));
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
@@ -302,9 +308,9 @@ class GlExecutor : public Executor {
     run.outcome.frameTimes = run.timing->times();
     int64_t bytes = 0;
     for (const store::Pass& pass : run.outcome.passes) bytes += pass.bytesHeld;
-    run.outcome.measurements.push_back({"bytes_held", static_cast<double>(bytes), "byte", "fact"});
+    run.outcome.measurements.push_back(measured("bytes_held", static_cast<double>(bytes)));
     if (const auto mhz = clock_.measureMhz())
-      run.outcome.measurements.push_back({"gpu_clock_mhz", *mhz, "MHz", "fact"});
+      run.outcome.measurements.push_back(measured("gpu_clock_mhz", *mhz));
   }
 
   std::string folder_;

@@ -198,7 +198,7 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   std::vector<store::PlanEntry> entries;
   for (const PlannedRun& run : plan.runs)
     entries.push_back({run.key, run.technique.name, run.scene.name, run.label});
-  return results.putExperiment(experiment, entries);
+  return results.putExperiment(experiment, entries, plan.descriptions);
 }
 
 std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,

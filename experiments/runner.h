@@ -47,8 +47,8 @@ struct SweepTally {
 SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
                     const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
 
-/// Enters the experiment and its whole plan (all shards, so that merged stores know what is missing). Returns
-/// its id.
+/// Enters the experiment, its whole plan (all shards, so that merged stores know what is missing) and what
+/// its names mean. Returns its id.
 int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
 
 /// Judges the descriptor's expectations over everything that the store holds of this plan for `device`, and

@@ -28,7 +28,7 @@ SelectionReader::SelectionReader(const Descriptor& descriptor, const Catalogue& 
   for (const Entry& entry : descriptor.techniques) addOnce(techniques_, entry.name);
   for (const Entry& entry : descriptor.scenes) addOnce(scenes_, entry.name);
   quantities_ = descriptor.metricNames;
-  quantities_.insert(quantities_.end(), catalogue.measurements.begin(), catalogue.measurements.end());
+  for (const std::string& name : measurementNames(catalogue)) quantities_.push_back(name);
   const std::vector<std::string> counters = counterNames(catalogue, techniques_);
   quantities_.insert(quantities_.end(), counters.begin(), counters.end());
 }

@@ -29,7 +29,8 @@ Store::Store(const std::string& path, Access access)
 
 Store::~Store() { sqlite3_close(database_); }
 
-int64_t Store::putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan) {
+int64_t Store::putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan,
+                             const Descriptions& descriptions) {
   Transaction transaction(database_, Mode::Write);
   execute(
       database_,
@@ -47,6 +48,7 @@ int64_t Store::putExperiment(const Experiment& experiment, const std::vector<Pla
   int position = 0;
   for (const PlanEntry& entry : plan)
     insert.bind(id, entry.key, position++, entry.technique, entry.scene, entry.label).execute();
+  writeDescriptions(database_, id, descriptions);
   transaction.commit();
   return id;
 }
