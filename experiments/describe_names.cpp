@@ -12,12 +12,9 @@ namespace {
 
 // A parameter of an alternative or a group says whose it is: "Budget: rim".
 std::string titleOf(const Parameter& parameter, const std::string& owner) {
-  std::string title = parameter.title;
-  if (title.empty()) {
-    title = titleFromName(parameter.name, parameter.unit);
-    if (!owner.empty()) title[0] = parameter.name[0];
-  }
-  return owner.empty() ? title : owner + ": " + title;
+  if (owner.empty())
+    return parameter.title.empty() ? titleFromName(parameter.name, parameter.unit) : parameter.title;
+  return owner + ": " + (parameter.title.empty() ? wordsOf(parameter.name, parameter.unit) : parameter.title);
 }
 
 class Describer {

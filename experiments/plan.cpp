@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -206,17 +207,22 @@ class Planner {
   static void setLabels(std::vector<Variant>& variants) {
     std::map<std::string, std::vector<Variant*>> byName;
     for (Variant& variant : variants) byName[variant.choice.name].push_back(&variant);
-    for (auto& [name, group] : byName)
-      for (const auto& [key, value] : group[0]->values.items()) {
-        const bool varies = std::any_of(
-            group.begin(), group.end(),
-            [&key = key, &value = value](const Variant* other) { return other->values[key] != value; });
-        if (!varies) continue;
-        for (Variant* variant : group) {
-          if (!variant->label.empty()) variant->label += ", ";
-          variant->label += key + "=" + show(variant->values[key]);
+    for (auto& [name, group] : byName) {
+      // Not all variants have the parameters of all alternatives.
+      std::map<std::string, std::set<nlohmann::json>> values;
+      std::map<std::string, size_t> count;
+      for (const Variant* variant : group)
+        for (const auto& [key, value] : variant->values.items()) {
+          values[key].insert(value);
+          ++count[key];
         }
-      }
+      for (Variant* variant : group)
+        for (const auto& [key, value] : variant->values.items()) {
+          if (values[key].size() < 2 && count[key] == group.size()) continue;
+          if (!variant->label.empty()) variant->label += ", ";
+          variant->label += key + "=" + show(value);
+        }
+    }
   }
 
   /// One variant of each entry by turns.

@@ -61,18 +61,18 @@ std::string suggest(const std::string& name, const std::vector<std::string>& can
   return (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "known: " + list;
 }
 
-std::string wordsOf(const std::string& name) {
-  std::string words = name;
+std::string wordsOf(const std::string& name, const std::string& unit) {
+  std::string suffix = unit.empty() ? "" : "_" + unit;
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return c == '/' ? '_' : static_cast<char>(std::tolower(c)); });
+  const bool saysUnit = !suffix.empty() && name.size() > suffix.size() && name.ends_with(suffix);
+  std::string words = saysUnit ? name.substr(0, name.size() - suffix.size()) : name;
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }
 
 std::string titleFromName(const std::string& name, const std::string& unit) {
-  std::string suffix = unit.empty() ? "" : "_" + unit;
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return c == '/' ? '_' : static_cast<char>(std::tolower(c)); });
-  const bool saysUnit = !suffix.empty() && name.size() > suffix.size() && name.ends_with(suffix);
-  std::string title = wordsOf(saysUnit ? name.substr(0, name.size() - suffix.size()) : name);
+  std::string title = wordsOf(name, unit);
   if (!title.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return title;
 }

@@ -17,10 +17,10 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 /// names).
 std::string suggest(const std::string& name, const std::vector<std::string>& candidates);
 
-/// "light_size" -> "light size".
-std::string wordsOf(const std::string& name);
-/// Title of what is declared without one: the words of its name, a capital first, without the unit that ends
-/// the name ("azimuth_deg" in "deg" -> "Azimuth").
+/// The words of a declared name, without its unit where the name ends in that: "light_size" -> "light size",
+/// "azimuth_deg" in "deg" -> "azimuth".
+std::string wordsOf(const std::string& name, const std::string& unit = {});
+/// Title of what is declared without one: its words, a capital first.
 std::string titleFromName(const std::string& name, const std::string& unit);
 /// "Light size (m)"; the title alone if there is no unit.
 std::string titleWithUnit(const std::string& title, const std::string& unit);
