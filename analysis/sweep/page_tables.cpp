@@ -105,7 +105,7 @@ std::vector<Column> columnsOf(const Sweep& sweep) {
     columns.push_back({"frame_median_ms", "Median (ms)", true, frame(&Summary::median), {}});
     columns.push_back({"frame_low95_ms", "95 % low (ms)", true, bound(&MedianInterval::low), {}});
     columns.push_back({"frame_high95_ms", "95 % high (ms)", true, bound(&MedianInterval::high), {}});
-    columns.push_back({"frame_p95_ms", "P95 (ms)", true, frame(&Summary::p95), {}});
+    columns.push_back({"frame_p95_ms", "95th percentile (ms)", true, frame(&Summary::p95), {}});
     columns.push_back({"n_frames",
                        "Frames",
                        true,
