@@ -5,13 +5,14 @@
 #include <set>
 
 #include "experiments/base/text.h"
+#include "experiments/measured_quantities.h"
 #include "experiments/measurement_name.h"
 
 namespace limen::experiments {
 namespace {
 
 // A parameter of an alternative or a group says whose it is: "Budget: rim".
-std::string titleOf(const Parameter& parameter, const std::string& owner) {
+std::string titleAt(const Parameter& parameter, const std::string& owner) {
   if (owner.empty())
     return parameter.title.empty() ? titleFromName(parameter.name, parameter.unit) : parameter.title;
   return owner + ": " + (parameter.title.empty() ? wordsOf(parameter.name, parameter.unit) : parameter.title);
@@ -23,7 +24,7 @@ class Describer {
       : descriptor_(descriptor), catalogue_(catalogue) {}
 
   store::Descriptions describe() {
-    for (const store::QuantityRow& row : catalogue_.measurements) add(row);
+    for (const store::QuantityRow& row : commonQuantities()) add(row);
     addMetrics();
     for (const Entry& entry : descriptor_.techniques) addCounters(catalogue_.techniques.at(entry.name));
 
@@ -54,17 +55,19 @@ class Describer {
     for (size_t i = 0; i < descriptor_.metrics.size(); ++i) {
       const Choice& metric = descriptor_.metrics[i];
       const CatalogueEntry& entry = catalogue_.metrics.at(metric.name);
-      const std::string title = entry.title.empty() ? titleFromName(metric.name, entry.unit) : entry.title;
+      const Quantity& quantity = entry.quantity;
+      // A metric that says neither its own name nor a title is called by the name it is registered under.
+      const std::string title =
+          quantity.title.empty() ? titleFromName(metric.name, quantity.unit) : quantity.title;
       add({descriptor_.metricNames[i], measurementTitle(title, metric, descriptor_.metrics, entry.parameters),
-           entry.unit, entry.direction, "error", "", entry.source});
+           quantity.unit, quantity.direction, "error", "", entry.source});
     }
   }
 
   void addCounters(const CatalogueEntry& technique) {
     for (const Quantity& counter : technique.counters)
-      add({counter.name, counter.title.empty() ? titleFromName(counter.name, counter.unit) : counter.title,
-           counter.unit, counter.direction, counter.direction == Direction::Neither ? "fact" : "counter", "",
-           counter.source});
+      add({counter.name, titleOf(counter), counter.unit, counter.direction,
+           counter.direction == Direction::Neither ? "fact" : "counter", "", counter.source});
   }
 
   void addParameters(const std::string& subject, const std::string& owner, const CatalogueKind& kind) {
@@ -81,7 +84,7 @@ class Describer {
       row.owner = owner;
       row.path = joinPath(prefix, parameter.name);
       row.when = when;
-      row.title = titleOf(parameter, titlePrefix);
+      row.title = titleAt(parameter, titlePrefix);
       row.unit = parameter.unit;
       row.type = describeType(parameter.type);
       if (!parameter.required) row.defaultValue = toText(parameter.defaultValue);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/descriptor.h"
 #include "experiments/store/descriptions.h"
 

@@ -13,13 +13,9 @@ std::vector<std::string> distinctions(const Choice& metric, const std::vector<Ch
   const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
   std::vector<std::string> out;
   if (std::count_if(all.begin(), all.end(), sameName) < 2) return out;
-  for (const DeclaredAt& at : flatten(declared)) {
-    const bool exists = std::all_of(at.when.begin(), at.when.end(), [&](const auto& condition) {
-      const ParameterValue* chosen = metric.values.find(condition.first);
-      return chosen != nullptr && *chosen == ParameterValue(condition.second);
-    });
-    const ParameterValue* value = metric.values.find(at.path);
-    if (exists && value != nullptr && *value != at.parameter->defaultValue) out.push_back(toText(*value));
+  for (const DeclaredAt& at : chosen(declared, metric.values)) {
+    const ParameterValue& value = *metric.values.find(at.path);
+    if (value != at.parameter->defaultValue) out.push_back(toText(value));
   }
   return out;
 }

@@ -43,10 +43,10 @@ class ParameterWalkTest : public testing::Test {
  protected:
   // Plans and runs a sweep over the lens' width and writes its report.
   std::string reportOf(const std::string& report) {
-    experiments::Catalogue catalogue = experiments::fakeCatalogue();
+    Catalogue catalogue = experiments::fakeCatalogue();
     std::vector<Parameter>& declared = catalogue.techniques["soft/pcss"].parameters;
     for (const Parameter& parameter : Lens::table().parameters(Lens())) declared.push_back(parameter);
-    catalogue.metrics["rmse"].title = "Error of the walk";
+    catalogue.metrics["rmse"].quantity.title = "Error of the walk";
     const std::string text =
         "title: Walk\n"
         "question: Does it arrive?\n"

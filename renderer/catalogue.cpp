@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/catalogue.h"
-#include "experiments/measured_quantities.h"
+#include "renderer/catalogue.h"
+
 #include "perception/metrics/metric.h"
+#include "renderer/frame/shaded.h"
 #include "renderer/scene/scene.h"
 #include "renderer/techniques/technique.h"
 
-namespace limen::experiments {
+namespace limen {
 
-Catalogue catalogueFromRegistries() {
+namespace {
+
+Catalogue readRegistries() {
   Catalogue out;
   for (const auto& [name, info] : scene::SceneRegistry::instance().all()) {
     CatalogueEntry& entry = out.scenes[name];
@@ -36,12 +39,20 @@ Catalogue catalogueFromRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.parameters;
-    entry.unit = info.unit;
-    entry.direction = info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter;
+    entry.quantity = {name, "", info.unit,
+                      info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter,
+                      info.source};
     entry.needsReference = info.needsReference;
   }
-  out.measurements = commonQuantities();
+  out.shading = frame::ShadedSetting::parameters();
   return out;
 }
 
-}  // namespace limen::experiments
+}  // namespace
+
+std::shared_ptr<const Catalogue> catalogueFromRegistries() {
+  static const auto kCatalogue = std::make_shared<const Catalogue>(readRegistries());
+  return kCatalogue;
+}
+
+}  // namespace limen
