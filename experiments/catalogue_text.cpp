@@ -39,12 +39,6 @@ std::string describeKind(const NamedKind& kind) {
   return out;
 }
 
-std::vector<std::string> quantityNames(const std::vector<Quantity>& quantities) {
-  std::vector<std::string> out;
-  for (const Quantity& quantity : quantities) out.push_back(quantity.name);
-  return out;
-}
-
 std::string describeParameters(const std::vector<Parameter>& parameters, size_t indent);
 
 std::string describeAlternatives(const Parameter& parameter, size_t indent) {

@@ -102,7 +102,9 @@ class Store {
   /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
-  void finish(const Run& run);
+  void finish(const Run& run) { finish(std::vector<Run>{run}); }
+  /// Several at once, each whole or not at all.
+  void finish(const std::vector<Run>& runs);
   /// Gives back claims of this process that were not finished.
   void releaseClaims();
 
