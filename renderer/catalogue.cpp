@@ -44,8 +44,6 @@ Catalogue readRegistries() {
                       info.source};
     entry.needsReference = info.needsReference;
   }
-  out.measurements = {"gpu_ms",     "gpu_ms_p95", "technique_ms",     "wall_ms",      "cpu_ms",
-                      "prepare_ms", "bytes_held", "non_finite_count", "gpu_clock_mhz"};
   out.shading = frame::ShadedSetting::parameters();
   return out;
 }
