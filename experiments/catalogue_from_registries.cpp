@@ -14,7 +14,7 @@ Catalogue catalogueFromRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.allParameters();
-    entry.check = scene::checkCameraParameters;
+    entry.check = [&info](const ParameterValues& complete) { info.checkValues(complete); };
   }
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
     CatalogueEntry& entry = out.techniques[name];

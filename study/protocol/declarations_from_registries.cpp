@@ -12,7 +12,7 @@ std::shared_ptr<const Declarations> declarationsFromRegistries() {
     out->scenes[name] = {info.version, info.allParameters()};
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all())
     out->techniques[name] = {info.version, info.parameters};
-  out->shading = frame::ShadedSetting::parameters();
+  out->shading = frame::ShadedSetting::table().parameters();
   return out;
 }
 

@@ -90,7 +90,7 @@ void LayerImages::compositeLayers(const std::vector<int>& drawn) {
   const auto scope = parent_.passes().open(kComposite);
   const gl::Program& program = compositeProgram_;
   program.set("sizePx", parent_.sizePx());
-  program.set("background", shading_.background);
+  program.set("background", glm::vec3(static_cast<float>(shading_.background)));
   frontColour_.bindImage(0, gl::Access::ReadWrite);
   frontKey_.bindImage(1, gl::Access::ReadWrite);
   secondColour_.bindImage(2, gl::Access::ReadWrite);
