@@ -31,6 +31,12 @@ struct ShadedSetting {
   static const SettingsTable<ShadedSetting>& table();
 };
 
+/// The line `shading` in the table of whatever shades.
+template <class S>
+Binding<S> shadingBinding(ShadedSetting S::*member) {
+  return {member, "shading", "How the picture is lit"};
+}
+
 /// The picture of a frame: RGBA32F, row 0 at the top, linear display-referred radiance (0..1 for albedos and
 /// lighting shares that sum to 1; highlights may pass 1), alpha 1. Background pixels hold the setting's
 /// constant. Normals are turned to the camera. Terrain is lit through its apertures (Schwarz 2009, 10.3.5).
