@@ -16,7 +16,7 @@
 #include "experiments/product.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
-#include "experiments/stage.h"
+#include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/techniques/technique.h"
@@ -43,10 +43,10 @@ class Stopwatch {
 };
 
 /// A scene as all runs of a batch share it, with what they share of one view.
-struct SharedStage {
-  explicit SharedStage(scene::Scene built) : stage(std::move(built)), facts(stage.facts()) {}
+struct SharedScene {
+  explicit SharedScene(scene::Scene built) : onGpu(std::move(built)), facts(sceneFacts(onGpu.scene)) {}
 
-  Stage stage;
+  frame::SceneOnGpu onGpu;
   nlohmann::json facts;
   // For one image size:
   glm::ivec2 sizePx{0};
@@ -149,31 +149,31 @@ class GlExecutor : public Executor {
     finished(run.index, std::move(run.outcome));
   }
 
-  SharedStage& stage(const PlannedRun& run) {
+  SharedScene& sceneOf(const PlannedRun& run) {
     const std::string key = run.scene.name + run.scene.values.toJson().dump();
-    if (key != stageKey_) {
+    if (key != sceneKey_) {
       const Stopwatch watch(seconds_["scenes"]);
-      stageKey_.clear();
-      stage_.reset();
-      stage_ = std::make_unique<SharedStage>(scene::buildScene(run.scene.name, run.scene.values));
-      stageKey_ = key;
+      sceneKey_.clear();
+      scene_.reset();
+      scene_ = std::make_unique<SharedScene>(scene::buildScene(run.scene.name, run.scene.values));
+      sceneKey_ = key;
     }
     const glm::ivec2 sizePx(run.widthPx, run.heightPx);
-    if (stage_->sizePx != sizePx) {
+    if (scene_->sizePx != sizePx) {
       const Stopwatch watch(seconds_["rendering"]);
-      stage_->view = stage_->stage.view(*context_, sizePx);
-      stage_->sizePx = sizePx;
+      scene_->view = viewImages(*context_, scene_->onGpu, sizePx);
+      scene_->sizePx = sizePx;
     }
-    return *stage_;
+    return *scene_;
   }
 
   /// Prepares a run, renders it once and judges the product.
   void begin(LiveRun& run) {
     const PlannedRun& plan = *run.plan;
     run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
-    SharedStage& on = stage(plan);
+    SharedScene& on = sceneOf(plan);
     run.outcome.sceneFacts = on.facts;
-    requireTraits(*run.info, on.stage.scene);
+    requireTraits(*run.info, on.onGpu.scene);
     prepare(run, on);
     if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
       run.outcome.sceneFacts["remarks"] = remarks;
@@ -235,10 +235,10 @@ class GlExecutor : public Executor {
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
   }
 
-  void prepare(LiveRun& run, const SharedStage& on) {
+  void prepare(LiveRun& run, const SharedScene& on) {
     const Stopwatch watch(seconds_["rendering"]);
     run.technique = run.info->make(run.plan->technique.values);
-    run.frame = std::make_unique<frame::Frame>(*context_, on.stage.scene, on.stage.gpu, on.sizePx);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.onGpu, on.sizePx);
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
@@ -261,15 +261,15 @@ class GlExecutor : public Executor {
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  const Image& referenceFor(const PlannedRun& run, const SharedStage& on) {
+  const Image& referenceFor(const PlannedRun& run, const SharedScene& on) {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
     return references_.get(sha256(identity.dump()),
-                           [&] { return renderOnce(*context_, on.stage, on.sizePx, run.reference); });
+                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
   }
 
-  void startArtefacts(LiveRun& run, const SharedStage& on, Image product, const Image* reference,
+  void startArtefacts(LiveRun& run, const SharedScene& on, Image product, const Image* reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     if (!run.plan->artefacts.pictures && !run.plan->artefacts.exr) return;
     std::map<std::string, Image> views;
@@ -313,8 +313,8 @@ class GlExecutor : public Executor {
   GpuClock clock_;
   ReferenceCache references_;
   store::Environment environment_;
-  std::string stageKey_;
-  std::unique_ptr<SharedStage> stage_;
+  std::string sceneKey_;
+  std::unique_ptr<SharedScene> scene_;
   std::map<std::string, double> seconds_;
 };
 

@@ -39,7 +39,7 @@ class EveryControl : public ViewerTest {
  protected:
   /// Fails where the picture is wrong; a refusal with a way out is none.
   void expectSound(const std::string& what) {
-    const RenderResult& shown = *viewer_->shown();
+    const RenderResult& shown = *viewer_->state().shown;
     EXPECT_EQ(shown.error, "") << what;
     for (const Rendered& one : shown.rendered) {
       EXPECT_EQ(one.failure, "") << what;
@@ -53,7 +53,7 @@ class EveryControl : public ViewerTest {
       const Parameter& parameter = info.parameters[i];
       const std::string control = "technique." + parameter.name, what = info.name + ", " + parameter.name;
       if (std::getenv("LIMEN_EVERY_CONTROL")) std::printf("%s\n", what.c_str()), std::fflush(stdout);
-      const auto now = [&] { return toText(viewer::shown(viewer_->choices().technique, parameter)); };
+      const auto now = [&] { return toText(viewer::shown(viewer_->state().setup.technique, parameter)); };
       switch (parameter.type) {
         case ParameterType::Boolean:
           click(control);
@@ -68,7 +68,7 @@ class EveryControl : public ViewerTest {
             // From one end to the other as a hand does, past the end.
             drag(along(control, 0.5F), along(control, end) + glm::vec2(end > 0.5F ? 40.0F : -40.0F, 0.0F));
             const double expected = end > 0.5F ? *parameter.maximum : *parameter.minimum;
-            const ParameterValue value = viewer::shown(viewer_->choices().technique, parameter);
+            const ParameterValue value = viewer::shown(viewer_->state().setup.technique, parameter);
             const double is = parameter.type == ParameterType::Integer
                                   ? static_cast<double>(std::get<int64_t>(value))
                                   : std::get<double>(value);
@@ -78,11 +78,11 @@ class EveryControl : public ViewerTest {
           }
           break;
         case ParameterType::Choice:
-          for (const std::string& choice : {parameter.choices.front(), parameter.choices.back()}) {
-            Choices choices = viewer_->choices();
-            give(choices.technique, parameter, choice);
+          for (const std::string& choice : {parameter.setup.front(), parameter.setup.back()}) {
+            Setup setup = viewer_->state().setup;
+            give(setup.technique, parameter, choice);
             try {
-              viewer_->choose(choices);
+              viewer_->show(setup);
             } catch (const Error&) {
               continue;  // does not go with the others at their default
             }
@@ -93,9 +93,9 @@ class EveryControl : public ViewerTest {
         default:
           break;
       }
-      Choices choices = viewer_->choices();
-      choices.technique.given.clear();
-      viewer_->choose(choices);
+      Setup setup = viewer_->state().setup;
+      setup.technique.given.clear();
+      viewer_->show(setup);
     }
   }
 
@@ -107,9 +107,9 @@ class EveryControl : public ViewerTest {
 };
 
 TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
-  Choices choices = smallChoices("soft_shadows/pcf", "sphere_grid");
-  choices.sizePx = {24, 18};
-  open(choices, {}, {900, 2600});
+  Setup setup = smallChoices("soft_shadows/pcf", "sphere_grid");
+  setup.sizePx = {24, 18};
+  open(setup, {}, {900, 2600});
   rest();
   size_t index = 0;
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
@@ -118,11 +118,11 @@ TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
     SCOPED_TRACE(name);
     const std::string scene = sceneFor(info);
     ASSERT_NE(scene, "") << "no scene here has what " << name << " needs";
-    Choices fitting = viewer_->choices();
+    Setup fitting = viewer_->state().setup;
     fitting.scene = {scene, {}};
     fitting.reference.reset();
-    fitting.other.reset();
-    viewer_->choose(fitting);
+    fitting.second.reset();
+    viewer_->show(fitting);
     rest();
     click("technique");
     draw();
@@ -132,13 +132,13 @@ TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
     draw();
     draw();
     click("technique/" + name);
-    ASSERT_EQ(viewer_->choices().technique.name, name);
-    fitting = viewer_->choices();
+    ASSERT_EQ(viewer_->state().setup.technique.name, name);
+    fitting = viewer_->state().setup;
     fitting.reference.reset();
-    viewer_->choose(fitting);
+    viewer_->show(fitting);
     rest();
     expectSound(name);
-    EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "") << name;
+    EXPECT_EQ(viewer_->state().shown->rendered.at(0).error, "") << name;
     throughItsEnds(info);
   }
 }

@@ -87,10 +87,10 @@ TEST_F(StimulusRendererTest, FramesAreThoseOfTheRendererAtTheirTimeAndLevel) {
 }
 
 TEST_F(StimulusRendererTest, TheSameStimulusGivesTheSameBytes) {
-  StageCache stages;
-  StimulusRenderer a(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
-  StimulusRenderer b(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
-  EXPECT_EQ(&a.stage(), &b.stage());
+  SceneCache scenes;
+  StimulusRenderer a(context(), patchStimulus(), kStimulusSize, studyDisplay(), &scenes);
+  StimulusRenderer b(context(), patchStimulus(), kStimulusSize, studyDisplay(), &scenes);
+  EXPECT_EQ(&a.scene(), &b.scene());
   b.render(11);  // order does not matter
   EXPECT_EQ(a.readBack(3).data, b.readBack(3).data);
 }

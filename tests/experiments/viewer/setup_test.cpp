@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/viewer/choices.h"
+#include "experiments/viewer/setup.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "experiments/base/error.h"
-#include "experiments/viewer/latest.h"
+#include "experiments/viewer/mailbox.h"
 
 namespace limen::viewer {
 namespace {
@@ -17,8 +17,8 @@ Parameter parameterOf(const std::string& technique, const std::string& name) {
   return {};
 }
 
-TEST(Choices, HoldsOnlyWhatIsNotAtItsDefault) {
-  Chosen chosen{"soft_shadows/ray_traced", {}};
+TEST(Setup, HoldsOnlyWhatIsNotAtItsDefault) {
+  Entry chosen{"soft_shadows/ray_traced", {}};
   const Parameter samples = parameterOf(chosen.name, "samples");
   give(chosen, samples, int64_t{64});
   EXPECT_EQ(chosen.given.size(), 1U);
@@ -29,11 +29,11 @@ TEST(Choices, HoldsOnlyWhatIsNotAtItsDefault) {
   EXPECT_TRUE(chosen.given.empty());
 }
 
-TEST(Choices, ReferencesGoFromCoarseToFineByValidSteps) {
-  const std::vector<Chosen> steps = fromCoarseToFine({"soft_shadows/ray_traced", {}});
+TEST(Setup, ReferencesGoFromCoarseToFineByValidSteps) {
+  const std::vector<Entry> steps = fromCoarseToFine({"soft_shadows/ray_traced", {}});
   ASSERT_GE(steps.size(), 3U);
   int64_t before = 0;
-  for (const Chosen& step : steps) {
+  for (const Entry& step : steps) {
     const int64_t samples = completeTechnique(step).values.integer("samples");
     EXPECT_GT(samples, before);
     before = samples;
@@ -42,7 +42,7 @@ TEST(Choices, ReferencesGoFromCoarseToFineByValidSteps) {
   EXPECT_EQ(fromCoarseToFine({"soft_shadows/exact_union", {}}).size(), 1U);
 }
 
-TEST(Choices, AUsualReferenceMakesTheSameKindOfProduct) {
+TEST(Setup, AUsualReferenceMakesTheSameKindOfProduct) {
   for (const char* name :
        {"soft_shadows/bitmask", "lod/blend", "soft_shadows/bitmask_coloured", "perception/threshold_map"}) {
     const auto reference = usualReference(name);
@@ -52,8 +52,8 @@ TEST(Choices, AUsualReferenceMakesTheSameKindOfProduct) {
   }
 }
 
-TEST(Latest, KeepsTheNewestAlone) {
-  Latest<int> box;
+TEST(Mailbox, KeepsTheNewestAlone) {
+  Mailbox<int> box;
   EXPECT_FALSE(box.take());
   box.put(1);
   box.put(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is kept is what was seen: a sweep of the kept descriptor makes the same product, to the last bit.
-#include "experiments/viewer/keep.h"
+// What is exported is what was seen: a sweep of the exported descriptor makes the same product, to the last bit.
+#include "experiments/viewer/export_descriptor.h"
 
 #include <fstream>
 #include <sstream>
@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class Keep : public ViewerTest {
+class ExportDescriptor : public ViewerTest {
  protected:
   /// Product hashes of a sweep of the descriptor, one for each technique. Fewer timed frames than it asks
   /// for: they do not decide the product.
@@ -36,65 +36,65 @@ class Keep : public ViewerTest {
     return hashes;
   }
 
-  void expectKept(const std::string& what) {
+  void expectSameProducts(const std::string& what) {
     rest();
-    const RenderResult shown = *viewer_->shown();
+    const RenderResult shown = *viewer_->state().shown;
     ASSERT_EQ(shown.error, "") << what;
     for (const Rendered& one : shown.rendered) ASSERT_EQ(one.error, "") << what;
-    const std::string path = viewer_->keepDescriptor();
-    ASSERT_NE(path, "") << what << ": " << viewer_->messages().back();
+    const std::string path = viewer_->exportDescriptor();
+    ASSERT_NE(path, "") << what << ": " << viewer_->state().messages.back();
     const std::vector<std::string> hashes = sweptHashes(path);
     ASSERT_EQ(hashes.size(), shown.rendered.size()) << what;
     for (size_t i = 0; i < hashes.size(); ++i) EXPECT_EQ(hashes[i], shown.rendered[i].productHash) << what;
   }
 };
 
-TEST_F(Keep, AViewThatWasDraggedToWithOtherParameters) {
-  Choices choices = smallChoices("soft_shadows/bitmask");
-  choices.technique.given["budget"] = int64_t{37};
-  choices.scene.given["light_size"] = 1.0 / 3.0;
-  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
-  choices.other = Chosen{"soft_shadows/pcss", {}};
-  open(choices);
+TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
+  Setup setup = smallChoices("soft_shadows/bitmask");
+  setup.technique.given["budget"] = int64_t{37};
+  setup.scene.given["light_size"] = 1.0 / 3.0;
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  setup.second = Entry{"soft_shadows/pcss", {}};
+  open(setup);
   rest();
   const glm::vec2 centre = centreOf("picture");
   drag(centre, centre + glm::vec2(37.0F, -21.0F));
   ui_->moveMouse(centre);
   ui_->scroll(2.0F);
   draw();
-  expectKept("dragged");
+  expectSameProducts("dragged");
 }
 
-TEST_F(Keep, APlaceOnTheScenesPathFarFromTheOrigin) {
-  Choices choices = smallChoices("soft_shadows/pcf", "columns_hall");
-  choices.scene.given["time_s"] = 1.2345;
-  choices.scene.given["offset"] = 1000.0;
-  open(choices);
-  expectKept("on the path");
+TEST_F(ExportDescriptor, APlaceOnTheScenesPathFarFromTheOrigin) {
+  Setup setup = smallChoices("soft_shadows/pcf", "columns_hall");
+  setup.scene.given["time_s"] = 1.2345;
+  setup.scene.given["offset"] = 1000.0;
+  open(setup);
+  expectSameProducts("on the path");
 }
 
-TEST_F(Keep, LevelsOfDetailInColour) {
+TEST_F(ExportDescriptor, LevelsOfDetailInColour) {
   open(smallChoices("lod/blend", "lod/object"));
-  expectKept("levels");
+  expectSameProducts("levels");
 }
 
-TEST_F(Keep, WhatIsKeptIsOpenedAgainAsItWas) {
-  Choices choices = smallChoices("soft_shadows/bitmask");
-  choices.technique.given["pattern"] = std::string("regular_8");
-  choices.scene.given["light_size"] = 0.1;
-  choices.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
-  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
+TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
+  Setup setup = smallChoices("soft_shadows/bitmask");
+  setup.technique.given["pattern"] = std::string("regular_8");
+  setup.scene.given["light_size"] = 0.1;
+  setup.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   const std::string folder = folder_.string();
-  const std::string first = keep(choices, folder), second = keep(choices, folder);
+  const std::string first = exportDescriptor(setup, folder), second = exportDescriptor(setup, folder);
   EXPECT_NE(first, second) << "nothing is overwritten";
-  EXPECT_EQ(choicesOf(first), choices);
-  EXPECT_THAT(descriptorOf(choices), Not(HasSubstr("budget")));
+  EXPECT_EQ(readSetup(first), setup);
+  EXPECT_THAT(descriptorOf(setup), Not(HasSubstr("budget")));
 }
 
-TEST_F(Keep, WhatASweepWouldRefuseIsNotWritten) {
-  Choices choices = smallChoices();
-  choices.reference = Chosen{"lod/finest", {}};  // another kind of product
-  EXPECT_THROW(keep(choices, folder_.string()), Error);
+TEST_F(ExportDescriptor, WhatASweepWouldRefuseIsNotWritten) {
+  Setup setup = smallChoices();
+  setup.reference = Entry{"lod/finest", {}};  // another kind of product
+  EXPECT_THROW(exportDescriptor(setup, folder_.string()), Error);
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) ADD_FAILURE() << entry.path();
 }
 
