@@ -6,10 +6,10 @@
 
 #include "experiments/base/replace_file.h"
 #include "experiments/base/value_writer.h"
-#include "experiments/catalogue.h"
 #include "experiments/descriptor.h"
 #include "experiments/plan.h"
 #include "experiments/viewer/results_folder.h"
+#include "renderer/catalogue.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::viewer {
@@ -68,14 +68,14 @@ std::string exportDescriptor(const Setup& setup, const std::string& folder) {
   const fs::path path = freshName(folder, "exported", ".yaml");
   const std::string text = descriptorOf(setup);
   // Whatever a sweep would refuse is reported now, while the picture is still on screen.
-  const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
+  const Catalogue& catalogue = *catalogueFromRegistries();
   experiments::makePlan(experiments::parseDescriptor(text, path.string(), catalogue, {}), catalogue);
   replaceFile(path.string(), text);
   return path.string();
 }
 
 Setup readSetup(const std::string& descriptorPath) {
-  const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
+  const Catalogue& catalogue = *catalogueFromRegistries();
   const experiments::Plan plan =
       experiments::makePlan(experiments::readDescriptor(descriptorPath, catalogue, {}), catalogue);
   const experiments::PlannedRun& run = plan.runs.at(0);
