@@ -75,11 +75,13 @@ bool editText(const char* id, std::string& text) {
 template <class Item>
 std::optional<ParameterValue> itemChooser(const std::vector<Item>& items, const Item& now,
                                           const std::function<std::string(const Item&)>& textOf,
-                                          const std::function<std::string(const Item&)>& about) {
+                                          const std::function<std::string(const Item&)>& about,
+                                          const std::function<void(const Item&)>& noteItem) {
   std::optional<ParameterValue> next;
   if (!ImGui::BeginCombo("##value", textOf(now).c_str(), ImGuiComboFlags_HeightLarge)) return next;
   for (const Item& item : items) {
     if (ImGui::Selectable(textOf(item).c_str(), item == now) && item != now) next = item;
+    noteItem(item);
     if (const std::string text = about(item); !text.empty() && ImGui::IsItemHovered())
       ImGui::SetTooltip("%s", text.c_str());
     if (item == now) ImGui::SetItemDefaultFocus();
@@ -98,8 +100,10 @@ std::optional<ParameterValue> slider(const Parameter& parameter, ImGuiDataType t
   return value;
 }
 
-/// The control itself; gives the new value if the user changed it.
-std::optional<ParameterValue> control(const Parameter& parameter, const ParameterValue& now) {
+/// The control itself; gives the new value if the user changed it. Items of an open list are noted as
+/// "NAME/ITEM".
+std::optional<ParameterValue> control(const Parameter& parameter, const ParameterValue& now,
+                                      const std::string& name, ControlMap& places) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   switch (parameter.type) {
     case ParameterType::Boolean: {
@@ -111,17 +115,19 @@ std::optional<ParameterValue> control(const Parameter& parameter, const Paramete
         return itemChooser<int64_t>(
             parameter.allowed, std::get<int64_t>(now),
             [&](const int64_t& number) { return std::to_string(number) + unit; },
-            [](const int64_t&) { return std::string(); });
+            [](const int64_t&) { return std::string(); },
+            [&](const int64_t& number) { places.note(name + "/" + std::to_string(number)); });
       return slider<int64_t>(parameter, ImGuiDataType_S64, std::get<int64_t>(now), "%lld" + escaped(unit));
     case ParameterType::Real:
       return slider<double>(parameter, ImGuiDataType_Double, std::get<double>(now), "%.5g" + escaped(unit));
     case ParameterType::Choice:
       return itemChooser<std::string>(
-          parameter.choices, std::get<std::string>(now), [](const std::string& name) { return name; },
-          [&](const std::string& name) {
-            const Alternative* alternative = findAlternative(parameter, name);
+          parameter.choices, std::get<std::string>(now), [](const std::string& item) { return item; },
+          [&](const std::string& item) {
+            const Alternative* alternative = findAlternative(parameter, item);
             return alternative ? alternative->description : std::string();
-          });
+          },
+          [&](const std::string& item) { places.note(name + "/" + item); });
     case ParameterType::Text:
     case ParameterType::File: {
       std::string text = std::get<std::string>(now);
@@ -177,7 +183,7 @@ class ParameterRows {
     tooltip(path, parameter, &now);
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1.0F);
-    if (const std::optional<ParameterValue> next = control(parameter, now)) {
+    if (const std::optional<ParameterValue> next = control(parameter, now, name, places_)) {
       try {
         change_ = {path, validate(parameter, *next, name)};
       } catch (const Error&) {

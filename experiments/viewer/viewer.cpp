@@ -8,6 +8,7 @@
 #include "experiments/base/error.h"
 #include "experiments/product.h"
 #include "experiments/viewer/export_descriptor.h"
+#include "experiments/viewer/interface.h"
 #include "experiments/viewer/picture_files.h"
 #include "perception/metrics/error_map.h"
 
@@ -19,7 +20,10 @@ constexpr size_t kTimesShown = 240, kMessagesShown = 50;
 }  // namespace
 
 Viewer::Viewer(window::UiSurface& surface, ViewerOptions options, std::function<void()> wake)
-    : surface_(surface), render_(wake, options.shaderRoot), evaluation_(wake) {
+    : surface_(surface),
+      render_(wake, options.shaderRoot),
+      evaluation_(wake),
+      interface_(std::make_unique<Interface>()) {
   state_.device = render_.device();
   state_.resultsFolder = std::move(options.resultsFolder);
   state_.shaderRoot = std::move(options.shaderRoot);
@@ -185,8 +189,8 @@ void Viewer::build(double secondsPassed) {
   state_.atRest = atRest();
   flying_ = false;
   const bool wasMoving = moving_;
-  interface_.build({state_, commands_, controls_}, glm::vec2(surface_.sizePx()), surface_.fonts().bodyPx,
-                   secondsPassed);
+  interface_->build({state_, commands_, controls_}, glm::vec2(surface_.sizePx()), surface_.fonts().bodyPx,
+                    secondsPassed);
   for (const ViewerCommand& command : commands_.take()) execute(command);
   updateMoving();
   if (!(state_.setup == request_.setup) || state_.debugView != request_.view ||

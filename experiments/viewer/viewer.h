@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/viewer/controls.h"
 #include "experiments/viewer/evaluation_thread.h"
-#include "experiments/viewer/interface.h"
 #include "experiments/viewer/path_recorder.h"
 #include "experiments/viewer/render_thread.h"
 #include "experiments/viewer/viewer_command.h"
@@ -16,6 +17,8 @@
 #include "renderer/window/ui_surface.h"
 
 namespace limen::viewer {
+
+class Interface;
 
 struct ViewerOptions {
   Setup setup;
@@ -107,7 +110,7 @@ class Viewer {
   RenderThread render_;
   EvaluationThread evaluation_;
   ViewerState state_;
-  Interface interface_;
+  std::unique_ptr<Interface> interface_;
   CommandQueue commands_;
   ControlMap controls_;
   ParameterMemory memory_;

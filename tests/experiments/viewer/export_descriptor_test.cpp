@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is exported is what was seen: a sweep of the exported descriptor makes the same product, to the last bit.
+// What is exported is what was seen: a sweep of the exported descriptor makes the same product, to the last
+// bit.
 #include "experiments/viewer/export_descriptor.h"
 
 #include <fstream>
@@ -50,7 +51,7 @@ class ExportDescriptor : public ViewerTest {
 };
 
 TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
-  Setup setup = smallChoices("soft_shadows/bitmask");
+  Setup setup = smallSetup("soft_shadows/bitmask");
   setup.technique.given["budget"] = int64_t{37};
   setup.scene.given["light_size"] = 1.0 / 3.0;
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
@@ -66,7 +67,7 @@ TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
 }
 
 TEST_F(ExportDescriptor, APlaceOnTheScenesPathFarFromTheOrigin) {
-  Setup setup = smallChoices("soft_shadows/pcf", "columns_hall");
+  Setup setup = smallSetup("soft_shadows/pcf", "columns_hall");
   setup.scene.given["time_s"] = 1.2345;
   setup.scene.given["offset"] = 1000.0;
   open(setup);
@@ -74,12 +75,12 @@ TEST_F(ExportDescriptor, APlaceOnTheScenesPathFarFromTheOrigin) {
 }
 
 TEST_F(ExportDescriptor, LevelsOfDetailInColour) {
-  open(smallChoices("lod/blend", "lod/object"));
+  open(smallSetup("lod/blend", "lod/object"));
   expectSameProducts("levels");
 }
 
 TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
-  Setup setup = smallChoices("soft_shadows/bitmask");
+  Setup setup = smallSetup("soft_shadows/bitmask");
   setup.technique.given["pattern"] = std::string("regular_8");
   setup.scene.given["light_size"] = 0.1;
   setup.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
@@ -91,8 +92,14 @@ TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
   EXPECT_THAT(descriptorOf(setup), Not(HasSubstr("budget")));
 }
 
+TEST_F(ExportDescriptor, AlternativesAreOpenedAgainAsTheyWere) {
+  Setup setup = smallSetup("test/alternatives");
+  setup.technique.given = {{"source", "stepped"}, {"source.steps", int64_t{8}}, {"gain.factor", 1.0 / 3.0}};
+  EXPECT_EQ(readSetup(exportDescriptor(setup, folder_.string())), setup);
+}
+
 TEST_F(ExportDescriptor, WhatASweepWouldRefuseIsNotWritten) {
-  Setup setup = smallChoices();
+  Setup setup = smallSetup();
   setup.reference = Entry{"lod/finest", {}};  // another kind of product
   EXPECT_THROW(exportDescriptor(setup, folder_.string()), Error);
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) ADD_FAILURE() << entry.path();

@@ -61,7 +61,7 @@ class ShaderReload : public ViewerTest {
 TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   const fs::path root = copyShaders();
   gl::setShaderRoot(root.string());
-  open(smallChoices("soft_shadows/hard"), root.string());
+  open(smallSetup("soft_shadows/hard"), root.string());
   rest();
   const std::string own = hash();
 

@@ -5,28 +5,81 @@
 #include <gtest/gtest.h>
 
 #include "experiments/base/error.h"
+#include "experiments/viewer/export_descriptor.h"
 #include "experiments/viewer/mailbox.h"
 
 namespace limen::viewer {
 namespace {
 
-Parameter parameterOf(const std::string& technique, const std::string& name) {
-  for (const Parameter& parameter : techniqueParameters(technique))
-    if (parameter.name == name) return parameter;
-  ADD_FAILURE() << technique << " has no " << name;
-  return {};
-}
+using testing::HasSubstr;
+using Values = std::map<std::string, ParameterValue>;
+
+constexpr const char* kAlternatives = "test/alternatives";
 
 TEST(Setup, HoldsOnlyWhatIsNotAtItsDefault) {
-  Entry chosen{"soft_shadows/ray_traced", {}};
-  const Parameter samples = parameterOf(chosen.name, "samples");
-  give(chosen, samples, int64_t{64});
-  EXPECT_EQ(chosen.given.size(), 1U);
-  EXPECT_EQ(shown(chosen, samples), ParameterValue(int64_t{64}));
-  give(chosen, samples, samples.defaultValue);
-  EXPECT_TRUE(chosen.given.empty());
-  EXPECT_THROW(give(chosen, samples, int64_t{-3}), Error);
-  EXPECT_TRUE(chosen.given.empty());
+  Entry entry{"soft_shadows/ray_traced", {}};
+  const std::vector<Parameter>& declared = techniqueParameters(entry.name);
+  const Parameter* samples = findDeclaration(declared, entry, "samples");
+  ASSERT_TRUE(samples);
+  setParameter(entry, declared, "samples", int64_t{64});
+  EXPECT_EQ(entry.given.size(), 1U);
+  EXPECT_EQ(valueAt(entry, "samples", *samples), ParameterValue(int64_t{64}));
+  setParameter(entry, declared, "samples", samples->defaultValue);
+  EXPECT_TRUE(entry.given.empty());
+  EXPECT_THROW(setParameter(entry, declared, "samples", int64_t{-3}), Error);
+  EXPECT_TRUE(entry.given.empty());
+}
+
+TEST(Setup, AnotherAlternativeDropsTheParametersOfThePreviousOne) {
+  const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
+  Entry entry{kAlternatives, {}};
+  setParameter(entry, declared, "source.level", 0.25);
+  setParameter(entry, declared, "gain.factor", 2.0);
+  setParameter(entry, declared, "source", "stepped");
+  EXPECT_EQ(entry.given, (Values{{"source", "stepped"}, {"gain.factor", 2.0}}));
+  EXPECT_NO_THROW(completeTechnique(entry));
+  setParameter(entry, declared, "source.steps", int64_t{8});
+  setParameter(entry, declared, "source", "fixed");
+  EXPECT_EQ(entry.given, (Values{{"gain.factor", 2.0}}));
+}
+
+TEST(Setup, AParameterOfAnotherAlternativeIsRefusedWithWhereItExists) {
+  const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
+  Entry entry{kAlternatives, {}};
+  EXPECT_EQ(findDeclaration(declared, entry, "source.steps"), nullptr);
+  EXPECT_EQ(findDeclaration(declared, entry, "gain"), nullptr) << "a group has no value";
+  try {
+    setParameter(entry, declared, "source.steps", int64_t{8});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("source: stepped"));
+  }
+  EXPECT_THROW(setParameter(entry, declared, "source.lvel", 0.5), Error);
+  EXPECT_THROW(setParameter(entry, declared, "gain", 0.5), Error);
+  EXPECT_TRUE(entry.given.empty());
+}
+
+TEST(Setup, AnAlternativeChosenAgainHasTheValuesItHad) {
+  const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
+  Entry entry{kAlternatives, {}};
+  ParameterMemory memory;
+  memory.set(entry, declared, "source", "stepped");
+  memory.set(entry, declared, "source.steps", int64_t{8});
+  memory.set(entry, declared, "source", "dark");
+  EXPECT_EQ(entry.given, (Values{{"source", "dark"}}));
+  memory.set(entry, declared, "source", "stepped");
+  EXPECT_EQ(entry.given, (Values{{"source", "stepped"}, {"source.steps", int64_t{8}}}));
+  EXPECT_THROW(memory.set(entry, declared, "source", "bright"), Error);
+  EXPECT_EQ(entry.given, (Values{{"source", "stepped"}, {"source.steps", int64_t{8}}}));
+}
+
+TEST(Setup, AnExportedDescriptorNestsAlternatives) {
+  Setup setup;
+  setup.scene.name = "sphere_grid";
+  setup.technique = {kAlternatives,
+                     {{"source", "stepped"}, {"source.steps", int64_t{8}}, {"gain.factor", 1.5}}};
+  EXPECT_THAT(descriptorOf(setup), HasSubstr("- {name: test/alternatives, source: {kind: stepped, steps: 8}, "
+                                             "gain: {factor: 1.5}}\n"));
 }
 
 TEST(Setup, ReferencesGoFromCoarseToFineByValidSteps) {
@@ -34,7 +87,7 @@ TEST(Setup, ReferencesGoFromCoarseToFineByValidSteps) {
   ASSERT_GE(steps.size(), 3U);
   int64_t before = 0;
   for (const Entry& step : steps) {
-    const int64_t samples = completeTechnique(step).values.integer("samples");
+    const int64_t samples = std::get<int64_t>(*completeTechnique(step).values.find("samples"));
     EXPECT_GT(samples, before);
     before = samples;
   }
@@ -52,7 +105,7 @@ TEST(Setup, AUsualReferenceMakesTheSameKindOfProduct) {
   }
 }
 
-TEST(Mailbox, KeepsTheNewestAlone) {
+TEST(Mailbox, HandsOverOnlyTheNewest) {
   Mailbox<int> box;
   EXPECT_FALSE(box.take());
   box.put(1);

@@ -162,14 +162,15 @@ TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
   int number = 1;
   while (fs::exists(exported(number))) ++number;
   ASSERT_TRUE(until([&] {
-    // With pauses in which the window draws a frame, however slow the machine: a hand leaves them too.
+    // With pauses in which the window draws a frame, however slow the machine: people leave them too.
     xdotool(
         "mousemove 500 400 sleep 0.4 mousedown 1 sleep 0.4 mousemove 520 405 sleep 0.4 "
         "mousemove 590 420 sleep 0.4 mouseup 1 sleep 0.4");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    return fs::exists(exported(number)) && read(exported(number++)).find("camera: \"eye ") != std::string::npos;
+    return fs::exists(exported(number)) &&
+           read(exported(number++)).find("camera: \"eye ") != std::string::npos;
   })) << read(path("out.txt"));
   kill(process_, SIGTERM);
   EXPECT_EQ(finish(), 0) << read(path("out.txt"));

@@ -16,7 +16,7 @@
 
 namespace limen::viewer {
 
-/// A viewer on a surface in memory, with a hand that says where the mouse is and what is pressed.
+/// A viewer on a surface in memory, with functions that move its mouse and press its keys.
 class ViewerTest : public testing::Test {
  protected:
   ViewerTest()
@@ -31,8 +31,8 @@ class ViewerTest : public testing::Test {
   }
 
   /// Small pictures: a software renderer makes them.
-  static Setup smallChoices(const std::string& technique = "soft_shadows/pcss",
-                            const std::string& scene = "sphere_grid") {
+  static Setup smallSetup(const std::string& technique = "soft_shadows/pcss",
+                          const std::string& scene = "sphere_grid") {
     Setup setup;
     setup.scene.name = scene;
     setup.technique.name = technique;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The viewer as a hand uses it, without a window.
+// The viewer used by mouse and keys, without a window.
 #include <GLFW/glfw3.h>
 
 #include <chrono>
@@ -49,10 +49,10 @@ techniques::TechniqueInfo slowReference() {
 }
 const Registered<techniques::TechniqueInfo> kSlowReference{slowReference()};
 
-class ViewerHand : public ViewerTest {};
+class ViewerUse : public ViewerTest {};
 
-TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
-  Setup setup = smallChoices();
+TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
+  Setup setup = smallSetup();
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   open(setup);
   rest();
@@ -82,16 +82,16 @@ TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(ViewerHand, ThePictureOnScreenIsTheOneThatASweepWrites) {
+TEST_F(ViewerUse, ThePictureOnScreenIsTheOneThatASweepWrites) {
   for (const char* technique : {"soft_shadows/pcf", "soft_shadows/bitmask_coloured", "lod/finest"}) {
     Setup setup =
-        smallChoices(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
+        smallSetup(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
     open(setup);
     rest();
     const Rendered& one = viewer_->state().shown->rendered.at(0);
     ASSERT_EQ(one.error, "") << technique;
-    const ScreenPicture expected =
-        screenPicture(experiments::productPicture(one.kind, *one.product, viewer_->state().shown->view->shading));
+    const ScreenPicture expected = screenPicture(
+        experiments::productPicture(one.kind, *one.product, viewer_->state().shown->view->shading));
     ASSERT_EQ(one.picture->rgba.size(), expected.rgba.size());
     // The shader rounds in single precision: a step of a byte either way.
     for (size_t i = 0; i < expected.rgba.size(); ++i)
@@ -99,8 +99,8 @@ TEST_F(ViewerHand, ThePictureOnScreenIsTheOneThatASweepWrites) {
   }
 }
 
-TEST_F(ViewerHand, RendersNothingAtRest) {
-  open(smallChoices());
+TEST_F(ViewerUse, RendersNothingAtRest) {
+  open(smallSetup());
   rest();
   // Times may still be on their way; after them nothing is.
   for (int i = 0; i < 5; ++i) draw();
@@ -115,8 +115,8 @@ TEST_F(ViewerHand, RendersNothingAtRest) {
   EXPECT_GT(viewer_->framesRendered(), before);
 }
 
-TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
-  open(smallChoices());
+TEST_F(ViewerUse, ASlowReferenceHoldsUpNothing) {
+  open(smallSetup());
   rest();
   gate.closed = true;
   Setup setup = viewer_->state().setup;
@@ -135,7 +135,7 @@ TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
   ASSERT_TRUE(until([] { return gate.waiting > 0; }))
       << viewer_->state().shown->error << viewer_->state().shown->rendered.at(0).error
       << (viewer_->state().evaluated ? viewer_->state().evaluated->error : "nothing judged");
-  // While the reference keeps its thread waiting, hands change things and pictures follow.
+  // While the reference keeps its thread waiting, settings change and pictures follow.
   const std::string hash = viewer_->state().shown->rendered.at(0).productHash;
   click(along("scene.light_size", 0.95F));
   const uint64_t asked = viewer_->state().shown->number;
@@ -150,8 +150,8 @@ TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
   EXPECT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->error.empty());
 }
 
-TEST_F(ViewerHand, AReferenceGetsBetterAndBetter) {
-  Setup setup = smallChoices();
+TEST_F(ViewerUse, AReferenceGetsBetterAndBetter) {
+  Setup setup = smallSetup();
   setup.sizePx = {16, 12};
   setup.reference = Entry{"soft_shadows/ray_traced", {}};  // 1,024 rays: after 16, 64 and 256
   open(setup);
@@ -166,8 +166,8 @@ TEST_F(ViewerHand, AReferenceGetsBetterAndBetter) {
   EXPECT_EQ(viewer_->evaluation().referencesMade(), 4);
 }
 
-TEST_F(ViewerHand, DragsOrbitAndTheSceneIsNotBuiltAgain) {
-  open(smallChoices());
+TEST_F(ViewerUse, DragsOrbitAndTheSceneIsNotBuiltAgain) {
+  open(smallSetup());
   rest();
   const scene::Camera before = viewer_->state().shown->camera;
   const ControlMap::Place* picture = viewer_->controls().find("picture");
@@ -187,8 +187,8 @@ TEST_F(ViewerHand, DragsOrbitAndTheSceneIsNotBuiltAgain) {
   EXPECT_EQ(viewer_->state().shown->camera.eye, before.eye);
 }
 
-TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
-  open(smallChoices());
+TEST_F(ViewerUse, APickedPixelTellsAllProducts) {
+  open(smallSetup());
   rest();
   const ControlMap::Place place = *viewer_->controls().find("picture");
   const glm::vec2 texel = (place.mostPx - place.leastPx) / glm::vec2(40.0F, 30.0F);
@@ -206,8 +206,8 @@ TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
   EXPECT_EQ(albedo->values.size(), 4U);
 }
 
-TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
-  Setup setup = smallChoices("lod/blend");
+TEST_F(ViewerUse, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
+  Setup setup = smallSetup("lod/blend");
   open(setup);
   rest();
   EXPECT_THAT(viewer_->state().shown->rendered.at(0).error, HasSubstr("needs a scene with"));
@@ -217,8 +217,8 @@ TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
   EXPECT_EQ(viewer_->state().shown->rendered.at(0).error, "");
 }
 
-TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
-  open(smallChoices());
+TEST_F(ViewerUse, PanesFollowTheWindowsSize) {
+  open(smallSetup());
   rest();
   for (const glm::ivec2 size :
        {glm::ivec2(320, 200), glm::ivec2(1600, 300), glm::ivec2(200, 900), glm::ivec2(1, 1)}) {
@@ -242,8 +242,8 @@ TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
     EXPECT_TRUE(message.performance) << message.text;
 }
 
-TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
-  open(smallChoices());
+TEST_F(ViewerUse, ARecordedPathPlaysAndASavedViewComesBack) {
+  open(smallSetup());
   rest();
   click("camera.view_name");
   ui_->type("from the front");
@@ -258,7 +258,8 @@ TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
   rest();
   ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera_path")) << viewer_->state().messages.back();
   EXPECT_GT(viewer_->state().shown->path.durationS(), 0.05);
-  EXPECT_NEAR(glm::length(viewer_->state().shown->camera.eye - front.eye), 0.0, 0.01 * glm::length(front.eye));
+  EXPECT_NEAR(glm::length(viewer_->state().shown->camera.eye - front.eye), 0.0,
+              0.01 * glm::length(front.eye));
   click("camera.play");
   EXPECT_TRUE(viewer_->animated());
   for (int i = 0; i < 3; ++i) draw();
@@ -270,8 +271,8 @@ TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
   EXPECT_EQ(viewer_->state().shown->camera.eye, front.eye);
 }
 
-TEST_F(ViewerHand, PicturesAreSavedOfAllProducts) {
-  Setup setup = smallChoices();
+TEST_F(ViewerUse, PicturesAreSavedOfAllProducts) {
+  Setup setup = smallSetup();
   setup.second = Entry{"soft_shadows/hard", {}};
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
   open(setup);
@@ -286,16 +287,74 @@ TEST_F(ViewerHand, PicturesAreSavedOfAllProducts) {
             viewer_->state().shown->rendered.at(0).productHash);
 }
 
-TEST_F(ViewerHand, WhatCannotBeWrittenIsSaid) {
-  open(smallChoices());
+TEST_F(ViewerUse, WhatCannotBeWrittenIsSaid) {
+  open(smallSetup());
   rest();
   std::ofstream(folder_ / "exported") << "a file where the folder should be";
   EXPECT_EQ(viewer_->exportDescriptor(), "");
   EXPECT_THAT(viewer_->state().messages.back(), HasSubstr("--results"));
 }
 
-TEST_F(ViewerHand, PredictionsArePaintedOver) {
-  Setup setup = smallChoices("soft_shadows/hard");
+TEST_F(ViewerUse, AChoiceShowsTheControlsOfItsAlternativeAlone) {
+  open(smallSetup("test/alternatives"));
+  rest();
+  const auto has = [&](const std::string& control) {
+    return viewer_->controls().find("technique." + control) != nullptr;
+  };
+  EXPECT_TRUE(has("source.level"));
+  EXPECT_FALSE(has("source.steps"));
+  // Below its choice.
+  EXPECT_GT(centreOf("technique.source.level").y, centreOf("technique.source").y);
+  EXPECT_LT(centreOf("technique.source.level").y, centreOf("technique.gain").y);
+  click(along("technique.source.level", 0.25F));
+  rest();
+  const ParameterValue level = viewer_->state().setup.technique.given.at("source.level");
+  EXPECT_NEAR(viewer_->state().shown->rendered.at(0).product->at(3, 3), std::get<double>(level), 1e-6);
+
+  click("technique.source");
+  click("technique.source/stepped");
+  rest();
+  EXPECT_FALSE(has("source.level"));
+  EXPECT_TRUE(has("source.steps"));
+  EXPECT_FALSE(viewer_->state().setup.technique.given.count("source.level"));
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).product->at(3, 3), 0.25F);  // step 1 of 4
+
+  // Back to the default alternative by the button beside the choice: its earlier value is there again.
+  click("technique.source.default");
+  rest();
+  EXPECT_EQ(viewer_->state().setup.technique.given.at("source.level"), level);
+
+  viewer_->execute(command::SetParameter{Slot::Technique, "source", "dark"});
+  rest();
+  EXPECT_FALSE(has("source.level") || has("source.steps"));
+}
+
+TEST_F(ViewerUse, GroupsFold) {
+  open(smallSetup("test/alternatives"));
+  rest();
+  ASSERT_TRUE(viewer_->controls().find("technique.gain.factor"));
+  click("technique.gain");
+  draw();
+  EXPECT_FALSE(viewer_->controls().find("technique.gain.factor"));
+  click("technique.gain");
+  draw();
+  EXPECT_TRUE(viewer_->controls().find("technique.gain.factor"));
+}
+
+TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {
+  Setup setup = smallSetup("test/alternatives");
+  setup.technique.given = {{"source", "stepped"}};
+  open(setup);
+  rest();
+  click("technique.source.steps");
+  click("technique.source.steps/8");
+  rest();
+  EXPECT_EQ(viewer_->state().setup.technique.given.at("source.steps"), ParameterValue(int64_t{8}));
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).product->at(0, 0), 0.125F);
+}
+
+TEST_F(ViewerUse, PredictionsArePaintedOver) {
+  Setup setup = smallSetup("soft_shadows/hard");
   setup.sizePx = {96, 72};
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   open(setup);
