@@ -26,7 +26,10 @@ ImGuiSliderFlags sliderFlags(const Parameter& parameter) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
   const double low = *parameter.minimum, high = *parameter.maximum;
   const bool ratios = low > 0.0 && high / low > kLogarithmicSpan;
-  const bool wide = low == 0.0 && high > 10.0 * kLogarithmicSpan;
+  // From zero on: by its extent, or by a default that a linear slider could not tell from zero.
+  const auto* usual = std::get_if<double>(&parameter.defaultValue);
+  const bool wide = low == 0.0 && (high > 10.0 * kLogarithmicSpan ||
+                                   (usual && *usual > 0.0 && high > kLogarithmicSpan * *usual));
   if (ratios || wide) flags |= ImGuiSliderFlags_Logarithmic;
   return flags;
 }

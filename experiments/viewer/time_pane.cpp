@@ -69,23 +69,4 @@ void timePane(const PaneContext& pane, float widthPx) {
   if (first->prepareMs >= 0.0) ImGui::TextDisabled("prepared in %.2f ms", first->prepareMs);
 }
 
-void counterPane(const PaneContext& pane) {
-  const Rendered* first = pane.state.rendered(0);
-  if (!first || first->counters.empty() || !heading("Counters")) return;
-  const Rendered* second = pane.state.rendered(1);
-  if (!numberTable("counters", second ? 3 : 2)) return;
-  for (const techniques::Counter& counter : first->counters) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    label(counter.name);
-    ImGui::TableNextColumn();
-    ImGui::Text("%s %s", numberText(counter.value).c_str(), counter.unit.c_str());
-    if (!second) continue;
-    ImGui::TableNextColumn();
-    for (const techniques::Counter& other : second->counters)
-      if (other.name == counter.name) ImGui::TextDisabled("%s", numberText(other.value).c_str());
-  }
-  ImGui::EndTable();
-}
-
 }  // namespace limen::viewer
