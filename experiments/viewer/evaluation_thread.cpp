@@ -19,7 +19,7 @@ namespace limen::viewer {
 namespace {
 
 /// Everything that decides a reference's product.
-std::string identityOf(const Setup& setup, const Entry& reference) {
+std::string identityOf(const ViewSetup& setup, const Entry& reference) {
   std::string out = std::to_string(setup.sizePx.x) + "x" + std::to_string(setup.sizePx.y);
   for (const Entry* entry : {&setup.scene, &reference}) {
     out += "|" + entry->name;
@@ -28,7 +28,7 @@ std::string identityOf(const Setup& setup, const Entry& reference) {
   return out;
 }
 
-std::string identityOf(const Setup& setup) {
+std::string identityOf(const ViewSetup& setup) {
   return setup.reference ? identityOf(setup, *setup.reference) : std::string{};
 }
 

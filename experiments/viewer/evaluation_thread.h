@@ -32,7 +32,7 @@ enum class Overlay {
 /// Settled products whose error, and what a person sees of it, is wanted.
 struct EvaluationRequest {
   uint64_t number = 0;  ///< comes back with every result
-  Setup setup;
+  ViewSetup setup;
   techniques::ProductKind kind = techniques::ProductKind::Visibility;
   std::shared_ptr<const Image> product, second;  ///< `second`: null, or of the second technique, same kind
   std::shared_ptr<const experiments::ViewImages> view;

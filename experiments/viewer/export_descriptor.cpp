@@ -43,7 +43,7 @@ Entry entryOf(const experiments::Choice& choice, const std::vector<Parameter>& d
 
 }  // namespace
 
-std::string descriptorOf(const Setup& setup) {
+std::string descriptorOf(const ViewSetup& setup) {
   const auto kindOf = [](const Entry& entry) {
     return techniques::TechniqueRegistry::instance().get(entry.name, "technique").product;
   };
@@ -63,7 +63,7 @@ std::string descriptorOf(const Setup& setup) {
   return out.str();
 }
 
-std::string exportDescriptor(const Setup& setup, const std::string& folder) {
+std::string exportDescriptor(const ViewSetup& setup, const std::string& folder) {
   makeFolder(folder);
   const fs::path path = freshName(folder, "exported", ".yaml");
   const std::string text = descriptorOf(setup);
@@ -74,12 +74,12 @@ std::string exportDescriptor(const Setup& setup, const std::string& folder) {
   return path.string();
 }
 
-Setup readSetup(const std::string& descriptorPath) {
+ViewSetup readSetup(const std::string& descriptorPath) {
   const Catalogue& catalogue = *catalogueFromRegistries();
   const experiments::Plan plan =
       experiments::makePlan(experiments::readDescriptor(descriptorPath, catalogue, {}), catalogue);
   const experiments::PlannedRun& run = plan.runs.at(0);
-  Setup out;
+  ViewSetup out;
   out.scene = entryOf(run.scene, sceneParameters(run.scene.name));
   out.technique = entryOf(run.technique, techniqueParameters(run.technique.name));
   if (!run.reference.name.empty())

@@ -9,13 +9,13 @@ namespace limen::viewer {
 
 /// What is on screen as a descriptor: `limen sweep` makes the same picture of it. Parameters at their default
 /// are left out.
-std::string descriptorOf(const Setup& setup);
+std::string descriptorOf(const ViewSetup& setup);
 
 /// Writes descriptorOf() to a new file "exported_NNN.yaml" in `folder` and returns its path. Throws Error if
 /// a sweep would not accept the descriptor, or the file cannot be written; no file is overwritten.
-std::string exportDescriptor(const Setup& setup, const std::string& folder);
+std::string exportDescriptor(const ViewSetup& setup, const std::string& folder);
 
 /// The setup of a descriptor's first run. Throws Error as a sweep would.
-Setup readSetup(const std::string& descriptorPath);
+ViewSetup readSetup(const std::string& descriptorPath);
 
 }  // namespace limen::viewer

@@ -89,7 +89,7 @@ ParameterValue valueOf(const Parameter& parameter, const std::string& text, cons
 }
 
 /// "scene.light_size=2", "technique.budget.rim=25"
-void apply(Setup& setup, const std::string& text) {
+void apply(ViewSetup& setup, const std::string& text) {
   const size_t dot = text.find('.'), equals = text.find('=');
   const std::string hint =
       "give it as scene.NAME=VALUE, technique.NAME=VALUE, second.NAME=VALUE or reference.NAME=VALUE";
@@ -110,8 +110,8 @@ void apply(Setup& setup, const std::string& text) {
                parameter ? valueOf(*parameter, value, "--set " + text) : ParameterValue(value));
 }
 
-Setup setupFrom(const ViewOptions& options) {
-  Setup setup;
+ViewSetup setupFrom(const ViewOptions& options) {
+  ViewSetup setup;
   if (!options.descriptor.empty()) {
     setup = readSetup(options.descriptor);
   } else {

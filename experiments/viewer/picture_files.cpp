@@ -7,7 +7,7 @@
 
 namespace limen::viewer {
 
-std::string writePictures(const std::map<std::string, ProductImages>& images, const Setup& setup,
+std::string writePictures(const std::map<std::string, ProductImages>& images, const ViewSetup& setup,
                           const std::string& folder) {
   makeFolder(folder);
   const std::filesystem::path into = freshName(folder, "pictures", "");

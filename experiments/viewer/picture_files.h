@@ -18,7 +18,7 @@ struct ProductImages {
 
 /// Writes "NAME.exr" and "NAME.png" for each name, and the descriptor of `setup`, into a new folder
 /// "pictures_NNN" of `folder`; returns its path. Throws Error where a file cannot be written.
-std::string writePictures(const std::map<std::string, ProductImages>& images, const Setup& setup,
+std::string writePictures(const std::map<std::string, ProductImages>& images, const ViewSetup& setup,
                           const std::string& folder);
 
 }  // namespace limen::viewer

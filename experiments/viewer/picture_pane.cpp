@@ -22,7 +22,7 @@ constexpr double kLeastFlickerHz = 0.5, kMostFlickerHz = 30.0;
 ImVec2 toIm(glm::vec2 v) { return {v.x, v.y}; }
 glm::vec2 fromIm(ImVec2 v) { return {v.x, v.y}; }
 
-std::string secondName(const Setup& setup) {
+std::string secondName(const ViewSetup& setup) {
   return setup.second ? setup.second->name : setup.reference ? setup.reference->name : "";
 }
 

@@ -149,7 +149,7 @@ class RenderThread::Work {
   bool needsBuilding(const experiments::Choice& scene) const { return viewed_.needsBuilding(scene); }
 
   /// Keeps the techniques that the setup still asks for.
-  void dropStale(const Setup& setup) {
+  void dropStale(const ViewSetup& setup) {
     std::vector<Entry> wanted = {setup.technique};
     if (setup.second) wanted.push_back(*setup.second);
     for (size_t i = 0; i < live_.size(); ++i)

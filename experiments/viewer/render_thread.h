@@ -27,7 +27,7 @@ namespace limen::viewer {
 /// What the render thread is to show.
 struct RenderRequest {
   uint64_t number = 0;  ///< comes back with the result
-  Setup setup;
+  ViewSetup setup;
   std::string view;                    ///< debug view in place of the first product; "": the product
   std::optional<glm::ivec2> pickedPx;  ///< pixel whose values are wanted
   bool moving = false;      ///< a control is held or the camera moves: settled frames would be in the way
@@ -64,7 +64,7 @@ struct Rendered {
 
 struct RenderResult {
   uint64_t number = 0;
-  Setup setup;  ///< what was rendered
+  ViewSetup setup;  ///< what was rendered
   bool settled = false;
   std::string error;               ///< of the scene
   std::vector<Rendered> rendered;  ///< one or two; none if the scene is in error

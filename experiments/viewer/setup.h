@@ -20,12 +20,12 @@ struct Entry {
 };
 
 /// What is on screen, in a descriptor's terms: what `limen sweep` needs to make the same picture.
-struct Setup {
+struct ViewSetup {
   Entry scene, technique;
   std::optional<Entry> second;     ///< a second technique to look at beside the first
   std::optional<Entry> reference;  ///< of the same kind of product
   glm::ivec2 sizePx{640, 480};
-  bool operator==(const Setup&) const = default;
+  bool operator==(const ViewSetup&) const = default;
 };
 
 /// With all values. Throws Error: unknown name, bad or missing value, values that conflict.

@@ -35,7 +35,7 @@ Viewer::Viewer(window::UiSurface& surface, ViewerOptions options, std::function<
 
 Viewer::~Viewer() = default;
 
-void Viewer::show(Setup setup) {
+void Viewer::show(ViewSetup setup) {
   completeScene(setup.scene);
   completeTechnique(setup.technique);
   state_.setup = std::move(setup);

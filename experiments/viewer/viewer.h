@@ -21,7 +21,7 @@ namespace limen::viewer {
 class Interface;
 
 struct ViewerOptions {
-  Setup setup;
+  ViewSetup setup;
   std::string resultsFolder = "results/viewer";
   std::string shaderRoot;  ///< source tree whose shaders are watched; "": none
   perception::DisplayProfile display;
@@ -51,7 +51,7 @@ class Viewer {
   /// As if the interface had asked for it. Errors become messages.
   void execute(const ViewerCommand& command);
   /// Replaces the whole setup. Throws Error, nothing changed, if it is not valid.
-  void show(Setup setup);
+  void show(ViewSetup setup);
 
   const ViewerState& state() const { return state_; }
   const ControlMap& controls() const { return controls_; }

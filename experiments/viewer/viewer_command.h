@@ -16,7 +16,7 @@
 
 namespace limen::viewer {
 
-/// Parts of a Setup that a name and parameters are chosen for.
+/// Parts of a ViewSetup that a name and parameters are chosen for.
 enum class Slot { Scene, Technique, Second, Reference };
 constexpr EnumNames<Slot, 4> enumNames(Slot) {
   return {{{{Slot::Scene, "scene"},

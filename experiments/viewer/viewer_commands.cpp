@@ -10,7 +10,7 @@ std::vector<Parameter> parametersOf(Slot slot, const Entry& entry) {
 }
 
 /// Null if nothing is chosen there.
-Entry* entryIn(Setup& setup, Slot slot) {
+Entry* entryIn(ViewSetup& setup, Slot slot) {
   switch (slot) {
     case Slot::Scene:
       return &setup.scene;
@@ -35,7 +35,7 @@ void Viewer::execute(const ViewerCommand& command) {
 }
 
 void Viewer::run(const command::ChooseEntry& command) {
-  Setup& setup = state_.setup;
+  ViewSetup& setup = state_.setup;
   const std::optional<Entry> chosen =
       command.name.empty() ? std::nullopt : std::optional(Entry{command.name, {}});
   switch (command.slot) {

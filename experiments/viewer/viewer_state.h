@@ -20,7 +20,7 @@ namespace limen::viewer {
 /// All that the interface shows: data alone, which the panes read and only the viewer changes.
 struct ViewerState {
   // What was asked for.
-  Setup setup;
+  ViewSetup setup;
   std::string debugView;  ///< of the first technique, in place of its product; "": the product
   std::optional<glm::ivec2> pickedPx;
   Arrangement arrangement = Arrangement::First;

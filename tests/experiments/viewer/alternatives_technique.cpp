@@ -72,7 +72,7 @@ class AlternativesTechnique : public techniques::Technique {
 };
 
 const techniques::RegisteredTechnique<AlternativesTechnique> kRegistered{
-    {.name = "test/alternatives", .summary = "One value everywhere"}};
+    {.name = "test/alternatives", .summary = "One value everywhere", .source = {}}};
 
 }  // namespace
 }  // namespace limen::viewer

@@ -50,7 +50,7 @@ class EveryControl : public ViewerTest {
 
   /// Chooses the alternatives under which a parameter exists; false if they conflict with defaults.
   bool chooseAlternatives(const DeclaredAt& at) {
-    Setup setup = viewer_->state().setup;
+    ViewSetup setup = viewer_->state().setup;
     for (const auto& [path, kind] : at.when)
       setParameter(setup.technique, techniqueParameters(setup.technique.name), path, kind);
     try {
@@ -84,7 +84,7 @@ class EveryControl : public ViewerTest {
   }
 
   void choose(const DeclaredAt& at, const ParameterValue& value, const std::string& what) {
-    Setup setup = viewer_->state().setup;
+    ViewSetup setup = viewer_->state().setup;
     setParameter(setup.technique, techniqueParameters(setup.technique.name), at.path, value);
     try {
       viewer_->show(setup);
@@ -125,7 +125,7 @@ class EveryControl : public ViewerTest {
         default:
           break;
       }
-      Setup setup = viewer_->state().setup;
+      ViewSetup setup = viewer_->state().setup;
       setup.technique.given.clear();
       viewer_->show(setup);
     }
@@ -139,7 +139,7 @@ class EveryControl : public ViewerTest {
 };
 
 TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
-  Setup setup = smallSetup("soft_shadows/pcf", "sphere_grid");
+  ViewSetup setup = smallSetup("soft_shadows/pcf", "sphere_grid");
   setup.sizePx = {24, 18};
   open(setup, {}, {900, 2600});
   rest();
@@ -150,7 +150,7 @@ TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
     SCOPED_TRACE(name);
     const std::string scene = sceneFor(info);
     ASSERT_NE(scene, "") << "no scene here has what " << name << " needs";
-    Setup fitting = viewer_->state().setup;
+    ViewSetup fitting = viewer_->state().setup;
     fitting.scene = {scene, {}};
     fitting.reference.reset();
     fitting.second.reset();

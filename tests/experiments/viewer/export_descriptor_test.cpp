@@ -51,7 +51,7 @@ class ExportDescriptor : public ViewerTest {
 };
 
 TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
-  Setup setup = smallSetup("soft_shadows/bitmask");
+  ViewSetup setup = smallSetup("soft_shadows/bitmask");
   setup.technique.given["budget"] = int64_t{37};
   setup.scene.given["light_size"] = 1.0 / 3.0;
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
@@ -67,7 +67,7 @@ TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
 }
 
 TEST_F(ExportDescriptor, APlaceOnTheScenesPathFarFromTheOrigin) {
-  Setup setup = smallSetup("soft_shadows/pcf", "columns_hall");
+  ViewSetup setup = smallSetup("soft_shadows/pcf", "columns_hall");
   setup.scene.given["time_s"] = 1.2345;
   setup.scene.given["offset"] = 1000.0;
   open(setup);
@@ -80,7 +80,7 @@ TEST_F(ExportDescriptor, LevelsOfDetailInColour) {
 }
 
 TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
-  Setup setup = smallSetup("soft_shadows/bitmask");
+  ViewSetup setup = smallSetup("soft_shadows/bitmask");
   setup.technique.given["pattern"] = std::string("regular_8");
   setup.scene.given["light_size"] = 0.1;
   setup.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
@@ -93,13 +93,13 @@ TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
 }
 
 TEST_F(ExportDescriptor, AlternativesAreOpenedAgainAsTheyWere) {
-  Setup setup = smallSetup("test/alternatives");
+  ViewSetup setup = smallSetup("test/alternatives");
   setup.technique.given = {{"source", "stepped"}, {"source.steps", int64_t{8}}, {"gain.factor", 1.0 / 3.0}};
   EXPECT_EQ(readSetup(exportDescriptor(setup, folder_.string())), setup);
 }
 
 TEST_F(ExportDescriptor, WhatASweepWouldRefuseIsNotWritten) {
-  Setup setup = smallSetup();
+  ViewSetup setup = smallSetup();
   setup.reference = Entry{"lod/finest", {}};  // another kind of product
   EXPECT_THROW(exportDescriptor(setup, folder_.string()), Error);
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) ADD_FAILURE() << entry.path();

@@ -72,7 +72,7 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   ASSERT_TRUE(until([&] { return !viewer_->state().shaderFailure.empty(); }));
   EXPECT_THAT(viewer_->state().shaderFailure, HasSubstr("hard.comp.glsl:"));
   EXPECT_EQ(hash(), own);
-  Setup setup = viewer_->state().setup;
+  ViewSetup setup = viewer_->state().setup;
   setup.sizePx = {32, 24};  // the old program goes on
   viewer_->show(setup);
   rest();
@@ -82,7 +82,7 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   rest();
   EXPECT_EQ(hash(), own);
 
-  // Mended and changed: light where there was shadow, and the other way round, wherever the map is looked at.
+  // Fixed and changed: light where there was shadow, and the other way round, wherever the map is looked at.
   const std::shared_ptr<const Image> was = viewer_->state().shown->rendered.at(0).product;
   std::string turned = text;
   const std::string answer = "? 0.0 : 1.0";

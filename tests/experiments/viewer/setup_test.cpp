@@ -16,7 +16,7 @@ using Values = std::map<std::string, ParameterValue>;
 
 constexpr const char* kAlternatives = "test/alternatives";
 
-TEST(Setup, HoldsOnlyWhatIsNotAtItsDefault) {
+TEST(ViewSetup, HoldsOnlyWhatIsNotAtItsDefault) {
   Entry entry{"soft_shadows/ray_traced", {}};
   const std::vector<Parameter>& declared = techniqueParameters(entry.name);
   const Parameter* samples = findDeclaration(declared, entry, "samples");
@@ -30,7 +30,7 @@ TEST(Setup, HoldsOnlyWhatIsNotAtItsDefault) {
   EXPECT_TRUE(entry.given.empty());
 }
 
-TEST(Setup, AnotherAlternativeDropsTheParametersOfThePreviousOne) {
+TEST(ViewSetup, AnotherAlternativeDropsTheParametersOfThePreviousOne) {
   const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
   Entry entry{kAlternatives, {}};
   setParameter(entry, declared, "source.level", 0.25);
@@ -43,7 +43,7 @@ TEST(Setup, AnotherAlternativeDropsTheParametersOfThePreviousOne) {
   EXPECT_EQ(entry.given, (Values{{"gain.factor", 2.0}}));
 }
 
-TEST(Setup, AParameterOfAnotherAlternativeIsRefusedWithWhereItExists) {
+TEST(ViewSetup, AParameterOfAnotherAlternativeIsRefusedWithWhereItExists) {
   const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
   Entry entry{kAlternatives, {}};
   EXPECT_EQ(findDeclaration(declared, entry, "source.steps"), nullptr);
@@ -59,7 +59,7 @@ TEST(Setup, AParameterOfAnotherAlternativeIsRefusedWithWhereItExists) {
   EXPECT_TRUE(entry.given.empty());
 }
 
-TEST(Setup, AnAlternativeChosenAgainHasTheValuesItHad) {
+TEST(ViewSetup, AnAlternativeChosenAgainHasTheValuesItHad) {
   const std::vector<Parameter>& declared = techniqueParameters(kAlternatives);
   Entry entry{kAlternatives, {}};
   ParameterMemory memory;
@@ -73,8 +73,8 @@ TEST(Setup, AnAlternativeChosenAgainHasTheValuesItHad) {
   EXPECT_EQ(entry.given, (Values{{"source", "stepped"}, {"source.steps", int64_t{8}}}));
 }
 
-TEST(Setup, AnExportedDescriptorNestsAlternatives) {
-  Setup setup;
+TEST(ViewSetup, AnExportedDescriptorNestsAlternatives) {
+  ViewSetup setup;
   setup.scene.name = "sphere_grid";
   setup.technique = {kAlternatives,
                      {{"source", "stepped"}, {"source.steps", int64_t{8}}, {"gain.factor", 1.5}}};
@@ -82,7 +82,7 @@ TEST(Setup, AnExportedDescriptorNestsAlternatives) {
                                              "gain: {factor: 1.5}}\n"));
 }
 
-TEST(Setup, ReferencesGoFromCoarseToFineByValidSteps) {
+TEST(ViewSetup, ReferencesGoFromCoarseToFineByValidSteps) {
   const std::vector<Entry> steps = fromCoarseToFine({"soft_shadows/ray_traced", {}});
   ASSERT_GE(steps.size(), 3U);
   int64_t before = 0;
@@ -95,7 +95,7 @@ TEST(Setup, ReferencesGoFromCoarseToFineByValidSteps) {
   EXPECT_EQ(fromCoarseToFine({"soft_shadows/exact_union", {}}).size(), 1U);
 }
 
-TEST(Setup, AUsualReferenceMakesTheSameKindOfProduct) {
+TEST(ViewSetup, AUsualReferenceMakesTheSameKindOfProduct) {
   for (const char* name :
        {"soft_shadows/bitmask", "lod/blend", "soft_shadows/bitmask_coloured", "perception/threshold_map"}) {
     const auto reference = usualReference(name);

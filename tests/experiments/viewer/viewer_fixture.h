@@ -31,9 +31,9 @@ class ViewerTest : public testing::Test {
   }
 
   /// Small pictures: a software renderer makes them.
-  static Setup smallSetup(const std::string& technique = "soft_shadows/pcss",
-                          const std::string& scene = "sphere_grid") {
-    Setup setup;
+  static ViewSetup smallSetup(const std::string& technique = "soft_shadows/pcss",
+                              const std::string& scene = "sphere_grid") {
+    ViewSetup setup;
     setup.scene.name = scene;
     setup.technique.name = technique;
     setup.sizePx = {40, 30};
@@ -41,7 +41,7 @@ class ViewerTest : public testing::Test {
   }
 
   /// Small letters on a high surface: all controls are in sight, and a software renderer draws few pixels.
-  void open(const Setup& setup, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {800, 1900}) {
+  void open(const ViewSetup& setup, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {800, 1900}) {
     ViewerOptions options;
     options.setup = setup;
     options.resultsFolder = (folder_ / "exported").string();

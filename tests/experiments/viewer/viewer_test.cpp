@@ -52,7 +52,7 @@ const Registered<techniques::TechniqueInfo> kSlowReference{slowReference()};
 class ViewerUse : public ViewerTest {};
 
 TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
-  Setup setup = smallSetup();
+  ViewSetup setup = smallSetup();
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   open(setup);
   rest();
@@ -62,10 +62,11 @@ TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   EXPECT_EQ(shown.rendered[0].nonFinite, 0);
   EXPECT_GE(shown.rendered[0].frameMs, 0.0);
   ASSERT_TRUE(viewer_->state().evaluated);
-  const EvaluationResult& judged = *viewer_->state().evaluated;
-  EXPECT_EQ(judged.error, "");
+  const EvaluationResult& evaluated = *viewer_->state().evaluated;
+  EXPECT_EQ(evaluated.error, "");
   // The root of the mean square over receivers, worked out here from the two products.
-  const Image &product = *shown.rendered[0].product, &reference = *judged.reference, &mask = shown.view->mask;
+  const Image &product = *shown.rendered[0].product, &reference = *evaluated.reference,
+              &mask = shown.view->mask;
   double sum = 0.0, pixels = 0.0;
   for (size_t i = 0; i < product.pixels(); ++i) {
     if (mask.data[i] == 0.0F) continue;
@@ -74,7 +75,7 @@ TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   }
   ASSERT_GT(pixels, 100.0);
   bool found = false;
-  for (const ErrorFigure& figure : judged.figures)
+  for (const ErrorFigure& figure : evaluated.figures)
     if (figure.metric == "rmse") {
       found = true;
       EXPECT_NEAR(figure.value, std::sqrt(sum / pixels), 1e-6);
@@ -84,7 +85,7 @@ TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
 
 TEST_F(ViewerUse, ThePictureOnScreenIsTheOneThatASweepWrites) {
   for (const char* technique : {"soft_shadows/pcf", "soft_shadows/bitmask_coloured", "lod/finest"}) {
-    Setup setup =
+    ViewSetup setup =
         smallSetup(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
     open(setup);
     rest();
@@ -119,7 +120,7 @@ TEST_F(ViewerUse, ASlowReferenceHoldsUpNothing) {
   open(smallSetup());
   rest();
   gate.closed = true;
-  Setup setup = viewer_->state().setup;
+  ViewSetup setup = viewer_->state().setup;
   setup.reference = Entry{"test/slow_reference", {}};
   viewer_->show(setup);
   const auto until = [&](const std::function<bool()>& holds) {
@@ -134,7 +135,7 @@ TEST_F(ViewerUse, ASlowReferenceHoldsUpNothing) {
   };
   ASSERT_TRUE(until([] { return gate.waiting > 0; }))
       << viewer_->state().shown->error << viewer_->state().shown->rendered.at(0).error
-      << (viewer_->state().evaluated ? viewer_->state().evaluated->error : "nothing judged");
+      << (viewer_->state().evaluated ? viewer_->state().evaluated->error : "nothing evaluated");
   // While the reference keeps its thread waiting, settings change and pictures follow.
   const std::string hash = viewer_->state().shown->rendered.at(0).productHash;
   click(along("scene.light_size", 0.95F));
@@ -151,7 +152,7 @@ TEST_F(ViewerUse, ASlowReferenceHoldsUpNothing) {
 }
 
 TEST_F(ViewerUse, AReferenceGetsBetterAndBetter) {
-  Setup setup = smallSetup();
+  ViewSetup setup = smallSetup();
   setup.sizePx = {16, 12};
   setup.reference = Entry{"soft_shadows/ray_traced", {}};  // 1,024 rays: after 16, 64 and 256
   open(setup);
@@ -159,7 +160,7 @@ TEST_F(ViewerUse, AReferenceGetsBetterAndBetter) {
   EXPECT_EQ(viewer_->evaluation().referencesMade(), 4);
   EXPECT_EQ(viewer_->state().evaluated->step, "");
   // Another technique needs no other reference.
-  Setup other = viewer_->state().setup;
+  ViewSetup other = viewer_->state().setup;
   other.technique.name = "soft_shadows/pcf";
   viewer_->show(other);
   rest();
@@ -207,7 +208,7 @@ TEST_F(ViewerUse, APickedPixelTellsAllProducts) {
 }
 
 TEST_F(ViewerUse, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
-  Setup setup = smallSetup("lod/blend");
+  ViewSetup setup = smallSetup("lod/blend");
   open(setup);
   rest();
   EXPECT_THAT(viewer_->state().shown->rendered.at(0).error, HasSubstr("needs a scene with"));
@@ -272,7 +273,7 @@ TEST_F(ViewerUse, ARecordedPathPlaysAndASavedViewComesBack) {
 }
 
 TEST_F(ViewerUse, PicturesAreSavedOfAllProducts) {
-  Setup setup = smallSetup();
+  ViewSetup setup = smallSetup();
   setup.second = Entry{"soft_shadows/hard", {}};
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
   open(setup);
@@ -342,7 +343,7 @@ TEST_F(ViewerUse, GroupsFold) {
 }
 
 TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {
-  Setup setup = smallSetup("test/alternatives");
+  ViewSetup setup = smallSetup("test/alternatives");
   setup.technique.given = {{"source", "stepped"}};
   open(setup);
   rest();
@@ -354,7 +355,7 @@ TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {
 }
 
 TEST_F(ViewerUse, PredictionsArePaintedOver) {
-  Setup setup = smallSetup("soft_shadows/hard");
+  ViewSetup setup = smallSetup("soft_shadows/hard");
   setup.sizePx = {96, 72};
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   open(setup);
