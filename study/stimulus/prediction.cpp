@@ -112,19 +112,19 @@ PredictedPopping Predictor::predict(const Stimulus& stimulus) {
 
 PredictedPopping Predictor::make(const Stimulus& stimulus) {
   const perception::PoppingSettings settings = perception::PoppingSettings::from(popping_);
-  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &stages_);
+  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   perception::PoppingInput input;
   input.actual = renderer.readBackState(timeS, true);
   input.predicted = renderer.readBackState(timeS, false);
 
-  const scene::Scene& scene = renderer.stage().scene;
+  const scene::Scene& scene = renderer.scene().scene;
   const scene::LodSelection finest = scene::finestLevels(scene);
   const auto levels = stimulus.levels
                           ? std::pair{levelsOf(scene, *stimulus.levels, true, timeS, windowPx_.y),
                                       levelsOf(scene, *stimulus.levels, false, timeS, windowPx_.y)}
                           : std::pair{finest, finest};
-  frame::Frame frame(context_, scene, renderer.stage().gpu, windowPx_, timeS);
+  frame::Frame frame(context_, renderer.scene(), windowPx_, timeS);
   if (stimulus.presentation == Presentation::Dynamic) {
     frame::LodPairSetting pair;
     pair.dtS = 1.0 / display_.refreshHz;

@@ -11,8 +11,8 @@
 #include "experiments/base/parameter.h"
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
-#include "study/stimulus/stage.h"
 #include "study/stimulus/stimulus.h"
+#include "study/stimulus/stimulus_scene.h"
 
 namespace limen::study {
 
@@ -81,7 +81,7 @@ class Predictor {
   ParameterValues popping_;
   PredictionCache own_;
   PredictionCache& cache_;
-  StageCache stages_;
+  SceneCache scenes_;
 };
 
 }  // namespace limen::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/viewer/probe.h"
+#include "experiments/viewer/texture_readback.h"
 
 #include <epoxy/gl.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/viewer/scene_stage.h"
+#include "experiments/viewer/viewed_scene.h"
 
 #include "renderer/scene/placement.h"
 
@@ -15,22 +15,22 @@ ParameterValues stillValues(const experiments::Choice& scene) {
 
 }  // namespace
 
-std::string SceneStage::keyOf(const experiments::Choice& scene) {
+std::string ViewedScene::keyOf(const experiments::Choice& scene) {
   return scene.name + stillValues(scene).toJson().dump();
 }
 
-bool SceneStage::choose(const experiments::Choice& scene) {
+bool ViewedScene::show(const experiments::Choice& scene) {
   const bool build = needsBuilding(scene);
   if (build) {
-    stage_.reset();
-    stage_ = std::make_unique<experiments::Stage>(scene::buildScene(scene.name, stillValues(scene)));
-    built_ = stage_->scene.camera;
+    onGpu_.reset();
+    onGpu_ = std::make_unique<frame::SceneOnGpu>(scene::buildScene(scene.name, stillValues(scene)));
+    built_ = onGpu_->scene.camera;
     key_ = keyOf(scene);
   }
   // The very steps that building takes, so that a sweep has the same camera to the last bit.
   const scene::CameraChoice camera = scene::PlacementSettings::table().read(scene.values).camera;
-  stage_->scene.camera = scene::cameraFor(built_, camera);
-  path_ = stage_->scene.camera;
+  onGpu_->scene.camera = scene::cameraFor(built_, camera);
+  path_ = onGpu_->scene.camera;
   for (scene::CameraPath::Key& key : path_.keys) key.timeS += scene::timeOf(camera);
   return build;
 }

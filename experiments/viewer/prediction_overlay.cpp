@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/viewer/predicted_overlay.h"
+#include "experiments/viewer/prediction_overlay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ Image lightOf(Image coded, const perception::DisplayProfile& display) {
   return coded;
 }
 
-void paintThresholds(const Image& picture, const JudgeRequest& request, JudgeResult& result) {
+void paintThresholds(const Image& picture, const EvaluationRequest& request, EvaluationResult& result) {
   const perception::ThresholdMap map = perception::computeThresholdMap(
       perception::luminancePlane(lightOf(picture, request.display), request.display),
       request.display.pixelsPerDegree(), {});
@@ -33,8 +33,8 @@ void paintThresholds(const Image& picture, const JudgeRequest& request, JudgeRes
                        shortestNumber(perception::kThresholdPictureWhite) + ") on " + request.display.name;
 }
 
-void paintPopping(const Image& actual, const Image& before, const JudgeRequest& request,
-                  JudgeResult& result) {
+void paintPopping(const Image& actual, const Image& before, const EvaluationRequest& request,
+                  EvaluationResult& result) {
   perception::PoppingInput input;
   input.actual = actual;
   input.predicted = before;
@@ -57,7 +57,7 @@ void paintPopping(const Image& actual, const Image& before, const JudgeRequest& 
 
 }  // namespace
 
-void paintOverlay(const JudgeRequest& request, JudgeResult& result) {
+void paintOverlay(const EvaluationRequest& request, EvaluationResult& result) {
   if (request.overlay == Overlay::None || !request.product || !request.view) return;
   try {
     const auto pictureOf = [&](const Image& product) {
@@ -68,7 +68,7 @@ void paintOverlay(const JudgeRequest& request, JudgeResult& result) {
       paintThresholds(picture, request, result);
       return;
     }
-    const Image* before = request.other ? request.other.get() : result.reference.get();
+    const Image* before = request.second ? request.second.get() : result.reference.get();
     if (!before) throw Error("popping needs two pictures", {}, "choose a second technique or a reference");
     paintPopping(picture, pictureOf(*before), request, result);
   } catch (const std::exception& error) {

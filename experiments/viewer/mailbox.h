@@ -9,10 +9,10 @@
 
 namespace limen::viewer {
 
-/// Hands the newest of something to another thread: what has not been taken when the next one comes is
-/// dropped. Neither side ever waits for the other's work.
+/// Hands the newest of something to another thread: what nobody has taken when the next one comes is dropped.
+/// Neither side ever waits for the other's work.
 template <class Thing>
-class Latest {
+class Mailbox {
  public:
   void put(Thing thing) {
     {

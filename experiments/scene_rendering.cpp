@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/stage.h"
+#include "experiments/scene_rendering.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace limen::experiments {
 
-nlohmann::json factsOf(const scene::Scene& scene) {
+nlohmann::json sceneFacts(const scene::Scene& scene) {
   const scene::Bounds bounds = scene.bounds();
   return {{"content_hash", scene.contentHash()},
           {"triangles", scene.mesh.triangles.size()},
@@ -17,11 +17,11 @@ nlohmann::json factsOf(const scene::Scene& scene) {
            {{bounds.low.x, bounds.low.y, bounds.low.z}, {bounds.high.x, bounds.high.y, bounds.high.z}}}};
 }
 
-ViewImages Stage::view(gl::Context& context, glm::ivec2 sizePx) const {
+ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx) {
   using frame::Channel;
   using frame::ChannelSetting;
   using frame::GBufferChannel;
-  frame::Frame frame(context, scene, gpu, sizePx);
+  frame::Frame frame(context, onGpu, sizePx);
   frame.begin();
   const Image receivers = frame.get<frame::Receivers>().texture().read();
   const Image normals = frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture().read();
@@ -29,7 +29,8 @@ ViewImages Stage::view(gl::Context& context, glm::ivec2 sizePx) const {
   const Image albedo = frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture().read();
   frame.end();
   ViewImages out{Image(sizePx.x, sizePx.y, 1), Image(sizePx.x, sizePx.y, 3)};
-  const glm::dvec3 light = scene.lights.empty() ? glm::dvec3(0.0) : scene.lights[0].centre - gpu.anchor();
+  const auto& lights = onGpu.scene.lights;
+  const glm::dvec3 light = lights.empty() ? glm::dvec3(0.0) : lights[0].centre - onGpu.gpu.anchor();
   for (size_t i = 0; i < out.mask.pixels(); ++i) {
     const bool receiver = receivers.data[4 * i + 3] >= 0.0F;
     out.mask.data[i] = receiver ? 1.0F : 0.0F;
@@ -50,15 +51,16 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
   for (const std::string& need : info.needs)
     if (!traits.count(need))
       throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
-                      "' with these parameters has not",
+                      "' with these parameters does not have",
                   {}, "choose another light or another technique");
 }
 
-Image renderOnce(gl::Context& context, const Stage& stage, glm::ivec2 sizePx, const Choice& technique) {
+Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                 const Choice& technique) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
-  requireTraits(info, stage.scene);
+  requireTraits(info, onGpu.scene);
   const auto made = info.make(technique.values);
-  frame::Frame frame(context, stage.scene, stage.gpu, sizePx);
+  frame::Frame frame(context, onGpu, sizePx);
   made->prepare(frame);
   frame.begin();
   made->render(frame);

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "experiments/base/image.h"
-#include "experiments/stage.h"
-#include "experiments/viewer/choices.h"
-#include "experiments/viewer/latest.h"
+#include "experiments/scene_rendering.h"
+#include "experiments/viewer/mailbox.h"
 #include "experiments/viewer/presenter.h"
+#include "experiments/viewer/setup.h"
 #include "perception/vision/display.h"
 
 namespace limen::viewer {
@@ -29,12 +29,12 @@ enum class Overlay {
   Popping      ///< what is seen when the second picture, or the reference, is replaced by the first
 };
 
-/// Products at rest that are to be judged.
-struct JudgeRequest {
+/// Settled products whose error, and what a person sees of it, is wanted.
+struct EvaluationRequest {
   uint64_t number = 0;  ///< comes back with every result
-  Choices choices;
+  ViewSetup setup;
   techniques::ProductKind kind = techniques::ProductKind::Visibility;
-  std::shared_ptr<const Image> product, other;  ///< `other`: null, or of the second technique, same kind
+  std::shared_ptr<const Image> product, second;  ///< `second`: null, or of the second technique, same kind
   std::shared_ptr<const experiments::ViewImages> view;
   Overlay overlay = Overlay::None;
   perception::DisplayProfile display;  ///< on which it is seen
@@ -42,7 +42,7 @@ struct JudgeRequest {
 
 struct ErrorFigure {
   std::string metric, unit;
-  double value = 0.0, other = 0.0;  ///< of the first and the second technique; NaN where there is none
+  double value = 0.0, second = 0.0;  ///< of the first and the second technique; NaN where there is none
 };
 
 /// Where errors lie.
@@ -52,7 +52,7 @@ struct ErrorMap {
   double white = 1.0;  ///< value of the brightest colour
 };
 
-struct JudgeResult {
+struct EvaluationResult {
   uint64_t number = 0;
   std::string step;     ///< "samples 64 of 1024": what the figures rest on so far; "" once all is done
   std::string error;    ///< why there are no figures
@@ -60,35 +60,36 @@ struct JudgeResult {
   std::vector<ErrorFigure> figures;
   std::shared_ptr<const Image> reference;  ///< product of the reference
   std::shared_ptr<const ScreenPicture> referencePicture;
-  std::map<std::string, ErrorMap> maps, otherMaps;  ///< of either technique, by name
+  std::map<std::string, ErrorMap> maps, secondMaps;  ///< of either technique, by name
   std::shared_ptr<const ScreenPicture> overlay;
   std::string overlayNote;  ///< what the overlay shows, in figures, or why there is none
 };
 
-/// Makes references and compares products with them in a thread and an OpenGL context of its own: however
-/// slow a reference is, it delays neither window nor picture. References that can be made roughly are made
-/// better and better, and every step is judged. The newest request alone counts; work on a reference that
-/// nobody waits for any more is cancelled where the reference allows it (see experiments/base/cancel.h).
-class JudgeThread {
+/// Renders references and compares products with them in a thread and an OpenGL context of its own: however
+/// slow a reference is, it delays neither window nor picture. References that can be made coarsely are
+/// refined step by step, and errors are evaluated at every step. Only the newest request counts; work on a
+/// reference that nobody waits for any more is cancelled where the reference allows it (see
+/// experiments/base/cancel.h).
+class EvaluationThread {
  public:
-  explicit JudgeThread(std::function<void()> wake);
-  ~JudgeThread();
-  JudgeThread(const JudgeThread&) = delete;
-  JudgeThread& operator=(const JudgeThread&) = delete;
+  explicit EvaluationThread(std::function<void()> wake);
+  ~EvaluationThread();
+  EvaluationThread(const EvaluationThread&) = delete;
+  EvaluationThread& operator=(const EvaluationThread&) = delete;
 
-  void ask(JudgeRequest request);
-  std::optional<JudgeResult> take() { return results_.take(); }
+  void ask(EvaluationRequest request);
+  std::optional<EvaluationResult> take() { return results_.take(); }
   /// Has nothing to do.
   bool idle() const { return idle_ && !requests_.waiting(); }
-  /// References made so far, those of rough steps included.
+  /// References made so far, coarse steps included.
   int64_t referencesMade() const { return made_; }
 
  private:
   class Work;
   void run(const std::function<void()>& wake);
 
-  Latest<JudgeRequest> requests_;
-  Latest<JudgeResult> results_;
+  Mailbox<EvaluationRequest> requests_;
+  Mailbox<EvaluationResult> results_;
   std::atomic<int64_t> made_ = 0;
   std::atomic<bool> idle_ = true;
   std::mutex guard_;
