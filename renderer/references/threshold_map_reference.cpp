@@ -18,8 +18,8 @@ using techniques::TechniqueInfo;
 class ThresholdMapReference : public techniques::Technique {
  public:
   explicit ThresholdMapReference(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
+      : settings_(perception::ThresholdMapSettings::table().read(values)),
+        display_(perception::ViewingSettings::table().read(values).profile()),
         shaded_(frame::ShadedSetting::from(values)) {}
 
   void prepare(frame::Frame& frame) override {
@@ -52,8 +52,9 @@ class ThresholdMapReference : public techniques::Technique {
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapParameters(), perception::viewingParameters(),
-                            frame::ShadedSetting::parameters()})
+  for (const auto& group :
+       {perception::ThresholdMapSettings::table().parameters(),
+        perception::ViewingSettings::table().parameters(), frame::ShadedSetting::parameters()})
     out.insert(out.end(), group.begin(), group.end());
   return out;
 }
@@ -64,7 +65,7 @@ const Registered<TechniqueInfo> kThresholdMapReferenceRegistered{
      .summary = "Threshold map in double precision, any variant, true Gaussians too",
      .source = "Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4 (SP-28)",
      .product = techniques::ProductKind::Threshold,
-     .parameters = parameters(),
+     .parameters = ParameterList([] { return parameters(); }),
      .needs = {},
      .reference = true,
      .onCpu = true,

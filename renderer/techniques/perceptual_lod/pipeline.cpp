@@ -38,7 +38,8 @@ PerceptualPipeline::PerceptualPipeline(frame::Frame& parent, const PerceptualLod
       settings_(settings),
       images_(parent, settings),
       control_(settings.rule, levelCounts(parent.scene()), settings.startLevel),
-      thresholdMap_(parent.context(), parent.sizePx(), settings.seenOn.display, settings.seenOn.map),
+      thresholdMap_(parent.context(), parent.sizePx(), settings.seenOn.display, settings.seenOn.map,
+                    settings.seenOn.mapGpu),
       visible_(gl::Format::R32F, parent.sizePx()),
       counts_(parent.context(), settings.count, settings.objectsPerFrame, settings.rule.lookAhead, visible_) {
   int64_t bytes = visible_.bytes() + counts_.bytes();

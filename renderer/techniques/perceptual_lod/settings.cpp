@@ -10,8 +10,8 @@ constexpr const char* kOpen = "Schwarz 2009, section 9.5 (not given there)";
 constexpr const char* kPrefix = "map_";
 
 std::vector<Parameter> mapParameters(bool gpu) {
-  std::vector<Parameter> out = perception::thresholdMapParameters();
-  if (gpu) appendTo(out, perception::thresholdMapGpuParameters());
+  std::vector<Parameter> out = perception::ThresholdMapSettings::table().parameters();
+  if (gpu) appendTo(out, perception::ThresholdMapGpuSettings::table().parameters());
   return out;
 }
 
@@ -37,11 +37,11 @@ SeenOn SeenOn::from(const ParameterValues& values) {
   SeenOn out;
   out.display = perception::displayPreset(values.text("display"));
   std::map<std::string, ParameterValue> given;
-  const std::vector<Parameter> declared = mapParameters(true);
-  for (const Parameter& parameter : declared)
-    if (values.has(kPrefix + parameter.name))
-      given[parameter.name] = values.all().at(kPrefix + parameter.name);
-  out.map = perception::thresholdMapSettings(ParameterValues(declared, given));
+  for (const auto& [path, value] : values.all())
+    if (path.rfind(kPrefix, 0) == 0) given[path.substr(std::string(kPrefix).size())] = value;
+  const ParameterValues complete(mapParameters(true), given);
+  out.map = perception::ThresholdMapSettings::table().read(complete);
+  out.mapGpu = perception::ThresholdMapGpuSettings::table().read(complete);
   return out;
 }
 

@@ -17,6 +17,7 @@ namespace limen::techniques {
 struct SeenOn {
   perception::DisplayProfile display;
   perception::ThresholdMapSettings map;
+  perception::ThresholdMapGpuSettings mapGpu;
   static std::vector<Parameter> parameters(bool gpu);
   static SeenOn from(const ParameterValues& values);
 };

@@ -35,7 +35,8 @@ std::vector<Parameter> SwitchSetting::parameters() {
   // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
   all.push_back(samplesParameter(2));
   for (const std::vector<Parameter>& more :
-       {perception::viewingParameters(), frame::ShadedSetting::parameters(), perception::poppingParameters()})
+       {perception::ViewingSettings::table().parameters(), frame::ShadedSetting::parameters(),
+        perception::PoppingSettings::table().parameters()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -50,8 +51,8 @@ SwitchSetting SwitchSetting::from(const ParameterValues& values) {
   s.flickerOfBefore = values.text("flicker_level") == "before";
   s.samples = static_cast<int>(values.integer("samples"));
   s.shaded = frame::ShadedSetting::from(values);
-  s.display = perception::viewingDisplay(values);
-  s.popping = perception::PoppingSettings::from(values);
+  s.display = perception::ViewingSettings::table().read(values).profile();
+  s.popping = perception::PoppingSettings::table().read(values);
   const double dt = values.real("dt_s");
   s.dtS = std::max(dt > 0.0 ? dt : 1.0 / s.display.refreshHz, 1e-4);
   s.display.refreshHz = 1.0 / s.dtS;

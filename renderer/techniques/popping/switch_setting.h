@@ -38,8 +38,8 @@ struct SwitchSetting {
   /// Levels of all objects after and before the change: {actual, predicted}. Throws Error if the scene has no
   /// such object or the object no such level.
   std::pair<scene::LodSelection, scene::LodSelection> levels(const frame::Frame& frame) const;
-  bool usesDisocclusion() const { return dynamic && popping.useDisocclusion; }
-  bool usesFlicker() const { return dynamic && popping.useFlicker; }
+  bool usesDisocclusion() const { return dynamic && popping.usesDisocclusion(); }
+  bool usesFlicker() const { return dynamic && popping.usesFlicker(); }
 };
 
 }  // namespace limen::techniques

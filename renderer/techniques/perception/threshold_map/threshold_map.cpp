@@ -18,12 +18,13 @@ namespace {
 class ThresholdMapTechnique : public Technique {
  public:
   explicit ThresholdMapTechnique(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
+      : settings_(perception::ThresholdMapSettings::table().read(values)),
+        gpu_(perception::ThresholdMapGpuSettings::table().read(values)),
+        display_(perception::ViewingSettings::table().read(values).profile()),
         shaded_(frame::ShadedSetting::from(values)) {}
 
   void prepare(frame::Frame& frame) override {
-    map_.emplace(frame.context(), frame.sizePx(), display_, settings_);
+    map_.emplace(frame.context(), frame.sizePx(), display_, settings_, gpu_);
     frame.passes().setBytesHeld("threshold_map/levels", map_->bytesHeld());
   }
 
@@ -44,6 +45,7 @@ class ThresholdMapTechnique : public Technique {
 
  private:
   perception::ThresholdMapSettings settings_;
+  perception::ThresholdMapGpuSettings gpu_;
   perception::DisplayProfile display_;
   frame::ShadedSetting shaded_;
   std::optional<perception::ThresholdMapGpu> map_;
@@ -51,8 +53,10 @@ class ThresholdMapTechnique : public Technique {
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapGpuParameters(), perception::thresholdMapParameters(),
-                            perception::viewingParameters(), frame::ShadedSetting::parameters()})
+  for (const auto& group :
+       {perception::ThresholdMapGpuSettings::table().parameters(),
+        perception::ThresholdMapSettings::table().parameters(),
+        perception::ViewingSettings::table().parameters(), frame::ShadedSetting::parameters()})
     out.insert(out.end(), group.begin(), group.end());
   return out;
 }
@@ -63,7 +67,7 @@ const Registered<TechniqueInfo> kThresholdMapRegistered{
      .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",
      .source = "Schwarz 2009, section 9.4 (SP-30, SP-31)",
      .product = ProductKind::Threshold,
-     .parameters = parameters(),
+     .parameters = ParameterList([] { return parameters(); }),
      .needs = {},
      .reference = false,
      .onCpu = false,
