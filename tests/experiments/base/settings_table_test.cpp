@@ -7,7 +7,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/parameter_list.h"
 
-namespace limen {
+namespace limen::settings_table_test {
 namespace {
 
 using testing::ElementsAre;
@@ -185,4 +185,4 @@ TEST(ChosenEntry, BringsTheSettingsOfTheEntry) {
 }
 
 }  // namespace
-}  // namespace limen
+}  // namespace limen::settings_table_test
