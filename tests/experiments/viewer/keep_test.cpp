@@ -67,7 +67,7 @@ TEST_F(Keep, AViewThatWasDraggedToWithOtherParameters) {
 
 TEST_F(Keep, APlaceOnTheScenesPathFarFromTheOrigin) {
   Choices choices = smallChoices("soft_shadows/pcf", "columns_hall");
-  choices.scene.given["time_s"] = 1.2345;
+  choices.scene.given["camera.time_s"] = 1.2345;
   choices.scene.given["offset"] = 1000.0;
   open(choices);
   expectKept("on the path");
@@ -82,7 +82,8 @@ TEST_F(Keep, WhatIsKeptIsOpenedAgainAsItWas) {
   Choices choices = smallChoices("soft_shadows/bitmask");
   choices.technique.given["pattern"] = std::string("regular_8");
   choices.scene.given["light_size"] = 0.1;
-  choices.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
+  choices.scene.given["camera"] = std::string("view");
+  choices.scene.given["camera.text"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
   choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   const std::string folder = folder_.string();
   const std::string first = keep(choices, folder), second = keep(choices, folder);

@@ -169,7 +169,7 @@ TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    return fs::exists(kept(number)) && read(kept(number++)).find("camera: \"eye ") != std::string::npos;
+    return fs::exists(kept(number)) && read(kept(number++)).find("text: \"eye ") != std::string::npos;
   })) << read(path("out.txt"));
   kill(process_, SIGTERM);
   EXPECT_EQ(finish(), 0) << read(path("out.txt"));
