@@ -139,7 +139,8 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
     nearer.distanceM = 0.5;
     EXPECT_NE(Predictor(context(), kPredictionSize, nearer).key(stimulus), key);
     EXPECT_NE(Predictor(context(), kPredictionSize, studyDisplay(),
-                        ParameterValues(perception::poppingParameters(), {{"use_flicker", false}}))
+                        ParameterValues(perception::PoppingSettings::table().parameters(),
+                                        {{"flicker", "ignored"}}))
                   .key(stimulus),
               key);
   }
