@@ -12,17 +12,19 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kInner = "inner", *kRays = "rays", *kRayTraced = "ray_traced", *kExact = "exact_union";
-constexpr std::array<std::string_view, 8> kForwarded = {"resolution", "budget", "structure",  "fixed_level",
-                                                        "occluders",  "bias",   "slope_bias", "max_slope"};
 
 bool readsMap(const std::string& inner) { return inner != kRayTraced && inner != kExact; }
 
+// Formerly wrappers repeated some parameters of what they wrap.
 std::vector<Parameter> searchDeclarations() {
-  std::vector<Parameter> out;
-  for (Parameter& parameter : OccluderSearch::searchParameters({"micropatches", "microquads", "microrects"}))
-    if (std::find(kForwarded.begin(), kForwarded.end(), parameter.name) != kForwarded.end())
-      out.push_back(std::move(parameter));
-  return out;
+  return {integerParameter("resolution", 1024, 1, 4096, "texel", ""),
+          integerParameter("budget", 256, 0, 1 << 24, "", ""),
+          choiceParameter("structure", "hsm", {"none", "hsm", "mssm", "n_buffer", "ysm"}, ""),
+          integerParameter("fixed_level", -1, -1, 12, "", ""),
+          choiceParameter("occluders", "micropatches", {"micropatches", "microquads", "microrects"}, ""),
+          realParameter("bias", 1e-4, 0.0, 0.1, "", ""),
+          realParameter("slope_bias", 2.0, 0.0, 16.0, "texel", ""),
+          realParameter("max_slope", 10.0, 0.1, 1e6, "", "")};
 }
 
 /// Square numbers, as the strata of a ray-traced light need them.
@@ -37,9 +39,21 @@ const TechniqueInfo& infoOf(const ParameterValues& values) {
 
 ParameterValues valuesOf(const ParameterValues& values) {
   std::map<std::string, ParameterValue> given;
-  if (readsMap(values.text(kInner)))
-    for (const Parameter& parameter : searchDeclarations())
-      given[parameter.name] = values.all().at(parameter.name);
+  if (readsMap(values.text(kInner))) {
+    const std::map<std::string, std::string> paths = {{"budget", "budget.limit"},
+                                                      {"bias", "bias.constant"},
+                                                      {"slope_bias", "bias.slope"},
+                                                      {"max_slope", "bias.max_slope"}};
+    for (const Parameter& parameter : searchDeclarations()) {
+      const auto path = paths.find(parameter.name);
+      if (parameter.name != "fixed_level")
+        given[path == paths.end() ? parameter.name : path->second] = values.all().at(parameter.name);
+    }
+    if (values.integer("fixed_level") >= 0) {
+      given["levels"] = std::string("fixed");
+      given["levels.level"] = values.integer("fixed_level");
+    }
+  }
   if (values.text(kInner) == kRayTraced) given["samples"] = int64_t{std::stoi(values.text(kRays))};
   return {infoOf(values).parameters, given};
 }
@@ -69,15 +83,14 @@ std::unique_ptr<Technique> makeInner(const ChosenEntry& inner) {
 }
 
 frame::ShadowMapSettings innerMap(const ChosenEntry& inner) {
-  const ParameterValues values = completeValues(inner);
-  return {std::stoi(limen::toText(values.all().at("resolution"))),
-          fromText<frame::Raster>(values.text("raster"))};
+  const MapSettings map = MapSettings::table().read(completeValues(inner));
+  return {map.resolution, map.raster};
 }
 
 SlopeBias innerBias(const ChosenEntry& inner) {
-  const ParameterValues values = completeValues(inner);
-  const bool bySlope = values.text("bias_form") == "receiver_slope";
-  return {values.real("bias"), bySlope ? values.real("slope_bias") : 0.0, values.real("max_slope")};
+  const BiasSettings bias = SearchSettings::table().read(completeValues(inner)).bias;
+  const auto* slope = std::get_if<SlopeBias>(&bias);
+  return slope ? *slope : SlopeBias{constantOf(bias), 0.0};
 }
 
 std::vector<Parameter> innerParameters(InnerKind kind) {
@@ -107,7 +120,7 @@ std::unique_ptr<Technique> makeInner(const ParameterValues& values) {
 }
 
 frame::ShadowMapSettings innerMap(const ParameterValues& values) {
-  return {std::stoi(values.text("resolution")), frame::Raster::Auto};
+  return {static_cast<int>(values.integer("resolution")), frame::Raster::Auto};
 }
 
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
@@ -121,9 +134,13 @@ std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
 }
 
 std::vector<Quantity> innerCounters() {
-  std::vector<Quantity> names = OccluderSearch::counterNames();
-  names.insert(names.end(), {"rays_per_receiver", "rays", "occluders_per_receiver"});
-  return names;
+  std::vector<Quantity> all = OccluderSearch::counterNames();
+  // Named here, since the references may not be registered yet when wrappers are.
+  all.insert(all.end(),
+             {{"rays_per_receiver", "Rays per receiver", "1/px", Direction::LowerIsBetter},
+              {"rays", "Rays", "", Direction::LowerIsBetter},
+              {"occluders_per_receiver", "Occluders per receiver", "1/px", Direction::LowerIsBetter}});
+  return all;
 }
 
 }  // namespace limen::techniques

@@ -43,18 +43,18 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::v
   const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
   const double mean = perProcessed(occluders);
   const double variance = perProcessed(occludersSquared) - mean * mean;
-  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0, "", true},
-          {"fetches_per_px", perProcessed(fetches), "", true},
-          {"micro_occluders_per_px", mean, "", true},
-          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
-          {"search_area_texels", perProcessed(areaTexels), "", true},
-          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0, "", false},
-          {"level_mean", perProcessed(levels), "", false},
-          {"receivers_share", share(receivers), "", false},
-          {"lit_share", share(pixels[Lit]), "", false},
-          {"umbra_share", share(pixels[Umbra]), "", false},
-          {"processed_share", share(processed), "", false},
-          {"outside_map_share", share(pixels[Outside]), "", false}};
+  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0},
+          {"fetches_per_px", perProcessed(fetches)},
+          {"micro_occluders_per_px", mean},
+          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0))},
+          {"search_area_texels", perProcessed(areaTexels)},
+          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0},
+          {"level_mean", perProcessed(levels)},
+          {"receivers_share", share(receivers)},
+          {"lit_share", share(pixels[Lit])},
+          {"umbra_share", share(pixels[Umbra])},
+          {"processed_share", share(processed)},
+          {"outside_map_share", share(pixels[Outside])}};
 }
 
 frame::Raster rasterOf(const std::string& name) {
@@ -191,9 +191,19 @@ void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
 }
 
 std::vector<Quantity> VisibilityTechnique::counterNames() {
-  std::vector<Quantity> out;
-  for (const Counter& counter : summarise({}, {})) out.push_back(counter.name);
-  return out;
+  constexpr Direction kLower = Direction::LowerIsBetter, kNeither = Direction::Neither;
+  return {{"fetches_per_receiver", "Texels read per receiver", "1/px", kLower},
+          {"fetches_per_px", "Texels read per processed pixel", "1/px", kLower},
+          {"micro_occluders_per_px", "Micro-occluders per pixel", "1/px", kLower},
+          {"micro_occluders_sd", "Standard deviation of micro-occluders", "1/px", kNeither},
+          {"search_area_texels", "Search area", "texel", kLower},
+          {"wasted_share", "Share of micro-occluders that cover nothing", "", kNeither},
+          {"level_mean", "Mean level", "", kNeither},
+          {"receivers_share", "Share of receivers", "", kNeither},
+          {"lit_share", "Share of lit pixels", "", kNeither},
+          {"umbra_share", "Share of pixels in umbra", "", kNeither},
+          {"processed_share", "Share of processed pixels", "", kNeither},
+          {"outside_map_share", "Share of pixels outside the map", "", kNeither}};
 }
 
 void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }

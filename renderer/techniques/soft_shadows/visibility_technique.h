@@ -45,7 +45,7 @@ class VisibilityTechnique : public Technique {
   };
   const Counted& counted() const { return counted_; }
 
-  /// Names of what count() returns.
+  /// What count() returns.
   static std::vector<Quantity> counterNames();
   /// Parameters that `values` must hold: resolution, bias, slope_bias, max_slope, raster.
   static std::vector<Parameter> commonParameters(double defaultSlopeBias);

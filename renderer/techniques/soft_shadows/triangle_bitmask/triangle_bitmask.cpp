@@ -105,7 +105,7 @@ void TriangleBitmask::prepare(frame::Frame& frame) {
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
   frame.passes().setBytesHeld(kTrianglePass, visibility_->bytes());
 
-  const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(pattern_));
+  const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(fromText<LightPattern>(pattern_)));
   lightSamples_ = bitCount(shape);
   lightShape_.emplace(shape);
 
