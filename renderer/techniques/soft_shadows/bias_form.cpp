@@ -71,8 +71,8 @@ void BiasForm::configure(const gl::Program& program) const {
   if (const auto* form = std::get_if<SlopeBias>(&settings_)) {
     program.set("slopeBias", static_cast<float>(form->slope));
     program.set("maxSlope", static_cast<float>(form->maxSlope));
-  } else if (const auto* form = std::get_if<StoredBias>(&settings_)) {
-    program.set("storedScale", static_cast<float>(form->scale));
+  } else if (const auto* stored = std::get_if<StoredBias>(&settings_)) {
+    program.set("storedScale", static_cast<float>(stored->scale));
   } else {
     const auto* grown = std::get_if<PerLevelBias>(&settings_);
     program.set("biasGrowth", grown ? static_cast<float>(grown->growth) : 1.0F);

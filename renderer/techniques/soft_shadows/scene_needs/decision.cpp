@@ -148,7 +148,9 @@ class Decider {
     figures_[LevelChanges] = current_.levelChangeShare;
     if (masked() && figures_[Coarse] > limits_.coarseShare) {
       BitmaskSettings rects = *masked();
-      rects.occluders = Microrects{.diagonalMerge = frame::DiagonalMerge::Nearest};
+      Microrects merged;
+      merged.diagonalMerge = frame::DiagonalMerge::Nearest;
+      rects.occluders = merged;
       rects.search.bias = SearchSettings{}.bias;
       take(rects, probe_.run(rects));
       remark(fmt::format(

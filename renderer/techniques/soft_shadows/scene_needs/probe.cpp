@@ -47,8 +47,9 @@ std::unique_ptr<Technique> makeTechnique(const ShadowSetting& setting) {
 std::string describe(const ShadowSetting& setting) {
   const std::string technique = techniqueOf(setting);
   const ParameterValues defaults(TechniqueRegistry::instance().get(technique).parameters, {});
+  const ParameterValues values = valuesOf(setting);
   std::string text = technique;
-  for (const auto& [name, value] : valuesOf(setting).all()) {
+  for (const auto& [name, value] : values.all()) {
     const ParameterValue* usual = defaults.find(name);
     if (!usual || *usual != value) text += ", " + name + "=" + limen::toText(value);
   }
