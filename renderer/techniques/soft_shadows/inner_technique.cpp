@@ -50,7 +50,35 @@ void refuseStray(const ParameterValues& values, const Parameter& parameter, cons
                 std::string("leave it out, or give ") + mend);
 }
 
+/// Defaults of a struct hold no values of the entry.
+ParameterValues completeValues(const ChosenEntry& inner) {
+  return {TechniqueRegistry::instance().get(inner.name).parameters, inner.values.all()};
+}
+
 }  // namespace
+
+std::vector<std::string> innerEntries(InnerKind kind) {
+  std::vector<std::string> out = {"soft_shadows/backprojection", "soft_shadows/bitmask"};
+  if (kind >= InnerKind::OrRayTraced) out.emplace_back("soft_shadows/ray_traced");
+  if (kind >= InnerKind::OrExact) out.emplace_back("soft_shadows/exact_union");
+  return out;
+}
+
+std::unique_ptr<Technique> makeInner(const ChosenEntry& inner) {
+  return TechniqueRegistry::instance().get(inner.name).make(completeValues(inner));
+}
+
+frame::ShadowMapSettings innerMap(const ChosenEntry& inner) {
+  const ParameterValues values = completeValues(inner);
+  return {std::stoi(limen::toText(values.all().at("resolution"))),
+          fromText<frame::Raster>(values.text("raster"))};
+}
+
+SlopeBias innerBias(const ChosenEntry& inner) {
+  const ParameterValues values = completeValues(inner);
+  const bool bySlope = values.text("bias_form") == "receiver_slope";
+  return {values.real("bias"), bySlope ? values.real("slope_bias") : 0.0, values.real("max_slope")};
+}
 
 std::vector<Parameter> innerParameters(InnerKind kind) {
   std::vector<std::string> choices = {"backprojection", "bitmask"};
@@ -84,7 +112,7 @@ frame::ShadowMapSettings innerMap(const ParameterValues& values) {
 
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
   std::vector<Counter> out;
-  const std::vector<Quantity> names = innerCounterNames();
+  const std::vector<Quantity> names = innerCounters();
   for (Counter& counter : inner.count(frame))
     if (std::any_of(names.begin(), names.end(),
                     [&](const Quantity& each) { return each.name == counter.name; }))
@@ -92,7 +120,7 @@ std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
   return out;
 }
 
-std::vector<Quantity> innerCounterNames() {
+std::vector<Quantity> innerCounters() {
   std::vector<Quantity> names = OccluderSearch::counterNames();
   names.insert(names.end(), {"rays_per_receiver", "rays", "occluders_per_receiver"});
   return names;

@@ -61,7 +61,7 @@ TEST_F(ThresholdMapTechniqueTest, CountsWhatItDeclares) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
     const Rendered rendered = render(scene, name, {}, {64, 48}, true);
     EXPECT_EQ(rendered.counters.size(), info.counters.size());
-    for (const std::string& counter : info.counters) EXPECT_GE(rendered.counter(counter), 0.0);
+    for (const Quantity& counter : info.counters) EXPECT_GE(rendered.counter(counter.name), 0.0);
     EXPECT_EQ(toText(info.product), "threshold");
   }
   const Rendered rendered = render(scene, "perception/threshold_map", {}, {64, 64}, true);
