@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cassert>
+#include <string_view>
 #include <vector>
 
 #include "experiments/base/quantity.h"
@@ -18,6 +20,14 @@ inline std::vector<Quantity> pixelShares() {
           {"lit_share", "Share of pixels known to be lit", "", Direction::Neither},
           {"umbra_share", "Share of pixels known to be in the umbra", "", Direction::Neither},
           {"processed_share", "Share of pixels that are worked on", "", Direction::Neither}};
+}
+
+/// That of `all` with this name, which must be there.
+inline Quantity counterOf(const std::vector<Quantity>& all, std::string_view name) {
+  for (const Quantity& counter : all)
+    if (counter.name == name) return counter;
+  assert(false && "no such counter");
+  return std::string(name);
 }
 
 }  // namespace limen::techniques

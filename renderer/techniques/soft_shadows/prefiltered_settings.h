@@ -60,9 +60,9 @@ struct MipsPrefilter {
 
 /// What all techniques that average a shadow map have beside their windows; included in their settings.
 struct PrefilteredSettings {
-  MapSettings map;
-  SlopeBias bias;
-  std::variant<SumsPrefilter, MipsPrefilter> prefilter;
+  MapSettings map = {};
+  SlopeBias bias = {};
+  std::variant<SumsPrefilter, MipsPrefilter> prefilter = {};
   static const SettingsTable<PrefilteredSettings>& table();
   /// Throws Error if values of so many bits need sums of more than 32.
   void check() const;
