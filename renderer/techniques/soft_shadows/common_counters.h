@@ -5,22 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/base/quantity.h"
+#include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
-
-/// Bytes of what a technique makes of the scene or of its shadow map before it looks anything up.
-inline Quantity structureBytes() {
-  return {"structure_bytes", "Size of the structure", "byte", Direction::LowerIsBetter};
-}
-
-/// Shares of all pixels, by what their visibility came from.
-inline std::vector<Quantity> pixelShares() {
-  return {{"receivers_share", "Share of pixels that show a receiver", "", Direction::Neither},
-          {"lit_share", "Share of pixels known to be lit", "", Direction::Neither},
-          {"umbra_share", "Share of pixels known to be in the umbra", "", Direction::Neither},
-          {"processed_share", "Share of pixels that are worked on", "", Direction::Neither}};
-}
 
 /// That of `all` with this name, which must be there.
 inline Quantity counterOf(const std::vector<Quantity>& all, std::string_view name) {
@@ -28,6 +15,18 @@ inline Quantity counterOf(const std::vector<Quantity>& all, std::string_view nam
     if (counter.name == name) return counter;
   assert(false && "no such counter");
   return std::string(name);
+}
+
+/// Bytes of what a technique makes of the scene or of its shadow map before it looks anything up.
+inline Quantity structureBytes() {
+  return {"structure_bytes", "Memory of the acceleration structure", "byte", Direction::LowerIsBetter};
+}
+
+/// Shares of all pixels, by what their visibility came from.
+inline std::vector<Quantity> pixelShares() {
+  const std::vector<Quantity> all = VisibilityTechnique::counterNames();
+  return {counterOf(all, "receivers_share"), counterOf(all, "lit_share"), counterOf(all, "umbra_share"),
+          counterOf(all, "processed_share")};
 }
 
 }  // namespace limen::techniques

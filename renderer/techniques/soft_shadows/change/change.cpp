@@ -65,9 +65,8 @@ struct ChangeSettings {
         innerBinding(&S::inner, InnerKind::OrExact),
         {&S::quantity, "quantity", "Which change of visibility"},
         included(&S::way),
-        Binding(&S::smoothing, "smoothing", "Whether frames are averaged with those before them",
-                "Schwarz 2009, section 5.2.2 (suggested there)")
-            .formerly({"alpha", "depth_tolerance", "normal_tolerance_deg", "clamp"})};
+        {&S::smoothing, "smoothing", "Whether frames are averaged with those before them",
+         "Schwarz 2009, section 5.2.2 (suggested there)"}};
     return kTable;
   }
 };

@@ -39,10 +39,8 @@ struct InMotionSettings {
     using S = InMotionSettings;
     static const SettingsTable<S> kTable = {
         innerBinding(&S::inner, InnerKind::OrExact),
-        Binding(&S::smoothing, "smoothing", "What the light's motion leaves in the last frame",
-                "Schwarz 2009, section 5.2.2 (suggested there)")
-            .formerly({"light_step", "direction_deg", "alpha", "depth_tolerance", "normal_tolerance_deg",
-                       "clamp"})};
+        {&S::smoothing, "smoothing", "What the light's motion leaves in the last frame",
+         "Schwarz 2009, section 5.2.2 (suggested there)"}};
     return kTable;
   }
 };

@@ -32,7 +32,7 @@ class Multisample : public Technique {
       : settings_(settings), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
 
   static std::vector<Quantity> counters() {
-    return {{"inner_evaluations_per_px", "Points evaluated per pixel", "", Direction::LowerIsBetter},
+    return {{"inner_evaluations_per_px", "Points evaluated per pixel", "1/px", Direction::LowerIsBetter},
             counterOf(innerCounters(), "micro_occluders_per_px"),
             {"complex_share", "Share of pixels that see several surfaces", "", Direction::Neither},
             {"borrowed_share", "Share of samples that take a neighbour's visibility", "", Direction::Neither},

@@ -98,8 +98,8 @@ class Scatter : public Technique {
   static std::vector<Quantity> counters() {
     std::vector<Quantity> all = {
         {"caster_texels", "Texels that scatter", "", Direction::LowerIsBetter},
-        {"splats_per_caster_texel", "Splats per scattering texel", "", Direction::LowerIsBetter},
-        {"splats_per_receiver", "Splats per receiver pixel", "", Direction::LowerIsBetter}};
+        {"splats_per_caster_texel", "Splats per scattering texel", "1/texel", Direction::LowerIsBetter},
+        {"splats_per_receiver", "Splats per receiver", "1/px", Direction::LowerIsBetter}};
     for (Quantity& share : pixelShares()) all.push_back(std::move(share));
     all.push_back({"without_answer_share", "Share of pixels that the soft shadow map knows nothing of", "",
                    Direction::Neither});

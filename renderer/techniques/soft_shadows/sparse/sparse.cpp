@@ -87,9 +87,9 @@ class Sparse : public Technique {
 
   static std::vector<Quantity> counters() {
     return {
-        {"evaluated_share", "Samples evaluated per receiver pixel", "", Direction::LowerIsBetter},
+        {"evaluated_share", "Share of receivers that are evaluated", "", Direction::LowerIsBetter},
         counterOf(innerCounters(), "micro_occluders_per_px"),
-        {"micro_occluders_per_receiver", "Micro-occluders per receiver pixel", "", Direction::LowerIsBetter},
+        {"micro_occluders_per_receiver", "Micro-occluders per receiver", "1/px", Direction::LowerIsBetter},
         {"fallback_share", "Share of receivers without a sample on their surface", "", Direction::Neither},
         {"unreached_share", "Share of receivers without a sample in reach", "", Direction::Neither}};
   }

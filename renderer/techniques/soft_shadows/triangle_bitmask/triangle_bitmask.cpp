@@ -162,9 +162,10 @@ void TriangleBitmask::render(frame::Frame& frame) { run(frame, *program_, nullpt
 
 std::vector<Quantity> TriangleBitmask::counters() {
   std::vector<Quantity> all = {
-      {"nodes_per_receiver", "Nodes visited per receiver pixel", "", Direction::LowerIsBetter},
-      {"triangles_per_receiver", "Triangles tested per receiver pixel", "", Direction::LowerIsBetter},
-      {"masks_per_receiver", "Triangles between receiver and light", "", Direction::LowerIsBetter}};
+      {"nodes_per_receiver", "Nodes visited per receiver", "1/px", Direction::LowerIsBetter},
+      {"triangles_per_receiver", "Triangles tested per receiver", "1/px", Direction::LowerIsBetter},
+      {"masks_per_receiver", "Triangles that cover light samples, per receiver", "1/px",
+       Direction::LowerIsBetter}};
   for (Quantity& share : pixelShares()) all.push_back(std::move(share));
   all.push_back(structureBytes());
   return all;
