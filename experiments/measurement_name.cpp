@@ -10,9 +10,9 @@ std::string measurementName(const Choice& metric, const std::vector<Choice>& all
   const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
   std::string name = metric.name;
   if (std::count_if(all.begin(), all.end(), sameName) < 2) return name;
-  for (const Parameter& parameter : declared) {
-    const ParameterValue& value = metric.values.all().at(parameter.name);
-    if (value != parameter.defaultValue) name += "_" + toText(value);
+  for (const DeclaredAt& at : chosen(declared, metric.values)) {
+    const ParameterValue& value = *metric.values.find(at.path);
+    if (value != at.parameter->defaultValue) name += "_" + toText(value);
   }
   return name;
 }

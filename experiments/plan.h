@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/descriptor.h"
 #include "experiments/executor.h"
 

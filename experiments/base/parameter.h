@@ -128,6 +128,9 @@ class ParameterValues {
   std::map<std::string, ParameterValue> values_;
 };
 
+/// The declarations of `values`, those that exist under its choices, in order of declaration.
+std::vector<DeclaredAt> chosen(const std::vector<Parameter>& declared, const ParameterValues& values);
+
 /// Text form of a value, shortest that reads back to the same number ("0.05", "true", "jittered_16").
 std::string toText(const ParameterValue& value);
 nlohmann::json toJson(const ParameterValue& value);

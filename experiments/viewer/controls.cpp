@@ -108,6 +108,8 @@ bool control(const Parameter& parameter, const ParameterValue& now, ParameterVal
       next = text;
       return true;
     }
+    case ParameterType::Group:
+      return false;
   }
   return false;
 }

@@ -9,10 +9,10 @@
 #include "experiments/base/error.h"
 #include "experiments/base/replace_file.h"
 #include "experiments/base/text.h"
-#include "experiments/catalogue.h"
 #include "experiments/descriptor.h"
 #include "experiments/plan.h"
 #include "experiments/product.h"
+#include "renderer/catalogue.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::viewer {
@@ -106,14 +106,14 @@ std::string keep(const Choices& choices, const std::string& folder) {
   const fs::path path = freshName(folder, "kept", ".yaml");
   const std::string text = descriptorOf(choices);
   // Whatever a sweep would refuse is said now, while the picture is still on screen.
-  const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
+  const Catalogue& catalogue = *catalogueFromRegistries();
   experiments::makePlan(experiments::parseDescriptor(text, path.string(), catalogue, {}), catalogue);
   replaceFile(path.string(), text);
   return path.string();
 }
 
 Choices choicesOf(const std::string& descriptorPath) {
-  const experiments::Catalogue catalogue = experiments::catalogueFromRegistries();
+  const Catalogue& catalogue = *catalogueFromRegistries();
   const experiments::Plan plan =
       experiments::makePlan(experiments::readDescriptor(descriptorPath, catalogue, {}), catalogue);
   const experiments::PlannedRun& run = plan.runs.at(0);

@@ -4,12 +4,12 @@
 #include <map>
 
 #include "experiments/base/error.h"
+#include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
 #include "experiments/base/value_reader.h"
 #include "perception/vision/display.h"
 #include "study/example/example.h"
-#include "study/protocol/node_reader.h"
 
 namespace limen::study {
 namespace {

@@ -69,7 +69,7 @@ void PartReader::checkSize(const Part& part, Mark mark) {
 }
 
 void PartReader::checkStimuli(const Part& part) {
-  StimulusReader stimuli(reader_, declarations_);
+  StimulusReader stimuli(reader_, catalogue_);
   std::vector<Variables> sets = {{}};
   if (procedure_) {
     sets = corners(*procedure_);

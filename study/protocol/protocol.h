@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/catalogue.h"
 #include "experiments/base/yaml_tree.h"
-#include "study/protocol/declarations.h"
 
 namespace limen {
 class FileFinder;
@@ -178,15 +178,15 @@ struct Protocol {
   nlohmann::json simulation;  ///< what simulated observers see in its conditions (see observers/)
   std::map<std::string, std::string> fileHashes;  ///< path of each file that a stimulus names -> SHA-256
   /// What its stimuli were checked against, and are made with.
-  std::shared_ptr<const Declarations> declarations;
+  std::shared_ptr<const Catalogue> catalogue;
   std::shared_ptr<const FileFinder> files;
 };
 
 /// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" for everything
 /// that is wrong. `nameOrPath`: a file, or the name of a shipped protocol.
-Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations);
+Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue);
 Protocol parseProtocol(const std::string& text, const std::string& path,
-                       std::shared_ptr<const Declarations> declarations);
+                       std::shared_ptr<const Catalogue> catalogue);
 /// Names of the protocols in study/protocols, with their titles.
 std::vector<std::pair<std::string, std::string>> shippedProtocols();
 

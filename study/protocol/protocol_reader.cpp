@@ -6,11 +6,11 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
 #include "perception/vision/display.h"
 #include "study/protocol/expression.h"
-#include "study/protocol/node_reader.h"
 #include "study/protocol/part_reader.h"
 #include "study/protocol/words.h"
 
@@ -37,11 +37,11 @@ const std::vector<std::string>& exclusionRules() {
 
 class ProtocolReader {
  public:
-  ProtocolReader(const std::string& path, std::shared_ptr<const Declarations> declarations)
+  ProtocolReader(const std::string& path, std::shared_ptr<const Catalogue> catalogue)
       : problems_(path), files_(path), reader_(problems_, files_) {
     out_.path = path;
     out_.name = fs::path(path).stem().string();
-    out_.declarations = std::move(declarations);
+    out_.catalogue = std::move(catalogue);
   }
 
   Protocol read(const std::string& text) {
@@ -119,7 +119,7 @@ class ProtocolReader {
   }
 
   void readParts(const YamlNode& root) {
-    PartReader parts(reader_, *out_.declarations, refreshHz_);
+    PartReader parts(reader_, *out_.catalogue, refreshHz_);
     const YamlNode* list = root.find("parts");
     if (!list) {
       out_.parts.push_back(parts.read(root, "main", protocolKeys()));
@@ -232,15 +232,15 @@ class ProtocolReader {
 }  // namespace
 
 Protocol parseProtocol(const std::string& text, const std::string& path,
-                       std::shared_ptr<const Declarations> declarations) {
-  return ProtocolReader(path, std::move(declarations)).read(text);
+                       std::shared_ptr<const Catalogue> catalogue) {
+  return ProtocolReader(path, std::move(catalogue)).read(text);
 }
 
 std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shippedFiles(kProtocolFolder); }
 
-Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations) {
+Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue) {
   const std::string path = findShipped(nameOrPath, kProtocolFolder, "protocol");
-  return parseProtocol(readTextFile(path), path, std::move(declarations));
+  return parseProtocol(readTextFile(path), path, std::move(catalogue));
 }
 
 }  // namespace limen::study

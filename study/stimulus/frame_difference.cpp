@@ -58,7 +58,7 @@ FrameComparer::FrameComparer(gl::Context& context, glm::ivec2 windowPx,
 FrameComparer::~FrameComparer() = default;
 
 double FrameComparer::flipPixelsPerDegree() const {
-  const Parameter& parameter = metric("flip").parameters.front();
+  const Parameter& parameter = metric("flip").parameters.get().front();
   return std::clamp(display_.pixelsPerDegree(), *parameter.minimum, *parameter.maximum);
 }
 

@@ -7,7 +7,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/parameter_list.h"
 
-namespace limen {
+namespace limen::settings_table_test {
 namespace {
 
 using testing::ElementsAre;
@@ -199,4 +199,4 @@ TEST(ChosenEntry, IsCheckedAsItsRegistrationSays) {
 }
 
 }  // namespace
-}  // namespace limen
+}  // namespace limen::settings_table_test

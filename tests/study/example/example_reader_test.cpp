@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/yaml_tree.h"
+#include "renderer/catalogue.h"
 #include "study/example/example.h"
 
 namespace limen::study {
@@ -99,12 +100,12 @@ TEST(ExampleReader, RefusesWhatDoesNotFit) {
 
 TEST(ExampleReader, AnotherWindowIsInTheTextThatIsStored) {
   ExampleStudy study = parseExample(kGood, "e.yaml").studies[0];
-  const auto declarations = declarationsFromRegistries();
-  const Protocol small = protocolOf(study, declarations);
+  const auto catalogue = catalogueFromRegistries();
+  const Protocol small = protocolOf(study, catalogue);
   EXPECT_EQ(small.window.widthPx, 64);
   EXPECT_EQ(small.window.heightPx, 48);
   study.windowPx.reset();
-  const Protocol own = protocolOf(study, declarations);
+  const Protocol own = protocolOf(study, catalogue);
   EXPECT_EQ(own.window.widthPx, 320);
   EXPECT_EQ(small.name, own.name);
   EXPECT_NE(small.hash, own.hash);
@@ -122,7 +123,7 @@ TEST(ExampleReader, AnotherWindowIsInTheTextThatIsStored) {
 TEST(ExampleReader, ShippedExamplesAreGood) {
   const std::string features = readTextFile(LIMEN_SOURCE_DIR "/experiments/features.yaml");
   EXPECT_GE(shippedExamples().size(), 2U);
-  const auto declarations = declarationsFromRegistries();
+  const auto catalogue = catalogueFromRegistries();
   for (const auto& [name, title] : shippedExamples()) {
     const Example example = readExample(name);
     EXPECT_EQ(example.title, title);
@@ -131,7 +132,7 @@ TEST(ExampleReader, ShippedExamplesAreGood) {
     // As many observers as the thesis had, so that degrees of freedom are its own.
     for (const ExampleStudy& study : example.studies) {
       EXPECT_EQ(study.observers, study.protocol == "experiment_1" ? 8 : 12) << name;
-      EXPECT_NO_THROW(protocolOf(study, declarations)) << name;
+      EXPECT_NO_THROW(protocolOf(study, catalogue)) << name;
     }
   }
 }

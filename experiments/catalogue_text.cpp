@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/catalogue.h"
+#include "experiments/catalogue_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "experiments/base/error.h"
@@ -38,25 +39,56 @@ std::string describeKind(const NamedKind& kind) {
   return out;
 }
 
+std::vector<std::string> quantityNames(const std::vector<Quantity>& quantities) {
+  std::vector<std::string> out;
+  for (const Quantity& quantity : quantities) out.push_back(quantity.name);
+  return out;
+}
+
+std::string describeParameters(const std::vector<Parameter>& parameters, size_t indent);
+
+std::string describeAlternatives(const Parameter& parameter, size_t indent) {
+  if (parameter.type == ParameterType::Group)
+    return describeParameters(parameter.alternatives.at(0).parameters, indent + 2);
+  std::string out;
+  for (const Alternative& alternative : parameter.alternatives) {
+    out += fmt::format("{:{}}{}", "", indent + 2, "kind: " + alternative.name);
+    if (!alternative.description.empty()) out += ", " + alternative.description;
+    out += "\n" + describeParameters(alternative.parameters, indent + 4);
+  }
+  return out;
+}
+
+std::string describeParameters(const std::vector<Parameter>& parameters, size_t indent) {
+  std::string out;
+  for (const Parameter& parameter : parameters) {
+    const std::string start(indent, ' ');
+    out += start + parameter.name;
+    if (parameter.type != ParameterType::Group)
+      out += fmt::format(": {}; {}", describeRange(parameter),
+                         parameter.required ? "must be given" : "default " + toText(parameter.defaultValue));
+    out += fmt::format("\n{}  {}\n", start, parameter.description);
+    if (!parameter.source.empty()) out += fmt::format("{}  source: {}\n", start, parameter.source);
+    if (!parameter.shorthand.empty())
+      out += fmt::format("{0}  a number in its place: {1}\n", start, parameter.shorthand);
+    out += describeAlternatives(parameter, indent);
+  }
+  return out;
+}
+
 std::string describeEntry(const NamedKind& kind, const std::string& name, const CatalogueEntry& entry) {
   std::string out =
       fmt::format("{} {}, version {}\n  {}\n", kind.singular, name, entry.version, entry.summary);
   if (!entry.source.empty()) out += fmt::format("  source: {}\n", entry.source);
   if (!entry.product.empty()) out += fmt::format("  product: {}\n", entry.product);
   if (!entry.needs.empty()) out += fmt::format("  needs a scene with: {}\n", join(entry.needs));
-  if (!entry.unit.empty()) out += fmt::format("  unit: {}\n", entry.unit);
+  if (!entry.quantity.unit.empty()) out += fmt::format("  unit: {}\n", entry.quantity.unit);
   if (entry.reference) out += "  a reference: made to be compared with\n";
   if (entry.onCpu) out += "  runs on the CPU\n";
-  if (!entry.counters.empty()) out += fmt::format("  counts: {}\n", join(entry.counters));
+  if (!entry.counters.empty()) out += fmt::format("  counts: {}\n", join(quantityNames(entry.counters)));
   if (entry.parameters.empty()) return out + "  no parameters\n";
   out += "  parameters:\n";
-  for (const Parameter& parameter : entry.parameters) {
-    out += fmt::format("    {}: {}; {}\n      {}\n", parameter.name, describeRange(parameter),
-                       parameter.required ? "must be given" : "default " + toText(parameter.defaultValue),
-                       parameter.description);
-    if (!parameter.source.empty()) out += fmt::format("      source: {}\n", parameter.source);
-  }
-  return out;
+  return out + describeParameters(entry.parameters, 4);
 }
 
 nlohmann::json entryAsJson(const NamedKind& kind, const std::string& name, const CatalogueEntry& entry) {
@@ -69,9 +101,9 @@ nlohmann::json entryAsJson(const NamedKind& kind, const std::string& name, const
     out["needs"] = entry.needs;
     out["reference"] = entry.reference;
     out["on_cpu"] = entry.onCpu;
-    out["counters"] = entry.counters;
+    out["counters"] = quantityNames(entry.counters);
   }
-  if (!entry.unit.empty()) out["unit"] = entry.unit;
+  if (!entry.quantity.unit.empty()) out["unit"] = entry.quantity.unit;
   return out;
 }
 
@@ -85,21 +117,6 @@ Error unknownWord(const Catalogue& catalogue, const std::string& what) {
 }
 
 }  // namespace
-
-std::vector<std::string> counterNames(const Catalogue& catalogue,
-                                      const std::vector<std::string>& techniques) {
-  std::vector<std::string> out;
-  for (const std::string& technique : techniques)
-    for (const std::string& name : catalogue.techniques.at(technique).counters)
-      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-  return out;
-}
-
-std::vector<std::string> names(const CatalogueKind& kind) {
-  std::vector<std::string> out;
-  for (const auto& [name, entry] : kind) out.push_back(name);
-  return out;
-}
 
 std::string describe(const Catalogue& catalogue, const std::string& what) {
   std::string out;

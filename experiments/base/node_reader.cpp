@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "study/protocol/node_reader.h"
+#include "experiments/base/node_reader.h"
 
 #include <algorithm>
 
+#include "experiments/base/entry_reader.h"
+#include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
-namespace limen::study {
+namespace limen {
 
 using Kind = YamlNode::Kind;
 
@@ -72,4 +74,14 @@ std::vector<std::string> NodeReader::texts(const YamlNode& node, const std::stri
   return out;
 }
 
-}  // namespace limen::study
+std::optional<ParameterValues> NodeReader::complete(const YamlNode& map, const std::string& what,
+                                                    const std::vector<Parameter>& declared) {
+  const size_t before = problems_.size();
+  AxisPoint given;
+  for (const Axis& axis : EntryReader(*this, "give one value").axes(map, declared, what, {}))
+    if (!axis.points.empty()) given.insert(axis.points[0].begin(), axis.points[0].end());
+  if (problems_.size() != before) return {};
+  return ParameterValues(declared, given);
+}
+
+}  // namespace limen

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/catalogue.h"
+#include "renderer/catalogue.h"
+
 #include "perception/metrics/metric.h"
+#include "renderer/frame/shaded.h"
 #include "renderer/scene/scene.h"
 #include "renderer/techniques/technique.h"
 
-namespace limen::experiments {
+namespace limen {
 
-Catalogue catalogueFromRegistries() {
+namespace {
+
+Catalogue readRegistries() {
   Catalogue out;
   for (const auto& [name, info] : scene::SceneRegistry::instance().all()) {
     CatalogueEntry& entry = out.scenes[name];
@@ -26,7 +30,7 @@ Catalogue catalogueFromRegistries() {
     entry.needs = info.needs;
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
-    for (const Quantity& counter : info.counters) entry.counters.push_back(counter.name);
+    entry.counters = info.counters;
     entry.check = info.check;
   }
   for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
@@ -35,12 +39,22 @@ Catalogue catalogueFromRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.parameters;
-    entry.unit = info.unit;
+    entry.quantity = {name, "", info.unit,
+                      info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter,
+                      info.source};
     entry.needsReference = info.needsReference;
   }
   out.measurements = {"gpu_ms",     "gpu_ms_p95", "technique_ms",     "wall_ms",      "cpu_ms",
                       "prepare_ms", "bytes_held", "non_finite_count", "gpu_clock_mhz"};
+  out.shading = frame::ShadedSetting::parameters();
   return out;
 }
 
-}  // namespace limen::experiments
+}  // namespace
+
+std::shared_ptr<const Catalogue> catalogueFromRegistries() {
+  static const auto kCatalogue = std::make_shared<const Catalogue>(readRegistries());
+  return kCatalogue;
+}
+
+}  // namespace limen

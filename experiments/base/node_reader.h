@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/base/settings_table.h"
 #include "experiments/base/value_reader.h"
-#include "study/protocol/protocol.h"
 
-namespace limen::study {
+namespace limen {
 
-/// Reads maps of a protocol; what does not fit becomes a problem.
+/// Reads maps, lists and scalars of a descriptor or a protocol; what does not fit becomes a problem, and
+/// reading goes on, so that a user sees all of them at once.
 class NodeReader {
  public:
   NodeReader(Problems& problems, FileFinder& files)
@@ -20,8 +22,10 @@ class NodeReader {
   FileFinder& files() { return files_; }
   ValueReader& values() { return values_; }
 
+  /// `what` as a message begins with it: "'timing'", "a scene".
   bool isMap(const YamlNode& node, const std::string& what, const std::string& example);
   bool isFilledList(const YamlNode& node, const std::string& what, const std::string& example);
+  /// `what` has the keys: "timing", "an expectation".
   void checkKeys(const YamlNode& map, const std::string& what, const std::vector<std::string>& known);
 
   /// The value of key `parameter.name` of a map, if it is there and fits.
@@ -34,12 +38,22 @@ class NodeReader {
   /// Different texts.
   std::vector<std::string> texts(const YamlNode& node, const std::string& what, const std::string& example);
 
+  /// Settings that a map gives, the rest at their defaults; after a problem, defaults. `what` has the
+  /// parameters: "timing".
+  template <Settings S>
+  S settings(const YamlNode& map, const std::string& what) {
+    const auto values = complete(map, what, S::table().parameters());
+    return values ? S::table().read(*values) : S{};
+  }
+
  private:
   std::optional<ParameterValue> valueOf(const YamlNode& map, const Parameter& parameter);
+  std::optional<ParameterValues> complete(const YamlNode& map, const std::string& what,
+                                          const std::vector<Parameter>& declared);
 
   Problems& problems_;
   FileFinder& files_;
   ValueReader values_;
 };
 
-}  // namespace limen::study
+}  // namespace limen
