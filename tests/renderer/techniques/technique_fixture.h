@@ -61,6 +61,17 @@ class TechniqueTest : public testing::Test {
     }
   }
 
+  /// `given`, with every map that the technique reads at `side` texels.
+  static Given withMaps(const std::string& technique, int side, Given given = {}) {
+    const ParameterValues values(TechniqueRegistry::instance().get(technique).parameters, given);
+    for (const auto& [path, value] : values.all()) {
+      if (!path.ends_with("resolution")) continue;
+      const bool isNumber = std::holds_alternative<int64_t>(value);
+      given[path] = isNumber ? ParameterValue(int64_t{side}) : ParameterValue(std::to_string(side));
+    }
+    return given;
+  }
+
   static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given,
                          glm::ivec2 sizePx, bool counting = false) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);

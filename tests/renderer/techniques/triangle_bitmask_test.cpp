@@ -108,10 +108,9 @@ class TriangleMasks : public TechniqueTest {
 
   static Traced trace(const scene::Scene& scene, const std::string& pattern, glm::ivec2 sizePx,
                       const references::Triangles& triangles) {
-    const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/triangle_bitmask");
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
-    TriangleBitmask made(ParameterValues(info.parameters, {{"pattern", pattern}}));
+    TriangleBitmask made(TriangleBitmaskSettings{pattern});
     made.prepare(frame);
     frame.begin();
     made.render(frame);
