@@ -24,7 +24,7 @@ inline Quantity structureBytes() {
 
 /// Shares of all pixels, by what their visibility came from.
 inline std::vector<Quantity> pixelShares() {
-  const std::vector<Quantity> all = VisibilityTechnique::counterNames();
+  const std::vector<Quantity> all = VisibilityTechnique::quantities();
   return {counterOf(all, "receivers_share"), counterOf(all, "lit_share"), counterOf(all, "umbra_share"),
           counterOf(all, "processed_share")};
 }

@@ -42,22 +42,4 @@ std::vector<Counter> countInner(Technique& inner, frame::Frame& frame);
 /// What inner techniques of any kind count.
 std::vector<Quantity> innerCounters();
 
-// Wrappers whose settings are no struct yet.
-
-/// `inner`, and those parameters of the inner techniques that matter for speed and error, as these declare
-/// them: resolution, budget, structure, fixed_level, occluders, bias, slope_bias, max_slope; `rays` where one
-/// may be ray traced. All others keep their defaults.
-std::vector<Parameter> innerParameters(InnerKind kind);
-
-/// Throws Error where a value is about another technique than the inner one, or the inner one refuses it.
-void checkInner(const ParameterValues& values);
-
-/// The inner technique; its frame decides which points it sees.
-std::unique_ptr<Technique> makeInner(const ParameterValues& values);
-
-/// The map that a backprojecting inner technique reads.
-frame::ShadowMapSettings innerMap(const ParameterValues& values);
-
-inline std::vector<Quantity> innerCounterNames() { return innerCounters(); }
-
 }  // namespace limen::techniques

@@ -212,13 +212,13 @@ void OccluderSearch::findLevelSteps(frame::Frame& frame, const CountImages& coun
   levelSteps_.emplace(LevelSteps{from({0, 0}), from({1, 0}), from({0, 1})});
 }
 
-std::vector<Quantity> OccluderSearch::counterNames() {
-  std::vector<Quantity> all = VisibilityTechnique::counterNames();
+std::vector<Quantity> OccluderSearch::quantities() {
+  std::vector<Quantity> all = VisibilityTechnique::quantities();
   all.insert(all.end(),
              {{"structure_bytes", "Memory of the acceleration structure", "byte", Direction::LowerIsBetter,
                "Schwarz 2009, section 4.3"},
               {"occluder_bytes", "Memory of occluders and biases", "byte", Direction::LowerIsBetter}});
-  for (const std::vector<Quantity>& more : {qualityQuantities(), levelStepCounterNames(), budgetQuantities()})
+  for (const std::vector<Quantity>& more : {qualityQuantities(), levelStepQuantities(), budgetQuantities()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -24,7 +24,7 @@ class OccluderSearch : public VisibilityTechnique {
   /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together;
   /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; those of
   /// quality_counters.h; and, where one map is read, those of level_steps.h.
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> quantities();
 
   /// prepareSearch(), then the frames in which a driver of the budget settles.
   void prepare(frame::Frame& frame) final;

@@ -31,7 +31,7 @@ void setWindow(const gl::Program& program, const ConvolvedWindow& window) {
 }  // namespace
 
 TechniqueInfo PrefilteredTechnique::info(std::string name, std::string summary) {
-  std::vector<Quantity> counters = counterNames();
+  std::vector<Quantity> counters = quantities();
   counters.push_back(structureBytes());
   return {.name = std::move(name),
           .version = 1,

@@ -57,12 +57,6 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::v
           {"outside_map_share", share(pixels[Outside])}};
 }
 
-frame::Raster rasterOf(const std::string& name) {
-  return name == "auto"      ? frame::Raster::Auto
-         : name == "compute" ? frame::Raster::Compute
-                             : frame::Raster::Hardware;
-}
-
 const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
   return eye == glm::dvec2(0.5) ? frame.get<frame::Receivers>().texture()
                                 : frame.get<frame::ReceiversFrom>(frame::EyeSetting{eye}).texture();
@@ -79,33 +73,6 @@ VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias
       shader_(std::move(shader)),
       pass_(std::move(pass)),
       defines_(std::move(defines)) {}
-
-VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
-                                         gl::ShaderDefines defines)
-    : maps_{{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))}},
-      bias_(values.real("bias")),
-      slopeBias_(values.real("slope_bias")),
-      maxSlope_(values.real("max_slope")),
-      shader_(std::move(shader)),
-      pass_(std::move(pass)),
-      defines_(std::move(defines)) {}
-
-std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
-  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
-                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
-          realParameter("bias", 1e-4, 0.0, 0.1, "",
-                        "Constant depth bias as a share of the receiver's distance from the light's plane",
-                        "Schwarz 2009, section 4.4.5 (value not given there)"),
-          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
-                        "Depth bias by the receiver's slope, in texels of the level that is read",
-                        "Schwarz 2009, section 4.4.5 (reconstructed)"),
-          realParameter(
-              "max_slope", 10.0, 0.1, 1e6, "",
-              "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
-          choiceParameter("raster", "auto", {"auto", "compute", "hardware"},
-                          "How the shadow map is rasterised: in compute shaders or by the driver; auto: what "
-                          "was measured to be faster")};
-}
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
@@ -190,7 +157,7 @@ void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
   finish(frame);
 }
 
-std::vector<Quantity> VisibilityTechnique::counterNames() {
+std::vector<Quantity> VisibilityTechnique::quantities() {
   constexpr Direction kLower = Direction::LowerIsBetter, kNeither = Direction::Neither;
   return {{"fetches_per_receiver", "Texels read per receiver", "1/px", kLower},
           {"fetches_per_px", "Texels read per processed pixel", "1/px", kLower},

@@ -60,7 +60,7 @@ TEST_F(SoftShadows, HalfPlanePenumbraIsTheLinearRampOfTheClosedForm) {
     frame::Frame frame(context(), scene, gpuScene, {64, 48});
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
     const auto made = info.make(ParameterValues(
-        info.parameters, {{"resolution", std::to_string(kResolution)}, {"budget", int64_t{0}}}));
+        info.parameters, {{"resolution", int64_t{kResolution}}, {"budget.limit", int64_t{0}}}));
     made->prepare(frame);
     frame.begin();
     made->render(frame);
@@ -99,9 +99,9 @@ TEST_F(SoftShadows, BitmasksFuseWhatAreasCountTwice) {
         makeScene("card_stack", {{"cards", cards}, {"spacing", 0.1}, {"fit", std::string("strips")}});
     const Rendered exact = render(scene, "soft_shadows/exact_union", {}, {48, 36});
     // The map spans the staircase: as many texels for each card.
-    const Given given = {{"resolution", std::to_string(64 * cards)},
-                         {"budget", int64_t{0}},
-                         {"gap_fill", std::string("none")}};
+    const Given given = {{"resolution", 64 * cards},
+                         {"budget.limit", int64_t{0}},
+                         {"occluders.gap_fill", std::string("none")}};
     for (const char* technique : {"soft_shadows/backprojection", "soft_shadows/bitmask"}) {
       const Rendered rendered = render(scene, technique, given, {48, 36});
       double sum = 0.0, worst = 0.0;
@@ -147,10 +147,11 @@ TEST_F(SoftShadows, GapFillingClosesLeaksStepByStep) {
   const scene::Scene scene = makeScene("sphere_grid");
   std::vector<double> light;
   for (const char* fill : {"none", "left_bottom", "diagonal"}) {
-    const Rendered rendered =
-        render(scene, "soft_shadows/backprojection",
-               {{"resolution", std::string("128")}, {"budget", int64_t{0}}, {"gap_fill", std::string(fill)}},
-               {64, 48});
+    const Rendered rendered = render(scene, "soft_shadows/backprojection",
+                                     {{"resolution", int64_t{128}},
+                                      {"budget.limit", int64_t{0}},
+                                      {"occluders.gap_fill", std::string(fill)}},
+                                     {64, 48});
     double sum = 0.0;
     for (const float value : rendered.product.data) sum += value;
     light.push_back(sum);

@@ -66,8 +66,7 @@ class TechniqueTest : public testing::Test {
     const ParameterValues values(TechniqueRegistry::instance().get(technique).parameters, given);
     for (const auto& [path, value] : values.all()) {
       if (!path.ends_with("resolution")) continue;
-      const bool isNumber = std::holds_alternative<int64_t>(value);
-      given[path] = isNumber ? ParameterValue(int64_t{side}) : ParameterValue(std::to_string(side));
+      given[path] = int64_t{side};
     }
     return given;
   }

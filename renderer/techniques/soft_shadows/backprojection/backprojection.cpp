@@ -46,7 +46,7 @@ const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
      .source = "Schwarz 2009, sections 4.1 and 4.4 (SS-10, SS-11, SS-26, SS-30, SS-31)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
-     .counters = OccluderSearch::counterNames()}};
+     .counters = OccluderSearch::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

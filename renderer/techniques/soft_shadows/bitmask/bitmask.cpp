@@ -126,8 +126,8 @@ void Bitmask::finish(frame::Frame& frame) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-std::vector<Quantity> Bitmask::counterNames() {
-  std::vector<Quantity> all = OccluderSearch::counterNames();
+std::vector<Quantity> Bitmask::quantities() {
+  std::vector<Quantity> all = OccluderSearch::quantities();
   all.insert(all.end(), {{"maps_read", "Shadow maps read", "", Direction::LowerIsBetter},
                          {"maps_with_casters", "Shadow maps with casters", "", Direction::Neither},
                          {"mask_bytes", "Memory of stored masks", "byte", Direction::LowerIsBetter}});
@@ -191,7 +191,7 @@ const RegisteredTechnique<BitmaskVisibility> kBitmaskRegistered{
      .source = "Schwarz 2009, sections 4.2 and 4.4 (SS-12 to SS-16, SS-19, SS-20, SS-27 to SS-30)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},
-     .counters = Bitmask::counterNames()}};
+     .counters = Bitmask::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -23,7 +23,7 @@ class Bitmask : public OccluderSearch {
   explicit Bitmask(const BitmaskSettings& settings) : Bitmask(settings, false) {}
 
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> quantities();
 
   void render(frame::Frame& frame) override;
   std::vector<Counter> count(frame::Frame& frame) override;

@@ -36,6 +36,18 @@ constexpr EnumNames<LightPattern, 9> enumNames(LightPattern) {
             {LightPattern::Halton256, "halton_256"}}}};
 }
 
+/// Those on grids, for techniques without tables.
+enum class GridPattern { Regular8, Regular16, Regular32, Jittered16 };
+constexpr EnumNames<GridPattern, 4> enumNames(GridPattern) {
+  return {{{{GridPattern::Regular8, "regular_8"},
+            {GridPattern::Regular16, "regular_16"},
+            {GridPattern::Regular32, "regular_32"},
+            {GridPattern::Jittered16, "jittered_16"}}}};
+}
+inline LightPattern lightPattern(GridPattern pattern) {
+  return fromText<LightPattern>(limen::toText(pattern));
+}
+
 /// True if masks of rectangles are worked out by arithmetic; of others a table holds them.
 bool isGridPattern(LightPattern pattern);
 /// PATTERN of occlusion_mask.glsl.

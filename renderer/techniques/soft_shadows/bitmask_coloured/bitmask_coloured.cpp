@@ -125,7 +125,7 @@ class BitmaskColoured : public Bitmask {
 };
 
 std::vector<Quantity> colouredQuantities() {
-  std::vector<Quantity> all = Bitmask::counterNames();
+  std::vector<Quantity> all = Bitmask::quantities();
   all.emplace_back("colour_table_bytes", "Memory of the table of colours", "byte", Direction::LowerIsBetter);
   return all;
 }

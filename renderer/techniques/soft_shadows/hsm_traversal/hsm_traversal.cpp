@@ -15,15 +15,6 @@
 namespace limen::techniques {
 namespace {
 
-/// Patterns on grids, whose masks need no table.
-enum class TraversalPattern { Regular8, Regular16, Regular32, Jittered16 };
-constexpr EnumNames<TraversalPattern, 4> enumNames(TraversalPattern) {
-  return {{{{TraversalPattern::Regular8, "regular_8"},
-            {TraversalPattern::Regular16, "regular_16"},
-            {TraversalPattern::Regular32, "regular_32"},
-            {TraversalPattern::Jittered16, "jittered_16"}}}};
-}
-
 /// Depth of a tile that counts as one block.
 enum class BlockDepth { None, Minimum, Mean, Maximum };
 constexpr EnumNames<BlockDepth, 4> enumNames(BlockDepth) {
@@ -38,7 +29,7 @@ struct SummedArea {
 };
 struct JoinedMask {
   static constexpr const char *kKind = "bitmask", *kSummary = "hidden samples of the light are joined";
-  TraversalPattern pattern = TraversalPattern::Jittered16;
+  GridPattern pattern = GridPattern::Jittered16;
   static const SettingsTable<JoinedMask>& table() {
     static const SettingsTable<JoinedMask> kTable = {
         Binding(&JoinedMask::pattern, "pattern", "Light samples", "Schwarz 2009, sections 4.2.1 and 4.2.2")
@@ -88,7 +79,7 @@ gl::ShaderDefines traversalDefines(const TraversalSettings& settings) {
   gl::ShaderDefines defines;
   if (const auto* mask = std::get_if<JoinedMask>(&settings.accumulation)) {
     defines["BITMASK"] = "1";
-    defines["PATTERN"] = patternDefine(fromText<LightPattern>(limen::toText(mask->pattern)));
+    defines["PATTERN"] = patternDefine(lightPattern(mask->pattern));
   }
   if (settings.blocks != BlockDepth::None) {
     defines["BLOCKS"] = "1";
@@ -106,8 +97,8 @@ class HsmTraversal : public VisibilityTechnique {
                             "soft_shadows/hsm_traversal", traversalDefines(settings)),
         finestLevel_(settings.finestLevel) {}
 
-  static std::vector<Quantity> counterNames() {
-    std::vector<Quantity> names = VisibilityTechnique::counterNames();
+  static std::vector<Quantity> quantities() {
+    std::vector<Quantity> names = VisibilityTechnique::quantities();
     names.emplace_back("nodes_per_px", "Tiles visited per pixel", "1/px", Direction::LowerIsBetter,
                        "Schwarz 2009, section 4.3.3");
     return names;
@@ -148,7 +139,7 @@ const RegisteredTechnique<HsmTraversal> kHsmTraversalRegistered{
      .source = "Schwarz 2009, sections 3.2.1 and 4.3.3 (SS-07)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
-     .counters = HsmTraversal::counterNames()}};
+     .counters = HsmTraversal::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -52,7 +52,7 @@ class OcclusionTextures : public VisibilityTechnique {
         settings_{settings.resolution, settings.slices, settings.prefilter} {}
 
   static std::vector<Quantity> counters() {
-    std::vector<Quantity> all = counterNames();
+    std::vector<Quantity> all = quantities();
     all.push_back(structureBytes());
     return all;
   }

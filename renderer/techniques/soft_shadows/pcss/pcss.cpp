@@ -55,7 +55,7 @@ const RegisteredTechnique<Pcss> kPcssRegistered{
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

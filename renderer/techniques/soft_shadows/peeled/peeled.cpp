@@ -91,7 +91,7 @@ const RegisteredTechnique<Peeled> kPeeledRegistered{
      .source = "Schwarz 2009, section 3.2.1 (SS-07)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -44,7 +44,7 @@ std::vector<Counter> levelStepCounters(const LevelSteps& steps) {
                         pairs > 0.0 ? sum / pairs : 0.0, perPixel);
 }
 
-std::vector<Quantity> levelStepCounterNames() {
+std::vector<Quantity> levelStepQuantities() {
   constexpr const char* kSource = "Schwarz 2009, section 5.2.2";
   return {
       {"level_step_max", "Largest step between levels", "", Direction::LowerIsBetter, kSource},

@@ -35,6 +35,6 @@ inline constexpr double kSurfaceSlope = 0.25881904510252074;
 /// Empty where some visibility is not finite, that is, out of a software renderer's reach.
 std::vector<Counter> levelStepCounters(const LevelSteps& steps);
 /// What they mean.
-std::vector<Quantity> levelStepCounterNames();
+std::vector<Quantity> levelStepQuantities();
 
 }  // namespace limen::techniques

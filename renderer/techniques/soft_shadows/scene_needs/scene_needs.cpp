@@ -62,7 +62,7 @@ const SettingsTable<SceneNeedsSettings>& SceneNeedsSettings::table() {
 }
 
 std::vector<Quantity> sceneNeedsQuantities() {
-  std::vector<Quantity> all = Bitmask::counterNames();
+  std::vector<Quantity> all = Bitmask::quantities();
   for (Quantity& quantity : evidenceQuantities()) all.push_back(std::move(quantity));
   return all;
 }

@@ -33,11 +33,13 @@ constexpr EnumNames<Sampling, 3> enumNames(Sampling) {
 constexpr const char* kTapsText = "Root of the number of taps in the search area";
 
 struct AllTexels {
-  static constexpr const char *kKind = limen::toText(Sampling::All), *kSummary = "every texel of the search area";
+  static constexpr const char *kKind = limen::toText(Sampling::All),
+                              *kSummary = "every texel of the search area";
 };
 
 struct RegularTaps {
-  static constexpr const char *kKind = limen::toText(Sampling::Regular), *kSummary = "texels on a regular grid";
+  static constexpr const char *kKind = limen::toText(Sampling::Regular),
+                              *kSummary = "texels on a regular grid";
   int taps = 16;
   static const SettingsTable<RegularTaps>& table() {
     static const SettingsTable<RegularTaps> kTable = {
@@ -152,7 +154,7 @@ const RegisteredTechnique<SolidAngle> kSolidAngleRegistered{
      .source = "Schwarz 2009, section 3.2.1 (SS-07)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -100,22 +100,21 @@ std::vector<Counter> summariseTriangles(const std::vector<uint32_t>& counts) {
 const SettingsTable<TriangleBitmaskSettings>& TriangleBitmaskSettings::table() {
   static const SettingsTable<TriangleBitmaskSettings> kTable = {
       {&TriangleBitmaskSettings::pattern, "pattern",
-       Names{{"regular_8", "regular_16", "regular_32", "jittered_16"}},
        "Light samples: regular grids, or 16 x 16 in rotated pairs",
        "Schwarz 2009, sections 4.2.1 and 4.2.2"}};
   return kTable;
 }
 
 TriangleBitmask::TriangleBitmask(const TriangleBitmaskSettings& settings)
-    : pattern_(settings.pattern),
-      defines_({{"PATTERN", pattern_ == "jittered_16" ? "160" : pattern_.substr(pattern_.rfind('_') + 1)}}) {}
+    : pattern_(settings.pattern), defines_({{"PATTERN", patternDefine(lightPattern(pattern_))}}) {}
 
 void TriangleBitmask::prepare(frame::Frame& frame) {
   program_ = &frame.context().programs().compute(kTriangleShader, defines_);
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
   frame.passes().setBytesHeld(kTrianglePass, visibility_->bytes());
 
-  const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(fromText<LightPattern>(pattern_)));
+  const std::vector<uint32_t> shape =
+      lightMask(frame.scene().lights.at(0), lightSamples(lightPattern(pattern_)));
   lightSamples_ = bitCount(shape);
   lightShape_.emplace(shape);
 

@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 
 struct TriangleBitmaskSettings {
-  std::string pattern = "jittered_16";  ///< one of those on grids, as lightSamples() names them
+  GridPattern pattern = GridPattern::Jittered16;
   static const SettingsTable<TriangleBitmaskSettings>& table();
 };
 
@@ -38,7 +39,7 @@ class TriangleBitmask : public Technique {
   };
   void run(frame::Frame& frame, const gl::Program& program, const Work* work);
 
-  std::string pattern_;
+  GridPattern pattern_;
   gl::ShaderDefines defines_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> visibility_;
