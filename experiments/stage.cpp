@@ -9,7 +9,7 @@
 
 namespace limen::experiments {
 
-nlohmann::json Stage::facts() const {
+nlohmann::json factsOf(const scene::Scene& scene) {
   const scene::Bounds bounds = scene.bounds();
   return {{"content_hash", scene.contentHash()},
           {"triangles", scene.mesh.triangles.size()},

@@ -19,11 +19,12 @@ struct ViewImages {
   Image shading;  ///< 3 channels: albedo by the cosine to the light's centre, unshadowed
 };
 
+/// Content hash, triangles and bounds of a scene, as a run records them.
+nlohmann::json factsOf(const scene::Scene& scene);
+
 /// A scene, built and on the GPU.
 struct Stage {
   explicit Stage(scene::Scene built) : scene(std::move(built)), gpu(scene) {}
-  /// Content hash, triangles and bounds, as a run records them.
-  nlohmann::json facts() const;
   ViewImages view(gl::Context& context, glm::ivec2 sizePx) const;
 
   scene::Scene scene;

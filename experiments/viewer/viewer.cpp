@@ -13,6 +13,7 @@
 #include "experiments/viewer/picture_pane.h"
 #include "perception/metrics/error_map.h"
 #include "renderer/scene/camera_text.h"
+#include "renderer/scene/placement.h"
 
 namespace limen::viewer {
 namespace {
@@ -131,9 +132,7 @@ bool Viewer::atRest() const {
 }
 
 void Viewer::setCamera(const scene::Camera& camera) {
-  choices_.scene.given.erase("camera_path");
-  choices_.scene.given.erase("time_s");
-  choices_.scene.given["camera"] = scene::toText(camera);
+  scene::setCamera(choices_.scene.given, scene::StillView{scene::toText(camera)});
 }
 
 void Viewer::moveTo(const scene::Camera& camera) {
@@ -143,23 +142,23 @@ void Viewer::moveTo(const scene::Camera& camera) {
 }
 
 scene::Camera Viewer::cameraNow() const {
-  const auto given = choices_.scene.given.find("camera");
+  const auto given = choices_.scene.given.find("camera.text");
   if (given != choices_.scene.given.end()) return scene::parseCamera(std::get<std::string>(given->second));
   return shown_ ? shown_->path.at(timeS_) : scene::Camera{};
 }
 
 void Viewer::dropCamera() {
-  for (const char* name : {"camera", "camera_path", "time_s"}) choices_.scene.given.erase(name);
+  scene::clearCamera(choices_.scene.given);
   timeS_ = 0.0;
 }
 
 void Viewer::setTime(double timeS) {
   timeS_ = timeS;
-  choices_.scene.given.erase("camera");
+  if (choices_.scene.given.count("camera.text")) scene::clearCamera(choices_.scene.given);
   if (timeS == 0.0)
-    choices_.scene.given.erase("time_s");
+    choices_.scene.given.erase("camera.time_s");
   else
-    choices_.scene.given["time_s"] = timeS;
+    choices_.scene.given["camera.time_s"] = timeS;
 }
 
 std::shared_ptr<const ScreenPicture> Viewer::secondPicture() const {

@@ -7,20 +7,36 @@
 #include "perception/threshold_maps/reference.h"
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/declared_group.h"
+#include "renderer/techniques/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
+
+struct ThresholdMapReferenceSettings {
+  ParameterValues viewing, map;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ThresholdMapReferenceSettings>& table() {
+    using S = ThresholdMapReferenceSettings;
+    static const SettingsTable<S> kTable = {
+        techniques::declared(&S::map, "map", perception::thresholdMapParameters, "The model"),
+        techniques::declared(&S::viewing, "", perception::viewingParameters),
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+  void check() const { techniques::mapSettingsOf(map); }
+};
 
 class ThresholdMapReference : public techniques::Technique {
  public:
-  explicit ThresholdMapReference(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = ThresholdMapReferenceSettings;
+  explicit ThresholdMapReference(const Settings& settings)
+      : settings_(techniques::mapSettingsOf(settings.map)),
+        display_(perception::viewingDisplay(settings.viewing)),
+        shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
     product_.emplace(gl::Format::R32F, frame.sizePx());
@@ -38,8 +54,8 @@ class ThresholdMapReference : public techniques::Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"guarded_contrasts", static_cast<double>(map_.guarded), "", false},
-            {"pixels_per_degree", display_.pixelsPerDegree(), "px/deg", false}};
+    return {{"guarded_contrasts", static_cast<double>(map_.guarded)},
+            {"pixels_per_degree", display_.pixelsPerDegree()}};
   }
 
  private:
@@ -50,27 +66,16 @@ class ThresholdMapReference : public techniques::Technique {
   std::optional<gl::Texture> product_;
 };
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapParameters(), perception::viewingParameters(),
-                            frame::ShadedSetting::parameters()})
-    out.insert(out.end(), group.begin(), group.end());
-  return out;
-}
-
-const Registered<TechniqueInfo> kThresholdMapReferenceRegistered{
+const techniques::RegisteredTechnique<ThresholdMapReference> kThresholdMapReferenceRegistered{
     {.name = "perception/threshold_map_reference",
      .version = 1,
      .summary = "Threshold map in double precision, any variant, true Gaussians too",
      .source = "Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4 (SP-28)",
      .product = techniques::ProductKind::Threshold,
-     .parameters = parameters(),
-     .needs = {},
      .reference = true,
      .onCpu = true,
-     .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapReference>(values); },
-     .errorBound = {},
-     .counters = {"guarded_contrasts", "pixels_per_degree"}}};
+     .counters = {{"guarded_contrasts", "Contrasts with a bounded denominator", "", Direction::Neither},
+                  {"pixels_per_degree", "Pixels per degree", "px/deg", Direction::Neither}}}};
 
 }  // namespace
 }  // namespace limen::references

@@ -58,10 +58,9 @@ class AccelerationStructures : public TechniqueTest {
   /// A texel blocks a point if its depth is smaller, in float as in double: no biases. The hybrid's layers
   /// have a quarter of the map's resolution.
   static Given unbiased(const std::string& structure, const std::string& gapFill = "none") {
-    Given given = {{"structure", structure}, {"resolution", std::string("256")},
-                   {"budget", int64_t{0}},   {"bias", 0.0},
-                   {"slope_bias", 0.0},      {"gap_fill", gapFill}};
-    if (structure == "ysm") given["ysm_base"] = std::string("64");
+    Given given = {{"structure", structure}, {"resolution", int64_t{256}}, {"budget.limit", int64_t{0}},
+                   {"bias.constant", 0.0},   {"bias.slope", 0.0},          {"occluders.gap_fill", gapFill}};
+    if (structure == "ysm") given["structure.base"] = int64_t{64};
     return given;
   }
 
@@ -203,9 +202,9 @@ TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels
       // level 3.
       const Searched searched = search(scene, "soft_shadows/backprojection",
                                        {{"structure", std::string(structure)},
-                                        {"resolution", std::string("1024")},
-                                        {"budget", int64_t{16}},
-                                        {"growth", growth}},
+                                        {"resolution", int64_t{1024}},
+                                        {"budget.limit", int64_t{16}},
+                                        {"structure.growth", growth}},
                                        {192, 144});
       const auto worldOf = [&](size_t i) {
         const float* p = &searched.receivers.data[4 * i];

@@ -31,9 +31,9 @@ class BudgetDrivers : public TechniqueTest {
   }
 
   static Given driver(const std::string& name, const Given& more = {}) {
-    return with({{"resolution", named("128")},
+    return with({{"resolution", int64_t{128}},
                  {"structure", named("mssm")},
-                 {"budget", int64_t{144}},
+                 {"budget.limit", int64_t{144}},
                  {"budget_map", named(name)}},
                 more);
   }
@@ -59,7 +59,7 @@ class BudgetDrivers : public TechniqueTest {
     setting.ambient = ambient;
     out.picture = frame.get<frame::Shaded>(setting).texture().read();
     setting.ambient = 0.0;
-    setting.background = glm::vec3(0.0F);
+    setting.background = 0.0;
     out.direct = frame.get<frame::Shaded>(setting).texture().read();
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
@@ -210,7 +210,7 @@ TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
   const double error = 2.0;
   for (const double contrast : {0.0, 0.6}) {
     const scene::Scene scene = hall(contrast);
-    const Given given = driver("perceptual", {{"budget", int64_t{400}}, {"perceptual_error", error}});
+    const Given given = driver("perceptual", {{"budget.limit", int64_t{400}}, {"perceptual_error", error}});
     const Steered steered = steer(scene, given, {90, 61});
     const perception::ThresholdMap reference = perception::computeThresholdMap(
         perception::luminancePlane(steered.picture, display), display.pixelsPerDegree(), {});
@@ -229,7 +229,8 @@ TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
 
 TEST_F(BudgetDrivers, PerceptualSpendsLessWhereMoreIsMasked) {
   const glm::ivec2 size(96, 72);
-  const Given given = driver("perceptual", {{"budget", int64_t{10000}}, {"perceptual_budget", int64_t{1}}});
+  const Given given =
+      driver("perceptual", {{"budget.limit", int64_t{10000}}, {"perceptual_budget", int64_t{1}}});
   const Steered plain = steer(hall(0.0), given, size), textured = steer(hall(0.6), given, size);
   // Of ground whose light is the same: what the texture's luminance itself does is not masking.
   double plainSum = 0.0, texturedSum = 0.0;
@@ -268,7 +269,7 @@ TEST_F(BudgetDrivers, FrameTimeEndsAtTheLeastAndAtTheWholeBudget) {
   const glm::ivec2 size(48, 36);
   const Steered none =
       steer(scene, driver("frame_time", {{"frame_time_ms", 1e-9}, {"frame_time_budget", int64_t{9}}}), size);
-  EXPECT_TRUE(sameVisibility(none, steer(scene, driver("uniform", {{"budget", int64_t{9}}}), size)));
+  EXPECT_TRUE(sameVisibility(none, steer(scene, driver("uniform", {{"budget.limit", int64_t{9}}}), size)));
   EXPECT_NEAR(none.counters.at("budget_scale"), 9.0 / 144.0, 1e-12);
   EXPECT_GT(none.counters.at("frame_time_error_share"), 1.0);
   EXPECT_EQ(none.counters.at("frame_time_oscillations"), 0.0);
@@ -343,11 +344,13 @@ TEST_F(BudgetDrivers, MapsStayWithinTheirBoundsWhateverTheScene) {
 TEST_F(BudgetDrivers, RefuseWhatDoesNotGoTogether) {
   EXPECT_EQ(refused(driver("masking", {{"masking_budget", int64_t{400}}})), "masking_budget");
   EXPECT_EQ(refused(driver("masking", {{"masking_high_contrast", 0.01}})), "masking_high_contrast");
-  EXPECT_EQ(refused(driver("perceptual", {{"budget", int64_t{0}}})), "budget");
+  EXPECT_EQ(refused(driver("perceptual", {{"budget.limit", int64_t{0}}})), "budget");
   EXPECT_EQ(refused(driver("uniform", {{"perceptual_error", 0.1}})), "perceptual_error");
   EXPECT_EQ(refused(driver("frame_time", {{"frame_time_base", named("painted")}})), "painted_file");
-  EXPECT_EQ(refused(driver("frame_time", {{"budget", int64_t{9}}})), "frame_time_budget");
-  EXPECT_EQ(refused(driver("masking", {{"budget", int64_t{256}}, {"fixed_level", int64_t{2}}})),
+  EXPECT_EQ(refused(driver("frame_time", {{"budget.limit", int64_t{9}}})), "frame_time_budget");
+  EXPECT_EQ(refused(driver("masking", {{"budget.limit", int64_t{256}},
+                                       {"levels", std::string("fixed")},
+                                       {"levels.level", int64_t{2}}})),
             "budget_map");
   EXPECT_EQ(refused(driver("frame_time")), "");
 }

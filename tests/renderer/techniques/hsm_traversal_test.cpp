@@ -101,9 +101,9 @@ class HsmWalk : public TechniqueTest {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {36, 27});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/hsm_traversal");
-    given["resolution"] = std::string("64");
+    given["resolution"] = int64_t{64};
     const bool bitmask = given.contains("accumulation");
-    if (bitmask) given["pattern"] = std::string("regular_16");
+    if (bitmask) given["accumulation.pattern"] = std::string("regular_16");
     const ParameterValues values(info.parameters, given);
     const auto made = info.make(values);
     made->prepare(frame);
@@ -180,7 +180,7 @@ TEST_F(HsmWalk, BlocksSaveNodesAndCostNothingOnAFlatCaster) {
   // All texels of the rectangle are at one depth, so a block is what its texels are, up to the rounding of
   // the sum of 62 x 62 areas.
   const scene::Scene scene = makeScene("parallel_rectangle");
-  Given given = {{"resolution", std::string("64")}};
+  Given given = {{"resolution", int64_t{64}}};
   const Rendered blocks = render(scene, "soft_shadows/hsm_traversal", given, {40, 30}, true);
   given["blocks"] = false;
   const Rendered texels = render(scene, "soft_shadows/hsm_traversal", given, {40, 30}, true);

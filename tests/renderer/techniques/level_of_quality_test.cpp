@@ -79,7 +79,7 @@ class LevelsOfQuality : public TechniqueTest {
 
   /// Some pixels of all classes, several levels among the processed ones.
   static Given common() {
-    return {{"resolution", text("256")}, {"budget", int64_t{36}}, {"structure", text("mssm")}};
+    return {{"resolution", int64_t{256}}, {"budget.limit", int64_t{36}}, {"structure", text("mssm")}};
   }
 };
 
@@ -93,12 +93,12 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     Given given;
     glm::ivec2 sizePx;
   };
-  const Given blended = {{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}};
+  const Given blended = {{"levels", text("blend")}, {"passes.smoothing.radius", int64_t{0}}};
   const std::vector<Tried> all = {
       {kArea, {}, {64, 48}},
       {kArea, blended, {61, 45}},
       {kArea,
-       with(blended, {{"levels", text("dither")}, {"level_source", text("filtered_depth")}}),
+       with(blended, {{"levels", text("dither")}, {"levels.source", text("filtered_depth")}}),
        {64, 48}},
       {kArea, {{"structure", text("hsm")}, {"occluders", text("microquads")}}, {64, 48}},
       {kArea, {{"budget_map", text("radial")}, {"radial_budget", int64_t{4}}}, {64, 48}},
@@ -116,9 +116,9 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     EXPECT_EQ(single.counted.work, split.counted.work);
     EXPECT_EQ(single.counted.search, split.counted.search);
     if (tried.given.empty()) {
-      const Graded ordered =
-          grade(scene, tried.technique,
-                with(given, {{"passes", text("split")}, {"work_order", text("loop_length")}}), tried.sizePx);
+      const Graded ordered = grade(
+          scene, tried.technique,
+          with(given, {{"passes", text("split")}, {"passes.order", text("loop_length")}}), tried.sizePx);
       EXPECT_TRUE(sameBits(single.visibility.data, ordered.visibility.data));
       EXPECT_EQ(single.counted.work, ordered.counted.work);
     }
@@ -136,7 +136,7 @@ TEST_F(LevelsOfQuality, EachPassHasItsName) {
   const auto ran = [&](const Graded& graded, const std::string& name) {
     return std::count(graded.passes.begin(), graded.passes.end(), std::string(kArea) + name);
   };
-  const Given split = {{"passes", text("split")}, {"resolution", text("64")}};
+  const Given split = {{"passes", text("split")}, {"resolution", int64_t{64}}};
   const Graded hard = grade(scene, kArea, split, {16, 16});
   EXPECT_EQ(ran(hard, "/classify"), 1);
   EXPECT_EQ(ran(hard, "/smooth"), 0);
@@ -145,7 +145,7 @@ TEST_F(LevelsOfQuality, EachPassHasItsName) {
   EXPECT_EQ(ran(grade(scene, kArea, with(split, {{"levels", text("blend")}}), {16, 16}), "/smooth"), 1);
   // All levels are 0 without a limit: nothing to smooth.
   const Graded unlimited =
-      grade(scene, kArea, with(split, {{"levels", text("blend")}, {"budget", int64_t{0}}}), {16, 16});
+      grade(scene, kArea, with(split, {{"levels", text("blend")}, {"budget.limit", int64_t{0}}}), {16, 16});
   EXPECT_EQ(ran(unlimited, "/smooth"), 0);
 }
 
@@ -184,15 +184,17 @@ bool occludedArea(const Graded& graded, glm::dvec2 lightSize, size_t pixel, int 
 TEST_F(LevelsOfQuality, BlendsWhatBothLevelsGiveOnTheirOwn) {
   const scene::Scene scene = makeScene("sphere_grid");
   const double bias = 0.002;
-  const Given given = with(
-      common(), {{"passes", text("split")}, {"gap_fill", text("none")}, {"bias", bias}, {"slope_bias", 0.0}});
+  const Given given = with(common(), {{"passes", text("split")},
+                                      {"occluders.gap_fill", text("none")},
+                                      {"bias.constant", bias},
+                                      {"bias.slope", 0.0}});
   struct Tried {
     const char* levels;
     double width;  // of the zone in which levels are blended
   };
   for (const Tried& tried : {Tried{"blend", 1.0}, Tried{"narrow_blend", 0.5}}) {
     Given chosen = with(given, {{"levels", text(tried.levels)}});
-    if (tried.width < 1.0) chosen["blend_width"] = tried.width;
+    if (tried.width < 1.0) chosen["levels.width"] = tried.width;
     const Graded graded = grade(scene, kArea, chosen, {64, 48});
     int blended = 0, single = 0;
     for (size_t i = 0; i < graded.visibility.pixels(); ++i) {
@@ -270,16 +272,16 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
   const scene::Scene scene = makeScene("sphere_grid");
   const Given given = with(common(), {{"passes", text("split")}, {"levels", text("blend")}});
   for (const glm::ivec2 size : {glm::ivec2(64, 48), glm::ivec2(13, 7)}) {
-    const Graded before = grade(scene, kArea, with(given, {{"smoothing_radius", int64_t{0}}}), size);
+    const Graded before = grade(scene, kArea, with(given, {{"passes.smoothing.radius", int64_t{0}}}), size);
     std::vector<double> levels;
     for (size_t i = 0; i < before.visibility.pixels(); ++i)
       levels.push_back(before.kind(i) == Processed ? double{before.level(i)} : -1.0);
     for (const int radius : {1, 10}) {
       const double sigma = 0.6 * radius, threshold = 0.0203;
       const Graded after = grade(scene, kArea,
-                                 with(given, {{"smoothing_radius", int64_t{radius}},
-                                              {"smoothing_sigma", sigma},
-                                              {"depth_threshold", threshold}}),
+                                 with(given, {{"passes.smoothing.radius", int64_t{radius}},
+                                              {"passes.smoothing.sigma", sigma},
+                                              {"passes.smoothing.depth_threshold", threshold}}),
                                  size);
       const std::vector<double> expected = smoothed(before, levels, radius, sigma, threshold);
       double most = 0.0;
@@ -302,8 +304,9 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
 TEST_F(LevelsOfQuality, KeepsToFiveBudgetsOfOccluders) {
   const scene::Scene scene = makeScene("sphere_grid");
   for (const int64_t root : {3, 5, 12}) {
-    const Given given = with(common(), {{"budget", root * root}, {"levels", text("blend")}});
-    const Graded graded = grade(scene, kArea, with(given, {{"smoothing_radius", int64_t{0}}}), {64, 48});
+    const Given given = with(common(), {{"budget.limit", root * root}, {"levels", text("blend")}});
+    const Graded graded =
+        grade(scene, kArea, with(given, {{"passes.smoothing.radius", int64_t{0}}}), {64, 48});
     const auto bound = static_cast<uint32_t>((root + 2) * (root + 2) + (2 * root + 2) * (2 * root + 2));
     uint32_t most = 0;
     for (size_t i = 0; i < graded.visibility.pixels(); ++i) {
@@ -329,10 +332,11 @@ TEST_F(LevelsOfQuality, HardChoicesEncloseTheRealLevel) {
   const scene::Scene scene = makeScene("sphere_grid");
   const auto render = [&](const Given& more) { return grade(scene, kArea, with(common(), more), {64, 48}); };
   // Without growth, search areas do not depend on levels.
-  const Given fixed = {{"growth", false}};
+  const Given fixed = {{"structure.growth", false}};
   const Graded within = render(with(fixed, {{"levels", text("finest_within")}}));
   const Graded over = render(with(fixed, {{"levels", text("coarsest_over")}}));
-  const Graded real = render(with(fixed, {{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}}));
+  const Graded real =
+      render(with(fixed, {{"levels", text("blend")}, {"passes.smoothing.radius", int64_t{0}}}));
   int between = 0;
   for (size_t i = 0; i < real.visibility.pixels(); ++i) {
     ASSERT_EQ(real.kind(i), within.kind(i));
@@ -356,14 +360,15 @@ TEST_F(LevelsOfQuality, BudgetMapsGiveEachPixelWhatItsBudgetGives) {
   const glm::ivec2 size(64, 48);
   for (const char* levels : {"finest_within", "blend"}) {
     Given given = with(common(), {{"levels", text(levels)}, {"passes", text("split")}});
-    if (std::string(levels) == "blend") given["smoothing_radius"] = int64_t{0};
+    if (std::string(levels) == "blend") given["passes.smoothing.radius"] = int64_t{0};
     const auto render = [&](const Given& more) { return grade(scene, kArea, with(given, more), size); };
-    const Graded centre = render({{"budget", int64_t{49}}}), rim = render({{"budget", int64_t{9}}});
-    const Graded same =
-        render({{"budget", int64_t{49}}, {"budget_map", text("radial")}, {"radial_budget", int64_t{49}}});
+    const Graded centre = render({{"budget.limit", int64_t{49}}}),
+                 rim = render({{"budget.limit", int64_t{9}}});
+    const Graded same = render(
+        {{"budget.limit", int64_t{49}}, {"budget_map", text("radial")}, {"radial_budget", int64_t{49}}});
     EXPECT_TRUE(sameBits(same.visibility.data, centre.visibility.data)) << levels;
     const double inner = 0.3, outer = 0.5;
-    const Graded map = render({{"budget", int64_t{49}},
+    const Graded map = render({{"budget.limit", int64_t{49}},
                                {"budget_map", text("radial")},
                                {"radial_budget", int64_t{9}},
                                {"radial_inner", inner},
@@ -393,7 +398,7 @@ TEST_F(LevelsOfQuality, SmallerBudgetsProcessMorePixels) {
   double last = 1.0;
   for (const int64_t budget : {25, 144, 0}) {
     const Given given =
-        with(common(), {{"budget", budget}, {"passes", text("split")}, {"levels", text("blend")}});
+        with(common(), {{"budget.limit", budget}, {"passes", text("split")}, {"levels", text("blend")}});
     const double share = grade(scene, kArea, given, {96, 72}).counters.at("processed_share");
     EXPECT_LT(share, last) << budget;
     last = share;
@@ -414,10 +419,10 @@ TEST_F(LevelsOfQuality, StayFiniteWhereThereIsLittleOrAllToDo) {
     for (const int64_t budget : {0, 1, 25}) {
       Given given = {{"passes", text("split")},
                      {"levels", text("blend")},
-                     {"budget", budget},
+                     {"budget.limit", budget},
                      {"resolution", text(tried.resolution)},
                      {"structure", text(tried.structure)}};
-      if (std::string(tried.structure) == "ysm") given["ysm_base"] = text("64");
+      if (std::string(tried.structure) == "ysm") given["structure.base"] = int64_t{64};
       const Graded graded = grade(scene, kArea, given, tried.sizePx);
       for (const float value : graded.visibility.data) {
         ASSERT_GE(value, 0.0F) << tried.scene;
@@ -443,7 +448,7 @@ TEST_F(LevelsOfQuality, NothingToProcessLeavesAllLit) {
       for (uint32_t i = 0; i < part.triangleCount; ++i)
         empty.mesh.triangles[part.firstTriangle + i] = glm::uvec3(empty.mesh.triangles[part.firstTriangle].x);
   const Graded graded =
-      grade(empty, kArea, {{"passes", text("split")}, {"levels", text("blend")}, {"resolution", text("64")}},
+      grade(empty, kArea, {{"passes", text("split")}, {"levels", text("blend")}, {"resolution", int64_t{64}}},
             {20, 20});
   for (const float value : graded.visibility.data) ASSERT_EQ(value, 1.0F);
   EXPECT_EQ(graded.counters.at("processed_share"), 0.0);
@@ -457,16 +462,16 @@ TEST_F(LevelsOfQuality, RefusesWhatDoesNotGoTogether) {
   };
   EXPECT_EQ(refused({{"levels", text("blend")}}), "smoothing_radius");
   EXPECT_EQ(refused({{"levels", text("blend")}, {"passes", text("split")}}), "");
-  EXPECT_EQ(refused({{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}}), "");
-  EXPECT_EQ(refused({{"smoothing_radius", int64_t{3}}}), "smoothing_radius");
-  EXPECT_EQ(refused({{"blend_width", 0.2}}), "blend_width");
-  EXPECT_EQ(refused({{"work_order", text("loop_length")}}), "work_order");
-  EXPECT_EQ(refused({{"smoothing_sigma", 1.0}}), "smoothing_sigma");
-  EXPECT_EQ(refused({{"depth_threshold", 0.5}}), "depth_threshold");
-  EXPECT_EQ(refused({{"level_source", text("filtered_depth")}}), "level_source");
+  EXPECT_EQ(refused({{"levels", text("blend")}, {"passes.smoothing.radius", int64_t{0}}}), "");
+  EXPECT_EQ(refused({{"passes.smoothing.radius", int64_t{3}}}), "smoothing_radius");
+  EXPECT_EQ(refused({{"levels.width", 0.2}}), "blend_width");
+  EXPECT_EQ(refused({{"passes.order", text("loop_length")}}), "work_order");
+  EXPECT_EQ(refused({{"passes.smoothing.sigma", 1.0}}), "smoothing_sigma");
+  EXPECT_EQ(refused({{"passes.smoothing.depth_threshold", 0.5}}), "depth_threshold");
+  EXPECT_EQ(refused({{"levels.source", text("filtered_depth")}}), "level_source");
   EXPECT_EQ(refused({{"radial_inner", 0.5}}), "radial_inner");
   EXPECT_EQ(refused({{"budget_map", text("radial")}, {"radial_inner", 2.0}}), "radial_outer");
-  EXPECT_EQ(refused({{"budget_map", text("radial")}, {"budget", int64_t{0}}}), "budget");
+  EXPECT_EQ(refused({{"budget_map", text("radial")}, {"budget.limit", int64_t{0}}}), "budget");
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(LightColours, CellsTakeTheMeanOfWhatTheyHold) {
   scene::AreaLight light;
   // A triangle over half of the light: left of the diagonal from the lower left to the upper right corner.
   light.parts = {{{{0.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, {1.0F, 0.0F, 2.0F}}};
-  const std::vector<glm::dvec2> samples = lightSamples("regular_8");
+  const std::vector<glm::dvec2> samples = lightSamples(LightPattern::Regular8);
   const std::vector<glm::dvec3> shares = emissionShares(light, samples, 8);
   for (size_t i = 0; i < samples.size(); ++i) {
     const size_t column = i % 8, row = i / 8;
@@ -118,14 +118,14 @@ TEST_F(ColouredLight, SumsWhatTheSamplesInSightEmit) {
     scene::Scene scene = halfPlaneUnder(picture);
     scene::AreaLight& light = scene.lights[0];
     const Rendered result = render(scene, kColoured,
-                                   {{"resolution", std::string("64")},
-                                    {"budget", int64_t{0}},
-                                    {"prefilter", false},
+                                   {{"resolution", int64_t{64}},
+                                    {"budget.limit", int64_t{0}},
+                                    {"pattern.prefilter", false},
                                     {"pattern", std::string("jittered_16")},
                                     {"colours", std::string(colours)},
-                                    {"group_bits", std::string(group)}},
+                                    {"colours.group_bits", std::string(group)}},
                                    {32, 24});
-    const std::vector<glm::dvec2> samples = lightSamples("jittered_16");
+    const std::vector<glm::dvec2> samples = lightSamples(LightPattern::Jittered16);
     std::vector<glm::dvec3> emitted;
     glm::dvec3 whole(0.0);
     for (const glm::dvec2 sample : samples) {
@@ -174,7 +174,7 @@ TEST_F(ColouredLight, WeightsOfTheColoursSumToTheVisibility) {
   const std::vector<glm::dvec2> left = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}},
                                 right = {{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.5, 1.0}};
   scene::Scene scene = makeScene("two_boxes", {{"light_size", 3.0}});
-  const Given settings = {{"resolution", std::string("128")}};
+  const Given settings = {{"resolution", int64_t{128}}};
   const Image plain = render(scene, "soft_shadows/bitmask", settings, {48, 36}).product;
   scene.lights[0].parts = {{left, {1.0F, 0.0F, 0.0F}}, {right, {0.0F, 0.0F, 1.0F}}};
   for (const char* colours : {"masks", "table", "samples"}) {
@@ -197,9 +197,8 @@ TEST_F(ColouredLight, ALightOfOneColourIsItsVisibility) {
   for (const char* shape : {"rectangle", "disc"}) {
     const scene::Scene scene =
         makeScene("two_boxes", {{"light_size", 3.0}, {"light_shape", std::string(shape)}});
-    const Given settings = {{"resolution", std::string("128")},
-                            {"maps", std::string("peeled")},
-                            {"pattern", std::string("regular_8")}};
+    const Given settings = {
+        {"resolution", int64_t{128}}, {"maps", std::string("peeled")}, {"pattern", std::string("regular_8")}};
     const Image plain = render(scene, "soft_shadows/bitmask", settings, {48, 36}).product;
     const Image product = render(scene, kColoured, settings, {48, 36}).product;
     for (size_t i = 0; i < plain.pixels(); ++i)
@@ -233,10 +232,10 @@ TEST_F(ColouredLight, RaysSeeEachPartAsALightOfItsOwn) {
 TEST_F(ColouredLight, WhatDoesNotGoTogetherIsRefused) {
   const TechniqueInfo& info = TechniqueRegistry::instance().get(kColoured);
   EXPECT_THROW(info.check(ParameterValues(
-                   info.parameters, {{"colours", std::string("masks")}, {"group_bits", std::string("4")}})),
+                   info.parameters, {{"colours", std::string("masks")}, {"colours.group_bits", int64_t{4}}})),
                Error);
-  EXPECT_THROW(info.check(ParameterValues(info.parameters,
-                                          {{"pattern", std::string("halton_256")}, {"prefilter", false}})),
+  EXPECT_THROW(info.check(ParameterValues(
+                   info.parameters, {{"pattern", std::string("halton_256")}, {"pattern.prefilter", false}})),
                Error);
   // A picture of 32 x 32 cells has more colours than masks are for.
   EXPECT_THROW(render(makeScene("textured_light", {{"cells", int64_t{32}}}), kColoured,

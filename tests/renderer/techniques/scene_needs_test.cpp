@@ -23,7 +23,7 @@ class SceneNeedsTest : public TechniqueTest {
   };
 
   static Chosen choose(const scene::Scene& scene, Given given = {}) {
-    given.emplace("resolution", std::string("256"));
+    given.emplace("resolution", int64_t{256});
     given.emplace("probe_divisor", int64_t{1});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/scene_needs");
     const frame::GpuScene gpuScene(scene);
@@ -94,7 +94,7 @@ TEST_F(SceneNeedsTest, LeavesOutNoMoreThanItsToleranceAllows) {
     const Chosen chosen =
         choose(scene, {{"tolerance", tolerance}, {"budget", int64_t{0}}, {"build_weight", 1e6}});
     const Rendered everything = render(scene, "soft_shadows/bitmask",
-                                       {{"resolution", std::string("256")},
+                                       {{"resolution", int64_t{256}},
                                         {"budget", int64_t{0}},
                                         {"maps", std::string("peeled")},
                                         {"layers", int64_t{2}}},

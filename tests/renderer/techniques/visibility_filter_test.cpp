@@ -21,8 +21,8 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
   const auto productOf = [&](int64_t radius) {
     return render(
                scene, kFiltered,
-               {{"resolution", std::string("64")},
-                {"budget", int64_t{0}},
+               {{"resolution", int64_t{64}},
+                {"budget.limit", int64_t{0}},
                 {"pattern", std::string("regular_8")},
                 {"filter_radius", radius},
                 {radius > 0 ? "filter_step" : "filter_radius", radius > 0 ? ParameterValue(0.25) : radius}},
@@ -72,7 +72,7 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
 TEST_F(VisibilityFilterTest, LeavesHardShadowsAlone) {
   const scene::Scene scene = makeScene("two_boxes", {{"light_size", 0.001}});
   const auto productOf = [&](int64_t radius) {
-    return render(scene, kFiltered, {{"resolution", std::string("256")}, {"filter_radius", radius}}, {64, 48})
+    return render(scene, kFiltered, {{"resolution", int64_t{256}}, {"filter_radius", radius}}, {64, 48})
         .product;
   };
   const Image plain = productOf(0), filtered = productOf(4);
@@ -91,11 +91,10 @@ TEST_F(VisibilityFilterTest, LeavesHardShadowsAlone) {
 /// What is not of one surface does not mix: the lit card keeps its light before its own shadow on the ground.
 TEST_F(VisibilityFilterTest, StaysOnTheSurface) {
   const scene::Scene scene = makeScene("parallel_rectangle");
-  const Rendered plain = render(scene, kFiltered, {{"resolution", std::string("64")}}, {96, 72});
+  const Rendered plain = render(scene, kFiltered, {{"resolution", int64_t{64}}}, {96, 72});
   const Image filtered =
       render(scene, kFiltered,
-             {{"resolution", std::string("64")}, {"filter_radius", int64_t{8}}, {"filter_step", 1.0}},
-             {96, 72})
+             {{"resolution", int64_t{64}}, {"filter_radius", int64_t{8}}, {"filter_step", 1.0}}, {96, 72})
           .product;
   // The card lies 1.3 m below the light, the ground 2 m.
   int top = 0;

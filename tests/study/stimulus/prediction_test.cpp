@@ -40,7 +40,7 @@ class PredictionTest : public gl::GlTest {
   /// What popping/lod_switch_reference, which has views of its own and does not round to codes, finds.
   static std::map<std::string, double> technique(const Stimulus& stimulus, const std::string& presentation) {
     Given given = stimulus.scene.values.all();
-    given["time_s"] = stimulus.changeAtS;
+    given["camera.time_s"] = stimulus.changeAtS;
     const NamedEntry moved = sceneEntry(stimulus.scene.name, given);
     const scene::Scene scene = scene::buildScene(moved.name, moved.values);
     const frame::GpuScene gpuScene(scene);

@@ -10,17 +10,34 @@
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/declared_group.h"
+#include "renderer/techniques/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 namespace {
 
+struct ThresholdMapTechniqueSettings {
+  ParameterValues viewing, map, gpu;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ThresholdMapTechniqueSettings>& table() {
+    using S = ThresholdMapTechniqueSettings;
+    static const SettingsTable<S> kTable = {
+        declared(&S::map, "map", perception::thresholdMapParameters, "The model"),
+        declared(&S::gpu, "gpu", perception::thresholdMapGpuParameters, "How the GPU computes it"),
+        declared(&S::viewing, "", perception::viewingParameters), frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+  void check() const { mapSettingsOf(map, gpu); }
+};
+
 class ThresholdMapTechnique : public Technique {
  public:
-  explicit ThresholdMapTechnique(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = ThresholdMapTechniqueSettings;
+  explicit ThresholdMapTechnique(const Settings& settings)
+      : settings_(mapSettingsOf(settings.map, settings.gpu)),
+        display_(perception::viewingDisplay(settings.viewing)),
+        shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
     map_.emplace(frame.context(), frame.sizePx(), display_, settings_);
@@ -37,9 +54,9 @@ class ThresholdMapTechnique : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto bytes = static_cast<double>(map_->bytesMoved(frame.get<frame::Shaded>(shaded_).texture()));
     const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
-    return {{"bytes_moved_per_px", bytes / pixels, "byte", true},
-            {"gaussian_levels", static_cast<double>(map_->levels()), "", false},
-            {"pixels_per_degree", display_.pixelsPerDegree(), "px/deg", false}};
+    return {{"bytes_moved_per_px", bytes / pixels},
+            {"gaussian_levels", static_cast<double>(map_->levels())},
+            {"pixels_per_degree", display_.pixelsPerDegree()}};
   }
 
  private:
@@ -49,27 +66,15 @@ class ThresholdMapTechnique : public Technique {
   std::optional<perception::ThresholdMapGpu> map_;
 };
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapGpuParameters(), perception::thresholdMapParameters(),
-                            perception::viewingParameters(), frame::ShadedSetting::parameters()})
-    out.insert(out.end(), group.begin(), group.end());
-  return out;
-}
-
-const Registered<TechniqueInfo> kThresholdMapRegistered{
+const RegisteredTechnique<ThresholdMapTechnique> kThresholdMapRegistered{
     {.name = "perception/threshold_map",
      .version = 1,
      .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",
      .source = "Schwarz 2009, section 9.4 (SP-30, SP-31)",
      .product = ProductKind::Threshold,
-     .parameters = parameters(),
-     .needs = {},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapTechnique>(values); },
-     .errorBound = {},
-     .counters = {"bytes_moved_per_px", "gaussian_levels", "pixels_per_degree"}}};
+     .counters = {{"bytes_moved_per_px", "Bytes moved per pixel", "byte", Direction::LowerIsBetter},
+                  {"gaussian_levels", "Levels of the Gaussian pyramid", "", Direction::Neither},
+                  {"pixels_per_degree", "Pixels per degree", "px/deg", Direction::Neither}}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -10,7 +10,8 @@ namespace {
 
 class LodSwitchReference : public Technique {
  public:
-  explicit LodSwitchReference(const ParameterValues& values) : setting_(SwitchSetting::from(values)) {}
+  using Settings = SwitchSettings;
+  explicit LodSwitchReference(const SwitchSettings& settings) : setting_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     views_.emplace(frame, setting_);
@@ -50,21 +51,16 @@ class LodSwitchReference : public Technique {
   perception::PoppingResult result_;
 };
 
-const RegisteredLater<TechniqueInfo> kLodSwitchReferenceRegistered{[] {
-  return TechniqueInfo{
-      .name = "popping/lod_switch_reference",
-      .version = 1,
-      .summary = "Popping predictor in double precision on the frames of one object's change of level",
-      .source = "Schwarz 2009, chapter 10 (SP-51)",
-      .product = ProductKind::JndMap,
-      .parameters = SwitchSetting::parameters(),
-      .needs = {"lod_sets"},
-      .reference = true,
-      .onCpu = true,
-      .make = [](const ParameterValues& values) { return std::make_unique<LodSwitchReference>(values); },
-      .errorBound = {},
-      .counters = switchFigureNames()};
-}};
+const RegisteredTechnique<LodSwitchReference> kLodSwitchReferenceRegistered{
+    {.name = "popping/lod_switch_reference",
+     .version = 1,
+     .summary = "Popping predictor in double precision on the frames of one object's change of level",
+     .source = "Schwarz 2009, chapter 10 (SP-51)",
+     .product = ProductKind::JndMap,
+     .needs = {"lod_sets"},
+     .reference = true,
+     .onCpu = true,
+     .counters = switchFigureQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques
