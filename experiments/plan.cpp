@@ -203,9 +203,13 @@ class Planner {
       for (const Variant* variant : group)
         for (const auto& [path, value] : variant->values.items()) paths.insert(path);
       for (const std::string& path : paths) {
+        // What only some alternatives have tells runs apart where it differs among those; that it is missing
+        // elsewhere, the choice above it says.
+        const auto first = std::find_if(group.begin(), group.end(), [&](const Variant* variant) {
+          return variant->values.contains(path);
+        });
         const auto differs = [&](const Variant* other) {
-          return other->values.contains(path) != group[0]->values.contains(path) ||
-                 (other->values.contains(path) && other->values[path] != group[0]->values[path]);
+          return other->values.contains(path) && other->values[path] != (*first)->values[path];
         };
         if (std::none_of(group.begin(), group.end(), differs)) continue;
         for (Variant* variant : group) {
