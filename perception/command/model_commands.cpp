@@ -129,7 +129,7 @@ void ConstantOptions::add(CLI::App& command, const std::vector<std::vector<Param
       ->take_all();
   for (const std::vector<Parameter>& list : declared)
     for (const Parameter& parameter : list) {
-      if (given.count(parameter.name) != 0) continue;
+      if (parameter.type == ParameterType::Group || given.count(parameter.name) != 0) continue;
       const std::string option = optionName(parameter.name);
       if (command.get_option_no_throw(option) != nullptr) continue;  // --set reaches it
       command.add_option(option, given[parameter.name])->group("");
