@@ -182,7 +182,7 @@ struct GivenLevels {
 struct ThresholdMapGpuSettings {
   int precision = 32;  ///< bits of intermediate results
   ThresholdLookup lookup = ThresholdLookup::Tables;
-  std::variant<AutomaticLevels, GivenLevels> levelsPerPass;
+  std::variant<AutomaticLevels, GivenLevels> levelsPerPass = {};
   static const SettingsTable<ThresholdMapGpuSettings>& table();
 
   bool half() const { return precision == 16; }

@@ -35,12 +35,12 @@ void listKinds(bool asJson) {
   for (const ObserverKind* kind : observerKinds()) {
     nlohmann::json parameters = nlohmann::json::array();
     text += fmt::format("{}: {}\n", kind->name, kind->summary);
-    for (const Parameter& parameter : kind->parameters) {
-      parameters.push_back(toJson(parameter));
-      text +=
-          fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", parameter.name, parameter.description,
-                      "", describeRange(parameter), limen::toText(parameter.defaultValue),
-                      parameter.source.empty() ? "" : " [" + parameter.source + "]");
+    for (const Parameter& parameter : kind->parameters) parameters.push_back(toJson(parameter));
+    for (const DeclaredAt& at : flatten(kind->parameters)) {
+      const Parameter& parameter = *at.parameter;
+      text += fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", at.path, parameter.description, "",
+                          describeRange(parameter), limen::toText(parameter.defaultValue),
+                          parameter.source.empty() ? "" : " [" + parameter.source + "]");
     }
     out.push_back({{"name", kind->name},
                    {"version", kind->version},

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/base/entry_reader.h"
 #include "experiments/base/error.h"
 #include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
@@ -127,7 +128,7 @@ class ExampleReader {
   }
 
   void readObserver(const YamlNode& study, ExampleStudy& out) {
-    const std::string example = "{kind: lapsing, lapse: 0.02}";
+    const std::string example = "{kind: drifting, lapse_per_100: 0.01}";
     const YamlNode* node = study.find("observer");
     if (!node) {
       problems_.add(study.mark, "'observer' is missing", "say who answers: " + example);
@@ -147,21 +148,12 @@ class ExampleReader {
       problems_.add(node->find("kind")->mark, "no kind of observer '" + name + "'", suggest(name, kinds));
       return;
     }
-    std::vector<std::string> known = {"kind"}, settings;
-    for (const Parameter& parameter : kind->parameters) known.push_back(parameter.name);
-    reader_.checkKeys(*node, "observer '" + name + "'", known);
-    bool good = true;
-    for (const Parameter& parameter : kind->parameters) {
-      const YamlNode* value = node->find(parameter.name);
-      if (!value) continue;
-      if (reader_.values().value(*value, parameter))
-        settings.push_back(parameter.name + "=" + value->text);
-      else
-        good = false;
-    }
-    if (!good) return;
+    AxisPoint given;
+    EntryReader entry(reader_, "give one value");
+    for (const Axis& axis : entry.axes(*node, kind->parameters, "observer '" + name + "'", {"kind"}))
+      given.insert(axis.points.front().begin(), axis.points.front().end());
     try {
-      out.observer = chooseObserver(name, settings);
+      out.observer = chooseObserver(*kind, given);
     } catch (const Error& error) {
       problems_.add(node->mark, error.message(), error.mend());
     }

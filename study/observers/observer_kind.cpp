@@ -166,9 +166,13 @@ const ObserverKind& observerKind(const std::string& name, const std::string& whe
 
 ObserverChoice chooseObserver(const std::string& name, const std::vector<std::string>& settings) {
   const ObserverKind& kind = observerKind(name, "--kind");
-  const ParameterValues values(kind.parameters, readAssignments(settings, kind.parameters, "--set"), "--set");
-  ObserverChoice out{kind.name, kind.version, values, kind.make(values)};
-  return out;
+  return chooseObserver(kind, readAssignments(settings, kind.parameters, "--set"), "--set");
+}
+
+ObserverChoice chooseObserver(const ObserverKind& kind, const std::map<std::string, ParameterValue>& given,
+                              const std::string& where) {
+  const ParameterValues values(kind.parameters, given, where);
+  return {kind.name, kind.version, values, kind.make(values)};
 }
 
 nlohmann::json toJson(const ObserverChoice& choice) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ struct ObserverChoice {
 /// `settings`: texts "NAME=VALUE" (see readAssignments()). Throws Error: unknown kind or name, a value that
 /// does not fit.
 ObserverChoice chooseObserver(const std::string& kind, const std::vector<std::string>& settings = {});
+/// `given`: values by path. Throws Error.
+ObserverChoice chooseObserver(const ObserverKind& kind, const std::map<std::string, ParameterValue>& given,
+                              const std::string& where = {});
 /// {kind, version, parameters}
 nlohmann::json toJson(const ObserverChoice& choice);
 

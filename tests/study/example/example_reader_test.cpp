@@ -20,7 +20,7 @@ constexpr const char* kGood =
     "question: q\n"
     "studies:\n"
     "  - protocol: quick\n"
-    "    observer: {kind: lapsing, lapse: 0.1}\n"
+    "    observer: {kind: lapsing, lapse: {kind: own, value: 0.1}}\n"
     "    observers: 3\n"
     "    seed: 7\n"
     "    window: {width_px: 64, height_px: 48}\n"
@@ -49,7 +49,7 @@ TEST(ExampleReader, ReadsWhatIsThere) {
   const ExampleStudy& study = example.studies[0];
   EXPECT_EQ(study.name, "quick");
   EXPECT_EQ(study.observer.name, "lapsing");
-  EXPECT_EQ(study.observer.values.real("lapse"), 0.1);
+  EXPECT_EQ(study.observer.behaviour.lapse, 0.1);
   EXPECT_EQ(study.observer.behaviour.lapse, 0.1);
   EXPECT_EQ(study.observers, 3);
   EXPECT_EQ(study.seed, 7U);
@@ -68,7 +68,7 @@ TEST(ExampleReader, NamesLineAndNearestName) {
   EXPECT_THAT(messageOf(with("quick", "qick")), AllOf(HasSubstr("e.yaml:4:"), HasSubstr("'quick'")));
   EXPECT_THAT(messageOf(with("kind: lapsing", "kind: lapsin")),
               AllOf(HasSubstr("e.yaml:5:"), HasSubstr("'lapsing'")));
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "laps: 0.1")),
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}", "laps: {kind: own, value: 0.1}")),
               AllOf(HasSubstr("e.yaml:5:"), HasSubstr("'lapse'")));
   EXPECT_THAT(messageOf(with("width_px", "widht_px")),
               AllOf(HasSubstr("e.yaml:8:"), HasSubstr("'width_px'")));
@@ -78,13 +78,16 @@ TEST(ExampleReader, NamesLineAndNearestName) {
 }
 
 TEST(ExampleReader, RefusesWhatDoesNotFit) {
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "lapse: 2")), HasSubstr("e.yaml:5:"));
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "lapse: 0.6, guess: 0.6")), HasSubstr("sum to 1"));
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}", "lapse: {kind: own, value: 2}")),
+              HasSubstr("e.yaml:5:"));
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}",
+                             "lapse: {kind: own, value: 0.6}, guess: {kind: own, value: 0.6}")),
+              HasSubstr("sum to 1"));
   EXPECT_THAT(messageOf(with("observers: 3", "observers: 0")), HasSubstr("e.yaml:6:"));
   EXPECT_THAT(messageOf(with("observers: 3", "observers: many")), HasSubstr("e.yaml:6:"));
   EXPECT_THAT(messageOf(with(", height_px: 48", "")), HasSubstr("'height_px' of window is missing"));
   EXPECT_THAT(messageOf(with("title: t\n", "")), HasSubstr("'title' is missing"));
-  EXPECT_THAT(messageOf(with("    observer: {kind: lapsing, lapse: 0.1}\n", "")),
+  EXPECT_THAT(messageOf(with("    observer: {kind: lapsing, lapse: {kind: own, value: 0.1}}\n", "")),
               HasSubstr("'observer' is missing"));
   EXPECT_THAT(messageOf(with("    seed: 7", "    name: ../other")), HasSubstr("no name of a study"));
   EXPECT_THAT(messageOf(with("analyses:", "  - {protocol: quick, observer: {kind: ideal}}\nanalyses:")),
