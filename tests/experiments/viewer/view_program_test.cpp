@@ -124,7 +124,7 @@ class ViewWindow : public ViewProgram {
     return until([&] { return xdotool("search --name '^Limen$'") == 0; });
   }
   std::string exported(int number) const {
-    char name[32];
+    char name[64];
     std::snprintf(name, sizeof name, "exported/exported_%03d.yaml", number);
     return path(name);
   }
