@@ -39,12 +39,6 @@ std::string describeKind(const NamedKind& kind) {
   return out;
 }
 
-std::vector<std::string> quantityNames(const std::vector<Quantity>& quantities) {
-  std::vector<std::string> out;
-  for (const Quantity& quantity : quantities) out.push_back(quantity.name);
-  return out;
-}
-
 std::string describeParameters(const std::vector<Parameter>& parameters, size_t indent);
 
 std::string describeAlternatives(const Parameter& parameter, size_t indent) {
@@ -85,7 +79,9 @@ std::string describeEntry(const NamedKind& kind, const std::string& name, const 
   if (!entry.quantity.unit.empty()) out += fmt::format("  unit: {}\n", entry.quantity.unit);
   if (entry.reference) out += "  a reference: made to be compared with\n";
   if (entry.onCpu) out += "  runs on the CPU\n";
-  if (!entry.counters.empty()) out += fmt::format("  counts: {}\n", join(quantityNames(entry.counters)));
+  if (!entry.counters.empty()) out += "  counts:\n";
+  for (const Quantity& counter : entry.counters)
+    out += fmt::format("    {}: {}\n", counter.name, titleWithUnit(titleOf(counter), counter.unit));
   if (entry.parameters.empty()) return out + "  no parameters\n";
   out += "  parameters:\n";
   return out + describeParameters(entry.parameters, 4);
@@ -101,7 +97,12 @@ nlohmann::json entryAsJson(const NamedKind& kind, const std::string& name, const
     out["needs"] = entry.needs;
     out["reference"] = entry.reference;
     out["on_cpu"] = entry.onCpu;
-    out["counters"] = quantityNames(entry.counters);
+    out["counters"] = nlohmann::json::array();
+    for (const Quantity& counter : entry.counters)
+      out["counters"].push_back({{"name", counter.name},
+                                 {"title", titleOf(counter)},
+                                 {"unit", counter.unit},
+                                 {"direction", toText(counter.direction)}});
   }
   if (!entry.quantity.unit.empty()) out["unit"] = entry.quantity.unit;
   return out;

@@ -10,6 +10,7 @@
 #include "experiments/base/problems.h"
 #include "experiments/base/text.h"
 #include "experiments/expectation_reader.h"
+#include "experiments/measured_quantities.h"
 #include "experiments/measurement_name.h"
 #include "experiments/published.h"
 
@@ -265,7 +266,7 @@ class Reader {
     reader_.checkKeys(*node, "report", {"x", "y", "series", "panels"});
     std::vector<std::string> groups = variables(), quantities = groups;
     groups.insert(groups.end(), {"technique", "scene", "image"});
-    quantities.insert(quantities.end(), catalogue_.measurements.begin(), catalogue_.measurements.end());
+    for (const store::QuantityRow& row : commonQuantities()) quantities.push_back(row.name);
     quantities.insert(quantities.end(), out_.metricNames.begin(), out_.metricNames.end());
     std::vector<std::string> techniques;
     for (const Entry& entry : out_.techniques) techniques.push_back(entry.name);

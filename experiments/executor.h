@@ -76,6 +76,8 @@ class Executor {
   /// Calls `finished(index, outcome)` once for each run, as soon as that run is complete.
   virtual void execute(std::span<const PlannedRun> batch,
                        const std::function<void(size_t, RunOutcome)>& finished) = 0;
+  /// A run of a later batch, so that its scene can be made ready beside the work on those before.
+  virtual void announce(const PlannedRun&) {}
   /// Facts about the executor's own time, for the environment and the summary: {"overhead_share": 0.03, ...}.
   virtual nlohmann::json account() const { return nlohmann::json::object(); }
 };

@@ -12,6 +12,7 @@
 #include "experiments/base/hash.h"
 #include "experiments/base/problems.h"
 #include "experiments/base/text.h"
+#include "experiments/describe_names.h"
 #include "experiments/expectation.h"
 #include "experiments/published.h"
 
@@ -106,6 +107,7 @@ class Planner {
     resolve(descriptor_.expectations, plan.runs, problems_);
     plan.published = resolvePublished(descriptor_.published, plan.runs, problems_);
     problems_.throwIfAny();
+    plan.descriptions = describeNames(descriptor_, catalogue_);
     return plan;
   }
 

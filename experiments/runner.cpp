@@ -15,6 +15,17 @@
 namespace limen::experiments {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// A finished run waits for others no longer than this.
+constexpr std::chrono::milliseconds kCommitInterval{100};
+
+/// What became of a run of the batch in hand.
+struct Finished {
+  const PlannedRun* planned;
+  store::Run row;
+};
+
 class Runner {
  public:
   Runner(const Plan& plan, store::Store& results, Executor& executor, const nlohmann::json& hostFacts,
@@ -43,7 +54,11 @@ class Runner {
     }
     observer_.begin(tally_.planned, tally_.skipped);
     try {
-      for (const auto& group : groups) measureGroup(group);
+      std::erase_if(groups, [](const std::vector<size_t>& group) { return group.empty(); });
+      for (size_t i = 0; i < groups.size(); ++i) {
+        if (i + 1 < groups.size()) announced_ = groups[i + 1].front();
+        measureGroup(groups[i]);
+      }
       waitForOthers();
     } catch (const Interrupted&) {
       tally_.interrupted = true;
@@ -118,10 +133,18 @@ class Runner {
     for (const size_t index : batch) runs.push_back(plan_.runs[index]);
     observer_.measuring(runs.front(), runs.size());
     std::vector<bool> reported(runs.size(), false);
-    executor_.execute(runs, [&](size_t index, RunOutcome outcome) {
-      reported.at(index) = true;
-      commit(runs[index], std::move(outcome));
-    });
+    if (announced_) executor_.announce(plan_.runs[*announced_]);
+    announced_.reset();
+    try {
+      executor_.execute(runs, [&](size_t index, RunOutcome outcome) {
+        reported.at(index) = true;
+        commit(runs[index], std::move(outcome));
+      });
+    } catch (...) {
+      commitPending();
+      throw;
+    }
+    commitPending();
     if (std::find(reported.begin(), reported.end(), false) != reported.end()) {
       throwIfInterrupted();
       throw Error("the executor left a run without an outcome");
@@ -137,9 +160,21 @@ class Runner {
     row.frameTimes = std::move(outcome.frameTimes);
     row.passes = std::move(outcome.passes);
     row.artefacts = std::move(outcome.artefacts);
-    results_.finish(row);
-    ++(row.status == "done" ? tally_.done : tally_.failed);
-    observer_.finished(planned, row);
+    pending_.push_back({&planned, std::move(row)});
+    if (Clock::now() - lastCommit_ > kCommitInterval) commitPending();
+  }
+
+  /// Runs that finished together are committed together: each commit waits for the disk.
+  void commitPending() {
+    const std::vector<Finished> finished = std::exchange(pending_, {});
+    std::vector<store::Run> rows;
+    for (const Finished& one : finished) rows.push_back(one.row);
+    results_.finish(rows);
+    lastCommit_ = Clock::now();
+    for (const Finished& one : finished) {
+      ++(one.row.status == "done" ? tally_.done : tally_.failed);
+      observer_.finished(*one.planned, one.row);
+    }
   }
 
   void waitForOthers() {
@@ -174,6 +209,9 @@ class Runner {
   const std::string device_;
   std::optional<int64_t> environment_;
   std::vector<size_t> held_;
+  std::optional<size_t> announced_;  ///< first run of the next group
+  std::vector<Finished> pending_;
+  Clock::time_point lastCommit_ = Clock::now();
   SweepTally tally_;
 };
 
@@ -198,7 +236,7 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   std::vector<store::PlanEntry> entries;
   for (const PlannedRun& run : plan.runs)
     entries.push_back({run.key, run.technique.name, run.scene.name, run.label});
-  return results.putExperiment(experiment, entries);
+  return results.putExperiment(experiment, entries, plan.descriptions);
 }
 
 std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,

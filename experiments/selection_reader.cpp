@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "experiments/base/text.h"
+#include "experiments/measured_quantities.h"
 
 namespace limen::experiments {
 namespace {
@@ -27,7 +28,7 @@ SelectionReader::SelectionReader(const Descriptor& descriptor, const Catalogue& 
   for (const Entry& entry : descriptor.techniques) addOnce(techniques_, entry.name);
   for (const Entry& entry : descriptor.scenes) addOnce(scenes_, entry.name);
   quantities_ = descriptor.metricNames;
-  quantities_.insert(quantities_.end(), catalogue.measurements.begin(), catalogue.measurements.end());
+  for (const store::QuantityRow& row : commonQuantities()) quantities_.push_back(row.name);
   const std::vector<std::string> counters = counterNames(catalogue, techniques_);
   quantities_.insert(quantities_.end(), counters.begin(), counters.end());
 }

@@ -18,7 +18,7 @@ Catalogue readRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.allParameters();
-    entry.check = scene::checkCameraParameters;
+    entry.check = [&info](const ParameterValues& complete) { info.checkValues(complete); };
   }
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
     CatalogueEntry& entry = out.techniques[name];
@@ -44,9 +44,7 @@ Catalogue readRegistries() {
                       info.source};
     entry.needsReference = info.needsReference;
   }
-  out.measurements = {"gpu_ms",     "gpu_ms_p95", "technique_ms",     "wall_ms",      "cpu_ms",
-                      "prepare_ms", "bytes_held", "non_finite_count", "gpu_clock_mhz"};
-  out.shading = frame::ShadedSetting::parameters();
+  out.shading = frame::ShadedSetting::table().parameters();
   return out;
 }
 

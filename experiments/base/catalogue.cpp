@@ -3,7 +3,13 @@
 
 #include <algorithm>
 
+#include "experiments/base/text.h"
+
 namespace limen {
+
+std::string titleOf(const Quantity& quantity) {
+  return quantity.title.empty() ? titleFromName(quantity.name, quantity.unit) : quantity.title;
+}
 
 std::vector<std::string> names(const CatalogueKind& kind) {
   std::vector<std::string> out;

@@ -36,8 +36,6 @@ using CatalogueKind = std::map<std::string, CatalogueEntry>;
 /// are checked without a GL context and without the code behind the names.
 struct Catalogue {
   CatalogueKind scenes, techniques, metrics;
-  /// Values that every run has whatever its metrics ("gpu_ms"): expectations and report axes may name them.
-  std::vector<std::string> measurements;
   /// What a stimulus that changes levels of detail says of its shading.
   std::vector<Parameter> shading;
 };

@@ -17,6 +17,13 @@ struct ChosenEntry {
   ParameterValues values;  ///< complete; empty in defaults: the entry's own
 };
 
+/// All values of an entry of Info's registry: what `chosen` leaves out takes its default. Throws Error.
+template <class Info>
+ParameterValues completeValues(const ChosenEntry& chosen, const std::string& where = {}) {
+  const std::vector<Parameter>& declared = Registry<Info>::instance().get(chosen.name, where).parameters;
+  return {declared, chosen.values.all(), where};
+}
+
 namespace settings {
 
 /// Which entries may be chosen, with what they declare.

@@ -48,6 +48,8 @@ struct Parameter {
   std::string shorthand = {};
   /// How the same was written formerly: names that an error answers with the new form.
   std::vector<std::string> formerNames = {};
+  /// As an axis label, without the unit; "": the words of the name.
+  std::string title = {};
 };
 
 /// One of several values of a Choice, with what belongs to it alone.

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/viewed_scene.h"
 
-#include <array>
+#include "renderer/scene/placement.h"
 
 namespace limen::viewer {
 namespace {
 
-/// Parameters of a scene that move its camera and nothing else.
-constexpr std::array<const char*, 3> kOfCamera = {"camera", "camera_path", "time_s"};
-
 /// What the scene is without what moves its camera.
 ParameterValues stillValues(const experiments::Choice& scene) {
   std::map<std::string, ParameterValue> still = scene.values.all();
-  for (const char* name : kOfCamera) still.erase(name);
+  scene::setCamera(still, scene::BuiltInCamera());
   return {scene::SceneRegistry::instance().get(scene.name).allParameters(), still};
 }
 
@@ -31,9 +28,10 @@ bool ViewedScene::show(const experiments::Choice& scene) {
     key_ = keyOf(scene);
   }
   // The very steps that building takes, so that a sweep has the same camera to the last bit.
-  onGpu_->scene.camera = scene::cameraFor(built_, scene.values);
+  const scene::CameraChoice camera = scene::PlacementSettings::table().read(scene.values).camera;
+  onGpu_->scene.camera = scene::cameraFor(built_, camera);
   path_ = onGpu_->scene.camera;
-  for (scene::CameraPath::Key& key : path_.keys) key.timeS += scene.values.real("time_s");
+  for (scene::CameraPath::Key& key : path_.keys) key.timeS += scene::timeOf(camera);
   return build;
 }
 

@@ -7,6 +7,7 @@
 #include "experiments/viewer/viewer.h"
 #include "renderer/scene/camera_path_file.h"
 #include "renderer/scene/camera_text.h"
+#include "renderer/scene/placement.h"
 
 namespace limen::viewer {
 namespace {
@@ -17,14 +18,11 @@ constexpr double kRecordIntervalS = 1.0 / 30.0;
 }  // namespace
 
 void Viewer::setCamera(const scene::Camera& camera) {
-  std::map<std::string, ParameterValue>& given = state_.setup.scene.given;
-  given.erase("camera_path");
-  given.erase("time_s");
-  given["camera"] = scene::toText(camera);
+  scene::setCamera(state_.setup.scene.given, scene::StillView{scene::toText(camera)});
 }
 
 scene::Camera Viewer::currentCamera() const {
-  const auto given = state_.setup.scene.given.find("camera");
+  const auto given = state_.setup.scene.given.find("camera.text");
   if (given != state_.setup.scene.given.end()) {
     try {
       return scene::parseCamera(std::get<std::string>(given->second));
@@ -37,11 +35,12 @@ scene::Camera Viewer::currentCamera() const {
 
 void Viewer::setTime(double timeS) {
   state_.timeS = timeS;
-  state_.setup.scene.given.erase("camera");
+  std::map<std::string, ParameterValue>& given = state_.setup.scene.given;
+  if (given.count("camera.text")) scene::clearCamera(given);
   if (timeS == 0.0)
-    state_.setup.scene.given.erase("time_s");
+    given.erase("camera.time_s");
   else
-    state_.setup.scene.given["time_s"] = timeS;
+    given["camera.time_s"] = timeS;
 }
 
 void Viewer::play(double secondsPassed) {
@@ -79,7 +78,7 @@ void Viewer::run(const command::MoveCamera& command) {
 }
 
 void Viewer::run(const command::ResetCamera&) {
-  for (const char* name : {"camera", "camera_path", "time_s"}) state_.setup.scene.given.erase(name);
+  scene::clearCamera(state_.setup.scene.given);
   state_.timeS = 0.0;
 }
 
@@ -130,7 +129,7 @@ void Viewer::run(const command::ToggleRecording&) {
     file = std::filesystem::absolute(state_.resultsFolder) / ("path_" + std::to_string(number) + ".yaml");
   scene::writeCameraPath(file.string(), path);
   run(command::ResetCamera{});
-  state_.setup.scene.given["camera_path"] = file.string();
+  scene::setCamera(state_.setup.scene.given, scene::RecordedPath{{file.string()}});
   say("recorded a path of " + std::to_string(path.keys.size()) + " keys in " + file.string());
 }
 

@@ -62,7 +62,7 @@ class PredictionCache {
 /// Where a technique changes there is no flicker weight, since it has no shading of its own to judge it by.
 class Predictor {
  public:
-  /// `popping`: values of perception::poppingParameters(); what is left out takes its default. Throws Error.
+  /// `popping`: values of perception::PoppingSettings; what is left out takes its default. Throws Error.
   Predictor(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display,
             const ParameterValues& popping = {}, PredictionCache* cache = nullptr);
 

@@ -71,8 +71,8 @@ scene::LodSelection levelsOf(const scene::Scene& scene, const LevelChange& chang
 }
 
 frame::ShadedSetting shadingOf(const Stimulus& stimulus) {
-  return frame::ShadedSetting::from(
-      ParameterValues(frame::ShadedSetting::parameters(), stimulus.shading.all(), "shading of the stimulus"));
+  const SettingsTable<frame::ShadedSetting>& table = frame::ShadedSetting::table();
+  return table.read({table.parameters(), stimulus.shading.all(), "shading of the stimulus"});
 }
 
 StateView::StateView(gl::Context& context, std::shared_ptr<const frame::SceneOnGpu> onGpu,

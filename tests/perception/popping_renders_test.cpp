@@ -150,11 +150,11 @@ TEST_F(PoppingRenders, ChangeOfLevelRunsThroughAllSteps) {
   in.disocclusion =
       disocclusionWeight({{now.previousDepth->read(), in.actualDisplacement, now.depthBefore->read()},
                           {kept.previousDepth->read(), in.predictedDisplacement, kept.depthBefore->read()}},
-                         settings);
+                         settings.disocclusionSettings());
   in.flicker =
       flickerWeight({in.actual, in.predicted, now.shadedBefore->read(), pair.previousColour()->read(),
                      in.actualDisplacement, now.previousDepth->read(), kept.depthBefore->read()},
-                    settings);
+                    settings.flickerSettings());
   const PoppingResult result = predictPopping(in, studyDisplay(), settings);
 
   const Image seen = disocclusion.read(), jnd = predictor.jnd().read();

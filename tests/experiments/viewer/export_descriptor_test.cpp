@@ -68,7 +68,7 @@ TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
 
 TEST_F(ExportDescriptor, APlaceOnTheScenesPathFarFromTheOrigin) {
   ViewSetup setup = smallSetup("soft_shadows/pcf", "columns_hall");
-  setup.scene.given["time_s"] = 1.2345;
+  setup.scene.given["camera.time_s"] = 1.2345;
   setup.scene.given["offset"] = 1000.0;
   open(setup);
   expectSameProducts("on the path");
@@ -83,7 +83,8 @@ TEST_F(ExportDescriptor, WhatIsExportedIsOpenedAgainAsItWas) {
   ViewSetup setup = smallSetup("soft_shadows/bitmask");
   setup.technique.given["pattern"] = std::string("regular_8");
   setup.scene.given["light_size"] = 0.1;
-  setup.scene.given["camera"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
+  setup.scene.given["camera"] = std::string("view");
+  setup.scene.given["camera.text"] = std::string("eye 0.1 2.3 -4.5 target 0 0 0 up 0 1 0 fov 33.3");
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   const std::string folder = folder_.string();
   const std::string first = exportDescriptor(setup, folder), second = exportDescriptor(setup, folder);

@@ -170,7 +170,7 @@ TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return fs::exists(exported(number)) &&
-           read(exported(number++)).find("camera: \"eye ") != std::string::npos;
+           read(exported(number++)).find("text: \"eye ") != std::string::npos;
   })) << read(path("out.txt"));
   kill(process_, SIGTERM);
   EXPECT_EQ(finish(), 0) << read(path("out.txt"));

@@ -180,9 +180,9 @@ TEST_F(ViewerUse, DragsOrbitAndTheSceneIsNotBuiltAgain) {
   EXPECT_NEAR(glm::length(after.eye - after.target), glm::length(before.eye - before.target), 1e-9);
   EXPECT_EQ(after.target, before.target);
   EXPECT_GT(glm::length(after.eye - before.eye), 0.1);
-  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera"));
+  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera.text"));
   // What is asked for is what is shown, to the last bit.
-  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->state().setup.scene.given.at("camera")));
+  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->state().setup.scene.given.at("camera.text")));
   key('R');
   rest();
   EXPECT_EQ(viewer_->state().shown->camera.eye, before.eye);
@@ -257,14 +257,14 @@ TEST_F(ViewerUse, ARecordedPathPlaysAndASavedViewComesBack) {
   drag(centre, centre + glm::vec2(0.0F, 30.0F));
   click("camera.record");
   rest();
-  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera_path")) << viewer_->state().messages.back();
+  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera.file")) << viewer_->state().messages.back();
   EXPECT_GT(viewer_->state().shown->path.durationS(), 0.05);
   EXPECT_NEAR(glm::length(viewer_->state().shown->camera.eye - front.eye), 0.0,
               0.01 * glm::length(front.eye));
   click("camera.play");
   EXPECT_TRUE(viewer_->animated());
   for (int i = 0; i < 3; ++i) draw();
-  EXPECT_TRUE(viewer_->state().setup.scene.given.count("time_s"));
+  EXPECT_TRUE(viewer_->state().setup.scene.given.count("camera.time_s"));
   click("camera.play");
   EXPECT_FALSE(viewer_->animated());
   click("camera.view.from the front");

@@ -59,7 +59,7 @@ class BudgetDrivers : public TechniqueTest {
     setting.ambient = ambient;
     out.picture = frame.get<frame::Shaded>(setting).texture().read();
     setting.ambient = 0.0;
-    setting.background = glm::vec3(0.0F);
+    setting.background = 0.0;
     out.direct = frame.get<frame::Shaded>(setting).texture().read();
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;

@@ -311,8 +311,8 @@ TEST_F(LevelStep, OfKeptMasksIsThatOfPlainOnes) {
   const Stepped plain = count(scene, kByMask, given, {48, 36});
   const Stepped kept = count(scene, "soft_shadows/bitmask_coloured", given, {48, 36});
   EXPECT_GT(plain.counters.at("level_step_max"), 0.0);
-  for (const std::string& name : levelStepCounterNames())
-    EXPECT_EQ(plain.counters.at(name), kept.counters.at(name)) << name;
+  for (const Quantity& quantity : levelStepCounterNames())
+    EXPECT_EQ(plain.counters.at(quantity.name), kept.counters.at(quantity.name)) << quantity.name;
 }
 
 }  // namespace

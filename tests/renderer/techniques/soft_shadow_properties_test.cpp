@@ -242,7 +242,8 @@ TEST_F(SoftShadows, CountersAddUp) {
         std::any_of(info.parameters.begin(), info.parameters.end(),
                     [](const Parameter& parameter) { return parameter.name == "resolution"; });
     const auto counts = [&](const char* name) {
-      return std::find(info.counters.begin(), info.counters.end(), name) != info.counters.end();
+      return std::any_of(info.counters.begin(), info.counters.end(),
+                         [name](const Quantity& counter) { return counter.name == name; });
     };
     if (!readsMap || !counts("lit_share") || !counts("fetches_per_px")) continue;
     const Rendered rendered =

@@ -39,7 +39,7 @@ class PredictionTest : public gl::GlTest {
   /// What popping/lod_switch_reference, which has views of its own and does not round to codes, finds.
   static std::map<std::string, double> technique(const Stimulus& stimulus, const std::string& presentation) {
     Given given = stimulus.scene.values.all();
-    given["time_s"] = stimulus.changeAtS;
+    given["camera.time_s"] = stimulus.changeAtS;
     const NamedEntry moved = sceneEntry(stimulus.scene.name, given);
     const frame::SceneOnGpu onGpu(scene::buildScene(moved.name, moved.values));
     frame::Frame frame(context(), onGpu, kPredictionSize);
@@ -139,7 +139,8 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
     nearer.distanceM = 0.5;
     EXPECT_NE(Predictor(context(), kPredictionSize, nearer).key(stimulus), key);
     EXPECT_NE(Predictor(context(), kPredictionSize, studyDisplay(),
-                        ParameterValues(perception::poppingParameters(), {{"use_flicker", false}}))
+                        ParameterValues(perception::PoppingSettings::table().parameters(),
+                                        {{"flicker", "ignored"}}))
                   .key(stimulus),
               key);
   }

@@ -165,7 +165,7 @@ TEST_F(StimulusRendererTest, VisibilityModulatesTheDirectLightOnly) {
   const Image visibility = hard->product().read();
   frame::ShadedSetting ambient, direct;
   ambient.diffuse = 0.0;
-  ambient.background = direct.background = glm::vec3(0.0F);
+  ambient.background = direct.background = 0.0;
   direct.ambient = 0.0;
   const Image a = frame.get<frame::Shaded>(ambient).texture().read(),
               d = frame.get<frame::Shaded>(direct).texture().read();

@@ -26,7 +26,7 @@ class MaskingBudget : public BudgetDriver {
     // Albedo by cosine: contrasts of the light's part alone, whatever the scene's brightness.
     picture_.ambient = 0.0;
     picture_.diffuse = 1.0;
-    picture_.background = glm::vec3(0.0F);
+    picture_.background = 0.0;
   }
 
   void prepare(frame::Frame& frame) override {

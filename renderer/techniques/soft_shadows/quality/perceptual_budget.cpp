@@ -26,7 +26,7 @@ class PerceptualBudget : public BudgetDriver {
     picture_.diffuse = values.real("perceptual_diffuse");
     direct_ = picture_;
     direct_.ambient = 0.0;
-    direct_.background = glm::vec3(0.0F);
+    direct_.background = 0.0;
   }
 
   void prepare(frame::Frame& frame) override {
