@@ -30,6 +30,8 @@ namespace settings {
 struct EntryOptions {
   std::vector<std::string> names;  ///< as registered
   std::function<const std::vector<Parameter>&(const std::string& name)> parametersOf;
+  /// Throws Error if the values of an entry do not go together, `where` being a path within them.
+  std::function<void(const std::string& name, const ParameterValues& values)> check;
 };
 
 class EntryAccess : public MemberAccess {
@@ -72,6 +74,12 @@ Binding<S> registeredChoice(ChosenEntry S::*member, std::string name, std::vecto
   settings::EntryOptions options{std::move(entries),
                                  [](const std::string& entry) -> const std::vector<Parameter>& {
                                    return Registry<Info>::instance().get(entry).parameters;
+                                 },
+                                 [](const std::string& entry, const ParameterValues& values) {
+                                   if constexpr (requires(const Info& info) { info.check(values); }) {
+                                     const Info& info = Registry<Info>::instance().get(entry);
+                                     if (info.check) info.check(values);
+                                   }
                                  }};
   return {settings::state(ParameterType::Choice, std::move(name), std::move(description), std::move(source)),
           std::make_shared<settings::EntryMember<S>>(member, std::move(options))};

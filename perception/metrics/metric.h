@@ -52,9 +52,9 @@ struct MetricInfo {
   std::string name;
   int version = 1;  ///< raised when values change
   std::string summary;
-  std::string source;
-  std::string title;  ///< as an axis label, without the unit: "RMSE", "Mean FLIP error"
-  std::string unit;   ///< "" for pure numbers
+  std::string source = {};
+  std::string title = {};  ///< as an axis label, without the unit: "RMSE", "Mean FLIP error"
+  std::string unit = {};   ///< "" for pure numbers
   Direction direction = Direction::LowerIsBetter;
   bool needsGl = false;
   bool needsReference = true;  ///< false: judges the test product alone (non-finite count)
