@@ -81,7 +81,9 @@ TEST_F(ViewProgram, BadInputIsOneLineAndOpensNothing) {
   refused("--scene bunyn", "bunny");
   refused("--technique soft_shadows/bitmsk", "soft_shadows/bitmask");
   refused("--set technique.budgt=3", "budget");
-  refused("--set technique.budget=none", "whole number");
+  refused("--set technique.budget=none", "uniform");
+  refused("--set technique.budget.limit=none", "whole number");
+  refused("--set technique.budget.rim=3", "budget: radial");
   refused("--set colour=3", "scene.NAME=VALUE");
   refused("--size 0x9", "WIDTHxHEIGHT");
   refused("--arrangement splitt", "split");
