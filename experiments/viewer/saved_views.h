@@ -13,7 +13,7 @@ namespace limen::viewer {
 struct SavedView {
   std::string name;    ///< any text but the empty one; one view of a file
   std::string scene;   ///< registered name
-  std::string camera;  ///< see scene::parseCamera(); the scene's parameter `camera` as it is
+  std::string camera;  ///< see scene::parseCamera()
   bool operator==(const SavedView&) const = default;
 };
 

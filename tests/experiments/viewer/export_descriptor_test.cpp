@@ -52,7 +52,7 @@ class ExportDescriptor : public ViewerTest {
 
 TEST_F(ExportDescriptor, AViewThatWasDraggedToWithOtherParameters) {
   ViewSetup setup = smallSetup("soft_shadows/bitmask");
-  setup.technique.given["budget"] = int64_t{37};
+  setup.technique.given = {{"budget", "radial"}, {"budget.rim", int64_t{37}}};
   setup.scene.given["light_size"] = 1.0 / 3.0;
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
   setup.second = Entry{"soft_shadows/pcss", {}};

@@ -81,7 +81,9 @@ TEST_F(ViewProgram, BadInputIsOneLineAndOpensNothing) {
   refused("--scene bunyn", "bunny");
   refused("--technique soft_shadows/bitmsk", "soft_shadows/bitmask");
   refused("--set technique.budgt=3", "budget");
-  refused("--set technique.budget=none", "whole number");
+  refused("--set technique.budget=none", "uniform");
+  refused("--set technique.budget.limit=none", "whole number");
+  refused("--set technique.budget.rim=3", "budget: radial");
   refused("--set colour=3", "scene.NAME=VALUE");
   refused("--size 0x9", "WIDTHxHEIGHT");
   refused("--arrangement splitt", "split");
@@ -124,7 +126,7 @@ class ViewWindow : public ViewProgram {
     return until([&] { return xdotool("search --name '^Limen$'") == 0; });
   }
   std::string exported(int number) const {
-    char name[32];
+    char name[64];
     std::snprintf(name, sizeof name, "exported/exported_%03d.yaml", number);
     return path(name);
   }
