@@ -18,7 +18,7 @@ Catalogue readRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.allParameters();
-    entry.check = scene::checkCameraParameters;
+    entry.check = [&info](const ParameterValues& complete) { info.checkValues(complete); };
   }
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
     CatalogueEntry& entry = out.techniques[name];
@@ -39,12 +39,10 @@ Catalogue readRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.parameters;
-    entry.quantity = {name, "", info.unit,
-                      info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter,
-                      info.source};
+    entry.quantity = info.quantity();
     entry.needsReference = info.needsReference;
   }
-  out.shading = frame::ShadedSetting::parameters();
+  out.shading = frame::ShadedSetting::table().parameters();
   return out;
 }
 

@@ -32,25 +32,28 @@ void NodeReader::checkKeys(const YamlNode& map, const std::string& what,
       problems_.add(key.mark, "unknown key '" + key.text + "' of " + what, suggest(key.text, known));
 }
 
-std::optional<ParameterValue> NodeReader::valueOf(const YamlNode& map, const Parameter& parameter) {
-  const YamlNode* node = map.find(parameter.name);
-  return node ? values_.value(*node, parameter) : std::nullopt;
+std::optional<ParameterValue> NodeReader::number(const YamlNode& node, const std::string& what, Range range,
+                                                 const std::string& unit, bool whole) {
+  Parameter parameter = settings::state(whole ? ParameterType::Integer : ParameterType::Real, what, {}, {});
+  parameter.minimum = range.least;
+  parameter.maximum = range.most;
+  parameter.unit = unit;
+  return values_.value(node, parameter);
 }
 
-void NodeReader::take(const YamlNode& map, const Parameter& parameter, double& out) {
-  if (const auto value = valueOf(map, parameter)) out = std::get<double>(*value);
+std::optional<std::string> NodeReader::choice(const YamlNode& node, const std::string& what,
+                                              const std::vector<std::string>& names) {
+  Parameter parameter = settings::state(ParameterType::Choice, what, {}, {});
+  parameter.choices = names;
+  const auto value = values_.value(node, parameter);
+  return value ? std::optional(std::get<std::string>(*value)) : std::nullopt;
 }
 
-void NodeReader::take(const YamlNode& map, const Parameter& parameter, int& out) {
-  if (const auto value = valueOf(map, parameter)) out = static_cast<int>(std::get<int64_t>(*value));
-}
-
-void NodeReader::take(const YamlNode& map, const Parameter& parameter, bool& out) {
-  if (const auto value = valueOf(map, parameter)) out = std::get<bool>(*value);
-}
-
-void NodeReader::takeChoice(const YamlNode& map, const Parameter& parameter, std::string& out) {
-  if (const auto value = valueOf(map, parameter)) out = std::get<std::string>(*value);
+void NodeReader::take(const YamlNode& map, const std::string& key, bool& out) {
+  const YamlNode* node = map.find(key);
+  if (!node) return;
+  if (const auto value = values_.value(*node, settings::state(ParameterType::Boolean, key, {}, {})))
+    out = std::get<bool>(*value);
 }
 
 void NodeReader::takeText(const YamlNode& map, const std::string& key, bool required, std::string& out) {

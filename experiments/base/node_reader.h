@@ -28,11 +28,24 @@ class NodeReader {
   /// `what` has the keys: "timing", "an expectation".
   void checkKeys(const YamlNode& map, const std::string& what, const std::vector<std::string>& known);
 
-  /// The value of key `parameter.name` of a map, if it is there and fits.
-  void take(const YamlNode& map, const Parameter& parameter, double& out);
-  void take(const YamlNode& map, const Parameter& parameter, int& out);
-  void take(const YamlNode& map, const Parameter& parameter, bool& out);
-  void takeChoice(const YamlNode& map, const Parameter& parameter, std::string& out);
+  /// The value of a key of a map, if it is there and fits.
+  template <settings::Number T>
+  void take(const YamlNode& map, const std::string& key, Range range, const std::string& unit, T& out) {
+    if (const YamlNode* node = map.find(key))
+      if (const auto value = number(*node, key, range, unit, std::is_integral_v<T>))
+        settings::fromValue(*value, out);
+  }
+  void take(const YamlNode& map, const std::string& key, bool& out);
+  template <NamedEnum E>
+  void take(const YamlNode& map, const std::string& key, E& out) {
+    if (const YamlNode* node = map.find(key))
+      if (const auto value = choice(*node, key, namesOf<E>())) out = fromText<E>(*value);
+  }
+  /// A scalar as a number, whole or not, or as one of some names. `what` it is called in messages.
+  std::optional<ParameterValue> number(const YamlNode& node, const std::string& what, Range range,
+                                       const std::string& unit, bool whole);
+  std::optional<std::string> choice(const YamlNode& node, const std::string& what,
+                                    const std::vector<std::string>& names);
   /// Text; a problem if it is required and missing.
   void takeText(const YamlNode& map, const std::string& key, bool required, std::string& out);
   /// Different texts.
@@ -47,7 +60,6 @@ class NodeReader {
   }
 
  private:
-  std::optional<ParameterValue> valueOf(const YamlNode& map, const Parameter& parameter);
   std::optional<ParameterValues> complete(const YamlNode& map, const std::string& what,
                                           const std::vector<Parameter>& declared);
 

@@ -10,6 +10,7 @@
 #include "experiments/viewer/saved_views.h"
 #include "experiments/viewer/viewer.h"
 #include "renderer/scene/camera_path_file.h"
+#include "renderer/scene/placement.h"
 #include "renderer/scene/camera_text.h"
 
 namespace limen::viewer {
@@ -64,7 +65,7 @@ void Viewer::toggleRecording() {
       file = std::filesystem::absolute(options_.resultsFolder) / ("path_" + std::to_string(number) + ".yaml");
     scene::writeCameraPath(file.string(), path);
     dropCamera();
-    choices_.scene.given["camera_path"] = file.string();
+    scene::setCamera(choices_.scene.given, scene::RecordedPath{{file.string()}});
     say("a path of " + std::to_string(path.keys.size()) + " keys recorded in " + file.string());
   } catch (const std::exception& error) {
     recorder_.reset();

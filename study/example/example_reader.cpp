@@ -88,11 +88,11 @@ class ExampleReader {
     if (const YamlNode* display = node.find("display"); display && !out.display.empty())
       checkDisplay(*display, out.display);
     readObserver(node, out);
-    reader_.take(node, integerParameter("observers", 1, 1, 100000, "", ""), out.observers);
+    reader_.take(node, "observers", {1, 100000}, "", out.observers);
     int seed = 1;
-    reader_.take(node, integerParameter("seed", 1, 0, 2147483647, "", ""), seed);
+    reader_.take(node, "seed", {0, 2147483647}, "", seed);
     out.seed = static_cast<uint64_t>(seed);
-    reader_.take(node, booleanParameter("predictions", true, ""), out.predictions);
+    reader_.take(node, "predictions", out.predictions);
     readWindow(node, out);
     return out;
   }
@@ -172,8 +172,8 @@ class ExampleReader {
     if (!node || !reader_.isMap(*node, "'window'", "{width_px: 320, height_px: 240}")) return;
     reader_.checkKeys(*node, "window", {"width_px", "height_px"});
     std::pair<int, int> window(0, 0);
-    reader_.take(*node, integerParameter("width_px", 1024, 16, 16384, "px", ""), window.first);
-    reader_.take(*node, integerParameter("height_px", 768, 16, 16384, "px", ""), window.second);
+    reader_.take(*node, "width_px", {16, 16384}, "px", window.first);
+    reader_.take(*node, "height_px", {16, 16384}, "px", window.second);
     for (const char* key : {"width_px", "height_px"})
       if (!node->find(key))
         problems_.add(node->mark, std::string("'") + key + "' of window is missing",

@@ -12,7 +12,6 @@
 #include "perception/vision/display.h"
 #include "study/protocol/expression.h"
 #include "study/protocol/part_reader.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 namespace {
@@ -107,9 +106,9 @@ class ProtocolReader {
     WindowSetting& window = out_.window;
     if (node && reader_.isMap(*node, "'window'", "{width_px: 1024, height_px: 768}")) {
       reader_.checkKeys(*node, "window", {"width_px", "height_px", "background"});
-      reader_.take(*node, integerParameter("width_px", 1024, 16, 16384, "px", ""), window.widthPx);
-      reader_.take(*node, integerParameter("height_px", 768, 16, 16384, "px", ""), window.heightPx);
-      reader_.take(*node, realParameter("background", 0.05, 0, 1, "", ""), window.background);
+      reader_.take(*node, "width_px", {16, 16384}, "px", window.widthPx);
+      reader_.take(*node, "height_px", {16, 16384}, "px", window.heightPx);
+      reader_.take(*node, "background", {0, 1}, "", window.background);
     }
     if (resolutionPx_.x > 0 && (window.widthPx > resolutionPx_.x || window.heightPx > resolutionPx_.y))
       problems_.add(node ? node->mark : root.mark,
@@ -148,7 +147,7 @@ class ProtocolReader {
     std::vector<std::string> known;
     for (const auto& [name, target] : keys) {
       known.emplace_back(name);
-      reader_.take(node, realParameter(name, 0, 0, 3600, "s", ""), *target);
+      reader_.take(node, name, {0, 3600}, "s", *target);
     }
     reader_.checkKeys(node, "timing", known);
   }
@@ -157,15 +156,9 @@ class ProtocolReader {
     if (!reader_.isMap(node, "'session'", "{resume: resume, maximum_age_h: 24}")) return;
     reader_.checkKeys(node, "session", {"resume", "maximum_age_h", "repeat_invalid_at_most"});
     SessionSetting& session = out_.session;
-    std::string resume = "resume";
-    reader_.takeChoice(node, choiceParameter("resume", resume, {"resume", "restart_block", "refuse"}, ""),
-                       resume);
-    session.resume = resume == "resume"          ? ResumePolicy::Resume
-                     : resume == "restart_block" ? ResumePolicy::RestartBlock
-                                                 : ResumePolicy::Refuse;
-    reader_.take(node, realParameter("maximum_age_h", 24, 0, 87600, "h", ""), session.maximumAgeH);
-    reader_.take(node, integerParameter("repeat_invalid_at_most", 3, 0, 1000, "", ""),
-                 session.repeatInvalidAtMost);
+    reader_.take(node, "resume", session.resume);
+    reader_.take(node, "maximum_age_h", {0, 87600}, "h", session.maximumAgeH);
+    reader_.take(node, "repeat_invalid_at_most", {0, 1000}, "", session.repeatInvalidAtMost);
   }
 
   void readTexts(const YamlNode& root) {
@@ -215,8 +208,7 @@ class ProtocolReader {
     for (const auto& [key, value] : node.members) {
       const std::string& rule = key.text;
       const bool rate = rule.rfind("reaction_time", 0) != 0;
-      if (const auto limit = reader_.values().value(
-              value, rate ? realParameter(rule, 0, 0, 1, "", "") : realParameter(rule, 0, 0, 3600, "s", "")))
+      if (const auto limit = reader_.number(value, rule, {0.0, rate ? 1.0 : 3600.0}, rate ? "" : "s", false))
         out_.exclusions.push_back({rule, std::get<double>(*limit)});
     }
   }

@@ -62,17 +62,17 @@ std::optional<YamlNode> StimulusReader::resolved(const YamlNode& node) {
   return out;
 }
 
-template <class Value>
-void StimulusReader::take(const YamlNode& map, const Parameter& parameter, Value& out) {
-  const YamlNode* node = map.find(parameter.name);
-  if (!node) return;
-  const std::optional<YamlNode> plain = resolved(*node);
-  const auto found = plain ? reader_.values().value(*plain, parameter) : std::nullopt;
-  if (!found) return;
-  if constexpr (std::is_same_v<Value, int>)
-    out = static_cast<int>(std::get<int64_t>(*found));
-  else
-    out = std::get<Value>(*found);
+template <class... Arguments>
+void StimulusReader::take(const YamlNode& map, const std::string& key, Arguments&&... arguments) {
+  const YamlNode* node = map.find(key);
+  const std::optional<YamlNode> plain = node ? resolved(*node) : std::nullopt;
+  if (!plain) return;
+  YamlNode name, alone;
+  name.kind = Kind::Scalar;
+  name.text = key;
+  alone.kind = Kind::Map;
+  alone.members = {{name, *plain}};
+  reader_.take(alone, key, std::forward<Arguments>(arguments)...);
 }
 
 ParameterValues StimulusReader::readValues(const YamlNode& map, const std::string& what,
@@ -130,10 +130,12 @@ void StimulusReader::readLevels(const YamlNode& node, Stimulus& out) {
     if (!map->find(key))
       reader_.problems().add(map->mark, fmt::format("'{}' of levels is missing", key),
                              "give it: number of a level, 0 the finest");
-  take(*map, integerParameter("object", 0, 0, 1000000, "", ""), change.object);
-  take(*map, integerParameter("before", 1, 0, 63, "", ""), change.before);
-  take(*map, integerParameter("after", 0, 0, 63, "", ""), change.after);
-  take(*map, choiceParameter("others", "finest", {"finest", "distance", "omitted"}, ""), change.others);
+  take(*map, "object", Range{0, 1000000}, "", change.object);
+  take(*map, "before", Range{0, 63}, "", change.before);
+  take(*map, "after", Range{0, 63}, "", change.after);
+  if (const YamlNode* others = map->find("others"))
+    if (const auto choice = reader_.choice(*others, "others", {"finest", "distance", "omitted"}))
+      change.others = *choice;
   if (change.before == change.after && map->find("before") && map->find("after"))
     reader_.problems().add(map->mark,
                            fmt::format("level {} changes to level {}", change.before, change.after),
@@ -170,13 +172,11 @@ void StimulusReader::readCue(const YamlNode& node, Stimulus& out) {
   const std::optional<YamlNode> map = resolved(node);
   if (!map || !reader_.isMap(*map, "'cue'", "{kind: circle, x_px: 512, y_px: 384, duration_s: 2}")) return;
   reader_.checkKeys(*map, "cue", {"kind", "x_px", "y_px", "radius_px", "duration_s"});
-  std::string kind = "none";
-  take(*map, choiceParameter("kind", "none", {"none", "arrow", "circle"}, ""), kind);
-  out.cue.kind = kind == "arrow" ? Cue::Kind::Arrow : kind == "circle" ? Cue::Kind::Circle : Cue::Kind::None;
-  take(*map, realParameter("x_px", 0, -16384, 16384, "px", ""), out.cue.xPx);
-  take(*map, realParameter("y_px", 0, -16384, 16384, "px", ""), out.cue.yPx);
-  take(*map, realParameter("radius_px", 50, 1, 16384, "px", ""), out.cue.radiusPx);
-  take(*map, realParameter("duration_s", 0, 0, 60, "s", ""), out.cue.durationS);
+  take(*map, "kind", out.cue.kind);
+  take(*map, "x_px", Range{-16384, 16384}, "px", out.cue.xPx);
+  take(*map, "y_px", Range{-16384, 16384}, "px", out.cue.yPx);
+  take(*map, "radius_px", Range{1, 16384}, "px", out.cue.radiusPx);
+  take(*map, "duration_s", Range{0, 60}, "s", out.cue.durationS);
   if (out.cue.kind == Cue::Kind::None) return;
   for (const char* key : {"x_px", "y_px", "duration_s"})
     if (!map->find(key))
@@ -199,18 +199,17 @@ std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, con
     problems.add(map.mark, "'scene' of a stimulus is missing", std::string("give it: ") + kEntryExample);
   }
   readChange(map, out);
-  std::string presentation = "dynamic", catchShows = "before";
-  take(map, choiceParameter("presentation", presentation, {"dynamic", "static"}, ""), presentation);
-  out.presentation = presentation == "static" ? Presentation::Static : Presentation::Dynamic;
-  take(map, choiceParameter("catch_shows", catchShows, {"before", "after"}, ""), catchShows);
-  out.catchShowsAfter = catchShows == "after";
-  take(map, realParameter("duration_s", 4, 0.02, 600, "s", ""), out.durationS);
+  take(map, "presentation", out.presentation);
+  if (const YamlNode* catchShows = map.find("catch_shows"))
+    if (const auto plain = resolved(*catchShows))
+      out.catchShowsAfter = reader_.choice(*plain, "catch_shows", {"before", "after"}) == "after";
+  take(map, "duration_s", Range{0.02, 600}, "s", out.durationS);
   out.changeAtS = 0.5 * out.durationS;
-  take(map, realParameter("change_at_s", 2, 0, 600, "s", ""), out.changeAtS);
-  take(map, realParameter("start_s", 0, -600, 3600, "s", ""), out.sceneStartS);
-  take(map, integerParameter("showings", 1, 1, 20, "", ""), out.showings);
-  take(map, realParameter("gap_s", 1, 0, 60, "s", ""), out.gapS);
-  take(map, integerParameter("samples", 2, 1, 16, "", ""), out.samples);
+  take(map, "change_at_s", Range{0, 600}, "s", out.changeAtS);
+  take(map, "start_s", Range{-600, 3600}, "s", out.sceneStartS);
+  take(map, "showings", Range{1, 20}, "", out.showings);
+  take(map, "gap_s", Range{0, 60}, "s", out.gapS);
+  take(map, "samples", Range{1, 16}, "", out.samples);
   if (const YamlNode* cue = map.find("cue")) readCue(*cue, out);
   out.changes = out.levels || out.after;
   if (out.changes && !(out.changeAtS > 0.0 && out.changeAtS < out.durationS)) {

@@ -28,8 +28,9 @@ class StimulusReader {
   /// The node with the expressions in it worked out, those of maps and lists below it too; nothing after a
   /// problem.
   std::optional<YamlNode> resolved(const YamlNode& node);
-  template <class Value>
-  void take(const YamlNode& map, const Parameter& parameter, Value& out);
+  /// As NodeReader::take() of the same arguments, with an expression worked out.
+  template <class... Arguments>
+  void take(const YamlNode& map, const std::string& key, Arguments&&... arguments);
 
   NodeReader& reader_;
   const Catalogue& catalogue_;
