@@ -21,8 +21,8 @@ const std::vector<store::QuantityRow>& commonQuantities() {
   // Name, title, unit, direction, kind, pass of the frame times that it is the median of, source.
   static const std::vector<store::QuantityRow> kCommon = {
       {"gpu_ms", "GPU time", "ms", kLower, "time", "frame", ""},
-      {"gpu_ms_p95", "GPU time, 95th percentile", "ms", kLower, "time", "", ""},
-      {"technique_ms", "GPU time without the G-buffer", "ms", kLower, "time", "", ""},
+      {"gpu_ms_p95", "Frame time, 95th percentile", "ms", kLower, "time", "", ""},
+      {"technique_ms", "Frame time without the G-buffer", "ms", kLower, "time", "", ""},
       {"wall_ms", "Wall time", "ms", kLower, "time", "wall", ""},
       {"cpu_ms", "CPU time", "ms", kLower, "time", "cpu", ""},
       {"prepare_ms", "Preparation time", "ms", kLower, "time", "", ""},

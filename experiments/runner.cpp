@@ -15,17 +15,6 @@
 namespace limen::experiments {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// A finished run waits for others no longer than this.
-constexpr std::chrono::milliseconds kCommitInterval{100};
-
-/// What became of a run of the batch in hand.
-struct Finished {
-  const PlannedRun* planned;
-  store::Run row;
-};
-
 class Runner {
  public:
   Runner(const Plan& plan, store::Store& results, Executor& executor, const nlohmann::json& hostFacts,
@@ -135,16 +124,11 @@ class Runner {
     std::vector<bool> reported(runs.size(), false);
     if (announced_) executor_.announce(plan_.runs[*announced_]);
     announced_.reset();
-    try {
-      executor_.execute(runs, [&](size_t index, RunOutcome outcome) {
-        reported.at(index) = true;
-        commit(runs[index], std::move(outcome));
-      });
-    } catch (...) {
-      commitPending();
-      throw;
-    }
-    commitPending();
+    executor_.execute(runs, [&](size_t index, RunOutcome outcome) {
+      reported.at(index) = true;
+      commit(runs[index], std::move(outcome));
+    });
+    results_.sync();
     if (std::find(reported.begin(), reported.end(), false) != reported.end()) {
       throwIfInterrupted();
       throw Error("the executor left a run without an outcome");
@@ -160,21 +144,9 @@ class Runner {
     row.frameTimes = std::move(outcome.frameTimes);
     row.passes = std::move(outcome.passes);
     row.artefacts = std::move(outcome.artefacts);
-    pending_.push_back({&planned, std::move(row)});
-    if (Clock::now() - lastCommit_ > kCommitInterval) commitPending();
-  }
-
-  /// Runs that finished together are committed together: each commit waits for the disk.
-  void commitPending() {
-    const std::vector<Finished> finished = std::exchange(pending_, {});
-    std::vector<store::Run> rows;
-    for (const Finished& one : finished) rows.push_back(one.row);
-    results_.finish(rows);
-    lastCommit_ = Clock::now();
-    for (const Finished& one : finished) {
-      ++(one.row.status == "done" ? tally_.done : tally_.failed);
-      observer_.finished(*one.planned, one.row);
-    }
+    results_.finish(row);
+    ++(row.status == "done" ? tally_.done : tally_.failed);
+    observer_.finished(planned, row);
   }
 
   void waitForOthers() {
@@ -210,8 +182,6 @@ class Runner {
   std::optional<int64_t> environment_;
   std::vector<size_t> held_;
   std::optional<size_t> announced_;  ///< first run of the next group
-  std::vector<Finished> pending_;
-  Clock::time_point lastCommit_ = Clock::now();
   SweepTally tally_;
 };
 

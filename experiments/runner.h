@@ -41,7 +41,7 @@ struct SweepTally {
 };
 
 /// Measures what the store does not have yet for the executor's device. Every run is claimed before and
-/// committed as soon as it is finished, together with others that finish at the same time; claims that are
+/// committed as soon as it is finished; a batch is on the disk before the next begins; claims that are
 /// not finished are given back, whatever happens. Runs that another live process holds are left to it and
 /// waited for at the end. Throws Error if store or executor cannot go on.
 SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,

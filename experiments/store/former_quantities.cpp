@@ -21,8 +21,8 @@ constexpr Direction kLower = Direction::LowerIsBetter, kHigher = Direction::High
 
 constexpr std::array kFormer = {
     Former{"gpu_ms", "GPU time", kLower, "frame"},
-    Former{"gpu_ms_p95", "GPU time, 95th percentile", kLower},
-    Former{"technique_ms", "GPU time without the G-buffer", kLower},
+    Former{"gpu_ms_p95", "Frame time, 95th percentile", kLower},
+    Former{"technique_ms", "Frame time without the G-buffer", kLower},
     Former{"wall_ms", "Wall time", kLower, "wall"},
     Former{"cpu_ms", "CPU time", kLower, "cpu"},
     Former{"prepare_ms", "Preparation time", kLower},

@@ -142,7 +142,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   if (!isEmpty(database)) requireStore(database, path);
   turnOnWriteAheadLog(database);
   // With the log a commit survives the death of the process at NORMAL already; FULL syncs it too, so that it
-  // survives a power cut. A run takes seconds and commits twice, so the sync does not count.
+  // survives a power cut. What sweeps write for each run goes without and is synced batch by batch.
   execute(database, "PRAGMA synchronous = FULL");
   migrate(database, path);
   return closer.release();

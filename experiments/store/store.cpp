@@ -22,8 +22,8 @@ std::string dump(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Commits within its life survive the death of the process but not a power cut: a lost claim is a run that
-/// was not begun. Waiting for the disk takes milliseconds.
+/// Commits within its life survive the death of the process but not a power cut, and do not wait for the
+/// disk, which takes milliseconds each time.
 class WithoutSync {
  public:
   explicit WithoutSync(sqlite3* database) : database_(database) {
@@ -122,29 +122,29 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
   return Claim::Claimed;
 }
 
-void Store::finish(const std::vector<Run>& runs) {
-  if (runs.empty()) return;
+void Store::finish(const Run& run) {
+  assert(run.status == "done" || run.status == "failed");
+  const WithoutSync withoutSync(database_);
   Transaction transaction(database_, Mode::Write);
   Statement find(database_,
                  "SELECT id FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
-  Statement end(database_,
-                "UPDATE run SET status = ?, error = ?, scene_facts = ?, environment = coalesce(?, "
-                "environment), owner = '', finished = ? WHERE id = ?");
-  std::string lost;
-  for (const Run& run : runs) {
-    assert(run.status == "done" || run.status == "failed");
-    if (!find.bind(run.key, run.device, processIdentity()).step()) {
-      lost = run.key;
-      continue;
-    }
-    const int64_t id = find.integer(0);
-    end.bind(run.status, run.error, dump(run.sceneFacts), orNull(run.environment), utcNow(), id).execute();
-    writeDetails(database_, id, run);
-  }
-  transaction.commit();
-  if (!lost.empty())
-    throw Error("run " + lost + " is no longer held by this process", path_,
+  if (!find.bind(run.key, run.device, processIdentity()).step())
+    throw Error("run " + run.key + " is no longer held by this process", path_,
                 "another process took it over; start the sweep again, what is done stays done");
+  const int64_t id = find.integer(0);
+  execute(database_,
+          "UPDATE run SET status = ?, error = ?, scene_facts = ?, environment = coalesce(?, environment), "
+          "owner = '', finished = ? WHERE id = ?",
+          run.status, run.error, dump(run.sceneFacts), orNull(run.environment), utcNow(), id);
+  writeDetails(database_, id, run);
+  transaction.commit();
+}
+
+void Store::sync() {
+  // A commit of any page syncs the whole log.
+  Transaction transaction(database_, Mode::Write);
+  execute(database_, "UPDATE run SET owner = owner WHERE id = (SELECT max(id) FROM run)");
+  transaction.commit();
 }
 
 void Store::releaseClaims() {

@@ -102,9 +102,10 @@ class Store {
   /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
-  void finish(const Run& run) { finish(std::vector<Run>{run}); }
-  /// Several at once, each whole or not at all.
-  void finish(const std::vector<Run>& runs);
+  /// From then on it survives the death of this process, and after sync() a power cut too.
+  void finish(const Run& run);
+  /// Waits until all that was finished is on the disk.
+  void sync();
   /// Gives back claims of this process that were not finished.
   void releaseClaims();
 
