@@ -17,7 +17,7 @@
 #include "experiments/product.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
-#include "experiments/stage.h"
+#include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/techniques/technique.h"
@@ -51,17 +51,17 @@ struct BuiltScene {
 
 BuiltScene build(const Choice& choice) {
   BuiltScene out{scene::buildScene(choice.name, choice.values), {}};
-  out.facts = factsOf(out.scene);
+  out.facts = sceneFacts(out.scene);
   return out;
 }
 
 std::string keyOf(const Choice& scene) { return scene.name + scene.values.toJson().dump(); }
 
 /// A scene as all runs of a batch share it, with what they share of one view.
-struct SharedStage {
-  explicit SharedStage(BuiltScene built) : stage(std::move(built.scene)), facts(std::move(built.facts)) {}
+struct SharedScene {
+  explicit SharedScene(BuiltScene built) : onGpu(std::move(built.scene)), facts(std::move(built.facts)) {}
 
-  Stage stage;
+  frame::SceneOnGpu onGpu;
   nlohmann::json facts;
   // For one image size:
   glm::ivec2 sizePx{0};
@@ -147,7 +147,7 @@ class GlExecutor : public Executor {
   void announce(const PlannedRun& next) override {
     const std::string key = keyOf(next.scene);
     // Where a CPU plays GPU, it must do nothing else while frames are timed.
-    if (environment_.software || key == stageKey_ || key == nextKey_) return;
+    if (environment_.software || key == sceneKey_ || key == nextKey_) return;
     nextKey_ = key;
     next_ = std::async(std::launch::async, [scene = next.scene] { return build(scene); });
   }
@@ -194,33 +194,33 @@ class GlExecutor : public Executor {
     finished(run.index, std::move(run.outcome));
   }
 
-  SharedStage& stage(const PlannedRun& run) {
+  SharedScene& sceneOf(const PlannedRun& run) {
     const std::string key = keyOf(run.scene);
-    if (key != stageKey_) {
+    if (key != sceneKey_) {
       const Stopwatch watch(seconds_["scenes"]);
-      stageKey_.clear();
-      stage_.reset();
+      sceneKey_.clear();
+      scene_.reset();
       const bool announced = key == nextKey_;
       if (announced) nextKey_.clear();
-      stage_ = std::make_unique<SharedStage>(announced ? next_.get() : build(run.scene));
-      stageKey_ = key;
+      scene_ = std::make_unique<SharedScene>(announced ? next_.get() : build(run.scene));
+      sceneKey_ = key;
     }
     const glm::ivec2 sizePx(run.widthPx, run.heightPx);
-    if (stage_->sizePx != sizePx) {
+    if (scene_->sizePx != sizePx) {
       const Stopwatch watch(seconds_["rendering"]);
-      stage_->view = std::make_shared<const ViewImages>(stage_->stage.view(*context_, sizePx));
-      stage_->sizePx = sizePx;
+      scene_->view = std::make_shared<const ViewImages>(viewImages(*context_, scene_->onGpu, sizePx));
+      scene_->sizePx = sizePx;
     }
-    return *stage_;
+    return *scene_;
   }
 
   /// Prepares a run, renders it once and judges the product.
   void begin(LiveRun& run) {
     const PlannedRun& plan = *run.plan;
     run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
-    SharedStage& on = stage(plan);
+    SharedScene& on = sceneOf(plan);
     run.outcome.sceneFacts = on.facts;
-    requireTraits(*run.info, on.stage.scene);
+    requireTraits(*run.info, on.onGpu.scene);
     prepare(run, on);
     if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
       run.outcome.sceneFacts["remarks"] = remarks;
@@ -273,10 +273,10 @@ class GlExecutor : public Executor {
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
   }
 
-  void prepare(LiveRun& run, const SharedStage& on) {
+  void prepare(LiveRun& run, const SharedScene& on) {
     const Stopwatch watch(seconds_["rendering"]);
     run.technique = run.info->make(run.plan->technique.values);
-    run.frame = std::make_unique<frame::Frame>(*context_, on.stage.scene, on.stage.gpu, on.sizePx);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.onGpu, on.sizePx);
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
@@ -299,16 +299,16 @@ class GlExecutor : public Executor {
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedStage& on) {
+  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedScene& on) {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
     return references_.get(sha256(identity.dump()),
-                           [&] { return renderOnce(*context_, on.stage, on.sizePx, run.reference); });
+                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
   }
 
   /// Hashes the product and writes artefacts, which takes longer than a fast technique's frames.
-  void startAfterwork(LiveRun& run, const SharedStage& on, Image product,
+  void startAfterwork(LiveRun& run, const SharedScene& on, Image product,
                       std::shared_ptr<const Image> reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
@@ -356,8 +356,8 @@ class GlExecutor : public Executor {
   GpuClock clock_;
   ReferenceCache references_;
   store::Environment environment_;
-  std::string stageKey_;
-  std::unique_ptr<SharedStage> stage_;
+  std::string sceneKey_;
+  std::unique_ptr<SharedScene> scene_;
   std::string nextKey_;  ///< of the scene that is being built beside the GPU's work; "": none
   std::future<BuiltScene> next_;
   std::map<std::string, double> seconds_;

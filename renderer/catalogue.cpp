@@ -39,9 +39,7 @@ Catalogue readRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.parameters;
-    entry.quantity = {name, "", info.unit,
-                      info.higherIsBetter ? Direction::HigherIsBetter : Direction::LowerIsBetter,
-                      info.source};
+    entry.quantity = info.quantity();
     entry.needsReference = info.needsReference;
   }
   out.shading = frame::ShadedSetting::table().parameters();

@@ -7,8 +7,6 @@
 #include "perception/threshold_maps/reference.h"
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
-#include "renderer/techniques/declared_group.h"
-#include "renderer/techniques/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
@@ -17,26 +15,22 @@ namespace {
 using techniques::Counter;
 
 struct ThresholdMapReferenceSettings {
-  ParameterValues viewing, map;
+  perception::ThresholdMapSettings map;
+  perception::ViewingSettings viewing;
   frame::ShadedSetting shading;
   static const SettingsTable<ThresholdMapReferenceSettings>& table() {
     using S = ThresholdMapReferenceSettings;
     static const SettingsTable<S> kTable = {
-        techniques::declared(&S::map, "map", perception::thresholdMapParameters, "The model"),
-        techniques::declared(&S::viewing, "", perception::viewingParameters),
-        frame::shadingBinding(&S::shading)};
+        {&S::map, "map", "The model"}, included(&S::viewing), frame::shadingBinding(&S::shading)};
     return kTable;
   }
-  void check() const { techniques::mapSettingsOf(map); }
 };
 
 class ThresholdMapReference : public techniques::Technique {
  public:
   using Settings = ThresholdMapReferenceSettings;
   explicit ThresholdMapReference(const Settings& settings)
-      : settings_(techniques::mapSettingsOf(settings.map)),
-        display_(perception::viewingDisplay(settings.viewing)),
-        shaded_(settings.shading) {}
+      : settings_(settings.map), display_(settings.viewing.profile()), shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
     product_.emplace(gl::Format::R32F, frame.sizePx());

@@ -105,7 +105,7 @@ class ExampleRun {
     request_.say(study.name + ": what predictors say of the stimuli");
     StorePredictionRequest request;
     request.store = storeOf(study);
-    request.popping = ParameterValues(perception::poppingParameters(), {}, "predictor");
+    request.popping = ParameterValues(perception::PoppingSettings::table().parameters(), {}, "predictor");
     request.cacheFile = cacheOf(study);
     request.progress = [this](int done, int all) {
       request_.progress(fmt::format("{} of {} stimuli", done, all));

@@ -70,7 +70,7 @@ nlohmann::json FrameComparer::settings() {
 }
 
 FrameDifference FrameComparer::compare(const Stimulus& stimulus) {
-  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &stages_);
+  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   const Image testCodes = renderer.readBackState(timeS, true),
               referenceCodes = renderer.readBackState(timeS, false);

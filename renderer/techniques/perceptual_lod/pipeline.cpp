@@ -41,7 +41,7 @@ PerceptualPipeline::PerceptualPipeline(frame::Frame& parent, const PerceptualLod
       images_(parent, settings),
       control_(settings.rule, levelCounts(parent.scene()),
                settings.startLevel == StartLevel::Finest ? 0 : std::numeric_limits<int>::max()),
-      thresholdMap_(parent.context(), parent.sizePx(), seenOn_.display, seenOn_.map),
+      thresholdMap_(parent.context(), parent.sizePx(), seenOn_.display, seenOn_.map, settings.gpu),
       visible_(gl::Format::R32F, parent.sizePx()),
       counts_(parent.context(), settings.tests.count, settings.tests.objectsPerFrame,
               settings.rule.lookAhead(), visible_) {

@@ -1,43 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/perceptual_lod/settings.h"
 
-#include "renderer/techniques/declared_group.h"
-#include "renderer/techniques/map_settings.h"
-
 namespace limen::techniques {
 namespace {
 
 constexpr const char* kOpen = "Schwarz 2009, section 9.5 (not given there)";
 
-template <class S>
-Binding<S> displayBinding(std::string S::*member) {
-  return {member, "display", Names{perception::displayPresets()}, "Display and viewing distance",
-          "Schwarz 2009, section 10.4"};
-}
-
-const char* const kMapHelp = "The threshold map";
-
 }  // namespace
 
 const SettingsTable<ModelSettings>& ModelSettings::table() {
   using S = ModelSettings;
-  static const SettingsTable<S> kTable = {
-      displayBinding(&S::display), declared(&S::map, "map", perception::thresholdMapParameters, kMapHelp)};
+  static const SettingsTable<S> kTable = {{&S::map, "map", "The threshold map"}, included(&S::viewing)};
   return kTable;
-}
-
-const SettingsTable<GpuModelSettings>& GpuModelSettings::table() {
-  using S = GpuModelSettings;
-  static const SettingsTable<S> kTable = {
-      displayBinding(&S::display), declared(&S::map, "map", perception::thresholdMapParameters, kMapHelp),
-      declared(&S::gpu, "gpu", perception::thresholdMapGpuParameters, "How the GPU computes it")};
-  return kTable;
-}
-
-SeenOn ModelSettings::seenOn() const { return {perception::displayPreset(display), mapSettingsOf(map)}; }
-
-SeenOn GpuModelSettings::seenOn() const {
-  return {perception::displayPreset(display), mapSettingsOf(map, gpu)};
 }
 
 const SettingsTable<TestSettings>& TestSettings::table() {
@@ -100,7 +74,8 @@ const SettingsTable<PerceptualLodSettings>& PerceptualLodSettings::table() {
        "Compare the levels with an exhaustive search in double precision when costs are counted (slow for "
        "large images and many objects)"},
       frame::shadingBinding(&S::shading),
-      included(&S::model)};
+      included(&S::model),
+      {&S::gpu, "gpu", "How the GPU computes the threshold map"}};
   return kTable;
 }
 

@@ -5,7 +5,7 @@
 
 #include "experiments/base/settings_table.h"
 #include "perception/threshold_maps/settings.h"
-#include "perception/vision/display.h"
+#include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/perceptual_lod/layers.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
@@ -19,20 +19,13 @@ struct SeenOn {
   perception::ThresholdMapSettings map;
 };
 
-/// Settings of the display and of the model, and of how the GPU computes it.
+/// Settings of the display and of the model.
 struct ModelSettings {
-  std::string display = "schwarz_2009";
-  ParameterValues map;
+  perception::ThresholdMapSettings map;
+  perception::ViewingSettings viewing;
   static const SettingsTable<ModelSettings>& table();
-  void check() const { seenOn(); }
-  SeenOn seenOn() const;
-};
-struct GpuModelSettings {
-  std::string display = "schwarz_2009";
-  ParameterValues map, gpu;
-  static const SettingsTable<GpuModelSettings>& table();
-  void check() const { seenOn(); }
-  SeenOn seenOn() const;
+  /// Throws Error on an unreadable display.
+  SeenOn seenOn() const { return {viewing.profile(), map}; }
 };
 
 /// How pixels above threshold are counted.
@@ -91,7 +84,8 @@ struct PerceptualLodSettings {
   std::variant<DarkenedShadows, IgnoredShadows> castShadows;
   bool oracle = true;
   frame::ShadedSetting shading;
-  GpuModelSettings model;
+  ModelSettings model;
+  perception::ThresholdMapGpuSettings gpu;
   static const SettingsTable<PerceptualLodSettings>& table();
 };
 

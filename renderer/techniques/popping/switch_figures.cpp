@@ -54,7 +54,7 @@ Image objectMask(frame::Frame& frame, const SwitchSetting& setting) {
 }
 
 double ratingWithoutRegion(const perception::PoppingSettings& settings) {
-  return perception::poppingRating(settings.regionThresholdJnd, settings) - 1.0;
+  return perception::poppingRating(settings.regions.thresholdJnd, settings) - 1.0;
 }
 
 std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& setting,

@@ -7,7 +7,6 @@
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_control.h"
-#include "renderer/techniques/declared_group.h"
 #include "renderer/techniques/lod/box_view.h"
 
 namespace limen::techniques {
@@ -39,9 +38,9 @@ const SettingsTable<SwitchSettings>& SwitchSettings::table() {
       {&S::presentation, "presentation", "How the change is shown", "Schwarz 2009, section 10.4.1"},
       // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
       samplesBinding(&S::samples),
-      declared(&S::viewing, "", perception::viewingParameters),
+      included(&S::viewing),
       frame::shadingBinding(&S::shading),
-      declared(&S::predictor, "predictor", perception::poppingParameters, "The popping predictor")};
+      {&S::predictor, "predictor", "The popping predictor"}};
   return kTable;
 }
 
@@ -54,10 +53,8 @@ SwitchSetting::SwitchSetting(const SwitchSettings& settings)
       others(settings.others),
       samples(settings.samples),
       shaded(settings.shading),
-      display(perception::viewingDisplay(
-          ParameterValues(perception::viewingParameters(), settings.viewing.all()))),
-      popping(perception::PoppingSettings::from(
-          ParameterValues(perception::poppingParameters(), settings.predictor.all()))) {
+      display(settings.viewing.profile()),
+      popping(settings.predictor) {
   double dt = 0.0;
   if (const auto* moving = std::get_if<DynamicPresentation>(&settings.presentation)) {
     flickerOfBefore = moving->flickerLevel == FlickerLevel::Before;

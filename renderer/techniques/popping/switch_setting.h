@@ -7,6 +7,7 @@
 
 #include "experiments/base/settings_table.h"
 #include "perception/popping/settings.h"
+#include "perception/threshold_maps/viewing.h"
 #include "perception/vision/display.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/shaded.h"
@@ -53,9 +54,9 @@ struct SwitchSettings {
   OtherLevels others = OtherLevels::Finest;
   std::variant<DynamicPresentation, StaticPresentation> presentation;
   int samples = 2;
-  ParameterValues viewing;
+  perception::ViewingSettings viewing;
   frame::ShadedSetting shading;
-  ParameterValues predictor;
+  perception::PoppingSettings predictor;
   static const SettingsTable<SwitchSettings>& table();
   /// Throws Error on an unreadable display.
   void check() const;
@@ -84,8 +85,8 @@ struct SwitchSetting {
   /// Levels of all objects after and before the change: {actual, predicted}. Throws Error if the scene has no
   /// such object or the object no such level.
   std::pair<scene::LodSelection, scene::LodSelection> levels(const frame::Frame& frame) const;
-  bool usesDisocclusion() const { return dynamic && popping.useDisocclusion; }
-  bool usesFlicker() const { return dynamic && popping.useFlicker; }
+  bool usesDisocclusion() const { return dynamic && popping.usesDisocclusion(); }
+  bool usesFlicker() const { return dynamic && popping.usesFlicker(); }
 };
 
 }  // namespace limen::techniques

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/multi_scale_map.h"
 #include "renderer/techniques/soft_shadows/quality/quality_counters.h"
@@ -18,48 +17,30 @@
 namespace limen::techniques {
 namespace {
 
-constexpr double kDefaultSlopeBias = 2.0;
-constexpr const char *kDefaultGapFill = "left_bottom", *kDefaultBase = "256",
-                     *kDefaultSamples = "one_then_four";
 constexpr uint32_t kBudgetUnit = 12, kCameraDepthUnit = 15;
 /// Of level_steps.glsl.
 constexpr uint32_t kPositionUnit = 14, kNormalUnit = 15, kWorkImage = 1, kSearchImage = 2, kStepImage = 4;
 const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
 const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
-Structure structureOf(const std::string& name) {
-  return name == "none"       ? Structure::None
-         : name == "hsm"      ? Structure::Hsm
-         : name == "mssm"     ? Structure::Mssm
-         : name == "n_buffer" ? Structure::NBuffer
-                              : Structure::Ysm;
-}
-
-bool hasLayers(Structure structure) { return structure >= Structure::Mssm; }
-
-gl::ShaderDefines withSearch(const ParameterValues& values, gl::ShaderDefines defines) {
-  const std::string &fill = values.text("gap_fill"), &occluders = values.text("occluders");
-  defines["GAP_FILL"] = fill == "none" ? "0" : fill == "left_bottom" ? "1" : "2";
-  defines["OCCLUDERS"] = occluders == "micropatches"          ? "0"
-                         : occluders == "microquads"          ? "1"
-                         : occluders == "contours"            ? "3"
-                         : occluders == "microrects"          ? "4"
-                         : occluders == "morphing_microquads" ? "5"
-                                                              : "2";
-  for (const auto& [name, value] : BiasForm(values).defines()) defines[name] = value;
-  const Structure structure = structureOf(values.text("structure"));
-  defines[structure == Structure::None  ? "STRUCTURE_NONE"
-          : structure == Structure::Hsm ? "STRUCTURE_HSM"
-          : structure == Structure::Ysm ? "STRUCTURE_YSM"
-                                        : "STRUCTURE_WINDOWS"] = "1";
-  if (structure == Structure::NBuffer) defines["CORNER"] = "1";
+gl::ShaderDefines withSearch(const SearchSettings& settings, const LevelSettings& levels,
+                             const PassSettings& passes, const OccluderChoice& occluders,
+                             gl::ShaderDefines defines) {
+  occluders.define(defines);
+  for (const auto& [name, value] : BiasForm(settings.bias).defines()) defines[name] = value;
+  defineStructure(settings.structure, defines);
   // With one level for all pixels, what it makes of the shadow is the question: no pixel may escape it by
   // texels that are finer.
-  if ((hasLayers(structure) && values.boolean("growth")) || CoarseOccluders(values).isFixed())
-    defines["GROW"] = "1";
-  if (hasBudgetMap(values)) defines["BUDGET_MAP"] = "1";
-  LevelOfQuality(values).define(defines);
+  if (CoarseOccluders(occluders, levels).isFixed()) defines["GROW"] = "1";
+  if (!std::holds_alternative<UniformBudget>(settings.budget)) defines["BUDGET_MAP"] = "1";
+  LevelOfQuality(levels, passes).define(defines);
   return defines;
+}
+
+/// Of the visibility pass, whose uniforms all forms share.
+SlopeBias slopeOf(const BiasSettings& bias) {
+  const auto* slope = std::get_if<SlopeBias>(&bias);
+  return slope ? *slope : SlopeBias{constantOf(bias), 0.0};
 }
 
 const gl::ShaderDefines kGatherDefines = {{"SPLIT_GATHER", "1"}};
@@ -70,98 +51,20 @@ gl::ShaderDefines classifyDefines(bool smooths) {
   return defines;
 }
 
-/// Depth ranges of a pixel, from the first on, that one square answers.
-int roughQueries(const std::string& samples) { return samples == "one" ? 1000 : samples == "four" ? 0 : 1; }
-
 }  // namespace
 
-std::vector<Parameter> OccluderSearch::searchParameters(std::vector<std::string> occluders) {
-  // A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving out
-  // the receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
-  // own.
-  std::vector<Parameter> all = commonParameters(kDefaultSlopeBias);
-  all.push_back(integerParameter("budget", kDefaultBudget, 0, 1 << 24, "",
-                                 "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
-                                 "Schwarz 2009, sections 4.1 and 4.5"));
-  all.push_back(integerParameter("refinements", 2, 0, 3, "",
-                                 "Times that the search area is narrowed by its depth range",
-                                 "Schwarz 2009, section 4.1"));
-  all.push_back(
-      choiceParameter("structure", "hsm", {"none", "hsm", "mssm", "n_buffer", "ysm"},
-                      "What finds the depth range of a search area: nothing, hierarchical shadow map, "
-                      "multi-scale shadow map, N-buffer, Y shadow map",
-                      "Schwarz 2009, sections 4.1 and 4.3; N-buffer: Décoret 2005"));
-  all.push_back(choiceParameter("ysm_base", kDefaultBase, {"64", "128", "256", "512"},
-                                "Texels along a side of the Y shadow map's layers, at most the map's",
-                                "Schwarz 2009, section 4.3.2"));
-  all.push_back(choiceParameter("range_samples", kDefaultSamples, {"one", "one_then_four", "four"},
-                                "Squares that answer a depth range in the structures with layers: one around "
-                                "the area, four at its corners, or one for the first range of a pixel",
-                                "Schwarz 2009, section 4.3.1 (one_then_four)"));
-  all.push_back(booleanParameter("growth", true,
-                                 "Structures with layers take whole micro-occluders of the level that the "
-                                 "budget leads to; without, a seam stands where pixels become fully lit",
-                                 "Schwarz 2009, section 4.3.1"));
-  all.push_back(choiceParameter("gap_fill", kDefaultGapFill, {"none", "left_bottom", "diagonal"},
-                                "Neighbours to which a micropatch is stretched to close gaps",
-                                "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)"));
-  const bool morphing =
-      std::find(occluders.begin(), occluders.end(), "morphing_microquads") != occluders.end();
-  all.push_back(choiceParameter("occluders", "micropatches", std::move(occluders),
-                                "What is made of texels that block: rectangles at one depth, a mesh between "
-                                "their centres, that with triangles where three of four block, contours, "
-                                "rectangles of their own extents, or a mesh between two levels",
-                                "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2"));
-  for (const std::vector<Parameter>& more : {CoarseOccluders::parameters(morphing), BiasForm::parameters(),
-                                             LevelOfQuality::parameters(), budgetParameters()})
-    all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
-void OccluderSearch::checkSearch(const ParameterValues& values) {
-  const std::string& occluders = values.text("occluders");
-  if (occluders != "micropatches" && occluders != "microrects" && values.text("gap_fill") != kDefaultGapFill)
-    throw Error("'gap_fill' stretches micropatches and microrects; there are none, and no gaps", "gap_fill",
-                "leave it out, or give occluders: micropatches");
-  CoarseOccluders::check(values);
-  BiasForm::check(values, kDefaultSlopeBias);
-  const Structure structure = structureOf(values.text("structure"));
-  if (structure != Structure::Ysm && values.text("ysm_base") != kDefaultBase)
-    throw Error("'ysm_base' is about the Y shadow map, and there is none", "ysm_base",
-                "leave it out, or give structure: ysm");
-  if (!hasLayers(structure) && values.text("range_samples") != kDefaultSamples)
-    throw Error("'range_samples' is about structures with layers, and there are none", "range_samples",
-                "leave it out, or give structure: mssm, n_buffer or ysm");
-  if (!hasLayers(structure) && !values.boolean("growth"))
-    throw Error("'growth' is about structures with layers, and there are none", "growth",
-                "leave it out, or give structure: mssm, n_buffer or ysm");
-  if (CoarseOccluders(values).isFixed() && values.text("levels") != "finest_within")
-    throw Error(
-        "one level for all pixels is given, and 'levels: " + values.text("levels") + "' would choose others",
-        "levels", "leave it out, or leave out fixed_level and morphing microquads");
-  if (CoarseOccluders(values).isFixed() && hasBudgetMap(values))
-    throw Error("one level for all pixels is given, and a map of budgets would choose others", "budget_map",
-                "leave it out, or leave out fixed_level and morphing microquads");
-  LevelOfQuality::check(values);
-  checkBudget(values);
-}
-
-OccluderSearch::OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
-                               gl::ShaderDefines defines)
-    : VisibilityTechnique(values, std::move(shader), std::move(pass), withSearch(values, std::move(defines))),
-      budget_(static_cast<int>(values.integer("budget"))),
-      refinements_(static_cast<int>(values.integer("refinements"))),
-      roughQueries_(roughQueries(values.text("range_samples"))),
-      structure_(structureOf(values.text("structure"))),
-      coarse_(values),
-      biasForm_(values),
-      base_(structure_ == Structure::Ysm
-                ? std::min(std::stoi(values.text("ysm_base")), mapSettings().resolution)
-                : mapSettings().resolution),
-      quality_(values),
-      budgets_(makeBudgetDriver(values)) {
-  checkSearch(values);
-}
+OccluderSearch::OccluderSearch(const SearchSettings& settings, const LevelSettings& levels,
+                               const PassSettings& passes, const OccluderChoice& occluders,
+                               std::string shader, std::string pass, gl::ShaderDefines defines)
+    : VisibilityTechnique(settings.map, slopeOf(settings.bias), std::move(shader), std::move(pass),
+                          withSearch(settings, levels, passes, occluders, std::move(defines))),
+      budget_(mostOf(settings.budget)),
+      refinements_(settings.refinements),
+      structure_(settings.structure),
+      coarse_(occluders, levels),
+      biasForm_(settings.bias),
+      quality_(levels, passes),
+      budgets_(makeBudgetDriver(settings.budget)) {}
 
 const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
@@ -169,10 +72,8 @@ const frame::LightFrustum& OccluderSearch::bindMap(frame::Frame& frame) {
   biasForm_.make(frame, mapSettings());
   int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
   const frame::MultiScaleMap* layers = nullptr;
-  if (hasLayers(structure_)) {
-    layers = &frame.get<frame::MultiScaleMap>(frame::MultiScaleSettings{
-        mapSettings(), base_,
-        structure_ == Structure::NBuffer ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre});
+  if (layersOf(structure_)) {
+    layers = &frame.get<frame::MultiScaleMap>(multiScaleSettings(structure_, mapSettings()));
     baseLevel_ = layers->baseLevel();
     bytes += layers->texture().bytes();
   }
@@ -197,7 +98,7 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("levels", pyramidLevels());
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
-  program.set("roughQueries", hasLayers(structure_) ? roughQueries_ : 0);
+  program.set("roughQueries", roughQueries(structure_));
   program.set("baseLevel", baseLevel_);
   program.set("budgetPerAxis",
               budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));
@@ -252,7 +153,7 @@ void OccluderSearch::runPasses(frame::Frame& frame, const CountImages* counts) {
 }
 
 void OccluderSearch::runSplit(frame::Frame& frame, const CountImages* counts) {
-  assert(maps().size() == 1);  // see checkValues() of the techniques with several
+  assert(maps().size() == 1);  // techniques with several refuse split passes
   {
     const auto scope = frame.passes().open(passName() + "/classify");
     const gl::Program& classify = counts ? program(frame, true, classifyDefines(smooths())) : *classify_;
@@ -311,23 +212,23 @@ void OccluderSearch::findLevelSteps(frame::Frame& frame, const CountImages& coun
   levelSteps_.emplace(LevelSteps{from({0, 0}), from({1, 0}), from({0, 1})});
 }
 
-std::vector<Quantity> OccluderSearch::counterNames() {
-  std::vector<Quantity> names = VisibilityTechnique::counterNames();
-  names.emplace_back("structure_bytes");
-  names.emplace_back("occluder_bytes");
-  for (const Counter& counter : qualityCounters({}, nullptr, 0)) names.push_back(counter.name);
-  for (Quantity& name : levelStepCounterNames()) names.push_back(std::move(name));
-  for (const BudgetDriverInfo& driver : budgetDrivers())
-    names.insert(names.end(), driver.counters.begin(), driver.counters.end());
-  return names;
+std::vector<Quantity> OccluderSearch::quantities() {
+  std::vector<Quantity> all = VisibilityTechnique::quantities();
+  all.insert(all.end(),
+             {{"structure_bytes", "Memory of the acceleration structure", "byte", Direction::LowerIsBetter,
+               "Schwarz 2009, section 4.3"},
+              {"occluder_bytes", "Memory of occluders and biases", "byte", Direction::LowerIsBetter}});
+  for (const std::vector<Quantity>& more : {qualityQuantities(), levelStepQuantities(), budgetQuantities()})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 std::vector<Counter> OccluderSearch::count(frame::Frame& frame) {
   levelSteps_.reset();
   std::vector<Counter> all = VisibilityTechnique::count(frame);
   const int64_t bytes = std::accumulate(structureBytes_.begin(), structureBytes_.end(), int64_t{0});
-  all.push_back({"structure_bytes", static_cast<double>(bytes), "byte", true});
-  all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes()), "byte", true});
+  all.push_back({"structure_bytes", static_cast<double>(bytes)});
+  all.push_back({"occluder_bytes", static_cast<double>(coarse_.bytes() + biasForm_.bytes())});
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
   for (Counter& counter : qualityCounters(counted(), budgets ? &*budgets : nullptr, budget_))
     all.push_back(std::move(counter));

@@ -4,18 +4,15 @@
 #include <memory>
 #include <optional>
 
-#include "renderer/techniques/soft_shadows/bias_form.h"
 #include "renderer/techniques/soft_shadows/coarse_occluders.h"
 #include "renderer/techniques/soft_shadows/quality/budget_driver.h"
 #include "renderer/techniques/soft_shadows/quality/level_of_quality.h"
 #include "renderer/techniques/soft_shadows/quality/level_steps.h"
 #include "renderer/techniques/soft_shadows/quality/split_search.h"
+#include "renderer/techniques/soft_shadows/search_settings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
-
-/// Acceleration structure: what tells the depth range of an area of the shadow map.
-enum class Structure { None, Hsm, Mssm, NBuffer, Ysm };
 
 /// Base of the techniques that backproject the shadow map's texels onto the light: finds the texels that can
 /// matter for a receiver by an acceleration structure and loops over them as micro-occluders. What a
@@ -23,15 +20,11 @@ enum class Structure { None, Hsm, Mssm, NBuffer, Ysm };
 /// sections 4.1 to 4.4; how coarse they may be: chapter 5.
 class OccluderSearch : public VisibilityTechnique {
  public:
-  /// `occluders` are the kinds that the shader can gather.
-  static std::vector<Parameter> searchParameters(std::vector<std::string> occluders);
-  /// Throws Error where values of these parameters do not go together.
-  static void checkSearch(const ParameterValues& values);
   /// Those of every visibility technique; structure_bytes: the minimum/maximum pyramid, of which every
   /// structure needs the minimum for micro-occluders, and the layers on top of it, of all maps together;
   /// occluder_bytes: what is kept for the kind of occluders or form of bias alone; those of
   /// quality_counters.h; and, where one map is read, those of level_steps.h.
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> quantities();
 
   /// prepareSearch(), then the frames in which a driver of the budget settles.
   void prepare(frame::Frame& frame) final;
@@ -48,7 +41,8 @@ class OccluderSearch : public VisibilityTechnique {
   std::map<std::string, Image> pictures() const override;
 
  protected:
-  OccluderSearch(const ParameterValues& values, std::string shader, std::string pass,
+  OccluderSearch(const SearchSettings& settings, const LevelSettings& levels, const PassSettings& passes,
+                 const OccluderChoice& occluders, std::string shader, std::string pass,
                  gl::ShaderDefines defines = {});
   /// All that a frame needs, for whoever adds to it.
   virtual void prepareSearch(frame::Frame& frame);
@@ -60,18 +54,18 @@ class OccluderSearch : public VisibilityTechnique {
 
  private:
   /// Levels are smoothed, and there is something to smooth.
-  bool smooths() const { return quality_.smoothingRadius() > 0 && (budget_ > 0 || budgets_); }
+  bool smooths() const { return quality_.smoothing() && (budget_ > 0 || budgets_); }
   void runSplit(frame::Frame& frame, const CountImages* counts);
   /// Processed pixels do not all stand for the same levels, in what was counted last.
   bool choicesDiffer() const;
   /// After the map's pixels are counted.
   void findLevelSteps(frame::Frame& frame, const CountImages& counts);
 
-  int budget_, refinements_, roughQueries_;
-  Structure structure_;
+  int64_t budget_;  // the most for a pixel; 0: no limit
+  int refinements_;
+  StructureSettings structure_;
   CoarseOccluders coarse_;
   BiasForm biasForm_;
-  int base_;  // resolution of the layers
   int baseLevel_ = 0, maxIterations_ = 0;
   std::vector<int64_t> structureBytes_;  // of each map
   LevelOfQuality quality_;

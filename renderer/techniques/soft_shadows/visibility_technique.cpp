@@ -43,24 +43,18 @@ std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::v
   const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
   const double mean = perProcessed(occluders);
   const double variance = perProcessed(occludersSquared) - mean * mean;
-  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0, "", true},
-          {"fetches_per_px", perProcessed(fetches), "", true},
-          {"micro_occluders_per_px", mean, "", true},
-          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
-          {"search_area_texels", perProcessed(areaTexels), "", true},
-          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0, "", false},
-          {"level_mean", perProcessed(levels), "", false},
-          {"receivers_share", share(receivers), "", false},
-          {"lit_share", share(pixels[Lit]), "", false},
-          {"umbra_share", share(pixels[Umbra]), "", false},
-          {"processed_share", share(processed), "", false},
-          {"outside_map_share", share(pixels[Outside]), "", false}};
-}
-
-frame::Raster rasterOf(const std::string& name) {
-  return name == "auto"      ? frame::Raster::Auto
-         : name == "compute" ? frame::Raster::Compute
-                             : frame::Raster::Hardware;
+  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0},
+          {"fetches_per_px", perProcessed(fetches)},
+          {"micro_occluders_per_px", mean},
+          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0))},
+          {"search_area_texels", perProcessed(areaTexels)},
+          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0},
+          {"level_mean", perProcessed(levels)},
+          {"receivers_share", share(receivers)},
+          {"lit_share", share(pixels[Lit])},
+          {"umbra_share", share(pixels[Umbra])},
+          {"processed_share", share(processed)},
+          {"outside_map_share", share(pixels[Outside])}};
 }
 
 const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
@@ -79,33 +73,6 @@ VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias
       shader_(std::move(shader)),
       pass_(std::move(pass)),
       defines_(std::move(defines)) {}
-
-VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
-                                         gl::ShaderDefines defines)
-    : maps_{{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))}},
-      bias_(values.real("bias")),
-      slopeBias_(values.real("slope_bias")),
-      maxSlope_(values.real("max_slope")),
-      shader_(std::move(shader)),
-      pass_(std::move(pass)),
-      defines_(std::move(defines)) {}
-
-std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
-  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
-                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
-          realParameter("bias", 1e-4, 0.0, 0.1, "",
-                        "Constant depth bias as a share of the receiver's distance from the light's plane",
-                        "Schwarz 2009, section 4.4.5 (value not given there)"),
-          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
-                        "Depth bias by the receiver's slope, in texels of the level that is read",
-                        "Schwarz 2009, section 4.4.5 (reconstructed)"),
-          realParameter(
-              "max_slope", 10.0, 0.1, 1e6, "",
-              "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
-          choiceParameter("raster", "auto", {"auto", "compute", "hardware"},
-                          "How the shadow map is rasterised: in compute shaders or by the driver; auto: what "
-                          "was measured to be faster")};
-}
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
@@ -190,10 +157,20 @@ void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
   finish(frame);
 }
 
-std::vector<Quantity> VisibilityTechnique::counterNames() {
-  std::vector<Quantity> out;
-  for (const Counter& counter : summarise({}, {})) out.push_back(counter.name);
-  return out;
+std::vector<Quantity> VisibilityTechnique::quantities() {
+  constexpr Direction kLower = Direction::LowerIsBetter, kNeither = Direction::Neither;
+  return {{"fetches_per_receiver", "Texels read per receiver", "1/px", kLower},
+          {"fetches_per_px", "Texels read per processed pixel", "1/px", kLower},
+          {"micro_occluders_per_px", "Micro-occluders per pixel", "1/px", kLower},
+          {"micro_occluders_sd", "Standard deviation of micro-occluders", "1/px", kNeither},
+          {"search_area_texels", "Search area", "texel", kLower},
+          {"wasted_share", "Share of micro-occluders that cover nothing", "", kNeither},
+          {"level_mean", "Mean level", "", kNeither},
+          {"receivers_share", "Share of receivers", "", kNeither},
+          {"lit_share", "Share of lit pixels", "", kNeither},
+          {"umbra_share", "Share of pixels in umbra", "", kNeither},
+          {"processed_share", "Share of processed pixels", "", kNeither},
+          {"outside_map_share", "Share of pixels outside the map", "", kNeither}};
 }
 
 void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }

@@ -45,16 +45,12 @@ class VisibilityTechnique : public Technique {
   };
   const Counted& counted() const { return counted_; }
 
-  /// Names of what count() returns.
-  static std::vector<Quantity> counterNames();
-  /// Parameters that `values` must hold: resolution, bias, slope_bias, max_slope, raster.
-  static std::vector<Parameter> commonParameters(double defaultSlopeBias);
+  /// What count() returns.
+  static std::vector<Quantity> quantities();
 
  protected:
   /// `shader` is a path from the repository root, `pass` the name in the pass list.
   VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader, std::string pass,
-                      gl::ShaderDefines defines = {});
-  VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
                       gl::ShaderDefines defines = {});
 
   /// Of the map that is read at present.

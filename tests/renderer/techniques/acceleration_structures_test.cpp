@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/techniques/soft_shadows/search_settings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 #include "tests/renderer/frame/depth_pyramid.h"
 #include "tests/renderer/techniques/technique_fixture.h"
@@ -40,8 +41,8 @@ class AccelerationStructures : public TechniqueTest {
     made->prepare(frame);
     frame.begin();
     made->render(frame);
-    const auto& pyramid =
-        frame.get<frame::MinMaxPyramid>(frame::ShadowMapSettings{std::stoi(values.text("resolution"))});
+    const auto& pyramid = frame.get<frame::MinMaxPyramid>(
+        frame::ShadowMapSettings{SearchSettings::table().read(values).map.resolution});
     Searched out{made->product().read(),
                  frame.get<frame::Receivers>().texture().read(),
                  pyramid.minimum().read(),
@@ -136,12 +137,12 @@ TEST_F(AccelerationStructures, CallOnlyThoseLitOrInUmbraThatAre) {
 // visibility is taken as 0: true where their patches leave no gap, that is when they are stretched in all
 // three directions.
 TEST_F(AccelerationStructures, LeaveVisibilityAsItIsWithoutThem) {
-  struct Judged {
+  struct Tried {
     const char* technique;
     double step;  // the least amount by which rounding can change visibility
   };
-  for (const Judged& tried :
-       {Judged{"soft_shadows/backprojection", 1e-5}, Judged{"soft_shadows/bitmask", 1.0 / 256.0}})
+  for (const Tried& tried :
+       {Tried{"soft_shadows/backprojection", 1e-5}, Tried{"soft_shadows/bitmask", 1.0 / 256.0}})
     for (const char* name : {"sphere_grid", "comb", "two_boxes"}) {
       const scene::Scene scene = makeScene(name);
       for (const char* fill : {"none", "left_bottom", "diagonal"}) {
@@ -151,7 +152,7 @@ TEST_F(AccelerationStructures, LeaveVisibilityAsItIsWithoutThem) {
           const Searched searched = search(scene, tried.technique, unbiased(structure, fill), {64, 48});
           int umbra = 0, processed = 0;
           for (size_t i = 0; i < searched.visibility.pixels(); ++i) {
-            // With gaps the umbra is left out, without them it alone is judged.
+            // With gaps the umbra is left out, without them it alone is compared.
             if (hasGaps == (searched.kind(i) == Umbra)) continue;
             ASSERT_NEAR(searched.visibility.data[i], without.visibility.data[i], tried.step + 1e-6)
                 << tried.technique << ' ' << name << ' ' << fill << ' ' << structure << " pixel " << i;

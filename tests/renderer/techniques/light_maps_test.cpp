@@ -181,21 +181,26 @@ TEST_F(LightMapsTest, MasksOfObjectsAreKeptUntilTheCameraMoves) {
   }
 }
 
-TEST_F(LightMapsTest, ParametersOfOtherMapsAreRefused) {
-  const auto refuses = [](const Given& given, const std::string& parameter) {
-    try {
-      TechniqueRegistry::instance().get(kBitmask).check(valuesOf(given));
-      ADD_FAILURE() << "took " << parameter;
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("'" + parameter + "'"), std::string::npos) << error.what();
-    }
-  };
-  refuses({{"maps.layers", int64_t{3}}}, "layers");
-  refuses({{"maps.bias", 0.01}}, "peel_bias");
-  refuses({{"maps", std::string("light_points")}, {"maps.later_extent", 0.5}}, "later_extent");
-  refuses({{"maps", std::string("peeled")}, {"maps.points", int64_t{9}}}, "light_points");
-  refuses({{"maps", std::string("peeled")}, {"maps.spread", 0.5}}, "point_spread");
-  refuses({{"maps", std::string("peeled")}, {"maps.updates", int64_t{1}}}, "updates");
+TEST_F(LightMapsTest, ParametersOfOtherMapsCannotBeWritten) {
+  const std::string points = "light_points", peeled = "peeled";
+  for (const Given& given :
+       {Given{{"maps.layers", int64_t{3}}}, Given{{"maps.bias", 0.01}},
+        Given{{"maps", points}, {"maps.later_extent", 0.5}},
+        Given{{"maps", peeled}, {"maps.points", int64_t{9}}}, Given{{"maps", peeled}, {"maps.spread", 0.5}},
+        Given{{"maps", peeled}, {"maps.updates", int64_t{1}}}})
+    EXPECT_THROW(valuesOf(given), Error) << given.rbegin()->first;
+}
+
+TEST_F(LightMapsTest, SeveralMapsAreNeitherBlendedNorSplitNorBiasedByTexels) {
+  const std::string points = "light_points";
+  for (const auto& [given, where] :
+       {std::pair<Given, std::string>{{{"maps", points}, {"passes", std::string("split")}}, "passes"},
+        {{{"maps", points}, {"levels", std::string("blend")}}, "levels"},
+        {{{"maps", points}, {"bias", std::string("stored")}}, "bias"}}) {
+    const std::optional<Error> error = refusal(kBitmask, given);
+    ASSERT_TRUE(error) << where;
+    EXPECT_EQ(error->where(), where);
+  }
 }
 
 /// Areas cannot be joined: what two maps both see would count twice.

@@ -52,8 +52,8 @@ TEST_F(LightShapes, OnlySamplesOnTheLightCount) {
           scene, "soft_shadows/bitmask",
           {{"resolution", int64_t{64}}, {"budget.limit", int64_t{0}}, {"pattern", std::string(pattern)}},
           {40, 30});
-      const double margin = isGridPattern(pattern) ? 2e-3 : 2e-3 + 0.5 / 128.0;
-      const std::vector<glm::dvec2> samples = lightSamples(pattern);
+      const double margin = isGridPattern(fromText<LightPattern>(pattern)) ? 2e-3 : 2e-3 + 0.5 / 128.0;
+      const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(pattern));
       int penumbra = 0;
       for (int y = 0; y < result.product.height; ++y)
         for (int x = 0; x < result.product.width; ++x) {

@@ -155,7 +155,7 @@ class Microquads : public TechniqueTest {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
     given["resolution"] = int64_t{64};
     if (given.count("occluders") == 0) given["occluders"] = std::string("microquads");
-    const bool coarse = given.count("budget") != 0;
+    const bool coarse = given.count("budget.limit") != 0;
     if (!coarse) given["budget.limit"] = int64_t{0};
     const auto made = info.make(ParameterValues(info.parameters, given));
     made->prepare(frame);

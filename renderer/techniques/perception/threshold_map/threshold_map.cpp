@@ -10,37 +10,37 @@
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
-#include "renderer/techniques/declared_group.h"
-#include "renderer/techniques/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 namespace {
 
 struct ThresholdMapTechniqueSettings {
-  ParameterValues viewing, map, gpu;
+  perception::ThresholdMapSettings map;
+  perception::ThresholdMapGpuSettings gpu;
+  perception::ViewingSettings viewing;
   frame::ShadedSetting shading;
   static const SettingsTable<ThresholdMapTechniqueSettings>& table() {
     using S = ThresholdMapTechniqueSettings;
-    static const SettingsTable<S> kTable = {
-        declared(&S::map, "map", perception::thresholdMapParameters, "The model"),
-        declared(&S::gpu, "gpu", perception::thresholdMapGpuParameters, "How the GPU computes it"),
-        declared(&S::viewing, "", perception::viewingParameters), frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {{&S::map, "map", "The model"},
+                                            {&S::gpu, "gpu", "How the GPU computes it"},
+                                            included(&S::viewing),
+                                            frame::shadingBinding(&S::shading)};
     return kTable;
   }
-  void check() const { mapSettingsOf(map, gpu); }
 };
 
 class ThresholdMapTechnique : public Technique {
  public:
   using Settings = ThresholdMapTechniqueSettings;
   explicit ThresholdMapTechnique(const Settings& settings)
-      : settings_(mapSettingsOf(settings.map, settings.gpu)),
-        display_(perception::viewingDisplay(settings.viewing)),
+      : settings_(settings.map),
+        gpu_(settings.gpu),
+        display_(settings.viewing.profile()),
         shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
-    map_.emplace(frame.context(), frame.sizePx(), display_, settings_);
+    map_.emplace(frame.context(), frame.sizePx(), display_, settings_, gpu_);
     frame.passes().setBytesHeld("threshold_map/levels", map_->bytesHeld());
   }
 
@@ -61,6 +61,7 @@ class ThresholdMapTechnique : public Technique {
 
  private:
   perception::ThresholdMapSettings settings_;
+  perception::ThresholdMapGpuSettings gpu_;
   perception::DisplayProfile display_;
   frame::ShadedSetting shaded_;
   std::optional<perception::ThresholdMapGpu> map_;

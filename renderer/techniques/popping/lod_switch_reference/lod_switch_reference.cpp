@@ -25,8 +25,10 @@ class LodSwitchReference : public Technique {
     images_ = views_->read();
     perception::PoppingInput input = images_.input;
     if (!images_.disocclusion.empty())
-      input.disocclusion = perception::disocclusionWeight(images_.disocclusion, setting_.popping);
-    if (images_.flicker) input.flicker = perception::flickerWeight(*images_.flicker, setting_.popping);
+      input.disocclusion =
+          perception::disocclusionWeight(images_.disocclusion, setting_.popping.disocclusionSettings());
+    if (images_.flicker)
+      input.flicker = perception::flickerWeight(*images_.flicker, setting_.popping.flickerSettings());
     result_ = perception::predictPopping(input, setting_.display, setting_.popping);
     product_->write(result_.jnd);
   }

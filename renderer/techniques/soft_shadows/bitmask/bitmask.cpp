@@ -6,12 +6,10 @@
 
 #include <algorithm>
 
-#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/soft_shadows/bitmask/rectangle_table.h"
-#include "renderer/techniques/soft_shadows/bitmask/visibility_filter.h"
 
 namespace limen::techniques {
 namespace {
@@ -19,85 +17,44 @@ namespace {
 constexpr const char *kBitmaskPass = "soft_shadows/bitmask", *kTables = "soft_shadows/mask_tables",
                      *kKept = "soft_shadows/kept_masks", *kJoin = "soft_shadows/join_masks";
 constexpr uint32_t kRectangleUnit = 6, kHalfSpaceUnit = 7, kLightMaskBinding = 0;
-constexpr const char *kDefaultTableSize = "256", *kDefaultRectangles = "128";
-constexpr int64_t kDefaultSeed = 1;
 
 /// Of masks: how many samples there are, and where.
-gl::ShaderDefines maskDefinesOf(const ParameterValues& values) {
-  const std::string& pattern = values.text("pattern");
-  if (isGridPattern(pattern))
-    return {{"PATTERN", pattern == "jittered_16" ? "160" : pattern.substr(pattern.rfind('_') + 1)}};
-  return {{"PATTERN", "0"},
-          {"SAMPLES", std::to_string(lightSamples(pattern).size())},
-          {"RECTANGLES", values.text("rectangle_table")}};
+gl::ShaderDefines maskDefinesOf(const SampleChoice& samples) {
+  gl::ShaderDefines defines = {{"PATTERN", patternDefine(samples.pattern)}};
+  if (isGridPattern(samples.pattern)) return defines;
+  defines["SAMPLES"] = std::to_string(lightSamples(samples.pattern).size());
+  defines["RECTANGLES"] = std::to_string(samples.rectangleTable);
+  return defines;
 }
 
-gl::ShaderDefines bitmaskDefines(const ParameterValues& values) {
-  const std::string& mask = values.text("quad_mask");
-  gl::ShaderDefines defines = maskDefinesOf(values);
-  defines["QUAD_MASK"] = mask == "approximate" ? "0" : mask == "half_space_table" ? "1" : "2";
-  defines["TABLE_SIZE"] = values.text("table_size");
+gl::ShaderDefines bitmaskDefines(const BitmaskSettings& settings) {
+  const QuadMaskChoice mask = quadMaskChoice(settings.occluders);
+  gl::ShaderDefines defines = maskDefinesOf(sampleChoice(settings.pattern));
+  defineEnum(defines, "QUAD_MASK", mask.mask);
+  defines["TABLE_SIZE"] = std::to_string(mask.tableSize);
   return defines;
+}
+
+int halfSpaceSize(const MaskedOccluders& occluders) {
+  const QuadMaskChoice choice = quadMaskChoice(occluders);
+  return choice.mask == QuadMask::HalfSpaceTable ? choice.tableSize : 0;
 }
 
 }  // namespace
 
-void Bitmask::checkKept(const ParameterValues& values, const std::string& why) {
-  const std::string& levels = values.text("levels");
-  if (values.text("passes") != "single")
-    throw Error(why + ", which is one pass's work", "passes", "leave it out, or give one map of one colour");
-  if (levels != "finest_within" && levels != "coarsest_over")
-    throw Error(why + ", and 'levels: " + levels + "' blends what masks come to", "levels",
-                "give levels: finest_within, or one map of one colour");
-}
-
-void Bitmask::checkValues(const ParameterValues& values) {
-  OccluderSearch::checkSearch(values);
-  LightMaps::check(values);
-  if (values.text("maps") != "centre" && values.text("bias_form") == "stored")
-    throw Error("'bias_form: stored' knows the map from the light's centre alone", "bias_form",
-                "give another form, or maps: centre");
-  if (values.text("maps") != "centre") checkKept(values, "several maps are joined mask by mask");
-  const std::string &occluders = values.text("occluders"), &mask = values.text("quad_mask"),
-                    &pattern = values.text("pattern");
-  if (!occluders.starts_with("microquads") && mask != "approximate")
-    throw Error("'quad_mask' is about microquads, and there are none", "quad_mask",
-                "leave it out, or give occluders: microquads");
-  if (occluders == "microquads_microtris" && mask == "approximate")
-    throw Error("'quad_mask: approximate' says nothing about a triangle, and microtris are triangles",
-                "quad_mask", "give quad_mask: arithmetic or half_space_table, or occluders: microquads");
-  if (mask == "arithmetic" && !isGridPattern(pattern))
-    throw Error("'quad_mask: arithmetic' needs samples in rows, which " + pattern + " has not", "quad_mask",
-                "give quad_mask: half_space_table, or a regular or jittered pattern");
-  if (mask != "half_space_table" && values.text("table_size") != kDefaultTableSize)
-    throw Error("'table_size' is about the table of half-spaces, and there is none", "table_size",
-                "leave it out, or give quad_mask: half_space_table");
-  if (isGridPattern(pattern) && values.text("rectangle_table") != kDefaultRectangles)
-    throw Error("'rectangle_table' is about patterns without a grid, and " + pattern + " has one",
-                "rectangle_table", "leave it out, or give another pattern");
-  if (!pattern.starts_with("random_") && !pattern.starts_with("stratified_") &&
-      values.integer("pattern_seed") != kDefaultSeed)
-    throw Error("'pattern_seed' is about random patterns, and " + pattern + " is none", "pattern_seed",
-                "leave it out, or give another pattern");
-}
-
-Bitmask::Bitmask(const ParameterValues& values, bool keepsMasks)
-    : OccluderSearch(values, "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl", kBitmaskPass,
-                     bitmaskDefines(values)),
-      pattern_(values.text("pattern")),
-      seed_(values.integer("pattern_seed")),
-      halfSpaceSize_(values.text("quad_mask") == "half_space_table" ? std::stoi(values.text("table_size"))
-                                                                    : 0),
-      rectangleSize_(
-          isGridPattern(pattern_) || halfSpaceSize_ > 0 ? 0 : std::stoi(values.text("rectangle_table"))),
-      lightMaps_(values),
+Bitmask::Bitmask(const BitmaskSettings& settings, bool keepsMasks)
+    : OccluderSearch(settings.search, settings.levels, settings.passes, occluderChoice(settings.occluders),
+                     "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl", kBitmaskPass,
+                     bitmaskDefines(settings)),
+      pattern_(sampleChoice(settings.pattern)),
+      halfSpaceSize_(halfSpaceSize(settings.occluders)),
+      rectangleSize_(isGridPattern(pattern_.pattern) || halfSpaceSize_ > 0 ? 0 : pattern_.rectangleTable),
+      mapChoice_(settings.maps),
       keepsMasks_(keepsMasks),
-      maskDefines_(maskDefinesOf(values)) {
-  checkValues(values);
-}
+      maskDefines_(maskDefinesOf(pattern_)) {}
 
 void Bitmask::prepareSearch(frame::Frame& frame) {
-  samples_ = lightSamples(pattern_, seed_);
+  samples_ = lightSamples(pattern_.pattern, pattern_.seed);
   const scene::AreaLight& light = frame.scene().lights.at(0);
   if (light.shape != scene::LightShape::Rectangle) {
     const std::vector<uint32_t> mask = lightMask(light, samples_);
@@ -106,9 +63,9 @@ void Bitmask::prepareSearch(frame::Frame& frame) {
     lightMask_.emplace(mask);
   }
   for (const auto& [name, value] : maskDefines_) define(name, value);
-  setMaps(lightMaps_.of(frame.scene(), mapSettings()));
+  setMaps(lightMaps(mapChoice_, frame.scene(), mapSettings()));
   isDue_.assign(maps().size(), true);
-  const size_t sets = lightMaps_.perObject() ? maps().size() : 1;
+  const size_t sets = perObject() ? maps().size() : 1;
   if (keepsMasks_ || maps().size() > 1) {
     define("KEEP_MASKS", "1");
     masks_.emplace(frame.sizePx(), samples_.size(), sets);
@@ -142,7 +99,7 @@ void Bitmask::render(frame::Frame& frame) {
 int Bitmask::bindMasks() const {
   masks_->bind();
   if (lightMask_) lightMask_->bindStorage(kLightMaskBinding);
-  return lightMaps_.perObject() ? static_cast<int>(isDue_.size()) : 1;
+  return perObject() ? static_cast<int>(isDue_.size()) : 1;
 }
 
 void Bitmask::configure(const gl::Program& program) const {
@@ -153,8 +110,8 @@ void Bitmask::configure(const gl::Program& program) const {
   if (!masks_) return;
   masks_->bind();
   const int map = static_cast<int>(currentMap());
-  program.set("keptSet", lightMaps_.perObject() ? map : 0);
-  program.set("joins", !lightMaps_.perObject() && map > 0 ? 1 : 0);
+  program.set("keptSet", perObject() ? map : 0);
+  program.set("joins", !perObject() && map > 0 ? 1 : 0);
 }
 
 void Bitmask::finish(frame::Frame& frame) {
@@ -169,15 +126,18 @@ void Bitmask::finish(frame::Frame& frame) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-std::vector<Quantity> Bitmask::counterNames() {
-  std::vector<Quantity> names = OccluderSearch::counterNames();
-  names.insert(names.end(), {"maps_read", "maps_with_casters", "mask_bytes"});
-  return names;
+std::vector<Quantity> Bitmask::quantities() {
+  std::vector<Quantity> all = OccluderSearch::quantities();
+  all.insert(all.end(), {{"maps_read", "Shadow maps read", "", Direction::LowerIsBetter},
+                         {"maps_with_casters", "Shadow maps with casters", "", Direction::Neither},
+                         {"mask_bytes", "Memory of stored masks", "byte", Direction::LowerIsBetter}});
+  return all;
 }
 
 size_t Bitmask::mapsAtRest() const {
-  const bool inTurn = lightMaps_.perObject() && lightMaps_.updates() > 0;
-  return inTurn ? std::min(lightMaps_.updates(), maps().size()) : maps().size();
+  const auto* objects = std::get_if<ObjectMaps>(&mapChoice_);
+  return objects && objects->updates > 0 ? std::min(static_cast<size_t>(objects->updates), maps().size())
+                                         : maps().size();
 }
 
 int Bitmask::mapsWithCasters(frame::Frame& frame) const {
@@ -193,34 +153,9 @@ std::vector<Counter> Bitmask::count(frame::Frame& frame) {
   // Of a whole image, however few objects the last frame looked at.
   isDue_.assign(isDue_.size(), true);
   std::vector<Counter> all = OccluderSearch::count(frame);
-  all.push_back({"maps_read", double(mapsAtRest()), "maps", true});
-  all.push_back({"maps_with_casters", double(mapsWithCasters(frame)), "maps", false});
-  all.push_back({"mask_bytes", masks_ ? double(masks_->bytes()) : 0.0, "byte", true});
-  return all;
-}
-
-std::vector<Parameter> Bitmask::parameters() {
-  std::vector<Parameter> all =
-      OccluderSearch::searchParameters({"micropatches", "microquads", "microquads_microtris", "microrects"});
-  all.push_back(
-      choiceParameter("pattern", "jittered_16", lightSamplePatterns(),
-                      "Light samples: regular grids, 16 x 16 in rotated pairs, or places without a grid",
-                      "Schwarz 2009, sections 4.2.1 and 4.2.2"));
-  all.push_back(integerParameter("pattern_seed", kDefaultSeed, 0, 1000000, "",
-                                 "Seed of random and stratified patterns"));
-  all.push_back(choiceParameter("rectangle_table", kDefaultRectangles, {"16", "32", "64", "128", "256"},
-                                "Steps on either axis of the table of rectangles for patterns without a grid",
-                                "Schwarz 2009, section 4.2.1 (value not given there)"));
-  all.push_back(
-      choiceParameter("quad_mask", "approximate", {"approximate", "half_space_table", "arithmetic"},
-                      "Samples that a microquad covers: those of a rectangle in its place, or those "
-                      "of its convex hull by a table or by arithmetic",
-                      "Schwarz 2009, sections 4.4.2 and 4.4.4"));
-  all.push_back(choiceParameter(
-      "table_size", kDefaultTableSize, {"64", "128", "256", "512", "1024"},
-      "Angles, and distances, of lines that the table of half-spaces holds; its memory grows by the square",
-      "Schwarz 2009, section 4.4.4 (value not given there)"));
-  for (Parameter& parameter : LightMaps::parameters()) all.push_back(std::move(parameter));
+  all.push_back({"maps_read", double(mapsAtRest())});
+  all.push_back({"maps_with_casters", double(mapsWithCasters(frame))});
+  all.push_back({"mask_bytes", masks_ ? double(masks_->bytes()) : 0.0});
   return all;
 }
 
@@ -229,52 +164,34 @@ namespace {
 /// The visibility itself, filtered if asked (SS-20).
 class BitmaskVisibility : public Bitmask {
  public:
-  explicit BitmaskVisibility(const ParameterValues& values) : Bitmask(values), filter_(values) {
-    VisibilityFilter::check(values);
+  explicit BitmaskVisibility(const BitmaskSettings& settings) : Bitmask(settings) {
+    if (const auto* mean = std::get_if<SurfaceMean>(&settings.filter)) filter_.emplace(*mean);
   }
 
-  static std::vector<Parameter> parameters() {
-    std::vector<Parameter> all = Bitmask::parameters();
-    for (Parameter& parameter : VisibilityFilter::parameters()) all.push_back(std::move(parameter));
-    return all;
-  }
-  static void checkValues(const ParameterValues& values) {
-    Bitmask::checkValues(values);
-    VisibilityFilter::check(values);
-  }
-
-  const gl::Texture& product() const override {
-    return filter_.isOn() ? filter_.filtered() : Bitmask::product();
-  }
+  const gl::Texture& product() const override { return filter_ ? filter_->filtered() : Bitmask::product(); }
 
  protected:
   void prepareSearch(frame::Frame& frame) override {
     Bitmask::prepareSearch(frame);
-    if (filter_.isOn()) filter_.prepare(frame);
+    if (filter_) filter_->prepare(frame);
   }
   void finish(frame::Frame& frame) override {
     Bitmask::finish(frame);
-    if (filter_.isOn()) filter_.run(frame, Bitmask::product());
+    if (filter_) filter_->run(frame, Bitmask::product());
   }
 
  private:
-  VisibilityFilter filter_;
+  std::optional<VisibilityFilter> filter_;
 };
 
-const Registered<TechniqueInfo> kBitmaskRegistered{
+const RegisteredTechnique<BitmaskVisibility> kBitmaskRegistered{
     {.name = "soft_shadows/bitmask",
      .version = 1,
      .summary = "Micro-occluders backprojected onto a bit field of light samples",
      .source = "Schwarz 2009, sections 4.2 and 4.4 (SS-12 to SS-16, SS-19, SS-20, SS-27 to SS-30)",
      .product = ProductKind::Visibility,
-     .parameters = BitmaskVisibility::parameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<BitmaskVisibility>(values); },
-     .errorBound = {},
-     .counters = Bitmask::counterNames(),
-     .check = &BitmaskVisibility::checkValues}};
+     .counters = Bitmask::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

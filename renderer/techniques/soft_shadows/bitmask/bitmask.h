@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask/kept_masks.h"
-#include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
 namespace limen::techniques {
@@ -19,22 +19,18 @@ namespace limen::techniques {
 /// are filled between a hull's edges at once.
 class Bitmask : public OccluderSearch {
  public:
-  explicit Bitmask(const ParameterValues& values) : Bitmask(values, false) {}
+  using Settings = BitmaskSettings;
+  explicit Bitmask(const BitmaskSettings& settings) : Bitmask(settings, false) {}
 
-  static std::vector<Parameter> parameters();
-  /// Throws Error where values ask for what masks that are kept cannot have; `why` they are kept begins it.
-  static void checkKept(const ParameterValues& values, const std::string& why);
-  /// Throws Error where values do not go together.
-  static void checkValues(const ParameterValues& values);
   /// Those of every search, and maps_read, maps_with_casters and mask_bytes.
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> quantities();
 
   void render(frame::Frame& frame) override;
   std::vector<Counter> count(frame::Frame& frame) override;
 
  protected:
   /// `keepsMasks`: in an image, after a frame, though there be one map alone.
-  Bitmask(const ParameterValues& values, bool keepsMasks);
+  Bitmask(const BitmaskSettings& settings, bool keepsMasks);
 
   void prepareSearch(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
@@ -56,10 +52,12 @@ class Bitmask : public OccluderSearch {
   /// Maps that see anything at all. Waits for the GPU.
   int mapsWithCasters(frame::Frame& frame) const;
 
-  std::string pattern_;
-  int64_t seed_;
+  /// Each object has a map and masks of its own.
+  bool perObject() const { return std::holds_alternative<ObjectMaps>(mapChoice_); }
+
+  SampleChoice pattern_;
   int halfSpaceSize_, rectangleSize_;  ///< 0: no table
-  LightMaps lightMaps_;
+  MapChoice mapChoice_;
   bool keepsMasks_;
   gl::ShaderDefines maskDefines_;
   std::vector<glm::dvec2> samples_;

@@ -10,45 +10,51 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
-#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
+#include "renderer/techniques/soft_shadows/bitmask_coloured/coloured_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kColourPass = "soft_shadows/light_colours", *kDefaultGroup = "8",
+constexpr const char *kColourPass = "soft_shadows/light_colours",
                      *kColourShader =
                          "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
 constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
 /// Colours up to which masks are of any use: each costs as many operations as the samples have words.
 constexpr size_t kMostColours = 64;
 
-void checkBitmaskColoured(const ParameterValues& values) {
-  Bitmask::checkValues(values);
-  Bitmask::checkKept(values, "colours follow from the masks of all pixels");
-  if (values.text("colours") != "table" && values.text("group_bits") != kDefaultGroup)
-    throw Error("'group_bits' is about the table of colours, and there is none", "group_bits",
-                "leave it out, or give colours: table");
-  if (!isGridPattern(values.text("pattern")) && !values.boolean("prefilter"))
-    throw Error("'prefilter' is about samples with cells, which " + values.text("pattern") + " has not",
-                "prefilter", "leave it out, or give another pattern");
+PatternSettings plainPattern(const ColouredPattern& pattern) {
+  return std::visit(
+      []<class Chosen>(const Chosen& chosen) -> PatternSettings {
+        if constexpr (requires { chosen.prefilter; })
+          return GridSamples<Chosen::kPattern>{};
+        else
+          return chosen;
+      },
+      pattern);
+}
+
+BitmaskSettings maskSettings(const ColouredSettings& settings) {
+  return {.search = settings.search,
+          .levels = anyLevels(settings.levels),
+          .passes = SinglePass{},
+          .occluders = settings.occluders,
+          .pattern = plainPattern(settings.pattern),
+          .maps = settings.maps,
+          .filter = NoFilter{}};
 }
 
 class BitmaskColoured : public Bitmask {
  public:
-  explicit BitmaskColoured(const ParameterValues& values)
-      : Bitmask(values, true),
-        colours_(values.text("colours")),
-        groupBits_(std::stoi(values.text("group_bits"))),
-        filters_(values.boolean("prefilter") && isGridPattern(values.text("pattern"))) {
-    checkBitmaskColoured(values);
-  }
+  using Settings = ColouredSettings;
+  explicit BitmaskColoured(const ColouredSettings& settings)
+      : Bitmask(maskSettings(settings), true), colours_(settings.colours), filters_(settings.prefilters()) {}
 
   const gl::Texture& product() const override { return *colour_; }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     std::vector<Counter> all = Bitmask::count(frame);
-    all.push_back({"colour_table_bytes", double(tableBytes_), "byte", true});
+    all.push_back({"colour_table_bytes", double(tableBytes_)});
     return all;
   }
 
@@ -63,8 +69,8 @@ class BitmaskColoured : public Bitmask {
     absent_ = glm::vec3(glm::lessThan(sum, glm::dvec3(0.5)));
     gl::ShaderDefines defines = maskDefines();
     std::vector<glm::vec4> rows;
-    if (colours_ == "masks") {
-      defines["COLOURS"] = "0";
+    if (std::holds_alternative<ColourMasks>(colours_)) {
+      defines["COLOURS_MASKS"] = "1";
       std::vector<uint32_t> words;
       const std::vector<ColourMask> masks = colourMasks(shares);
       if (masks.size() > kMostColours)
@@ -77,12 +83,12 @@ class BitmaskColoured : public Bitmask {
       }
       colourCount_ = static_cast<int>(masks.size());
       table_.emplace(words);
-    } else if (colours_ == "table") {
-      defines["COLOURS"] = "1";
-      defines["GROUP_BITS"] = std::to_string(groupBits_);
-      table_.emplace(colourTable(shares, groupBits_));
+    } else if (const auto* table = std::get_if<ColourTable>(&colours_)) {
+      defines["COLOURS_TABLE"] = "1";
+      defines["GROUP_BITS"] = std::to_string(table->groupBits);
+      table_.emplace(colourTable(shares, table->groupBits));
     } else {
-      defines["COLOURS"] = "2";
+      defines["COLOURS_SAMPLES"] = "1";
       for (const glm::dvec3 share : shares) rows.emplace_back(glm::vec3(share), 0.0F);
     }
     shares_.emplace(rows);
@@ -108,8 +114,8 @@ class BitmaskColoured : public Bitmask {
   }
 
  private:
-  std::string colours_;
-  int groupBits_, colourCount_ = 0;
+  ColourSums colours_;
+  int colourCount_ = 0;
   bool filters_;
   glm::vec3 absent_{0.0F};
   const gl::Program* program_ = nullptr;
@@ -118,41 +124,20 @@ class BitmaskColoured : public Bitmask {
   int64_t tableBytes_ = 0;
 };
 
-std::vector<Parameter> bitmaskColouredParameters() {
-  std::vector<Parameter> all = Bitmask::parameters();
-  all.push_back(choiceParameter("colours", "table", {"masks", "table", "samples"},
-                                "How what visible samples emit is added up: a mask for each colour, a table "
-                                "of sums for groups of samples, or one after another",
-                                "Schwarz 2009, section 4.2.2 (samples: bench)"));
-  all.push_back(choiceParameter("group_bits", kDefaultGroup, {"4", "8", "16"},
-                                "Samples in a group of the table; its memory doubles with each",
-                                "Schwarz 2009, section 4.2.2 (8)"));
-  all.push_back(booleanParameter("prefilter", true,
-                                 "Samples on a grid emit the mean of their cell of the light, not what is "
-                                 "emitted at their place"));
+std::vector<Quantity> colouredQuantities() {
+  std::vector<Quantity> all = Bitmask::quantities();
+  all.emplace_back("colour_table_bytes", "Memory of the table of colours", "byte", Direction::LowerIsBetter);
   return all;
 }
 
-std::vector<Quantity> counterNames() {
-  std::vector<Quantity> names = Bitmask::counterNames();
-  names.emplace_back("colour_table_bytes");
-  return names;
-}
-
-const Registered<TechniqueInfo> kBitmaskColouredRegistered{
+const RegisteredTechnique<BitmaskColoured> kBitmaskColouredRegistered{
     {.name = "soft_shadows/bitmask_coloured",
      .version = 1,
      .summary = "Share of a coloured or textured light's radiance that a bit field of light samples leaves",
      .source = "Schwarz 2009, section 4.2.2 (SS-17, SS-18)",
      .product = ProductKind::LightColour,
-     .parameters = bitmaskColouredParameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<BitmaskColoured>(values); },
-     .errorBound = {},
-     .counters = counterNames(),
-     .check = checkBitmaskColoured}};
+     .counters = colouredQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -12,6 +12,8 @@ namespace limen::techniques {
 /// The thesis's budget is about what a search area holds, so what it holds is counted, and not what of it
 /// blocks. `budgets` has one channel, 0: no limit; null: `budget` everywhere.
 std::vector<Counter> qualityCounters(const VisibilityTechnique::Counted& counted, const Image* budgets,
-                                     int budget);
+                                     int64_t budget);
+/// What they mean.
+std::vector<Quantity> qualityQuantities();
 
 }  // namespace limen::techniques

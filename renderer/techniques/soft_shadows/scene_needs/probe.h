@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "renderer/techniques/soft_shadows/backprojection/backprojection_settings.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
 
-/// A registered technique with values; what is left out has its default.
-struct ShadowSetting {
-  std::string technique;
-  std::map<std::string, ParameterValue> values;
-  std::unique_ptr<Technique> make() const;
-};
+/// A hard shadow, which has a map and nothing else to choose, or soft ones.
+using ShadowSetting = std::variant<MapSettings, BackprojectionSettings, BitmaskSettings>;
+/// Its technique's registered name.
+std::string techniqueOf(const ShadowSetting& setting);
+std::unique_ptr<Technique> makeTechnique(const ShadowSetting& setting);
+/// The technique, and "name=value" of all that differs from its defaults.
+std::string describe(const ShadowSetting& setting);
 
 /// What a setting made of a small picture of the scene.
 struct Probed {
