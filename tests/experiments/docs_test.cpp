@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the documentation tells readers to type is what the programs take: every descriptor shown in README.md and
-// docs/ plans, and every source file shown is the file of the tree.
+// What the documentation tells readers to type is what the programs take: every descriptor shown in README.md
+// and docs/ plans, and every source file shown is the file of the tree.
 #include <algorithm>
 
 #include "tests/experiments/cli_fixture.h"
@@ -60,8 +60,8 @@ class Docs : public SweepCli {
   }
 };
 
-/// An info string "yaml" marks a whole descriptor; "yaml part" a piece of one. Files that descriptors name lie in the
-/// folder that readers call from.
+/// An info string "yaml" marks a whole descriptor; "yaml part" a piece of one. Files that descriptors name
+/// lie in the folder that readers call from.
 TEST_F(Docs, ShownDescriptorsPlan) {
   write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("vase.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -77,7 +77,8 @@ TEST_F(Docs, ShownDescriptorsPlan) {
   EXPECT_GE(descriptors, 2U);
 }
 
-/// Pieces of entries, each under `scenes` or `techniques`, or lists of expectations, stand in a small descriptor.
+/// Pieces of entries, each under `scenes` or `techniques`, or lists of expectations, stand in a small
+/// descriptor.
 TEST_F(Docs, ShownEntriesPlan) {
   size_t parts = 0;
   for (const std::string& page : pages())
@@ -101,8 +102,8 @@ TEST_F(Docs, ShownEntriesPlan) {
   EXPECT_GE(parts, 2U);
 }
 
-/// An info string "cpp PATH" or "glsl PATH" shows that file of the tree, if the tree has it; what a tutorial has its
-/// reader write is not there.
+/// An info string "cpp PATH" or "glsl PATH" shows that file of the tree, if the tree has it; what a tutorial
+/// has its reader write is not there.
 TEST_F(Docs, ShownFilesAreThoseOfTheTree) {
   size_t files = 0;
   for (const std::string& page : pages())
@@ -125,7 +126,8 @@ TEST_F(Docs, LinkedFilesAreThere) {
     for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
       const size_t end = text.find_first_of(")#\n", at + 2);
       const std::string target = text.substr(at + 2, end - at - 2);
-      if (target.empty() || target.find("://") != std::string::npos || target.find_first_of(" `&") != std::string::npos)
+      if (target.empty() || target.find("://") != std::string::npos ||
+          target.find_first_of(" `&") != std::string::npos)
         continue;
       EXPECT_TRUE(fs::exists(folder / target)) << page << " links to " << target;
     }
