@@ -39,12 +39,12 @@ int call(const std::vector<std::string>& words) {
 
 ReportResult makeReport(const std::string& store, const std::string& folder) {
   std::error_code code;
-  const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path() / "limen-analyse";
-  if (code || !fs::exists(program)) return {"", "no report: limen-analyse is not built"};
-  const std::vector<std::string> command = {program.string(), "report", store, "-o", folder, "--force"};
+  const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path() / "limen-report";
+  if (code || !fs::exists(program)) return {"", "no report: limen-report is not built"};
+  const std::vector<std::string> command = {program.string(), store, "--sweeps", "-o", folder, "--force"};
   const int status = call(command);
   if (status != 0)
-    return {"", fmt::format("no report: limen-analyse ended with {}; try: limen analyse {}", status,
+    return {"", fmt::format("no report: limen-report ended with {}; try: limen report {}", status,
                             quoteCommand({command.begin() + 1, command.end()}))};
   const fs::path page = fs::path(folder) / "report.html";
   const std::string path = fs::exists(page) ? page.string() : folder;

@@ -10,7 +10,7 @@ struct ReportResult {
   std::string message;  ///< one line for the user
 };
 
-/// Has the sibling program limen-analyse write a report of `store` into `folder`. A sweep's results do not
+/// Has the sibling program limen-report write a report of `store` into `folder`. A sweep's results do not
 /// depend on it, so that it is missing or fails is a word, not an error.
 ReportResult makeReport(const std::string& store, const std::string& folder);
 

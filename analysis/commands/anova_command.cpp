@@ -5,8 +5,9 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/commands/table_command.h"
-#include "analysis/groups/anova_table.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/observer_statistics/anova_table.h"
+#include "analysis/study/head.h"
 #include "analysis/study/anova.h"
 
 namespace limen::analysis {
@@ -16,14 +17,13 @@ void addAnovaCommand(CLI::App& app) {
     StudyInput input;
     AnovaColumns columns;
     AnovaSettings settings;
-    std::vector<std::string> where;
   };
   auto call = std::make_shared<Call>();
   CLI::App* command = app.add_subcommand(
       "anova",
       "repeated-measures analysis of variance with paired comparisons: detection rates of a "
       "study's store (with the published values of experiment_1 and _2), or any CSV");
-  addTableInput(*command, call->input, call->where);
+  addTableInput(*command, call->input);
   AnovaColumns& columns = call->columns;
   command->add_option("--subject", columns.subject, "CSV: column that says who answered");
   command->add_option("--within", columns.within, "CSV: columns of the factors, A,B,...; numbers are ordered")
@@ -46,12 +46,11 @@ void addAnovaCommand(CLI::App& app) {
     if (isStudyStore(*command, call->input,
                      {"--subject", "--within", "--outcome", "--k", "--n", "--value", "--where"})) {
       const StudyAnswers study = readStudy(call->input);
-      printStudyResult(call->input, study, studyAnova(study, call->settings), "anova");
+      print(call->input, headOf(study), resultOf(studyAnova(study, call->settings)));
     } else {
-      const TableInput table = readTableInput(call->input.choice.store, call->where);
-      printTableResult(call->input, table,
-                       std::vector<PartAnova>{tableAnova(table.table, call->columns, call->settings)},
-                       "anova");
+      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
+      print(call->input, headOf(table),
+            resultOf(std::vector<PartAnova>{tableAnova(table.table, call->columns, call->settings)}));
     }
   });
 }

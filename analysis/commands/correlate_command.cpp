@@ -4,9 +4,11 @@
 #include <memory>
 
 #include "analysis/commands/commands.h"
-#include "analysis/commands/table_result.h"
-#include "analysis/relations/areas.h"
-#include "analysis/relations/correlations.h"
+#include "analysis/commands/study_input.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/correlations/areas.h"
+#include "analysis/correlations/correlations.h"
+#include "analysis/study/head.h"
 #include "analysis/study/measures.h"
 #include "experiments/base/error.h"
 
@@ -23,31 +25,29 @@ struct CorrelateOptions : StudyInput {
 
 void correlateStore(const CorrelateOptions& options) {
   const StudyAnswers study = readStudy(options);
-  const store::SessionReader reader(options.choice.store);
   const std::vector<store::StudyPrediction> predictions = store::readPredictions(options.choice.store);
-  std::map<std::string, std::string> names;
-  for (const StudyAnswer& answer : study.answers)
-    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
-  const Correlations found = correlateMeasures(study, predictions, names, {options.clamp, options.bootstrap});
+  const Correlations found =
+      correlateMeasures(study, predictions, displayNames(options.choice.store, study, {}),
+                        {options.clamp, options.bootstrap});
   if (!options.plot.empty()) drawCorrelations(found, options.plot);
-  printStudyResult(options, study, found, "correlate");
+  print(options, headOf(study), resultOf(found));
 }
 
 void correlateTable(const CorrelateOptions& options) {
-  const Table table = Table::read(options.choice.store);
+  const TableInput input = readTableInput(options.choice.store);
   RelationColumns columns = options.columns;
   columns.rates = options.clamp;
   columns.probabilities = options.probability;
-  const std::vector<RelationRows> rows = readRelations(table, columns, options.choice.store);
+  const std::vector<RelationRows> rows = readRelations(input.table, columns, input.file);
   if (!columns.outcome.empty()) {
     const Areas found = compareAreas(rows, columns, {options.probability, options.bins, options.bootstrap});
     if (!options.plot.empty()) drawAreas(found, options.plot);
-    printTableResult(options, table, found, "areas");
+    print(options, headOf(input), resultOf(found));
     return;
   }
   const Correlations found = correlateColumns(rows, columns, {options.clamp, options.bootstrap});
   if (!options.plot.empty()) drawCorrelations(found, options.plot);
-  printTableResult(options, table, found, "correlate");
+  print(options, headOf(input), resultOf(found));
 }
 
 /// Options that mean nothing without another one.

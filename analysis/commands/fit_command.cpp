@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen analyse fit: psychometric functions of a table's or a study's answers.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/fits/fit_options.h"
+#include "analysis/answer_fits/fit_options.h"
 #include "analysis/study/fitted_parts.h"
+#include "analysis/study/head.h"
 #include "analysis/study/part_fits.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
@@ -21,7 +20,6 @@ struct FitCall {
   StudyInput study;
   FittedPartsChoice parts;
   std::string guess = "free", plot;
-  bool json = false, csv = false;
 };
 
 void fitStore(FitCall& call) {
@@ -34,27 +32,16 @@ void fitStore(FitCall& call) {
   std::vector<FitAnswer> answers;
   for (const FittedPart& part : parts) answers.push_back(fitPart(study, part, call.options));
   if (!call.plot.empty()) drawFit(answers.front(), call.plot);
-  if (call.json) {
-    nlohmann::json out = headJson(study);
-    out["command"] = "fit";
-    for (const FitAnswer& answer : answers) out["fits"].push_back(toJson(answer));
-    printJson(out);
-  } else if (call.csv) {
-    std::fputs(toCsv(answers).c_str(), stdout);
-  } else {
-    std::string text = headText(study);
-    for (const FitAnswer& answer : answers) text += "\n" + toText(answer);
-    std::fputs(text.c_str(), stdout);
-  }
+  print(call.study, headOf(study), resultOf(answers));
 }
 
 void fitTable(const FitCall& call) {
   const FitAnswer answer = answerFit(call.options, readConditions(call.options));
   if (!call.plot.empty()) drawFit(answer, call.plot);
-  if (call.json)
-    std::printf("%s\n", toJson(answer).dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  else
-    std::fputs((call.csv ? toCsv(answer) : toText(answer)).c_str(), stdout);
+  Section head;
+  head.fact(text("file"), answer.file);
+  head.fact(text("sha256", "SHA-256"), answer.hash);
+  print(call.study, head, resultOf(std::vector<FitAnswer>{answer}));
 }
 
 }  // namespace
@@ -124,8 +111,8 @@ void addFitCommand(CLI::App& app) {
   fit->add_flag("--goodness", options.goodness,
                 "deviance and residuals against samples drawn from the fit; influence of each block");
   fit->add_option("--plot", call->plot, "draw into FILE.svg, .pdf or .png");
-  CLI::Option* json = fit->add_flag("--json", call->json, "print JSON");
-  fit->add_flag("--csv", call->csv, "print CSV, a row for each parameter")->excludes(json);
+  fit->add_flag("--json", call->study.asJson, "One JSON object");
+  fit->add_option("--csv", call->study.csv, "Writes all tables of the result to this file")->type_name("FILE");
   fit->callback([call, fit] {
     call->study.choice.store = call->options.file;
     if (!isStudyStore(*fit, call->study, {"--k", "--n", "--outcome", "--order"}, {"--part", "--guess"}))

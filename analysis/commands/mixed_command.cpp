@@ -5,8 +5,9 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/commands/table_command.h"
-#include "analysis/groups/mixed_table.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/observer_statistics/mixed_table.h"
+#include "analysis/study/head.h"
 #include "analysis/study/mixed.h"
 #include "experiments/base/error.h"
 
@@ -18,14 +19,13 @@ void addMixedCommand(CLI::App& app) {
     AnswerColumns answers;
     MixedTerms terms;
     std::string group, part;
-    std::vector<std::string> where;
   };
   auto call = std::make_shared<Call>();
   CLI::App* command =
       app.add_subcommand("mixed",
                          "mixed-effects logistic regression of yes/no or right/wrong answers: of a "
                          "study's trials with a change, by observer, or of any CSV");
-  addTableInput(*command, call->input, call->where);
+  addTableInput(*command, call->input);
   addAnswerColumns(*command, call->answers);
   command->add_option("--group", call->group, "CSV: column that says who answered (random effect)");
   command->add_option("--part", call->part, "Store: the protocol's part, if several have answers");
@@ -55,15 +55,14 @@ void addMixedCommand(CLI::App& app) {
   command->callback([call, command] {
     if (isStudyStore(*command, call->input, {"--outcome", "--k", "--n", "--group", "--where"})) {
       const StudyAnswers study = readStudy(call->input);
-      printStudyResult(call->input, study, fitMixedModel(studyMixedRows(study, call->part), call->terms),
-                       "mixed");
+      print(call->input, headOf(study),
+            resultOf(fitMixedModel(studyMixedRows(study, call->part), call->terms)));
     } else {
       if (command->count("--part") > 0)
         throw Error("means nothing for a table", "--part", "leave it out, or take rows with --where");
-      const TableInput table = readTableInput(call->input.choice.store, call->where);
-      printTableResult(call->input, table,
-                       fitMixedModel(readMixedRows(table.table, call->group, call->answers), call->terms),
-                       "mixed");
+      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
+      print(call->input, headOf(table),
+            resultOf(fitMixedModel(readMixedRows(table.table, call->group, call->answers), call->terms)));
     }
   });
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen analyse published: what the thesis printed of its experiments, beside the answers of stores.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
+#include "analysis/study/head.h"
 #include "analysis/study/published_comparison.h"
 #include "experiments/base/error.h"
 
@@ -56,27 +59,45 @@ PublishedComparison compareStore(const StudyInput& input, const StudyAnswers& st
   return comparePublished(findings);
 }
 
+/// Facts of the heads make a table, a row for each store.
+void addStore(Section& all, const std::string& store, const Section& head) {
+  if (all.tables.empty()) {
+    all.tables = {{"stores", "", {text("store")}}, head.tables[0], head.tables[1]};
+    all.tables[0].columns.insert(all.tables[0].columns.end(), head.facts.begin(), head.facts.end());
+    for (Column& column : all.tables[0].columns) column.cells.clear();
+    for (const size_t table : {1U, 2U}) {
+      for (Column& column : all.tables[table].columns) column.cells.clear();
+      all.tables[table].columns.insert(all.tables[table].columns.begin(), text("store"));
+    }
+  }
+  const auto append = [](Column& to, const Column& from) {
+    to.cells.insert(to.cells.end(), from.cells.begin(), from.cells.end());
+  };
+  all.tables[0].columns[0].cells.push_back(store);
+  for (size_t i = 0; i < head.facts.size(); ++i) append(all.tables[0].columns[i + 1], head.facts[i]);
+  for (const size_t table : {0U, 1U}) {
+    std::vector<Column>& columns = all.tables[table + 1].columns;
+    columns[0].cells.insert(columns[0].cells.end(), head.tables[table].rows(), store);
+    for (size_t i = 0; i < head.tables[table].columns.size(); ++i)
+      append(columns[i + 1], head.tables[table].columns[i]);
+  }
+  for (const std::string& note : head.notes) all.notes.push_back(store + ": " + note);
+}
+
 void comparePublished(const PublishedOptions& options) {
   std::vector<PublishedComparison> comparisons;
-  nlohmann::json heads = nlohmann::json::array();
-  std::string text;
+  Section head;
   for (const std::string& store : options.stores) {
     StudyInput input = options;
     input.choice.store = store;
     const StudyAnswers study = readStudy(input);
     comparisons.push_back(compareStore(input, study));
-    heads.push_back(headJson(study));
-    heads.back()["store"] = store;
-    text += (text.empty() ? "" : "\n") + headText(study);
+    addStore(head, store, headOf(study));
   }
   if (std::all_of(comparisons.begin(), comparisons.end(),
                   [](const PublishedComparison& one) { return one.statistics.empty(); }))
     throw Error(comparisons.front().notes.front(), options.stores.front());
-  if (!options.csv.empty()) writeFileBytes(options.csv, toCsv(comparisons));
-  if (options.asJson)
-    printJson({{"stores", heads}, {"published", toJson(comparisons)}});
-  else
-    std::printf("%s%s", text.c_str(), toText(comparisons).c_str());
+  print(options, head, resultOf(comparisons));
 }
 
 }  // namespace
@@ -90,7 +111,7 @@ void addPublishedCommand(CLI::App& app) {
       ->required();
   addStudyChoice(*command, *options);
   command->add_flag("--json", options->asJson, "One JSON object");
-  command->add_option("--csv", options->csv, "Writes a table to this file")->type_name("FILE");
+  command->add_option("--csv", options->csv, "Writes all tables of the result to this file")->type_name("FILE");
   command->callback([options] { comparePublished(*options); });
 }
 

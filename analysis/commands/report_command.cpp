@@ -7,8 +7,8 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
+#include "analysis/commands/sweep_reports.h"
 #include "analysis/study_page/study_page.h"
-#include "analysis/sweep/report.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
@@ -20,23 +20,9 @@ struct ReportCall {
   bool json = false;
 };
 
-void print(const ReportResult& result, bool json) {
-  if (json)
-    printJson({{"event", "report"},
-               {"page", result.page},
-               {"title", result.title},
-               {"experiment", result.hash},
-               {"runs", result.runs},
-               {"failed", result.failed},
-               {"missing", result.missing},
-               {"broken_expectations", result.brokenExpectations}});
-  else
-    std::printf("%s\n", result.page.c_str());
-}
-
 void print(const StudyPageResult& result, bool json) {
   if (json)
-    printJson({{"event", "report"},
+    printLine({{"event", "report"},
                {"page", result.page},
                {"title", result.title},
                {"protocol", result.hash},
@@ -52,7 +38,7 @@ void print(const StudyPageResult& result, bool json) {
 /// What was asked for by an option, else what the store holds.
 void report(const CLI::App& command, ReportCall call) {
   const std::string& path = call.sweeps.storePath;
-  const bool experiments = !store::Store(path, store::Access::ReadOnly).experiments().empty();
+  const bool experiments = holdsExperiments(path);
   const bool sessions = holdsSessions(path);
   const bool study = choosesSessions(command), sweep = command.count("--experiment") > 0;
   if (!experiments && !sessions && !study && !sweep)
@@ -66,7 +52,7 @@ void report(const CLI::App& command, ReportCall call) {
     for (const StudyPageResult& result : writeStudyPages(options)) print(result, call.json);
   }
   if (writesSweeps)
-    for (const ReportResult& result : writeReports(call.sweeps)) print(result, call.json);
+    for (const ReportResult& result : writeReports(call.sweeps)) printReport(result, call.json);
 }
 
 }  // namespace
@@ -76,18 +62,7 @@ void addReportCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "report",
       "HTML page, figures and CSV tables of a sweep (speed against error) or a study (as for a paper)");
-  command->add_option("STORE", call->sweeps.storePath, "result store with a sweep, a study or both")
-      ->required();
-  command
-      ->add_option("-o,--output", call->sweeps.folder,
-                   "folder for report.html, CSV tables, figures and pictures")
-      ->required();
-  command->add_option(
-      "--experiment", call->sweeps.experiment,
-      "title or hash (8 digits or more) of one experiment; otherwise all of the store, each in a folder "
-      "of its own if there are several");
-  command->add_flag("--force", call->sweeps.force,
-                    "report although runs are missing or failed; the page says so");
+  addSweepReportOptions(*command, call->sweeps);
   addStudyChoice(*command, call->study);
   command->add_flag("--json", call->json, "print one JSON line for each page");
   command->callback([call, command] {

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "analysis/commands/commands.h"
-#include "analysis/commands/table_result.h"
-#include "analysis/relations/scale.h"
+#include "analysis/commands/study_input.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/pair_scales/scale.h"
+#include "analysis/study/head.h"
 #include "analysis/study/pairs.h"
 #include "experiments/base/error.h"
 
@@ -22,14 +24,14 @@ void scaleStore(const ScaleOptions& options) {
   const StudyAnswers study = readStudy(options);
   const Scales found = scaleItems(readStudyPairs(study, options.columns.by), options.setting);
   if (!options.plot.empty()) drawScales(found, options.plot);
-  printStudyResult(options, study, found, "scale");
+  print(options, headOf(study), resultOf(found));
 }
 
 void scaleTable(const ScaleOptions& options) {
-  const Table table = Table::read(options.choice.store);
-  const Scales found = scaleItems(readPairs(table, options.columns), options.setting);
+  const TableInput input = readTableInput(options.choice.store);
+  const Scales found = scaleItems(readPairs(input.table, options.columns), options.setting);
   if (!options.plot.empty()) drawScales(found, options.plot);
-  printTableResult(options, table, found, "scale");
+  print(options, headOf(input), resultOf(found));
 }
 
 }  // namespace

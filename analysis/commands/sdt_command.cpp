@@ -5,8 +5,9 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/commands/table_command.h"
-#include "analysis/groups/sensitivity_table.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/observer_statistics/sensitivity_table.h"
+#include "analysis/study/head.h"
 #include "analysis/study/sensitivity.h"
 #include "experiments/base/error.h"
 
@@ -17,12 +18,11 @@ void addSdtCommand(CLI::App& app) {
     StudyInput input;
     SensitivityColumns columns;
     std::string correction = "loglinear";
-    std::vector<std::string> where;
   };
   auto call = std::make_shared<Call>();
   CLI::App* command = app.add_subcommand(
       "sdt", "sensitivity and criterion (signal detection theory): of a study's observers, or of any CSV");
-  addTableInput(*command, call->input, call->where);
+  addTableInput(*command, call->input);
   SensitivityColumns& columns = call->columns;
   command->add_option("--subject", columns.subject,
                       "CSV: column that says who answered; means are over subjects");
@@ -54,11 +54,11 @@ void addSdtCommand(CLI::App& app) {
       if (command->count("--task") > 0)
         throw Error("is said by the store's protocol", "--task", "leave it out, or give a CSV file");
       const StudyAnswers study = readStudy(call->input);
-      printStudyResult(call->input, study, studySensitivity(study, correction), "sdt");
+      print(call->input, headOf(study), resultOf(studySensitivity(study, correction)));
     } else {
-      const TableInput table = readTableInput(call->input.choice.store, call->where);
+      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
       call->columns.correction = correction;
-      printTableResult(call->input, table, tableSensitivity(table.table, call->columns), "sdt");
+      print(call->input, headOf(table), resultOf(tableSensitivity(table.table, call->columns)));
     }
   });
 }

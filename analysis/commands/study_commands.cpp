@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen analyse rates, validate: what the sessions of a study say.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
+#include "analysis/study/head.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/validation.h"
 #include "experiments/base/error.h"
@@ -48,10 +47,9 @@ void validate(const ValidateOptions& options) {
     throw Error("guess and lapse rates sum to 1 or more", "--guess, --lapse");
   const StudyAnswers study = readStudy(options);
   const std::vector<store::StudyPrediction> predictions = store::readPredictions(options.choice.store);
-  printStudyResult(
-      options, study,
-      validateStudy(study, predictions, displayNames(options.choice.store, study, predictions), setting),
-      "validation");
+  print(options, headOf(study),
+        resultOf(validateStudy(study, predictions, displayNames(options.choice.store, study, predictions),
+                               setting)));
 }
 
 void addRates(CLI::App& app) {
@@ -61,7 +59,7 @@ void addRates(CLI::App& app) {
   addStudyInput(*command, *options);
   command->callback([options] {
     const StudyAnswers study = readStudy(*options);
-    printStudyResult(*options, study, studyRates(study), "rates");
+    print(*options, headOf(study), resultOf(studyRates(study)));
   });
 }
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/commands/study_input.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
+#include <cstdio>
+#include <nlohmann/json.hpp>
 
-#include "analysis/data/source.h"
+#include "analysis/answer_tables/source.h"
+#include "analysis/output/result_data.h"
+#include "analysis/output/result_text.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
@@ -44,7 +49,22 @@ void addStudyInput(CLI::App& command, StudyInput& input, const std::string& posi
   command.add_option(positional, input.choice.store, meaning)->required();
   addStudyChoice(command, input);
   command.add_flag("--json", input.asJson, "One JSON object");
-  command.add_option("--csv", input.csv, "Writes a table to this file")->type_name("FILE");
+  command.add_option("--csv", input.csv, "Writes all tables of the result to this file")->type_name("FILE");
+}
+
+void addTableInput(CLI::App& command, StudyInput& input) {
+  addStudyInput(command, input, "data",
+                "Result store with sessions; or CSV or TSV, columns named in the first line");
+  command
+      .add_option("--where", input.where,
+                  "CSV: only rows with COLUMN=VALUE; may be repeated, of one column any value fits")
+      ->allow_extra_args(false);
+}
+
+void addAnswerColumns(CLI::App& command, AnswerColumns& columns) {
+  command.add_option("--outcome", columns.outcome, "CSV: column with 0 or 1, where each row is one trial");
+  command.add_option("--k", columns.correct, "CSV: column with the number of correct or positive answers");
+  command.add_option("--n", columns.trials, "CSV: column with the number of trials");
 }
 
 std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
@@ -79,8 +99,25 @@ bool isStudyStore(const CLI::App& command, const StudyInput& input,
   return store;
 }
 
-void printJson(const nlohmann::json& out) {
-  std::printf("%s\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+void checkIntervals(double level, size_t samples, bool orNone) {
+  if (!(level > 0.0 && level < 1.0))
+    throw Error("has to lie between 0 and 1, both excluded", "--confidence", "0.95 is usual");
+  if (!(orNone && samples == 0) && (samples < 100 || samples > 1000000))
+    throw Error(std::string("has to be 100 to 1000000") + (orNone ? ", or 0 for no bootstrap" : ""),
+                "--samples", "2000 are usual");
+}
+
+void print(const StudyInput& input, const Section& head, Result result) {
+  Section& own = result.head;
+  own.title = head.title;
+  own.facts.insert(own.facts.begin(), head.facts.begin(), head.facts.end());
+  own.tables.insert(own.tables.begin(), head.tables.begin(), head.tables.end());
+  own.notes.insert(own.notes.begin(), head.notes.begin(), head.notes.end());
+  if (!input.csv.empty()) writeFileBytes(input.csv, toCsv(result.sections));
+  const std::string out =
+      input.asJson ? toJson(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+                   : toText(result);
+  std::fputs(out.c_str(), stdout);
 }
 
 }  // namespace limen::analysis

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "analysis/output/text_output.h"
+#include "analysis/answer_tables/answer_columns.h"
+#include "analysis/output/result.h"
 #include "analysis/study/answers.h"
-#include "analysis/study/head.h"
 #include "experiments/store/predictions.h"
+
+namespace CLI {
+class App;
+}
 
 namespace limen::analysis {
 
 /// What the commands on answers have in common: where the answers are and which of them count, and how the
 /// result is printed.
 struct StudyInput {
-  StudyChoice choice;  ///< `store` may be a table where a command takes one
+  StudyChoice choice;              ///< `store` may be a table where a command takes one
+  std::vector<std::string> where;  ///< conditions on rows of a table
   bool noExclusions = false, asJson = false;
   std::string csv;
 };
@@ -27,44 +29,31 @@ struct StudyInput {
 void addStudyChoice(CLI::App& command, StudyInput& input);
 /// Whether one of those was given.
 bool choosesSessions(const CLI::App& command);
-
 /// Adds the positional, the options of addStudyChoice(), --json, --csv.
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional = "store",
                    const std::string& meaning = "Result store with sessions");
+/// For commands that take a store or a table: addStudyInput() and --where.
+void addTableInput(CLI::App& command, StudyInput& input);
+/// --outcome, --k, --n.
+void addAnswerColumns(CLI::App& command, AnswerColumns& columns);
 
 /// Names of displays by hash: those of the answers and those that were predicted for.
 std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
                                                 const std::vector<store::StudyPrediction>& predictions);
-
-/// The choice with what the options say.
 StudyChoice choiceOf(const StudyInput& input);
-
-/// Throws Error as readStudyAnswers().
 StudyAnswers readStudy(const StudyInput& input);
 
-/// For commands that take a store or a table, before anything is read: whether it is a store. Throws Error if
-/// an option was given that means nothing for the other kind: `tableOptions` beside a store, those of
-/// addStudyChoice() and `storeOptions` beside a table.
+/// Whether the input is a store; it is a table otherwise. Throws Error for options that the other kind of
+/// input takes: `tableOptions`, or those on sessions and `storeOptions`.
 bool isStudyStore(const CLI::App& command, const StudyInput& input,
                   const std::vector<std::string>& tableOptions,
                   const std::vector<std::string>& storeOptions = {});
 
-/// Prints a JSON object on one line.
-void printJson(const nlohmann::json& out);
+/// Throws Error unless a confidence level lies between 0 and 1, both excluded, and samples of a bootstrap are
+/// 100 to 1,000,000, or 0 if `orNone`.
+void checkIntervals(double level, size_t samples, bool orNone);
 
-/// Every result on sessions opens with what the answers are and what was left out. Uses toText(), toJson()
-/// and toCsv() of the result.
-template <class Result>
-void printStudyResult(const StudyInput& input, const StudyAnswers& study, const Result& result,
-                      const std::string& name) {
-  if (!input.csv.empty()) writeFileBytes(input.csv, toCsv(result));
-  if (input.asJson) {
-    nlohmann::json out = headJson(study);
-    out[name] = toJson(result);
-    printJson(out);
-  } else {
-    std::printf("%s%s", headText(study).c_str(), toText(result).c_str());
-  }
-}
+/// Prints the result as text, or as one line of JSON, with what the data are in front, and writes --csv.
+void print(const StudyInput& input, const Section& head, Result result);
 
 }  // namespace limen::analysis

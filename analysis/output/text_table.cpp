@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -60,16 +57,5 @@ std::string pText(const std::optional<double>& p) {
   if (!p) return "-";
   return *p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", *p);
 }
-
-nlohmann::json numberJson(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
-}
-
-nlohmann::json intervalJson(const std::optional<Interval>& interval) {
-  if (!interval) return {};
-  return nlohmann::json::array({numberJson(interval->low), numberJson(interval->high)});
-}
-
-std::string cellText(const std::optional<double>& value) { return value ? shortestNumber(*value) : ""; }
 
 }  // namespace limen::analysis

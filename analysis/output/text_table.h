@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,11 +21,5 @@ std::string intervalText(const std::optional<Interval>& interval, bool percent =
 std::string fixedText(const std::optional<double>& value, int digits = 3);  ///< "-" for none
 /// "0.012", "< 0.0001"; "-" for none.
 std::string pText(const std::optional<double>& p);
-
-/// A number as JSON; null for none and for what JSON cannot hold.
-nlohmann::json numberJson(const std::optional<double>& value);
-nlohmann::json intervalJson(const std::optional<Interval>& interval);
-/// For CSV: shortest that reads back; empty for none.
-std::string cellText(const std::optional<double>& value);
 
 }  // namespace limen::analysis

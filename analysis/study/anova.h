@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/groups/anova.h"
+#include "analysis/observer_statistics/anova.h"
 #include "analysis/study/answers.h"
 #include "analysis/study/published.h"
 

@@ -3,53 +3,60 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "experiments/base/text.h"
+#include <set>
 
 namespace limen::analysis {
 
-std::string headText(const StudyAnswers& study) {
-  std::string out =
-      fmt::format("{} ({}, SHA-256 {})\n{} answers of {} observers in {} sessions on {}\n", study.plan.title,
-                  study.plan.name, study.plan.hash.substr(0, 12), study.answers.size(),
-                  study.observers.size(), study.sessions, join(study.displays));
-  if (study.simulated > 0) out += "simulated observers: these answers say nothing about people\n";
-  if (study.notLabReady > 0)
-    out += fmt::format("{} sessions were shown by a machine that was not ready for a laboratory\n",
-                       study.notLabReady);
-  for (const AppliedRule& rule : study.rules) {
-    out += fmt::format("rule {}: {}{}", rule.name, shortestNumber(rule.limit),
-                       rule.applied ? "" : " - not applied");
-    if (!rule.note.empty()) out += (rule.applied ? " - " : ": ") + rule.note;
-    out += "\n";
-  }
-  for (const LeftOut& left : study.leftOut)
-    out += fmt::format("left out by {}: {}, {} answers ({})\n", left.rule, left.observer, left.answers,
-                       left.detail);
-  if (study.leftOut.empty()) out += "nothing was left out\n";
-  return out;
+ResultTable ruleTable(const StudyAnswers& study) {
+  const auto leftOut = [&](const AppliedRule& rule, bool observers) -> Cell {
+    if (!rule.applied) return {};
+    std::set<std::string> who;
+    size_t answers = 0;
+    for (const LeftOut& left : study.leftOut)
+      if (left.rule == rule.name) {
+        who.insert(left.observer);
+        answers += left.answers;
+      }
+    return observers ? who.size() : answers;
+  };
+  return TableOf("rules", "rules of exclusion that the protocol declares", study.rules)
+      .add(text("rule"), &AppliedRule::name)
+      .add(significant("limit"), &AppliedRule::limit)
+      .add(flag("applied"), &AppliedRule::applied)
+      .add(integer("observers"), [&](const AppliedRule& rule) { return leftOut(rule, true); })
+      .add(integer("answers"), [&](const AppliedRule& rule) { return leftOut(rule, false); })
+      .add(ifAny(text("note")), &AppliedRule::note);
 }
 
-nlohmann::json headJson(const StudyAnswers& study) {
-  nlohmann::json rules = nlohmann::json::array(), left = nlohmann::json::array();
-  for (const AppliedRule& rule : study.rules)
-    rules.push_back(
-        {{"rule", rule.name}, {"limit", rule.limit}, {"applied", rule.applied}, {"note", rule.note}});
-  for (const LeftOut& one : study.leftOut)
-    left.push_back(
-        {{"rule", one.rule}, {"observer", one.observer}, {"answers", one.answers}, {"detail", one.detail}});
-  return {{"protocol", study.plan.name},
-          {"protocol_hash", study.plan.hash},
-          {"title", study.plan.title},
-          {"observers", study.observers},
-          {"sessions", study.sessions},
-          {"simulated_sessions", study.simulated},
-          {"not_lab_ready_sessions", study.notLabReady},
-          {"answers", study.answers.size()},
-          {"displays", study.displays},
-          {"rules", rules},
-          {"left_out", left}};
+ResultTable leftOutTable(const StudyAnswers& study) {
+  return TableOf("left_out", "left out", study.leftOut)
+      .add(text("observer"), &LeftOut::observer)
+      .add(text("rule", "by"), &LeftOut::rule)
+      .add(integer("answers"), &LeftOut::answers)
+      .add(text("detail"), &LeftOut::detail);
+}
+
+Section headOf(const StudyAnswers& study) {
+  Section out;
+  out.title = study.plan.title;
+  out.fact(text("protocol"), study.plan.name);
+  out.fact(text("protocol_hash", "SHA-256"), study.plan.hash);
+  out.fact(forData(text("title")), study.plan.title);
+  out.fact(forData(list("observers")), study.observers);
+  out.fact(forPeople(integer("", "observers")), study.observers.size());
+  out.fact(integer("sessions"), study.sessions);
+  out.fact(forData(integer("simulated_sessions")), study.simulated);
+  out.fact(forData(integer("not_lab_ready_sessions")), study.notLabReady);
+  out.fact(integer("answers"), study.answers.size());
+  out.fact(list("displays"), study.displays);
+  out.add(ruleTable(study));
+  out.add(leftOutTable(study));
+  if (study.simulated > 0) out.notes.push_back("simulated observers: these answers say nothing about people");
+  if (study.notLabReady > 0)
+    out.notes.push_back(fmt::format("{} sessions were shown by a machine that was not ready for a laboratory",
+                                    study.notLabReady));
+  if (study.leftOut.empty()) out.notes.push_back("nothing was left out");
+  return out;
 }
 
 }  // namespace limen::analysis

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/relations/correlations.h"
+#include "analysis/correlations/correlations.h"
 #include "analysis/study/answers.h"
 #include "analysis/study/predicted.h"
 

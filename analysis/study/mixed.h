@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/groups/mixed.h"
+#include "analysis/observer_statistics/mixed.h"
 #include "analysis/study/answers.h"
 
 namespace limen::analysis {

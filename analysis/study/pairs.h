@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/relations/pair_table.h"
+#include "analysis/pair_scales/pair_table.h"
 #include "analysis/study/answers.h"
 
 namespace limen::analysis {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fits/fit_answer.h"
-#include "analysis/fits/fit_options.h"
+#include "analysis/answer_fits/fit_answer.h"
+#include "analysis/answer_fits/fit_options.h"
 #include "analysis/study/fitted_parts.h"
 
 namespace limen::analysis {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/relations/scale.h"
+#include "analysis/pair_scales/scale.h"
 #include "analysis/study/answers.h"
 
 namespace limen::analysis {

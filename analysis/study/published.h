@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/groups/anova.h"
+#include "analysis/observer_statistics/anova.h"
 
 namespace limen::analysis {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/study/anova.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/validation.h"
@@ -56,9 +56,7 @@ struct StudyFindings {
 /// nothing was published.
 PublishedComparison comparePublished(const StudyFindings& findings);
 
-std::string toText(const std::vector<PublishedComparison>& comparisons);
-nlohmann::json toJson(const std::vector<PublishedComparison>& comparisons);
-/// One row a number.
-std::string toCsv(const std::vector<PublishedComparison>& comparisons);
+/// A section for each experiment with a table "statistics", one row a number.
+Result resultOf(const std::vector<PublishedComparison>& comparisons);
 
 }  // namespace limen::analysis

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/study/answers.h"
 #include "analysis/study/published.h"
@@ -69,8 +69,7 @@ StudyRates studyRates(const StudyAnswers& study, double level = 0.95);
 /// Adds the scenarios of a part with binary answers.
 void addScenarioSpreads(const StudyAnswers& study, size_t part, StudyRates& out);
 
-std::string toText(const StudyRates& rates);
-nlohmann::json toJson(const StudyRates& rates);
-std::string toCsv(const StudyRates& rates);
+/// A section for each part with tables "rates", "by_observer" and "over_scenarios".
+Result resultOf(const StudyRates& rates);
 
 }  // namespace limen::analysis

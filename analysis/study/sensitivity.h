@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analysis/groups/sensitivity.h"
+#include "analysis/observer_statistics/sensitivity.h"
 #include "analysis/study/answers.h"
 
 namespace limen::analysis {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/statistics/rank_correlation.h"
 #include "analysis/statistics/roc.h"
 #include "analysis/study/answers.h"
@@ -82,9 +82,8 @@ StudyValidation validateStudy(const StudyAnswers& study,
                               const std::map<std::string, std::string>& displayNames,
                               const ValidationSetting& setting = {});
 
-std::string toText(const StudyValidation& validation);
-nlohmann::json toJson(const StudyValidation& validation);
-/// One row a scenario: rates and predictors, for other programs.
-std::string toCsv(const StudyValidation& validation);
+/// A section for each part with tables "scenarios" (rates and predictors of each), "agreement", "areas",
+/// "calibration", "bins", "link" and "link_errors".
+Result resultOf(const StudyValidation& validation);
 
 }  // namespace limen::analysis

@@ -5,6 +5,7 @@
 
 #include <cctype>
 
+#include "analysis/output/result_text.h"
 #include "analysis/output/text_output.h"
 
 namespace limen::analysis {
@@ -55,32 +56,37 @@ void PageWriter::list(const std::vector<std::string>& items) {
   html_ += "</ul>\n";
 }
 
-void PageWriter::table(const PageTable& table) {
-  if (table.rows.empty()) return;
+void PageWriter::table(const ResultTable& table, const std::string& words, const std::string& file,
+                       size_t openRows) {
+  if (table.rows() == 0) return;
+  std::vector<const Column*> columns;
+  for (const Column& column : table.columns)
+    if (column.shownToPeople()) columns.push_back(&column);
+  const auto look = [](const Column& column) { return std::string(column.isNumber() ? " class=\"num\"" : ""); };
+  const bool folded = table.rows() > openRows;
   const std::string id = fmt::format("table-{}", ++tables_);
-  const std::string caption = fmt::format("<b>Table {}.</b> ", tables_) + escapeHtml(table.caption) +
-                              (table.file.empty() ? "" : " " + link(table.file, "CSV"));
+  const std::string caption = fmt::format("<b>Table {}.</b> ", tables_) + escapeHtml(words) +
+                              (file.empty() ? "" : " " + link(file, "CSV"));
   // Beside the table and not in it: a caption in it would be scrolled away with a wide one.
-  html_ += table.folded ? "<details><summary class=\"caption\" id=\"" + id + "\">" + caption + "</summary>\n"
-                        : "<p class=\"caption\" id=\"" + id + "\">" + caption + "</p>\n";
+  html_ += folded ? "<details><summary class=\"caption\" id=\"" + id + "\">" + caption + "</summary>\n"
+                  : "<p class=\"caption\" id=\"" + id + "\">" + caption + "</p>\n";
   html_ += "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"" + id +
-           "\"><table aria-labelledby=\"" + id + "\">";
-  html_ += "<thead><tr>";
-  for (const PageTable::Column& column : table.columns)
-    html_ += std::string("<th scope=\"col\"") + (column.number ? " class=\"num\"" : "") + ">" +
-             escapeHtml(column.title) + "</th>";
+           "\"><table aria-labelledby=\"" + id + "\"><thead><tr>";
+  for (const Column* column : columns)
+    html_ += "<th scope=\"col\"" + look(*column) + ">" + escapeHtml(column->title) + "</th>";
   html_ += "</tr></thead>\n<tbody>\n";
-  for (const std::vector<std::string>& row : table.rows) {
+  for (size_t row = 0; row < table.rows(); ++row) {
     html_ += "<tr>";
-    for (size_t i = 0; i < row.size(); ++i) {
-      const std::string name = table.columns[i].number ? " class=\"num\"" : "";
-      html_ += i == 0 ? "<th scope=\"row\"" + name + ">" + breakable(row[i]) + "</th>"
-                      : "<td" + name + ">" + cellHtml(row[i]) + "</td>";
+    for (const Column* column : columns) {
+      const std::string cell = cellText(*column, column->cells[row]);
+      html_ += column == columns.front()
+                   ? "<th scope=\"row\"" + look(*column) + ">" + breakable(cell) + "</th>"
+                   : "<td" + look(*column) + ">" + cellHtml(cell) + "</td>";
     }
     html_ += "</tr>\n";
   }
   html_ += "</tbody></table></div>\n";
-  if (table.folded) html_ += "</details>\n";
+  if (folded) html_ += "</details>\n";
 }
 
 void PageWriter::figure(Figure figure, const std::string& caption) {

@@ -5,22 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/study_page/figure.h"
 
 namespace limen::analysis {
-
-/// A table of a page. Cells are plain text; the first column heads its row.
-struct PageTable {
-  struct Column {
-    std::string title;
-    bool number = true;  ///< flush right
-  };
-  std::string caption;
-  std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;
-  std::string file;     ///< CSV with the same at full precision; "" if there is none
-  bool folded = false;  ///< shown when asked for
-};
 
 /// A file beside the page.
 struct PageFile {
@@ -38,7 +26,10 @@ class PageWriter {
   void paragraph(const std::string& text);
   void notice(const std::string& text, bool bad = false);
   void list(const std::vector<std::string>& items);
-  void table(const PageTable& table);
+  /// What people see of a table; its first column heads each row. `file`: CSV with the same at full precision, ""
+  /// if there is none. Nothing for a table without rows. Folded from `openRows` rows on.
+  void table(const ResultTable& table, const std::string& caption, const std::string& file = {},
+             size_t openRows = 40);
   void figure(Figure figure, const std::string& caption);
   void html(const std::string& text) { html_ += text; }  ///< as it is
   void file(const std::string& path, const std::string& bytes, const std::string& meaning);

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
+#include "analysis/output/result_data.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/gnuplot.h"
@@ -30,8 +29,14 @@ std::string outcomeOf(const StudyPart& part, const StudyAnswer& answer) {
   return "all answers";
 }
 
+struct SeverityRow {
+  std::string group;
+  std::map<int, size_t> counts;
+  double mean = 0.0;
+};
+
 /// How often each step was chosen by each group, as shares of the group.
-void addSeverity(const StudyPage& page, size_t index, PageWriter& out, std::string& csv) {
+void addSeverity(const StudyPage& page, size_t index, PageWriter& out) {
   const StudyPart& part = page.study.plan.parts[index];
   std::map<std::string, std::map<int, size_t>> groups;
   int most = 0, least = 1;
@@ -55,16 +60,9 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out, std::stri
   figure.yTitle = "share of answers (%)";
   figure.description = "How often each step of severity was chosen, part " + part.name;
   figure.heightPx = 260 + static_cast<int>(groups.size() + 1) / 2 * 18;
-  PageTable table;
-  table.caption = "Severity in part " + part.name + ": numbers of answers, and the mean step.";
-  table.file = "tables/severity.csv";
-  table.columns = {{"trials", false}};
   std::vector<std::pair<double, std::string>> tics;
-  for (int step = least; step <= most; ++step) {
-    tics.emplace_back(step, labelOf(step));
-    table.columns.push_back({labelOf(step)});
-  }
-  table.columns.push_back({"mean"});
+  for (int step = least; step <= most; ++step) tics.emplace_back(step, labelOf(step));
+  std::vector<SeverityRow> lines;
   figure.settings =
       namedTics("x", tics) + fmt::format("set xrange [{}:{}]\nset yrange [0:100]\n", least - 0.5, most + 0.5);
   const double width = 0.8 / static_cast<double>(groups.size());
@@ -74,18 +72,14 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out, std::stri
     for (const auto& [step, count] : counts)
       all += static_cast<double>(count), sum += step * static_cast<double>(count);
     std::vector<std::vector<double>> rows;
-    std::vector<std::string> line = {name};
+    lines.push_back({name, counts, sum / all});
     for (int step = least; step <= most; ++step) {
       const auto found = counts.find(step);
       const size_t count = found == counts.end() ? 0 : found->second;
       const double share = 100.0 * static_cast<double>(count) / all;
       rows.push_back({step + (static_cast<double>(number) + 0.5) * width - 0.4, share, width * 0.9,
                       static_cast<double>(count)});
-      line.push_back(std::to_string(count));
-      csv += csvLine({part.name, name, std::to_string(step), labelOf(step), std::to_string(count)});
     }
-    line.push_back(fixedText(sum / all, 2));
-    table.rows.push_back(line);
     figure.plots.push_back(addBlock(figure, name + ": drawn at, share in %, width, answers", rows) +
                            " using 1:2:3 with boxes fs solid 0.6 lw 1 " + seriesColour(number) + " title " +
                            gnuplotQuoted(name));
@@ -97,10 +91,26 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out, std::stri
           "Part {}: severity of what was noticed, as shares of the answers that were asked for it.{}",
           part.name,
           text && !text->severityQuestion.empty() ? " Question: “" + text->severityQuestion + "”" : ""));
-  out.table(table);
+  TableOf table("severity", "", lines);
+  table.add(forData(text("part")), [&](const SeverityRow&) { return part.name; })
+      .add(text("trials"), &SeverityRow::group);
+  for (int step = least; step <= most; ++step)
+    table.add(integer(fmt::format("step_{}", step), labelOf(step)), [step](const SeverityRow& row) {
+      const auto found = row.counts.find(step);
+      return found == row.counts.end() ? 0 : found->second;
+    });
+  const ResultTable made = table.add(number("estimate", "mean", 2), &SeverityRow::mean);
+  const std::string file = "tables/severity_" + page.stem(part.name) + ".csv";
+  out.table(made, "Severity in part " + part.name + ": numbers of answers, and the mean step.", file);
+  out.file(file, toCsv(made), "how often each step of severity was chosen, part " + part.name);
 }
 
-void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out, std::string& csv) {
+struct TimesRow {
+  std::string answer;
+  std::vector<double> times;
+};
+
+void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out) {
   const StudyPart& part = page.study.plan.parts[index];
   std::map<std::string, std::vector<double>> groups;
   double least = 1e300, most = 0.0;
@@ -123,10 +133,7 @@ void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out, std:
       "set logscale x\nset yrange [0:*]\nset xtics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, "
       "1000)\n" +
       fmt::format("set xrange [{}:{}]\n", shortestNumber(least * 0.9), shortestNumber(most * 1.1));
-  PageTable table;
-  table.caption = "Time from question to answer in part " + part.name + ", in seconds.";
-  table.file = "tables/reaction_times.csv";
-  table.columns = {{"answer", false}, {"answers"}, {"median"}, {"25 %"}, {"75 %"}, {"95 %"}, {"mean"}};
+  std::vector<TimesRow> lines;
   size_t number = 0;
   for (const auto& [name, times] : groups) {
     std::vector<std::vector<double>> rows;
@@ -141,34 +148,37 @@ void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out, std:
     figure.plots.push_back(addBlock(figure, name + ": time in s, answers in its bin", rows) +
                            " using 1:2 with lines title " + gnuplotQuoted(name) + " " +
                            seriesColour(number++) + " lw 1.5");
-    const Summary summary = summarise(times);
-    table.rows.push_back({name, std::to_string(times.size()), fixedText(summary.median, 2),
-                          fixedText(quantile(times, 0.25), 2), fixedText(quantile(times, 0.75), 2),
-                          fixedText(summary.p95, 2), fixedText(summary.mean, 2)});
-    csv += csvLine({part.name, name, std::to_string(times.size()), cellText(summary.median),
-                    cellText(quantile(times, 0.25)), cellText(quantile(times, 0.75)), cellText(summary.p95),
-                    cellText(summary.mean)});
+    lines.push_back({name, times});
   }
   out.figure(std::move(figure),
              fmt::format("Part {}: time from question to answer, in {} bins that are even in the logarithm.",
                          part.name, kBins));
-  out.table(table);
+  const auto at = [](double p) { return [p](const TimesRow& row) { return quantile(row.times, p); }; };
+  const ResultTable made = TableOf("reaction_times", "", lines)
+                               .add(forData(text("part")), [&](const TimesRow&) { return part.name; })
+                               .add(text("answer"), &TimesRow::answer)
+                               .add(integer("answers"), [](const TimesRow& row) { return row.times.size(); })
+                               .add(number("median_s", "median", 2),
+                                    [](const TimesRow& row) { return summarise(row.times).median; })
+                               .add(number("quartile_1_s", "25 %", 2), at(0.25))
+                               .add(number("quartile_3_s", "75 %", 2), at(0.75))
+                               .add(number("p95_s", "95 %", 2),
+                                    [](const TimesRow& row) { return summarise(row.times).p95; })
+                               .add(number("mean_s", "mean", 2),
+                                    [](const TimesRow& row) { return summarise(row.times).mean; });
+  const std::string file = "tables/reaction_times_" + page.stem(part.name) + ".csv";
+  out.table(made, "Time from question to answer in part " + part.name + ", in seconds.", file);
+  out.file(file, toCsv(made), "reaction times by answer, part " + part.name);
 }
 
 }  // namespace
 
 void addAnswers(const StudyPage& page, PageWriter& out) {
-  std::string severity = csvLine({"part", "trials", "step", "label", "answers"});
-  std::string times =
-      csvLine({"part", "answer", "answers", "median_s", "quartile_1_s", "quartile_3_s", "p95_s", "mean_s"});
-  const std::string noTimes = times;
   const bool graded = std::any_of(page.study.answers.begin(), page.study.answers.end(),
                                   [](const StudyAnswer& answer) { return answer.severity.has_value(); });
   out.openSection("answers", graded ? "Severity and reaction times" : "Reaction times");
-  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addSeverity(page, part, out, severity);
-  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addReactionTimes(page, part, out, times);
-  if (graded) out.file("tables/severity.csv", severity, "how often each step of severity was chosen");
-  if (times != noTimes) out.file("tables/reaction_times.csv", times, "reaction times by answer");
+  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addSeverity(page, part, out);
+  for (size_t part = 0; part < page.study.plan.parts.size(); ++part) addReactionTimes(page, part, out);
   out.closeSection();
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
-#include "analysis/output/text_output.h"
+#include "analysis/output/result_data.h"
 #include "analysis/output/text_table.h"
+#include "analysis/study/head.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/text.h"
 
@@ -18,32 +18,6 @@ const RateRow* wholePart(const StudyRates& rates, const RateRow& like) {
     return row.scope == RateScope::Part && row.part == like.part && row.change == like.change;
   });
   return found == rates.rows.end() ? nullptr : &*found;
-}
-
-std::string rateText(const RateRow* row) {
-  if (!row) return "-";
-  const MeanOverSubjects& mean = row->overObservers;
-  return percentText(mean.mean) +
-         (mean.standardDeviation ? " (" + percentText(*mean.standardDeviation) + ")" : "");
-}
-
-void addRules(const StudyAnswers& study, PageWriter& out) {
-  PageTable table;
-  table.caption = "Rules that the protocol declares.";
-  table.columns = {{"rule", false}, {"limit"}, {"applied", false}, {"observers"}, {"answers"}};
-  for (const AppliedRule& rule : study.rules) {
-    std::set<std::string> observers;
-    size_t answers = 0;
-    for (const LeftOut& left : study.leftOut)
-      if (left.rule == rule.name) {
-        observers.insert(left.observer);
-        answers += left.answers;
-      }
-    table.rows.push_back({rule.name, shortestNumber(rule.limit), rule.applied ? "yes" : "no: " + rule.note,
-                          rule.applied ? std::to_string(observers.size()) : "-",
-                          rule.applied ? std::to_string(answers) : "-"});
-  }
-  out.table(table);
 }
 
 }  // namespace
@@ -65,40 +39,37 @@ void addExclusions(const StudyPage& page, PageWriter& out) {
   const StudyAnswers& study = page.study;
   out.openSection("exclusions", "What was left out");
   if (study.rules.empty()) out.paragraph("The protocol declares no exclusion rules.");
-  addRules(study, out);
-  PageTable table;
-  table.caption = "What was left out.";
-  table.columns = {{"observer", false}, {"by", false}, {"answers"}, {"detail", false}};
-  table.file = "tables/left_out.csv";
-  table.folded = study.leftOut.size() > 12;
-  std::string csv = csvLine({"observer", "rule", "answers", "detail"});
-  for (const LeftOut& left : study.leftOut) {
-    table.rows.push_back({left.observer, left.rule, std::to_string(left.answers), left.detail});
-    csv += csvLine({left.observer, left.rule, std::to_string(left.answers), left.detail});
-  }
+  out.table(ruleTable(study), "Rules that the protocol declares.");
   if (study.leftOut.empty()) {
     out.paragraph("Nothing was left out.");
     out.closeSection();
     return;
   }
-  out.file(table.file, csv, "what was left out");
-  out.table(table);
-  PageTable both;
-  both.caption =
-      "Detection rates as analysed and with nothing excluded: mean over observers of their own rates, SD "
-      "over "
-      "observers in brackets.";
-  both.columns = {{"part", false}, {"rate of", false}, {"observers"},
-                  {"as analysed"}, {"observers"},      {"nothing excluded"}};
-  for (const RateRow& row : page.allRates.rows) {
-    if (row.scope != RateScope::Part) continue;
-    const RateRow* own = wholePart(page.rates, row);
-    both.rows.push_back({row.part, row.change ? row.of : row.of + ", no change",
-                         own ? std::to_string(own->overObservers.subjects) : "-", rateText(own),
-                         std::to_string(row.overObservers.subjects), rateText(&row)});
-  }
-  out.table(both);
-  out.file("tables/rates_nothing_excluded.csv", toCsv(page.allRates),
+  const ResultTable left = leftOutTable(study);
+  out.file("tables/left_out.csv", toCsv(left), "what was left out");
+  out.table(left, "What was left out.", "tables/left_out.csv", 12);
+  std::vector<RateRow> rows;
+  for (const RateRow& row : page.allRates.rows)
+    if (row.scope == RateScope::Part) rows.push_back(row);
+  const auto own = [&](auto member) {
+    return [&, member](const RateRow& row) {
+      const RateRow* analysed = wholePart(page.rates, row);
+      return analysed ? Cell(analysed->overObservers.*member) : Cell();
+    };
+  };
+  const auto all = [](auto member) { return [member](const RateRow& row) { return row.overObservers.*member; }; };
+  out.table(TableOf("exclusions", "", rows)
+                .add(text("part"), &RateRow::part)
+                .add(text("rate_of"), [](const RateRow& row) { return row.change ? row.of : row.of + ", no change"; })
+                .add(integer("observers"), own(&MeanOverSubjects::subjects))
+                .add(share("estimate", "as analysed"), own(&MeanOverSubjects::mean))
+                .add(share("sd", "SD"), own(&MeanOverSubjects::standardDeviation))
+                .add(integer("all_observers", "observers"), all(&MeanOverSubjects::subjects))
+                .add(share("all_estimate", "nothing excluded"), all(&MeanOverSubjects::mean))
+                .add(share("all_sd", "SD"), all(&MeanOverSubjects::standardDeviation)),
+            "Detection rates as analysed and with nothing excluded: mean over observers of their own rates, SD over "
+            "observers.");
+  out.file("tables/rates_nothing_excluded.csv", toCsv(resultOf(page.allRates).sections),
            "detection rates with nothing excluded");
   out.closeSection();
 }

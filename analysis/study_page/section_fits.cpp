@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/fits/fit_chart.h"
+#include "analysis/answer_fits/fit_chart.h"
+#include "analysis/output/result_data.h"
 #include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
-#include "analysis/psychometric/coverage.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/build_facts.h"
 #include "experiments/base/gnuplot.h"
@@ -17,61 +16,20 @@
 namespace limen::analysis {
 namespace {
 
-constexpr const char* kBoundMark = "*";
-constexpr size_t kOpenFits = 20;
-constexpr FitParameter kShownParameters[] = {FitParameter::Threshold, FitParameter::Width,
-                                             FitParameter::Guess, FitParameter::Lapse};
+constexpr size_t kOpenParameters = 60;
+constexpr const char* kFitFile = "tables/psychometric.csv";
 
-std::string estimateText(FitParameter parameter, double value) {
-  const bool rate = parameter == FitParameter::Guess || parameter == FitParameter::Lapse;
-  if (!std::isfinite(value)) return "-";
-  return rate ? fixedText(value, 3) : formatNumber(value);
-}
-
-std::string boundsText(FitParameter parameter, const std::optional<FitInterval>& interval) {
-  if (!interval) return "-";
-  return estimateText(parameter, interval->low) + (interval->lowOpen ? kBoundMark : "") + " to " +
-         estimateText(parameter, interval->high) + (interval->highOpen ? kBoundMark : "");
-}
-
-std::string fitTableCaption(const FitAnswer& answer) {
+void addTables(const FitAnswer& answer, const Section& section, PageWriter& out) {
   const FitSettings& settings = answer.fit.settings;
-  return fmt::format(
-      "Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, 95 % "
-      "profile intervals. {}: at a bound of the fit, the data set no limit on that side.",
-      answer.level, answer.part, shortestNumber(settings.thresholdLevel),
-      settings.logarithmic() ? " in units of ln " + answer.level : "", kBoundMark);
-}
-
-PageTable fitTable(const FitAnswer& answer) {
-  PageTable table;
-  table.caption = fitTableCaption(answer);
-  table.file = "tables/psychometric.csv";
-  table.columns = {{"condition", false},
-                   {"trials"},
-                   {"threshold"},
-                   {"95 %"},
-                   {"width"},
-                   {"95 %"},
-                   {"guess"},
-                   {"95 %"},
-                   {"lapse"},
-                   {"95 %"},
-                   {"deviance"}};
-  for (size_t c = 0; c < answer.fit.conditions.size(); ++c) {
-    const ConditionFit& fit = answer.fit.conditions[c];
-    std::vector<std::string> row = {fit.name.empty() ? "all" : fit.name, std::to_string(fit.trials)};
-    for (const FitParameter parameter : kShownParameters) {
-      const size_t i = indexOf(parameter);
-      row.push_back(estimateText(parameter, fit.values[i]) + (fit.atBound[i] != 0 ? kBoundMark : ""));
-      row.push_back(answer.intervals ? boundsText(parameter, answer.intervals->conditions[c][i]) : "-");
-    }
-    // Rounding can leave a fit that meets all answers a little below 0.
-    row.push_back(std::isfinite(fit.deviance) ? fixedText(std::max(fit.deviance, 0.0), 2) : "-");
-    table.rows.push_back(std::move(row));
-  }
-  table.folded = table.rows.size() > kOpenFits;
-  return table;
+  out.table(section.table("parameters"),
+            fmt::format("Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, "
+                        "slope dF/dx at the threshold, 95 % profile intervals. At bound: of the fit, the data set no "
+                        "limit on that side.",
+                        answer.level, answer.part, shortestNumber(settings.thresholdLevel),
+                        settings.logarithmic() ? " in units of ln " + answer.level : ""),
+            kFitFile, kOpenParameters);
+  out.table(section.table("conditions"), "Trials and goodness of the fits of part " + answer.part + ".", kFitFile);
+  out.list(remarksOn(answer));
 }
 
 double percentOf(double share) { return 100.0 * std::clamp(share, 0.0, 1.0); }
@@ -131,21 +89,6 @@ void addFitFigure(const StudyPage& page, const StudyPart& part, const FitAnswer&
                                  chart.blanks ? " Open points at the edge: trials without a stimulus." : ""));
 }
 
-std::vector<std::string> remarksOn(const FitAnswer& answer) {
-  std::vector<std::string> out = answer.notes;
-  if (answer.intervals) {
-    const FitIntervals& intervals = *answer.intervals;
-    for (const std::string& note :
-         coverageNotes(intervals.method, answer.parametric, answer.fit.settings.task))
-      out.push_back(note);
-    out.insert(out.end(), intervals.warnings.begin(), intervals.warnings.end());
-  }
-  for (const ConditionFit& fit : answer.fit.conditions)
-    for (const std::string& warning : fit.warnings)
-      out.push_back((fit.name.empty() ? "" : fit.name + ": ") + warning);
-  return out;
-}
-
 std::string sigmoidText(const FitSettings& settings) {
   std::string out = psychometrics::nameOf(settings.sigmoid);
   std::replace(out.begin(), out.end(), '_', ' ');
@@ -194,7 +137,7 @@ std::string fitMethods(const StudyPage& page) {
 void addFits(const StudyPage& page, PageWriter& out) {
   if (page.fits.empty()) return;
   out.openSection("psychometric", "Psychometric functions");
-  std::vector<FitAnswer> answers;
+  std::vector<Section> sections;
   for (const PartFit& part : page.fits) {
     if (page.fits.size() > 1) out.heading("Part " + part.part);
     if (!part.answer) {
@@ -204,12 +147,11 @@ void addFits(const StudyPage& page, PageWriter& out) {
     const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
                                   [&](const StudyPart& one) { return one.name == part.part; });
     addFitFigure(page, *own, *part.answer, out);
-    out.table(fitTable(*part.answer));
-    out.list(remarksOn(*part.answer));
-    answers.push_back(*part.answer);
+    sections.push_back(sectionOf(*part.answer));
+    addTables(*part.answer, sections.back(), out);
   }
-  if (!answers.empty())
-    out.file("tables/psychometric.csv", toCsv(answers), "parameters of the psychometric functions");
+  if (!sections.empty())
+    out.file(kFitFile, toCsv(sections), "parameters of the psychometric functions");
   out.closeSection();
 }
 

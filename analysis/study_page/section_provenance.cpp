@@ -2,6 +2,7 @@
 // Where the data come from, and the files that lie beside the page.
 #include <fmt/format.h>
 
+#include "analysis/output/result_data.h"
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
 
@@ -9,12 +10,16 @@ namespace limen::analysis {
 namespace {
 
 void addSessions(const StudyPage& page, PageWriter& out) {
-  std::string csv =
-      csvLine({"participant", "session", "state", "used", "answers", "display", "seed", "program_version"});
-  for (const SessionRow& row : page.facts.sessions)
-    csv += csvLine({row.participant, row.name, row.state, row.used ? "1" : "0", std::to_string(row.answers),
-                    row.display, std::to_string(row.seed), row.programVersion});
-  out.file("tables/sessions.csv", csv, "sessions with their seeds");
+  const ResultTable sessions = TableOf("sessions", "", page.facts.sessions)
+                                   .add(text("participant"), &SessionRow::participant)
+                                   .add(text("session"), &SessionRow::name)
+                                   .add(text("state"), &SessionRow::state)
+                                   .add(flag("used"), &SessionRow::used)
+                                   .add(integer("answers"), &SessionRow::answers)
+                                   .add(text("display"), &SessionRow::display)
+                                   .add(text("seed"), [](const auto& row) { return std::to_string(row.seed); })
+                                   .add(text("program_version"), &SessionRow::programVersion);
+  out.file("tables/sessions.csv", toCsv(sessions), "sessions with their seeds");
 }
 
 void addHashes(const StudyPage& page, PageWriter& out) {

@@ -4,89 +4,38 @@
 
 #include <algorithm>
 
+#include "analysis/output/result_data.h"
+#include "analysis/output/result_text.h"
 #include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
 #include "analysis/study_page/sections.h"
 
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kOpenRatesRows = 40;
-
-std::vector<std::string> rateCells(const RateRow& row) {
-  const MeanOverSubjects& mean = row.overObservers;
-  return {row.text,
-          row.change ? row.of : row.of + ", no change",
-          std::to_string(mean.subjects),
-          percentText(mean.mean),
-          mean.standardDeviation ? percentText(*mean.standardDeviation) : "-",
-          intervalText(mean.interval, true),
-          fmt::format("{}/{}", row.pooled.successes, row.pooled.trials),
-          intervalText(row.pooled.wilson, true)};
-}
-
-const std::vector<PageTable::Column> kColumns = {
-    {"condition", false},    {"rate of", false}, {"observers"},    {"mean"}, {"SD"},
-    {"95 % over observers"}, {"pooled"},         {"95 % (Wilson)"}};
-
-/// The whole part, with what was published.
-void addPartTable(const StudyPage& page, const StudyPart& part, PageWriter& out) {
-  PageTable table;
-  table.columns = kColumns;
-  bool published = false;
-  std::string source;
-  for (const RateRow& row : page.rates.rows) {
-    if (row.part != part.name || row.scope != RateScope::Part) continue;
-    published = published || row.published.has_value();
-    if (row.published) source = row.published->source;
-  }
-  if (published) table.columns.push_back({"published mean (SD)"});
-  for (const RateRow& row : page.rates.rows) {
-    if (row.part != part.name || row.scope != RateScope::Part) continue;
-    table.rows.push_back(rateCells(row));
-    if (published)
-      table.rows.back().push_back(row.published ? percentText(row.published->mean) + " (" +
-                                                      percentText(row.published->sd) + ")"
-                                                : "-");
-  }
-  table.caption = "Detection rates of part " + part.name + ", with and without a change." +
-                  (published ? " Published: " + source + "." : "");
-  table.file = "tables/rates.csv";
-  out.table(table);
-}
-
-void addLevelTable(const StudyPage& page, const StudyPart& part, PageWriter& out) {
-  PageTable table;
-  table.caption = "Detection rates of part " + part.name + " by level of one factor, all others together.";
-  table.columns = kColumns;
-  table.file = "tables/rates.csv";
-  for (const RateRow& row : page.rates.rows)
-    if (row.part == part.name && row.scope == RateScope::Level && row.change)
-      table.rows.push_back(rateCells(row));
-  table.folded = table.rows.size() > kOpenRatesRows;
-  out.table(table);
-}
-
-/// With a column for each factor.
-void addConditionTable(const StudyPage& page, const StudyPart& part, PageWriter& out) {
-  PageTable table;
-  table.caption = "Detection rates of part " + part.name + " by condition.";
-  table.file = "tables/rates.csv";
-  for (const StudyFactor& factor : part.factors) table.columns.push_back({factor.name, false});
-  table.columns.insert(table.columns.end(), kColumns.begin() + 2, kColumns.end());
-  for (const RateRow& row : page.rates.rows) {
-    if (row.part != part.name || row.scope != RateScope::Condition || !row.change) continue;
-    std::vector<std::string> cells;
-    for (const StudyFactor& factor : part.factors) {
-      const auto level = row.condition.find(factor.name);
-      cells.push_back(level == row.condition.end() ? "" : level->second);
+/// The rows of one scope; catch trials only of the whole part.
+ResultTable rowsOf(const ResultTable& rates, const std::string& scope) {
+  ResultTable out = rates;
+  for (Column& column : out.columns) column.cells.clear();
+  for (size_t row = 0; row < rates.rows(); ++row) {
+    std::string own;
+    bool change = true;
+    for (const Column& column : rates.columns) {
+      if (column.name == "scope") own = cellText(column, column.cells[row]);
+      if (column.name == "change") change = std::get<bool>(column.cells[row].value());
     }
-    const std::vector<std::string> rates = rateCells(row);
-    cells.insert(cells.end(), rates.begin() + 2, rates.end());
-    table.rows.push_back(std::move(cells));
+    if (own != scope || !(change || scope == "part")) continue;
+    for (size_t i = 0; i < out.columns.size(); ++i)
+      out.columns[i].cells.push_back(rates.columns[i].cells[row]);
   }
-  table.folded = table.rows.size() > kOpenRatesRows;
-  out.table(table);
+  return out;
+}
+
+void addTables(const std::string& part, const Section& section, PageWriter& out) {
+  const ResultTable& rates = section.table("rates");
+  for (const auto& [scope, what] : {std::pair{"part", ", with and without a change."},
+                                    std::pair{"level", " by level of one factor, all others together."},
+                                    std::pair{"condition", " by condition."}})
+    out.table(rowsOf(rates, scope), "Detection rates of part " + part + what, "tables/rates.csv");
 }
 
 }  // namespace
@@ -95,6 +44,7 @@ void addRates(const StudyPage& page, PageWriter& out) {
   if (page.rates.rows.empty() && page.rates.notes.empty()) return;
   out.openSection("rates", "Detection rates");
   out.list(page.rates.notes);
+  const Result result = resultOf(page.rates);
   for (const StudyPart& part : page.study.plan.parts) {
     if (std::none_of(page.rates.rows.begin(), page.rates.rows.end(),
                      [&](const RateRow& row) { return row.part == part.name; }))
@@ -109,9 +59,10 @@ void addRates(const StudyPage& page, PageWriter& out) {
           counted(page.study.observers.size(), "observer"));
       out.figure(std::move(*figure), caption);
     }
-    addPartTable(page, part, out);
-    addLevelTable(page, part, out);
-    addConditionTable(page, part, out);
+    const auto section =
+        std::find_if(result.sections.begin(), result.sections.end(),
+                     [&](const Section& one) { return one.title == "part " + part.name; });
+    addTables(part.name, *section, out);
   }
   if (!page.rates.rows.empty()) {
     out.paragraph(
@@ -119,7 +70,7 @@ void addRates(const StudyPage& page, PageWriter& out) {
         "100 % in the tables. Pooled trials of one observer are not independent, so that the interval of "
         "pooled "
         "trials is too narrow. A dash: cannot be told, or of no width, which is no certainty.");
-    out.file("tables/rates.csv", toCsv(page.rates), "detection rates by part, level, condition and observer");
+    out.file("tables/rates.csv", toCsv(result.sections), "detection rates by part, level, condition and observer");
   }
   out.closeSection();
 }

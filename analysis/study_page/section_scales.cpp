@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/correlations/bootstrap_facts.h"
+#include "analysis/output/result_data.h"
 #include "analysis/output/text_output.h"
 #include "analysis/output/text_table.h"
-#include "analysis/relations/relation_text.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/build_facts.h"
 #include "experiments/base/text.h"
@@ -26,13 +27,6 @@ std::optional<Interval> shownInterval(const ScaledItem& item) {
 std::string intervalKind(const ItemScale& scale) {
   return scale.bootstrap == ScaleBootstrap::None ? "95 % intervals, value ± z standard errors"
                                                  : "95 % intervals of a bootstrap over observers";
-}
-
-/// "-" for one of no width, too: it comes of data without spread and is no certainty.
-std::string twoDigits(const std::optional<Interval>& interval) {
-  return interval && interval->low < interval->high
-             ? fmt::format("{:.2f} to {:.2f}", interval->low, interval->high)
-             : "-";
 }
 
 void addScaleFigure(const StudyPage& page, const PartScale& part, PageWriter& out) {
@@ -63,39 +57,8 @@ void addScaleFigure(const StudyPage& page, const PartScale& part, PageWriter& ou
              fmt::format("Part {}: scale values of the items; bars are {}.", part.part, intervalKind(scale)));
 }
 
-PageTable itemTable(const PartScale& part) {
-  PageTable table;
-  table.caption = fmt::format(
-      "Items of part {}: values on Bradley and Terry's scale, which sum to 0; 1 apart, {} prefer the upper.",
-      part.part, percentText(predictPreference(part.setting.model, 1.0)));
-  table.file = kScaleFile;
-  table.columns = {{"item", false}, {"chosen"}, {"value"}, {"error"}, {"95 % (z)"}, {"95 % (bootstrap)"}};
-  for (const ScaledItem& item : part.scale->items)
-    table.rows.push_back({item.name, fmt::format("{}/{}", item.chosen, item.judged), fixedText(item.value, 2),
-                          fixedText(item.standardError, 2), twoDigits(item.interval),
-                          twoDigits(boundsOf(item.bootstrap))});
-  if (part.scale->bootstrap == ScaleBootstrap::None) {
-    table.columns.pop_back();
-    for (std::vector<std::string>& row : table.rows) row.pop_back();
-  }
-  return table;
-}
-
-PageTable stepTable(const PartScale& part) {
-  PageTable table;
-  table.caption = "Neighbours on the scale of part " + part.part +
-                  ": differences with 95 % intervals from standard errors, p of no difference.";
-  table.columns = {{"upper", false}, {"lower", false}, {"difference"}, {"95 % (z)"}, {"z"}, {"p"},
-                   {"p (Holm)"},     {"preferred"}};
-  for (const ItemStep& step : part.scale->steps)
-    table.rows.push_back({step.upper, step.lower, fixedText(step.difference, 2), twoDigits(step.interval),
-                          fixedText(step.z, 2), pText(step.p), pText(step.holm),
-                          percentText(step.preferred)});
-  return table;
-}
-
 std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& scale) {
-  std::vector<std::string> out = scale.notes, pooled;
+  std::vector<std::string> out = sectionOf(scale, {}).notes, pooled;
   for (const StudyFactor& factor : part.factors)
     if (factor.name != "item_a" && factor.name != "item_b") pooled.push_back(factor.name);
   if (!pooled.empty()) out.push_back("pooled over " + join(pooled));
@@ -104,12 +67,6 @@ std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& 
         "standard errors and z tests take all judgements of {} observers as independent, which makes errors "
         "and p too small{}",
         scale.subjects, scale.bootstrap == ScaleBootstrap::None ? "" : "; the bootstrap draws observers"));
-  if (!scale.fit.note.empty()) out.push_back("penalised: " + scale.fit.note);
-  if (scale.penalised > 0)
-    out.push_back(fmt::format("{} samples of the bootstrap were unbounded, and penalised", scale.penalised));
-  if (scale.skipped > 0)
-    out.push_back(fmt::format("{} samples of the bootstrap did not connect all items, and were left out",
-                              scale.skipped));
   if (scale.fit.devianceP)
     out.push_back(fmt::format("goodness of fit: deviance {:.2f} with {} degrees of freedom, p = {}",
                               scale.fit.deviance, scale.fit.df, pText(scale.fit.devianceP)));
@@ -117,17 +74,6 @@ std::vector<std::string> remarksOnScale(const StudyPart& part, const ItemScale& 
     out.push_back(fmt::format("shown first and chosen: {} of {}, {} (95 % {})", scale.firstChosen->successes,
                               scale.firstChosen->trials, percentText(scale.firstChosen->rate),
                               intervalText(scale.firstChosen->wilson, true)));
-  return out;
-}
-
-/// CSV of all parts in one, each as `limen analyse scale` writes it.
-Scales scalesOf(const StudyPage& page) {
-  Scales out;
-  for (const PartScale& part : page.scales) {
-    if (!part.scale) continue;
-    out.setting = part.setting;
-    out.groups.push_back(*part.scale);
-  }
   return out;
 }
 
@@ -157,6 +103,7 @@ std::string scaleMethods(const StudyPage& page) {
 void addScales(const StudyPage& page, PageWriter& out) {
   if (page.scales.empty()) return;
   out.openSection("scales", "Comparisons in pairs");
+  std::vector<Section> sections;
   for (const PartScale& part : page.scales) {
     if (page.scales.size() > 1) out.heading("Part " + part.part);
     if (!part.scale) {
@@ -164,14 +111,24 @@ void addScales(const StudyPage& page, PageWriter& out) {
       continue;
     }
     addScaleFigure(page, part, out);
-    out.table(itemTable(part));
-    out.table(stepTable(part));
+    sections.push_back(sectionOf(*part.scale, part.setting));
+    sections.back().fact(key(text("part")), part.part);
+    out.table(sections.back().table("items"),
+              fmt::format("Items of part {}: values on Bradley and Terry's scale, which sum to 0; 1 apart, {} prefer "
+                          "the upper. Intervals: value ± z standard errors, and of the bootstrap.",
+                          part.part, percentText(predictPreference(part.setting.model, 1.0))),
+              kScaleFile);
+    out.table(sections.back().table("steps"),
+              "Neighbours on the scale of part " + part.part +
+                  ": differences with 95 % intervals from standard errors, p of no difference.",
+              kScaleFile);
+    out.table(sections.back().table("consistency"), "Circular triads of each observer of part " + part.part + ".",
+              kScaleFile);
     const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
                                   [&](const StudyPart& one) { return one.name == part.part; });
     out.list(remarksOnScale(*own, *part.scale));
   }
-  const Scales all = scalesOf(page);
-  if (!all.groups.empty()) out.file(kScaleFile, toCsv(all), "scale values of items compared in pairs");
+  if (!sections.empty()) out.file(kScaleFile, toCsv(sections), "scale values of items compared in pairs");
   out.closeSection();
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "analysis/output/result_data.h"
 #include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/text.h"
 
@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kMostNames = 45;  // beyond, observers have no room for their codes
 constexpr size_t kOpenSensitivityRows = 20;
+constexpr const char* kSensitivityFile = "tables/sensitivity.csv";
 
 struct Dot {
   std::string observer;
@@ -101,59 +102,6 @@ void addFigures(const StudyPage& page, const PartSensitivity& part, PageWriter& 
   out.html("</div>\n");
 }
 
-std::vector<std::string> rowCells(const SensitivityRow& row, bool yesNo) {
-  const std::string name = row.observer.empty() ? "all together" : row.observer;
-  if (!yesNo) {
-    const auto bound = [](const std::optional<double>& value) { return fixedText(value, 2); };
-    return {name,
-            fmt::format("{}/{}", row.correct, row.trials),
-            percentText(static_cast<double>(row.correct) / static_cast<double>(row.trials)),
-            row.mAfc ? fixedText(row.mAfc->dPrime, 2) : "-",
-            row.mAfc ? bound(row.mAfc->low) : "-",
-            row.mAfc ? bound(row.mAfc->high) : "-"};
-  }
-  std::vector<std::string> out = {name, fmt::format("{}/{}", row.counts.hits, row.counts.signalTrials),
-                                  fmt::format("{}/{}", row.counts.falseAlarms, row.counts.noiseTrials)};
-  if (!row.yesNo) {
-    out.insert(out.end(), {"-", "-", "-", "-", "-", "-"});
-    return out;
-  }
-  const YesNoSensitivity& s = *row.yesNo;
-  out.insert(out.end(), {fixedText(s.dPrime, 2),
-                         fmt::format("{:.2f} to {:.2f}", s.dPrimeInterval.low, s.dPrimeInterval.high),
-                         fixedText(s.criterion, 2),
-                         fmt::format("{:.2f} to {:.2f}", s.criterionInterval.low, s.criterionInterval.high),
-                         fixedText(s.lnBeta, 2), fixedText(s.aPrime, 2)});
-  return out;
-}
-
-void addTables(const PartSensitivity& part, PageWriter& out) {
-  PageTable means;
-  means.caption = "Means over observers, part " + part.part + ", with 95 % t intervals.";
-  means.columns = {{"", false}, {"observers"}, {"mean"}, {"SD"}, {"95 % over observers"}};
-  const auto add = [&](const std::string& name, const std::optional<MeanOverSubjects>& mean) {
-    if (mean)
-      means.rows.push_back({name, std::to_string(mean->subjects), fixedText(mean->mean, 2),
-                            fixedText(mean->standardDeviation, 2), intervalText(mean->interval)});
-  };
-  add("sensitivity d′", part.dPrime);
-  add("criterion c", part.criterion);
-  out.table(means);
-  PageTable table;
-  table.caption = "Observers of part " + part.part +
-                  (part.yesNo ? ": d′ and criterion c with 95 % intervals, ln β, A′."
-                              : ": right answers and d′ with its 95 % interval.");
-  table.file = "tables/sensitivity.csv";
-  if (part.yesNo)
-    table.columns = {
-        {"observer", false}, {"hits"}, {"false alarms"}, {"d′"}, {"95 %"}, {"c"}, {"95 %"}, {"ln β"}, {"A′"}};
-  else
-    table.columns = {{"observer", false}, {"right"}, {"share"}, {"d′"}, {"95 % from"}, {"to"}};
-  for (const SensitivityRow& row : part.rows) table.rows.push_back(rowCells(row, part.yesNo));
-  table.folded = table.rows.size() > kOpenSensitivityRows;
-  out.table(table);
-}
-
 }  // namespace
 
 void addSensitivity(const StudyPage& page, PageWriter& out) {
@@ -166,13 +114,20 @@ void addSensitivity(const StudyPage& page, PageWriter& out) {
     if (!part.note.empty()) out.paragraph("Mind: " + part.note + ".");
     if (part.rows.empty()) continue;
     addFigures(page, part, out);
-    addTables(part, out);
+    const Section section = sectionOf(part);
+    out.table(section.table("means"), "Means over observers, part " + part.part + ", with 95 % t intervals.",
+              kSensitivityFile);
+    out.table(section.table("rows"),
+              "Observers of part " + part.part +
+                  (part.yesNo ? ": d′, criterion c, ln β, β and A′, each with its 95 % interval."
+                              : ": correct answers and d′ with its 95 % interval."),
+              kSensitivityFile, kOpenSensitivityRows);
   }
   out.paragraph(
       "Equal-variance Gaussian model; rates are corrected by (k + 1/2) of (n + 1). Taken over all answers "
       "together d′ "
       "comes out too small where observers differ: the mean over observers is the one to report.");
-  out.file("tables/sensitivity.csv", toCsv(page.sensitivity), "sensitivity and criterion of each observer");
+  out.file(kSensitivityFile, toCsv(resultOf(page.sensitivity).sections), "sensitivity and criterion of each observer");
   out.closeSection();
 }
 

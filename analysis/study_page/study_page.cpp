@@ -135,14 +135,6 @@ std::string StudyPage::stem(const std::string& part) const {
   return same > 1 || slug(part).empty() ? own + "_" + std::to_string(place + 1) : own;
 }
 
-bool holdsSessions(const std::string& store) {
-  try {
-    return !store::SessionReader(store).sessions().empty();
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 std::vector<StudyPageResult> writeStudyPages(const StudyPageOptions& options) {
   std::vector<StudyPage> pages;
   for (const std::string& protocol : chosenProtocols(options.choice)) {

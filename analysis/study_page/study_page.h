@@ -22,9 +22,6 @@ struct StudyPageResult {
   bool simulated = false;
 };
 
-/// Whether a store holds a session of any study; false for one that is too old to.
-bool holdsSessions(const std::string& store);
-
 /// Writes a page for each protocol: report.html, tables/ and figures/ with SVG, PDF, script and data of each.
 /// Several pages go into folders of their own below. Everything is read and made in a folder beside the named
 /// one, and put in place at the end: an error leaves `folder` as it was. Throws Error as readStudyAnswers(),

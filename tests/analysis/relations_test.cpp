@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "analysis/relations/cluster_bootstrap.h"
-#include "analysis/relations/consistency.h"
+#include "analysis/correlations/cluster_bootstrap.h"
+#include "analysis/pair_scales/consistency.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

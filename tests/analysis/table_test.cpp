@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/data/table.h"
+#include "analysis/answer_tables/table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "analysis/data/answer_columns.h"
-#include "analysis/data/levels.h"
-#include "analysis/data/row_filter.h"
+#include "analysis/answer_tables/answer_columns.h"
+#include "analysis/answer_tables/levels.h"
+#include "analysis/answer_tables/row_filter.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

@@ -74,7 +74,7 @@ TEST_F(PlantedTree, AReferenceSharesOnlyTheInterfaceOfTechniques) {
 }
 
 TEST_F(PlantedTree, OpenGlInAModuleWithoutItIsFound) {
-  plant("analysis/fits/fit.cpp", "#include <epoxy/gl.h>\n#include <glm/glm.hpp>\n");
+  plant("analysis/answer_fits/fit.cpp", "#include <epoxy/gl.h>\n#include <glm/glm.hpp>\n");
   plant("experiments/base/window.h", "#include <GLFW/glfw3.h>\n");
   plant("renderer/scene/upload.cpp", "#include <GL/gl.h>\n");
   EXPECT_THAT(checkIncludes(root_), SizeIs(3));

@@ -172,18 +172,18 @@ TEST_F(SweepCli, ReportIsLeftToTheSiblingProgram) {
   program_ = path("limen-sweep");
   const CallResult without = call({"d.yaml"});
   EXPECT_EQ(without.exitCode, 0) << "a missing report program is no error";
-  EXPECT_THAT(without.out, HasSubstr("no report: limen-analyse is not built"));
-  write("limen-analyse",
+  EXPECT_THAT(without.out, HasSubstr("no report: limen-report is not built"));
+  write("limen-report",
         "#!/bin/sh\necho \"$@\" > arguments\nmkdir -p \"$4\"\necho page > \"$4/report.html\"\n");
-  chmod(path("limen-analyse").c_str(), 0755);
+  chmod(path("limen-report").c_str(), 0755);
   const CallResult with = call({"d.yaml", "--json"});
   EXPECT_EQ(with.exitCode, 0);
   EXPECT_EQ(jsonLines(with.out).back()["report"], "results/d_report/report.html");
-  EXPECT_THAT(read("arguments"), HasSubstr("report results/d.sqlite -o results/d_report --force"));
-  write("limen-analyse", "#!/bin/sh\nexit 3\n");
+  EXPECT_THAT(read("arguments"), HasSubstr("results/d.sqlite --sweeps -o results/d_report --force"));
+  write("limen-report", "#!/bin/sh\nexit 3\n");
   const CallResult failing = call({"d.yaml"});
   EXPECT_EQ(failing.exitCode, 0);
-  EXPECT_THAT(failing.out, HasSubstr("limen-analyse ended with 3"));
+  EXPECT_THAT(failing.out, HasSubstr("limen-report ended with 3"));
 }
 
 }  // namespace

@@ -70,8 +70,8 @@ case $1 in
     [[ -e $STATE/slow_build ]] && sleep 1
     [[ -e $STATE/build_fails ]] && { echo "error: expected ';'"; exit 1; }
     mkdir -p "$2/bin"
-    for name in sweep analyse; do
-      printf '#!%s\necho "%s:$PWD:$*"\nexit 7\n' "$(type -P bash)" $name >"$2/bin/limen-$name"
+    for name in sweep analyse report; do
+      printf '#!%s\n[[ $0$* == *-report*study* ]] && exit 3\necho "%s:$PWD:$*"\nexit 7\n' "$(type -P bash)" $name >"$2/bin/limen-$name"
       chmod +x "$2/bin/limen-$name"
     done ;;
 esac
@@ -92,7 +92,7 @@ make_tree() { # a fresh tree and machine: root, nothing installed, package lists
   echo 'project(limen VERSION 9.8.7 LANGUAGES CXX)' >"$tree/CMakeLists.txt"
   echo '{"configurePresets": [{"name": "release"}, {"name": "asan"}]}' >"$tree/CMakePresets.json"
   echo 'add_executable(limen-sweep main.cpp)' >"$tree/experiments/CMakeLists.txt"
-  printf 'add_executable(\n  limen-analyse main.cpp)\n' >"$tree/analysis/CMakeLists.txt"
+  printf 'add_executable(\n  limen-analyse main.cpp)\nadd_executable(limen-report main.cpp)\n' >"$tree/analysis/CMakeLists.txt"
   touch "$tree/experiments/base/text.cpp" "$tree/experiments/base/hash.cpp" "$tree/tests/text_test.cpp"
   age
   : >"$state/installed"
@@ -110,7 +110,7 @@ check "and leaves alone what only tests need" not called chromium
 check "it says what is missing and what for" told 'libepoxy-dev         OpenGL and EGL entry points (build)'
 check "package lists at hand are not fetched again" not called 'apt-get.*update'
 check "it configures the release preset" called 'cmake --preset release'
-check "it builds the program and the one that writes its report" called '--target limen-sweep limen-analyse$'
+check "it builds the program and the one that writes its report" called '--target limen-sweep limen-report$'
 check "the program gets the arguments and the caller's folder" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:a.yaml b c"
 check "the exit code is the program's" is $status 7
 
@@ -133,9 +133,9 @@ run sweep
 check "a changed source is built" called '--target limen-sweep'
 check "without configuring again" not called '--preset'
 age
-rm "$tree/build/release/bin/limen-analyse"
+rm "$tree/build/release/bin/limen-report"
 run sweep
-check "a sweep without its report's program builds it" called '--target limen-sweep limen-analyse$'
+check "a sweep without its report's program builds it" called '--target limen-sweep limen-report$'
 run analyse
 check "analyse is built alone" called '--target limen-analyse$'
 age
@@ -152,11 +152,13 @@ run sweep
 check "a package that joins the list is installed" called 'recommends newlib-dev$'
 
 run report store.sqlite
-check "report is a word for analyse report" is "$(<"$scratch/out")" "analyse:$scratch/elsewhere:report store.sqlite"
+check "the report of a sweep is written by the small program" is "$(<"$scratch/out")" "report:$scratch/elsewhere:store.sqlite"
+run report study.sqlite
+check "that of a study by analyse report" is "$(<"$scratch/out")" "analyse:$scratch/elsewhere:report study.sqlite"
 run help sweep
 check "help of a command is that of its program" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:--help"
 run view
-check "a program that this version lacks is named, with those it has" told "no 'view'; it has: analyse sweep test"
+check "a program that this version lacks is named, with those it has" told "no 'view'; it has: analyse report sweep test"
 check "and is bad input" is $status 2
 run sweeep
 check "an unknown command is bad input" is $status 2

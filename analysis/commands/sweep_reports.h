@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "analysis/sweep/report.h"
+
+namespace CLI {
+class App;
+}
+
+namespace limen::analysis {
+
+/// STORE, -o, --experiment, --force: what limen-report and `limen analyse report` have in common.
+void addSweepReportOptions(CLI::App& command, ReportOptions& options);
+
+/// A JSON object on one line.
+void printLine(const nlohmann::json& out);
+/// One line each: the page's path, or JSON.
+void printReport(const ReportResult& result, bool json);
+
+/// Whether a store holds a session of any study; false for one whose schema has no sessions.
+bool holdsSessions(const std::string& store);
+/// Throws Error for a store that cannot be read.
+bool holdsExperiments(const std::string& store);
+
+}  // namespace limen::analysis

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/correlations/bootstrap_facts.h"
+#include "analysis/correlations/correlations.h"
+#include "analysis/output/text_output.h"
+
+namespace limen::analysis {
+namespace {
+
+std::string shownName(const std::string& name) {
+  static const std::vector<std::string> kShown = {"Kendall tau_a", "Kendall tau_b", "Kendall tau_c",
+                                                  "Spearman",      "Pearson",       "Pearson, clamped"};
+  const auto& names = coefficientNames();
+  return kShown[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+}
+
+ResultTable coefficientTable(const Relation& relation, const Correlations& all) {
+  const std::string level = levelText(all.setting.bootstrap.level);
+  const auto of = [](auto member) {
+    return [member](const RelationCoefficient& one) {
+      return one.coefficient ? Cell((*one.coefficient).*member) : Cell();
+    };
+  };
+  return TableOf("coefficients",
+                 fmt::format("{} against {}, {} {}", relation.x, relation.y, relation.xs.size(), all.unit),
+                 relation.coefficients)
+      .add(forData(text("x")), [&](const auto&) { return relation.x; })
+      .add(forData(text("y")), [&](const auto&) { return relation.y; })
+      .add(forData(integer("n")), [&](const auto&) { return relation.xs.size(); })
+      .add(forData(text("coefficient")), &RelationCoefficient::name)
+      .add(forPeople(text("", "coefficient")), [](const auto& one) { return shownName(one.name); })
+      .add(number("estimate"), of(&Coefficient::value))
+      .add(interval("", level), of(&Coefficient::interval))
+      .add(forData(number("standard_error")), of(&Coefficient::standardError))
+      .add(probability(), &RelationCoefficient::p)
+      .add(flag("p_exact", "exact"), [](const auto& one) { return one.p ? Cell(one.exact) : Cell(); })
+      .add(ifAny(probability("p_holm", "p (Holm)")), &RelationCoefficient::holm)
+      .add(ifAny(interval("bootstrap", level + " bootstrap")),
+           [](const auto& one) { return boundsOf(one.bootstrap); })
+      .add(forData(integer("bootstrap_undefined")),
+           [](const auto& one) { return one.bootstrap ? Cell(one.bootstrap->undefined) : Cell(); })
+      .add(ifAny(text("reason", "none because")), &RelationCoefficient::reason);
+}
+
+void addNotes(const Relation& relation, Section& out) {
+  const std::string pair = relation.x + " against " + relation.y + ": ";
+  const std::string& why = relation.coefficients.front().reason;
+  if (!why.empty()) {
+    out.notes.push_back(pair + "no coefficients: " + why);
+    return;
+  }
+  if (relation.clamp)
+    out.notes.push_back(pair + fmt::format("clamped: {} of {}, lowered to {}", relation.clamped,
+                                           relation.xs.size(), formatNumber(*relation.clamp)));
+  else if (relation.coefficients.size() == coefficientNames().size())
+    out.notes.push_back(pair + "clamped: none, as no rate is 1");
+  for (const RelationCoefficient& one : relation.coefficients)
+    if (one.bootstrap && one.bootstrap->undefined > 0)
+      out.notes.push_back(pair + fmt::format("{} was undefined in {} samples of the bootstrap",
+                                             shownName(one.name), one.bootstrap->undefined));
+}
+
+Section sectionOf(const CorrelationGroup& group, const Correlations& all) {
+  Section out;
+  out.title = group.name;
+  out.fact(key(text("group")), group.name);
+  out.fact(all.cluster.empty() ? forData(integer("clusters")) : integer("clusters", "different " + all.cluster),
+           group.clusters);
+  for (const Relation& relation : group.relations) out.add(coefficientTable(relation, all));
+  ResultTable clamps = TableOf("clamps", "", group.relations)
+                           .add(text("x"), &Relation::x)
+                           .add(text("y"), &Relation::y)
+                           .add(number("clamp"), &Relation::clamp)
+                           .add(integer("clamped"), &Relation::clamped);
+  for (Column& column : clamps.columns) column = forData(column);
+  out.add(std::move(clamps));
+  for (const Relation& relation : group.relations) addNotes(relation, out);
+  out.notes.insert(out.notes.end(), group.notes.begin(), group.notes.end());
+  return out;
+}
+
+}  // namespace
+
+Result resultOf(const Correlations& correlations) {
+  Result out;
+  out.command = "correlate";
+  addBootstrapFacts(out.head, correlations.cluster, correlations.setting.bootstrap);
+  out.head.fact(forData(text("unit")), correlations.unit);
+  for (const CorrelationGroup& group : correlations.groups)
+    out.sections.push_back(sectionOf(group, correlations));
+  out.notes = correlations.notes;
+  out.notes.push_back(
+      "intervals: Kendall's value +- z error (tau_a after Samara and Randles 1988, tau_b and tau_c after Brown "
+      "and Benedetti 1977), Spearman's and Pearson's by Fisher's z. They and the two-sided p take " +
+      correlations.unit + " as independent; p (Holm): adjusted for the pairs of a group, each coefficient apart");
+  if (!correlations.cluster.empty()) {
+    out.notes.push_back(bootstrapNote(correlations.cluster));
+    out.notes.push_back("no bootstrap for tau_a and tau_c, which rows drawn twice pull towards 0");
+  }
+  if (correlations.setting.clamp)
+    out.notes.push_back(
+        "clamped: x above the least whose rate is 1 are lowered to it (Schwarz 2009, section 10.4.1)");
+  out.notes.push_back(kDashNote);
+  return out;
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/output/chart_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/output/text_output.h"
+#include "experiments/base/error.h"
+#include "experiments/base/gnuplot.h"
+
+namespace limen::analysis {
+
+ChartFile::ChartFile(const std::string& path) {
+  const std::filesystem::path file(path);
+  extension_ = file.extension().string();
+  if (extension_ != ".svg" && extension_ != ".pdf" && extension_ != ".png")
+    throw Error("no picture of the kind '" + extension_ + "' is drawn", path,
+                "let the name end in .svg, .pdf or .png");
+  folder_ = file.parent_path().empty() ? "." : file.parent_path().string();
+  name_ = file.filename().string();
+  stem_ = file.stem().string();
+}
+
+std::string ChartFile::head(double width, double height) const {
+  return "# Draws " + name_ + " from " + stem_ + ".dat.\nreset\nset terminal " +
+         gnuplotTerminal(extension_, width, height) + "\nset output " + gnuplotQuoted(name_) +
+         "\nset encoding utf8\nset border 3\nset tics nomirror out\n";
+}
+
+std::string ChartFile::data() const { return gnuplotQuoted(stem_ + ".dat"); }
+
+void ChartFile::draw(const std::string& script, const std::string& data) const {
+  const std::filesystem::path folder(folder_);
+  writeFileBytes((folder / (stem_ + ".dat")).string(), data);
+  writeFileBytes((folder / (stem_ + ".gp")).string(), script);
+  runGnuplot(folder_, stem_ + ".gp");
+}
+
+PanelGrid arrangePanels(size_t panels) {
+  constexpr size_t kMost = 24;
+  if (panels > kMost)
+    throw Error(fmt::format("{} panels are more than fit into a picture ({})", panels, kMost), "--plot",
+                "name fewer columns or groups");
+  PanelGrid out;
+  out.columns = std::max<size_t>(1, static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(panels)))));
+  out.rows = std::max<size_t>(1, (panels + out.columns - 1) / out.columns);
+  return out;
+}
+
+std::string seriesStyle(size_t series) {
+  return fmt::format("lc rgb '{}' dt {}", kChartColours[series % kChartColours.size()],
+                     1 + series / kChartColours.size());
+}
+
+}  // namespace limen::analysis

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/pair_scales/pair_table.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "analysis/correlations/relation_table.h"
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+
+namespace limen::analysis {
+namespace {
+
+size_t indexIn(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<size_t>(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+std::optional<size_t> optionalColumn(const Table& table, const std::string& name, const std::string& option) {
+  if (name.empty()) return {};
+  return table.column(name, option);
+}
+
+const std::string& nameAt(const Table& table, size_t row, size_t column) {
+  const std::string& name = table.text(row, column);
+  if (name.empty()) throw Error("is empty", table.place(row, column), "write a name");
+  return name;
+}
+
+/// Which of both ways the columns are named.
+bool isOrdered(const PairColumns& columns) {
+  const bool results = !columns.winner.empty() || !columns.loser.empty();
+  const bool shown = !columns.first.empty() || !columns.second.empty() || !columns.chosen.empty();
+  const char* both = "--winner, --loser, --first, --second, --chosen";
+  if (results && shown)
+    throw Error("the columns are named in two ways", both, "give --winner and --loser, or the other three");
+  if (results && (columns.winner.empty() || columns.loser.empty()))
+    throw Error("one of both is missing", "--winner, --loser");
+  if (shown && (columns.first.empty() || columns.second.empty() || columns.chosen.empty()))
+    throw Error("one of the three is missing", "--first, --second, --chosen");
+  if (!results && !shown)
+    throw Error("the columns with the pairs are not named", both,
+                "give --winner and --loser, or the other three");
+  return shown;
+}
+
+}  // namespace
+
+size_t PairGroup::item(const std::string& wanted) { return indexIn(items, wanted); }
+size_t PairGroup::subject(const std::string& wanted) { return indexIn(subjects, wanted); }
+
+std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns) {
+  const bool ordered = isOrdered(columns);
+  const size_t first =
+      ordered ? table.column(columns.first, "--first") : table.column(columns.winner, "--winner");
+  const size_t second =
+      ordered ? table.column(columns.second, "--second") : table.column(columns.loser, "--loser");
+  const auto chosen = optionalColumn(table, columns.chosen, "--chosen");
+  const auto count = optionalColumn(table, columns.count, "--n");
+  const auto subject = optionalColumn(table, columns.subject, "--subject");
+  const auto round = optionalColumn(table, columns.round, "--round");
+  const RowGroups groups = groupRows(table, columns.by, "--by");
+
+  std::vector<PairGroup> out(groups.names.size());
+  std::vector<std::vector<std::string>> rounds(out.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    out[i].name = groups.names[i];
+    out[i].ordered = ordered;
+  }
+  for (size_t row = 0; row < table.rows(); ++row) {
+    PairGroup& group = out[groups.of[row]];
+    const std::string &a = nameAt(table, row, first), &b = nameAt(table, row, second);
+    if (a == b)
+      throw Error("'" + a + "' is compared with itself", table.place(row, second), "leave the row out");
+    const size_t itemA = group.item(a), itemB = group.item(b);
+    PairJudgement one{itemA, itemB, 1, 0, 0};
+    if (chosen) {
+      const std::string& choice = nameAt(table, row, *chosen);
+      if (choice != a && choice != b)
+        throw Error("'" + choice + "' is neither '" + a + "' nor '" + b + "'", table.place(row, *chosen),
+                    "write the chosen item's name; ties are not taken");
+      if (choice == b) std::swap(one.winner, one.loser);
+    }
+    if (count) one.count = table.count(row, *count);
+    if (subject) one.subject = group.subject(nameAt(table, row, *subject));
+    if (round) one.round = indexIn(rounds[groups.of[row]], nameAt(table, row, *round));
+    group.judged += one.count;
+    if (ordered && one.winner == itemA) group.firstChosen += one.count;
+    group.judgements.push_back(one);
+  }
+  return out;
+}
+
+}  // namespace limen::analysis
