@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "experiments/base/text.h"
+#include "experiments/measured_quantities.h"
 
 namespace limen::experiments {
 namespace {
@@ -204,10 +205,7 @@ std::string describeFinished(const PlannedRun& run, const store::Run& row) {
   if (!time) time = find(row, "wall_ms");
   if (time) append(*time, false);
   for (const store::Measurement& measurement : row.measurements)
-    if (std::any_of(run.metrics.begin(), run.metrics.end(), [&](const Choice& metric) {
-          return measurement.name == metric.name || measurement.name.rfind(metric.name + "_", 0) == 0;
-        }))
-      append(measurement, true);
+    if (measurement.kind == "error" && !isCommonQuantity(measurement.name)) append(measurement, true);
   return out;
 }
 

@@ -9,18 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/base/yaml_tree.h"
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
+#include "experiments/base/entry_reader.h"
 #include "experiments/executor.h"
 
 namespace limen::experiments {
-
-/// A parameter and the values that the descriptor gives it; several values multiply with the entry's other
-/// axes.
-struct Axis {
-  std::string name;
-  std::vector<ParameterValue> values;
-};
 
 /// An entry of `scenes` or `techniques`, or the reference. Parameters that are not given have their defaults.
 struct Entry {
@@ -30,12 +23,12 @@ struct Entry {
 };
 
 struct ImageAxes {
-  std::vector<int64_t> widthsPx, heightsPx;  ///< every width with every height
+  std::vector<std::pair<int, int>> sizesPx;  ///< width and height
   Mark mark;
 };
 
-/// Selects planned runs by parameter value: technique parameters, else scene parameters, else `width` and
-/// `height`.
+/// Selects planned runs by parameter value, by path: technique parameters, else scene parameters, else
+/// `width` and `height`.
 using Selection = std::map<std::string, ParameterValue>;
 
 /// A statement about measured values that the sweep judges when it ends.

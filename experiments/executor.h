@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "experiments/store/store.h"
 
 namespace limen::experiments {
@@ -25,12 +25,19 @@ struct Timing {
   int frames = 64;  ///< timed frames in all, shared evenly among the rounds
   int rounds = 3;   ///< interleaved rounds over the runs of a batch
   int batch = 8;    ///< runs whose rounds are interleaved
+  static const SettingsTable<Timing>& table();
 };
 
 /// What a run leaves in files beside the store.
 struct Artefacts {
   bool pictures = true;  ///< PNG of the product, the reference and the errors
   bool exr = false;      ///< the same as 32-bit float EXR
+  static const SettingsTable<Artefacts>& table();
+};
+
+struct ImageSize {
+  int width = 1024, height = 768;  ///< px; 16,384 is what OpenGL 4.5 promises for a texture's side
+  static const SettingsTable<ImageSize>& table();
 };
 
 /// One cell of the grid.
@@ -69,6 +76,8 @@ class Executor {
   /// Calls `finished(index, outcome)` once for each run, as soon as that run is complete.
   virtual void execute(std::span<const PlannedRun> batch,
                        const std::function<void(size_t, RunOutcome)>& finished) = 0;
+  /// A run of a later batch, so that its scene can be made ready beside the work on those before.
+  virtual void announce(const PlannedRun&) {}
   /// Facts about the executor's own time, for the environment and the summary: {"overhead_share": 0.03, ...}.
   virtual nlohmann::json account() const { return nlohmann::json::object(); }
 };

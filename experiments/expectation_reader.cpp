@@ -38,9 +38,8 @@ std::string statementText(const ExpectationStatement& statement) {
 
 class Reader : private SelectionReader {
  public:
-  Reader(const Descriptor& descriptor, const Catalogue& catalogue,
-         const std::vector<Parameter>& imageParameters, Problems& problems)
-      : SelectionReader(descriptor, catalogue, imageParameters, problems) {}
+  Reader(const Descriptor& descriptor, const Catalogue& catalogue, Problems& problems)
+      : SelectionReader(descriptor, catalogue, problems) {}
 
   std::vector<ExpectationStatement> readAll(const YamlNode& node) {
     std::vector<ExpectationStatement> out;
@@ -63,7 +62,7 @@ class Reader : private SelectionReader {
       if (!node) continue;
       ++relations;
       statement.relation = relation;
-      statement.bound = values_.number(*node, key).value_or(0.0);
+      statement.bound = reader_.values().number(*node, key).value_or(0.0);
     }
     if (relations != 1)
       problems_.add(item.mark, fmt::format("an expectation with {} of 'below', 'above', 'equals'", relations),
@@ -78,8 +77,8 @@ class Reader : private SelectionReader {
                     "write it as a map: {metric: rmse, below: 0.01}");
       return statement;
     }
-    checkKeys(item, "an expectation",
-              {"metric", "of", "scene", "where", "below", "above", "equals", "relative_to"});
+    reader_.checkKeys(item, "an expectation",
+                      {"metric", "of", "scene", "where", "below", "above", "equals", "relative_to"});
     if (!item.find("metric"))
       problems_.add(item.mark, "'metric' of an expectation is missing", suggest("", quantities_));
     statement.metric = readName(item, "metric", quantities_, "metric");
@@ -93,7 +92,7 @@ class Reader : private SelectionReader {
                       "'relative_to' is " + (node->kind == Kind::Map ? "empty" : node->describe()),
                       "write it as a map: {of: TECHNIQUE, where: {parameter: value}}");
       } else {
-        checkKeys(*node, "relative_to", {"of", "scene", "where"});
+        reader_.checkKeys(*node, "relative_to", {"of", "scene", "where"});
         ExpectationStatement::Baseline baseline;
         baseline.technique = readName(*node, "of", techniques_, "technique");
         baseline.scene = readName(*node, "scene", scenes_, "scene");
@@ -111,10 +110,8 @@ class Reader : private SelectionReader {
 }  // namespace
 
 std::vector<ExpectationStatement> readExpectations(const YamlNode& node, const Descriptor& descriptor,
-                                                   const Catalogue& catalogue,
-                                                   const std::vector<Parameter>& imageParameters,
-                                                   Problems& problems) {
-  return Reader(descriptor, catalogue, imageParameters, problems).readAll(node);
+                                                   const Catalogue& catalogue, Problems& problems) {
+  return Reader(descriptor, catalogue, problems).readAll(node);
 }
 
 }  // namespace limen::experiments

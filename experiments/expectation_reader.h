@@ -9,10 +9,8 @@
 namespace limen::experiments {
 
 /// Reads the list under `expect` of a descriptor whose scenes, techniques and metrics are read already. Names
-/// that the descriptor does not have become problems. `imageParameters`: `width` and `height`.
+/// that the descriptor does not have become problems.
 std::vector<ExpectationStatement> readExpectations(const YamlNode& node, const Descriptor& descriptor,
-                                                   const Catalogue& catalogue,
-                                                   const std::vector<Parameter>& imageParameters,
-                                                   Problems& problems);
+                                                   const Catalogue& catalogue, Problems& problems);
 
 }  // namespace limen::experiments

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <map>
 
+#include "experiments/measured_quantities.h"
+
 namespace limen::experiments {
 namespace {
 
@@ -88,14 +90,14 @@ std::vector<store::Measurement> FrameTiming::summarise() const {
   for (const auto& [frame, nanoseconds] : own) ownTimes.push_back(nanoseconds);
   std::vector<store::Measurement> out;
   const auto add = [&](const std::string& name, const std::vector<int64_t>& values, double q) {
-    if (!values.empty()) out.push_back({name, quantileMs(values, q), "ms", "time"});
+    if (!values.empty()) out.push_back(measured(name, quantileMs(values, q)));
   };
   add("gpu_ms", byPass["frame"], 0.5);
   add("gpu_ms_p95", byPass["frame"], 0.95);
   add("technique_ms", ownTimes, 0.5);
   add("wall_ms", byPass["wall"], 0.5);
   add("cpu_ms", byPass["cpu"], 0.5);
-  out.push_back({"timed_frames", static_cast<double>(frames_), "", "fact"});
+  out.push_back(measured("timed_frames", static_cast<double>(frames_)));
   return out;
 }
 

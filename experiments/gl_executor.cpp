@@ -13,10 +13,11 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
+#include "experiments/measured_quantities.h"
 #include "experiments/product.h"
 #include "experiments/product_judge.h"
 #include "experiments/reference_cache.h"
-#include "experiments/stage.h"
+#include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/techniques/technique.h"
@@ -42,15 +43,35 @@ class Stopwatch {
   steady_clock::time_point start_;
 };
 
-/// A scene as all runs of a batch share it, with what they share of one view.
-struct SharedStage {
-  explicit SharedStage(scene::Scene built) : stage(std::move(built)), facts(stage.facts()) {}
+/// A scene before it is on the GPU; building and hashing a large one takes longer than many a run.
+struct BuiltScene {
+  scene::Scene scene;
+  nlohmann::json facts;
+};
 
-  Stage stage;
+BuiltScene build(const Choice& choice) {
+  BuiltScene out{scene::buildScene(choice.name, choice.values), {}};
+  out.facts = sceneFacts(out.scene);
+  return out;
+}
+
+std::string keyOf(const Choice& scene) { return scene.name + scene.values.toJson().dump(); }
+
+/// A scene as all runs of a batch share it, with what they share of one view.
+struct SharedScene {
+  explicit SharedScene(BuiltScene built) : onGpu(std::move(built.scene)), facts(std::move(built.facts)) {}
+
+  frame::SceneOnGpu onGpu;
   nlohmann::json facts;
   // For one image size:
   glm::ivec2 sizePx{0};
-  ViewImages view;
+  std::shared_ptr<const ViewImages> view;  ///< shared with the threads that write pictures
+};
+
+/// What is made of a product beside the GPU's work.
+struct Afterwork {
+  std::vector<store::Artefact> artefacts;
+  std::string productHash;
 };
 
 /// One run of a batch while it is worked on.
@@ -61,9 +82,22 @@ struct LiveRun {
   std::unique_ptr<frame::Frame> frame;
   std::unique_ptr<techniques::Technique> technique;
   std::optional<FrameTiming> timing;
-  std::future<std::vector<store::Artefact>> artefacts;
+  std::future<Afterwork> afterwork;
   RunOutcome outcome;
 };
+
+store::Measurement measurementOf(const techniques::Counter& counter, const techniques::TechniqueInfo& info) {
+  const auto declared = std::find_if(info.counters.begin(), info.counters.end(),
+                                     [&](const Quantity& each) { return each.name == counter.name; });
+  if (declared == info.counters.end())
+    throw std::logic_error("technique '" + info.name + "' counts '" + counter.name +
+                           "', which it does not declare");
+  // A counter that is declared by its name alone says unit and kind with each value.
+  if (declared->title.empty())
+    return {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"};
+  return {counter.name, counter.value, declared->unit,
+          declared->direction == Direction::Neither ? "fact" : "counter"};
+}
 
 class GlExecutor : public Executor {
  public:
@@ -110,6 +144,14 @@ class GlExecutor : public Executor {
       }
   }
 
+  void announce(const PlannedRun& next) override {
+    const std::string key = keyOf(next.scene);
+    // Where a CPU plays GPU, it must do nothing else while frames are timed.
+    if (environment_.software || key == sceneKey_ || key == nextKey_) return;
+    nextKey_ = key;
+    next_ = std::async(std::launch::async, [scene = next.scene] { return build(scene); });
+  }
+
   nlohmann::json account() const override {
     nlohmann::json out;
     double accounted = 0.0;
@@ -138,42 +180,47 @@ class GlExecutor : public Executor {
 
   void finish(LiveRun& run, const std::function<void(size_t, RunOutcome)>& finished) {
     attempt(run, [&] {
-      if (run.artefacts.valid()) {
+      if (run.afterwork.valid()) {
         const Stopwatch watch(seconds_["artefacts"]);
-        run.outcome.artefacts = run.artefacts.get();
+        Afterwork done = run.afterwork.get();
+        run.outcome.artefacts = std::move(done.artefacts);
+        run.outcome.sceneFacts["product_hash"] = std::move(done.productHash);
       }
     });
     // GPU memory of a finished run serves nobody.
     run.technique.reset();
     run.frame.reset();
+    const Stopwatch watch(seconds_["storing"]);
     finished(run.index, std::move(run.outcome));
   }
 
-  SharedStage& stage(const PlannedRun& run) {
-    const std::string key = run.scene.name + run.scene.values.toJson().dump();
-    if (key != stageKey_) {
+  SharedScene& sceneOf(const PlannedRun& run) {
+    const std::string key = keyOf(run.scene);
+    if (key != sceneKey_) {
       const Stopwatch watch(seconds_["scenes"]);
-      stageKey_.clear();
-      stage_.reset();
-      stage_ = std::make_unique<SharedStage>(scene::buildScene(run.scene.name, run.scene.values));
-      stageKey_ = key;
+      sceneKey_.clear();
+      scene_.reset();
+      const bool announced = key == nextKey_;
+      if (announced) nextKey_.clear();
+      scene_ = std::make_unique<SharedScene>(announced ? next_.get() : build(run.scene));
+      sceneKey_ = key;
     }
     const glm::ivec2 sizePx(run.widthPx, run.heightPx);
-    if (stage_->sizePx != sizePx) {
+    if (scene_->sizePx != sizePx) {
       const Stopwatch watch(seconds_["rendering"]);
-      stage_->view = stage_->stage.view(*context_, sizePx);
-      stage_->sizePx = sizePx;
+      scene_->view = std::make_shared<const ViewImages>(viewImages(*context_, scene_->onGpu, sizePx));
+      scene_->sizePx = sizePx;
     }
-    return *stage_;
+    return *scene_;
   }
 
   /// Prepares a run, renders it once and judges the product.
   void begin(LiveRun& run) {
     const PlannedRun& plan = *run.plan;
     run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
-    SharedStage& on = stage(plan);
+    SharedScene& on = sceneOf(plan);
     run.outcome.sceneFacts = on.facts;
-    requireTraits(*run.info, on.stage.scene);
+    requireTraits(*run.info, on.onGpu.scene);
     prepare(run, on);
     if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
       run.outcome.sceneFacts["remarks"] = remarks;
@@ -184,11 +231,11 @@ class GlExecutor : public Executor {
       product = run.technique->product().read();
       counters = run.technique->count(*run.frame);
     }
-    const Image* reference = nullptr;
+    std::shared_ptr<const Image> reference;
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      reference = &referenceFor(plan, on);
+      reference = referenceFor(plan, on);
       referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
       referenceTexture->write(*reference);
     }
@@ -198,47 +245,38 @@ class GlExecutor : public Executor {
       const perception::ComparisonInput judged{&run.technique->product(),
                                                referenceTexture ? &*referenceTexture : nullptr,
                                                &product,
-                                               reference,
-                                               judgedEverywhere(run.info->product) ? nullptr : &on.view.mask,
+                                               reference.get(),
+                                               judgedEverywhere(run.info->product) ? nullptr : &on.view->mask,
                                                &metricGpu_};
       for (store::Measurement& measurement : judge(plan, judged, maps))
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
     }
-    for (const techniques::Counter& counter : counters) {
-      const std::vector<Quantity>& declared = run.info->counters;
-      if (std::none_of(declared.begin(), declared.end(),
-                       [&](const Quantity& each) { return each.name == counter.name; }))
-        throw std::logic_error("technique '" + run.info->name + "' counts '" + counter.name +
-                               "', which it does not declare");
-      run.outcome.measurements.push_back(
-          {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"});
-    }
+    for (const techniques::Counter& counter : counters)
+      run.outcome.measurements.push_back(measurementOf(counter, *run.info));
     if (reference && plan.artefacts.pictures)
-      run.outcome.measurements.push_back({"error_png_white", kErrorScale, "", "fact"});
+      run.outcome.measurements.push_back(measured("error_png_white", kErrorScale));
     for (const auto& [name, map] : maps)
       if (name == "relative_error" && plan.artefacts.pictures)
-        run.outcome.measurements.push_back({"relative_error_png_white", kErrorScale, "", "fact"});
+        run.outcome.measurements.push_back(measured("relative_error_png_white", kErrorScale));
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::Threshold) {
-      run.outcome.measurements.push_back(
-          {"threshold_png_black", perception::kThresholdPictureBlack, "cd/m2", "fact"});
-      run.outcome.measurements.push_back(
-          {"threshold_png_white", perception::kThresholdPictureWhite, "cd/m2", "fact"});
+      run.outcome.measurements.push_back(measured("threshold_png_black", perception::kThresholdPictureBlack));
+      run.outcome.measurements.push_back(measured("threshold_png_white", perception::kThresholdPictureWhite));
     }
+    // In the product's own unit.
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::JndMap)
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
-      run.outcome.measurements.push_back({"product_png_white", kErrorScale, "", "fact"});
-    run.outcome.sceneFacts["product_hash"] = productHash(product);
-    startArtefacts(run, on, std::move(product), reference, std::move(maps));
+      run.outcome.measurements.push_back(measured("product_png_white", kErrorScale));
+    startAfterwork(run, on, std::move(product), reference, std::move(maps));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
   }
 
-  void prepare(LiveRun& run, const SharedStage& on) {
+  void prepare(LiveRun& run, const SharedScene& on) {
     const Stopwatch watch(seconds_["rendering"]);
     run.technique = run.info->make(run.plan->technique.values);
-    run.frame = std::make_unique<frame::Frame>(*context_, on.stage.scene, on.stage.gpu, on.sizePx);
+    run.frame = std::make_unique<frame::Frame>(*context_, on.onGpu, on.sizePx);
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
@@ -249,7 +287,7 @@ class GlExecutor : public Executor {
     glFinish();
     const double ms = std::chrono::duration<double, std::milli>(steady_clock::now() - start).count();
     const double compileMs = context_->programs().compileMs() - compiledBefore;
-    run.outcome.measurements.push_back({"prepare_ms", ms - compileMs, "ms", "time"});
+    run.outcome.measurements.push_back(measured("prepare_ms", ms - compileMs));
     for (const gl::PassList::Pass& pass : run.frame->passes().passes())
       run.outcome.passes.push_back({pass.name, pass.bytesHeld});
   }
@@ -257,36 +295,41 @@ class GlExecutor : public Executor {
   static void countNonFinite(const Image& product, RunOutcome& outcome) {
     const auto count = std::count_if(product.data.begin(), product.data.end(),
                                      [](float value) { return !std::isfinite(value); });
-    outcome.measurements.push_back({"non_finite_count", static_cast<double>(count), "", "error"});
+    outcome.measurements.push_back(measured("non_finite_count", static_cast<double>(count)));
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  const Image& referenceFor(const PlannedRun& run, const SharedStage& on) {
+  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedScene& on) {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
     return references_.get(sha256(identity.dump()),
-                           [&] { return renderOnce(*context_, on.stage, on.sizePx, run.reference); });
+                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
   }
 
-  void startArtefacts(LiveRun& run, const SharedStage& on, Image product, const Image* reference,
+  /// Hashes the product and writes artefacts, which takes longer than a fast technique's frames.
+  void startAfterwork(LiveRun& run, const SharedScene& on, Image product,
+                      std::shared_ptr<const Image> reference,
                       std::vector<std::pair<std::string, Image>> maps) {
-    if (!run.plan->artefacts.pictures && !run.plan->artefacts.exr) return;
+    const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
     std::map<std::string, Image> views;
     if (run.plan->artefacts.pictures) {
       const Stopwatch watch(seconds_["artefacts"]);
       views = run.technique->pictures();
     }
-    auto write = [plan = run.plan, folder = folder_, shading = on.view.shading, product = std::move(product),
-                  reference = reference ? std::optional(*reference) : std::nullopt, maps = std::move(maps),
-                  views = std::move(views)] {
-      return writeArtefacts(*plan, folder, product, reference ? &*reference : nullptr, shading, maps, views);
+    auto work = [writes, plan = run.plan, folder = folder_, view = on.view, product = std::move(product),
+                 reference = std::move(reference), maps = std::move(maps), views = std::move(views)] {
+      Afterwork out;
+      out.productHash = productHash(product);
+      if (writes)
+        out.artefacts = writeArtefacts(*plan, folder, product, reference.get(), view->shading, maps, views);
+      return out;
     };
     // Beside the GPU's work; but where a CPU plays GPU, files must not be compressed while frames are timed.
-    run.artefacts = std::async(std::launch::async, std::move(write));
+    run.afterwork = std::async(std::launch::async, std::move(work));
     if (environment_.software) {
       const Stopwatch watch(seconds_["artefacts"]);
-      run.artefacts.wait();
+      run.afterwork.wait();
     }
   }
 
@@ -302,9 +345,9 @@ class GlExecutor : public Executor {
     run.outcome.frameTimes = run.timing->times();
     int64_t bytes = 0;
     for (const store::Pass& pass : run.outcome.passes) bytes += pass.bytesHeld;
-    run.outcome.measurements.push_back({"bytes_held", static_cast<double>(bytes), "byte", "fact"});
+    run.outcome.measurements.push_back(measured("bytes_held", static_cast<double>(bytes)));
     if (const auto mhz = clock_.measureMhz())
-      run.outcome.measurements.push_back({"gpu_clock_mhz", *mhz, "MHz", "fact"});
+      run.outcome.measurements.push_back(measured("gpu_clock_mhz", *mhz));
   }
 
   std::string folder_;
@@ -313,8 +356,10 @@ class GlExecutor : public Executor {
   GpuClock clock_;
   ReferenceCache references_;
   store::Environment environment_;
-  std::string stageKey_;
-  std::unique_ptr<SharedStage> stage_;
+  std::string sceneKey_;
+  std::unique_ptr<SharedScene> scene_;
+  std::string nextKey_;  ///< of the scene that is being built beside the GPU's work; "": none
+  std::future<BuiltScene> next_;
   std::map<std::string, double> seconds_;
 };
 

@@ -4,17 +4,36 @@
 #include <algorithm>
 
 namespace limen::experiments {
+namespace {
+
+/// What tells this one from others of the same metric: the values that are not its defaults; none if there
+/// are no others.
+std::vector<std::string> distinctions(const Choice& metric, const std::vector<Choice>& all,
+                                      const std::vector<Parameter>& declared) {
+  const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
+  std::vector<std::string> out;
+  if (std::count_if(all.begin(), all.end(), sameName) < 2) return out;
+  for (const DeclaredAt& at : chosen(declared, metric.values)) {
+    const ParameterValue& value = *metric.values.find(at.path);
+    if (value != at.parameter->defaultValue) out.push_back(toText(value));
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string measurementName(const Choice& metric, const std::vector<Choice>& all,
                             const std::vector<Parameter>& declared) {
-  const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
   std::string name = metric.name;
-  if (std::count_if(all.begin(), all.end(), sameName) < 2) return name;
-  for (const Parameter& parameter : declared) {
-    const ParameterValue& value = metric.values.all().at(parameter.name);
-    if (value != parameter.defaultValue) name += "_" + toText(value);
-  }
+  for (const std::string& value : distinctions(metric, all, declared)) name += "_" + value;
   return name;
+}
+
+std::string measurementTitle(const std::string& title, const Choice& metric, const std::vector<Choice>& all,
+                             const std::vector<Parameter>& declared) {
+  std::string out = title;
+  for (const std::string& value : distinctions(metric, all, declared)) out += ", " + value;
+  return out;
 }
 
 }  // namespace limen::experiments

@@ -14,4 +14,8 @@ namespace limen::experiments {
 std::string measurementName(const Choice& metric, const std::vector<Choice>& all,
                             const std::vector<Parameter>& declared);
 
+/// Title of the same value: the metric's, told apart in the same way ("RMSE, penumbra").
+std::string measurementTitle(const std::string& title, const Choice& metric, const std::vector<Choice>& all,
+                             const std::vector<Parameter>& declared);
+
 }  // namespace limen::experiments

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/problems.h"
 #include "experiments/base/text.h"
+#include "experiments/describe_names.h"
 #include "experiments/expectation.h"
 #include "experiments/published.h"
 
@@ -35,7 +37,7 @@ uint64_t add(uint64_t a, uint64_t b) { return a > std::numeric_limits<uint64_t>:
 
 uint64_t cells(const Entry& entry) {
   uint64_t count = 1;
-  for (const Axis& axis : entry.axes) count = multiply(count, axis.values.size());
+  for (const Axis& axis : entry.axes) count = multiply(count, axis.points.size());
   return count;
 }
 
@@ -47,8 +49,7 @@ uint64_t cells(const std::vector<Entry>& entries) {
 
 uint64_t cells(const std::vector<ImageAxes>& images) {
   uint64_t count = 0;
-  for (const ImageAxes& axes : images)
-    count = add(count, multiply(axes.widthsPx.size(), axes.heightsPx.size()));
+  for (const ImageAxes& axes : images) count = add(count, axes.sizesPx.size());
   return count;
 }
 
@@ -57,7 +58,7 @@ std::string describeAxes(const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) {
     std::vector<std::string> axes;
     for (const Axis& axis : entry.axes)
-      if (axis.values.size() > 1) axes.push_back(fmt::format("{} {}", axis.name, axis.values.size()));
+      if (axis.points.size() > 1) axes.push_back(fmt::format("{} {}", axis.name, axis.points.size()));
     if (!axes.empty()) parts.push_back(entry.name + ": " + join(axes, " x "));
   }
   return parts.empty() ? "" : " (" + join(parts, "; ") + ")";
@@ -106,6 +107,7 @@ class Planner {
     resolve(descriptor_.expectations, plan.runs, problems_);
     plan.published = resolvePublished(descriptor_.published, plan.runs, problems_);
     problems_.throwIfAny();
+    plan.descriptions = describeNames(descriptor_, catalogue_);
     return plan;
   }
 
@@ -140,15 +142,7 @@ class Planner {
     for (size_t index = 0; index < entries.size(); ++index) {
       const Entry& entry = entries[index];
       const CatalogueEntry& info = kind.at(entry.name);
-      const uint64_t count = cells(entry);
-      for (uint64_t cell = 0; cell < count; ++cell) {
-        std::map<std::string, ParameterValue> given;
-        // The last axis of an entry changes fastest, as in nested loops written in that order.
-        uint64_t rest = cell;
-        for (auto axis = entry.axes.rbegin(); axis != entry.axes.rend(); ++axis) {
-          given[axis->name] = axis->values[rest % axis->values.size()];
-          rest /= axis->values.size();
-        }
+      for (const AxisPoint& given : combine(entry.axes)) {
         Variant variant{
             {entry.name, info.version, ParameterValues(info.parameters, given)}, {}, {}, {}, index};
         if (!goTogether(info, variant.choice.values, entry.mark)) break;
@@ -181,15 +175,15 @@ class Planner {
   void describeValues(Variant& variant, const std::vector<Parameter>& declared) const {
     variant.values = variant.choice.values.toJson();
     nlohmann::json identity = variant.values;
-    for (const Parameter& parameter : declared) {
-      if (parameter.keyedIfGiven && variant.choice.values.all().at(parameter.name) == parameter.defaultValue)
-        identity.erase(parameter.name);
-      if (parameter.type != ParameterType::File) continue;
-      const std::string& path = variant.choice.values.text(parameter.name);
-      const auto hash = descriptor_.fileHashes.find(path);
+    for (const DeclaredAt& at : chosen(declared, variant.choice.values)) {
+      const ParameterValue& value = *variant.choice.values.find(at.path);
+      if (at.parameter->keyedIfGiven && value == at.parameter->defaultValue) identity.erase(at.path);
+      if (at.parameter->type != ParameterType::File) continue;
+      const auto& file = std::get<std::string>(value);
+      const auto hash = descriptor_.fileHashes.find(file);
       if (hash == descriptor_.fileHashes.end()) continue;
-      variant.values[parameter.name] = descriptor_.filesAsNamed.at(path);
-      identity[parameter.name] = "sha256:" + hash->second;
+      variant.values[at.path] = descriptor_.filesAsNamed.at(file);
+      identity[at.path] = "sha256:" + hash->second;
     }
     variant.identity = {
         {"name", variant.choice.name}, {"version", variant.choice.version}, {"values", identity}};
@@ -204,17 +198,27 @@ class Planner {
   static void setLabels(std::vector<Variant>& variants) {
     std::map<std::string, std::vector<Variant*>> byName;
     for (Variant& variant : variants) byName[variant.choice.name].push_back(&variant);
-    for (auto& [name, group] : byName)
-      for (const auto& [key, value] : group[0]->values.items()) {
-        const bool varies = std::any_of(
-            group.begin(), group.end(),
-            [&key = key, &value = value](const Variant* other) { return other->values[key] != value; });
-        if (!varies) continue;
+    for (auto& [name, group] : byName) {
+      std::set<std::string> paths;
+      for (const Variant* variant : group)
+        for (const auto& [path, value] : variant->values.items()) paths.insert(path);
+      for (const std::string& path : paths) {
+        // What only some alternatives have tells runs apart where it differs among those; that it is missing
+        // elsewhere, the choice above it says.
+        const auto first = std::find_if(group.begin(), group.end(), [&](const Variant* variant) {
+          return variant->values.contains(path);
+        });
+        const auto differs = [&](const Variant* other) {
+          return other->values.contains(path) && other->values[path] != (*first)->values[path];
+        };
+        if (std::none_of(group.begin(), group.end(), differs)) continue;
         for (Variant* variant : group) {
+          if (!variant->values.contains(path)) continue;
           if (!variant->label.empty()) variant->label += ", ";
-          variant->label += key + "=" + show(variant->values[key]);
+          variant->label += path + "=" + show(variant->values[path]);
         }
       }
+    }
   }
 
   /// One variant of each entry by turns.
@@ -234,14 +238,12 @@ class Planner {
   std::vector<std::pair<int, int>> expandImages() {
     std::vector<std::pair<int, int>> out;
     for (const ImageAxes& axes : descriptor_.images)
-      for (const int64_t width : axes.widthsPx)
-        for (const int64_t height : axes.heightsPx) {
-          const std::pair size(static_cast<int>(width), static_cast<int>(height));
-          if (std::find(out.begin(), out.end(), size) != out.end())
-            problems_.add(axes.mark, fmt::format("image size {}x{} is given twice", width, height),
-                          "keep one");
-          out.push_back(size);
-        }
+      for (const std::pair<int, int>& size : axes.sizesPx) {
+        if (std::find(out.begin(), out.end(), size) != out.end())
+          problems_.add(axes.mark, fmt::format("image size {}x{} is given twice", size.first, size.second),
+                        "keep one");
+        out.push_back(size);
+      }
     return out;
   }
 

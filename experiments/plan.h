@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/descriptor.h"
 #include "experiments/executor.h"
 
@@ -21,6 +21,7 @@ struct Plan {
   /// Runs that share scene and image size follow one another; [begin, end) of each such group.
   std::vector<std::pair<size_t, size_t>> groups;
   nlohmann::json published = nlohmann::json::array();  ///< see published.h
+  store::Descriptions descriptions;                    ///< what the names in its runs mean
 };
 
 /// Throws Error naming file and line: too many runs (counted before anything is expanded), a run planned

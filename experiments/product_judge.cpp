@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <future>
 
 #include "experiments/base/hash.h"
 #include "experiments/measurement_name.h"
@@ -32,36 +34,43 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
                                             const Image& shading,
                                             const std::vector<std::pair<std::string, Image>>& maps,
                                             const std::map<std::string, Image>& views) {
-  std::vector<store::Artefact> out;
   const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
-  const auto keep = [&](const std::string& kind, const std::string& file) {
-    out.push_back({kind, base + file, sha256File(folder + "/" + base + file)});
-  };
-  const auto picture = [&](const std::string& kind, const Image& image) {
-    writePng(folder + "/" + base + kind + ".png", image);
-    keep(kind + "_png", kind + ".png");
+  // Side by side: compressing one picture takes as long as many frames of a fast technique.
+  std::vector<std::future<store::Artefact>> files;
+  const auto picture = [&](const std::string& kind, std::function<Image()> make) {
+    files.push_back(std::async(std::launch::async, [kind, make = std::move(make), base, folder] {
+      const std::string file = base + kind + ".png";
+      writePng(folder + "/" + file, make());
+      return store::Artefact{kind + "_png", file, sha256File(folder + "/" + file)};
+    }));
   };
   const auto exr = [&](const std::string& kind, const Image& image) {
-    writeExr(folder + "/" + base + kind + ".exr", image);
-    keep(kind + "_exr", kind + ".exr");
+    files.push_back(std::async(std::launch::async, [kind, &image, base, folder] {
+      const std::string file = base + kind + ".exr";
+      writeExr(folder + "/" + file, image);
+      return store::Artefact{kind + "_exr", file, sha256File(folder + "/" + file)};
+    }));
   };
   if (run.artefacts.pictures) {
     const techniques::ProductKind kind =
         techniques::TechniqueRegistry::instance().get(run.technique.name).product;
-    picture("product", productPicture(kind, product, shading));
-    if (reference) picture("reference", productPicture(kind, *reference, shading));
+    picture("product", [kind, &product, &shading] { return productPicture(kind, product, shading); });
+    if (reference)
+      picture("reference", [kind, reference, &shading] { return productPicture(kind, *reference, shading); });
+    for (const auto& [name, view] : views) picture("view_" + name, [&view = view] { return view; });
   }
-  if (run.artefacts.pictures)
-    for (const auto& [name, view] : views) picture("view_" + name, view);
   if (run.artefacts.exr) {
     exr("product", product);
     if (reference) exr("reference", *reference);
   }
   for (const auto& [name, map] : maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
-    if (run.artefacts.pictures) picture(kind, perception::errorPicture(map, mapWhite(name)));
+    if (run.artefacts.pictures)
+      picture(kind, [&name = name, &map = map] { return perception::errorPicture(map, mapWhite(name)); });
     if (run.artefacts.exr) exr(kind, map);
   }
+  std::vector<store::Artefact> out;
+  for (std::future<store::Artefact>& file : files) out.push_back(file.get());
   return out;
 }
 

@@ -16,30 +16,22 @@ using Kind = YamlNode::Kind;
 
 class PublishedReader : private SelectionReader {
  public:
-  PublishedReader(const Descriptor& descriptor, const Catalogue& catalogue,
-                  const std::vector<Parameter>& imageParameters, Problems& problems)
-      : SelectionReader(descriptor, catalogue, imageParameters, problems) {}
+  PublishedReader(const Descriptor& descriptor, const Catalogue& catalogue, Problems& problems)
+      : SelectionReader(descriptor, catalogue, problems) {}
 
   std::vector<PublishedTable> readAll(const YamlNode& node) {
     std::vector<PublishedTable> out;
-    if (!isFilledList(node, "published", "- {title: ..., source: ..., columns: [...], rows: [...]}"))
+    if (!reader_.isFilledList(node, "'published'",
+                              "- {title: ..., source: ..., columns: [...], rows: [...]}"))
       return out;
     for (const YamlNode& item : node.items) out.push_back(readTable(item));
     return out;
   }
 
  private:
-  bool isFilledList(const YamlNode& node, const std::string& key, const std::string& example) {
-    if (node.kind == Kind::List && !node.items.empty()) return true;
-    problems_.add(node.mark,
-                  "'" + key + "' is " + (node.kind == Kind::List ? "an empty list" : node.describe()),
-                  "write a list: " + example);
-    return false;
-  }
-
   std::string word(const YamlNode& map, const char* key, bool required) {
     const YamlNode* node = map.find(key);
-    if (node) return values_.text(*node, key).value_or("");
+    if (node) return reader_.values().text(*node, key).value_or("");
     if (required) problems_.add(map.mark, fmt::format("'{}' is missing", key), "give it: text");
     return {};
   }
@@ -47,9 +39,9 @@ class PublishedReader : private SelectionReader {
   std::vector<std::string> words(const YamlNode& map, const char* key) {
     std::vector<std::string> out;
     const YamlNode* node = map.find(key);
-    if (!node || !isFilledList(*node, key, "[..., ...]")) return out;
+    if (!node || !reader_.isFilledList(*node, fmt::format("'{}'", key), "[..., ...]")) return out;
     for (const YamlNode& item : node->items)
-      if (const auto text = values_.text(item, key)) out.push_back(*text);
+      if (const auto text = reader_.values().text(item, key)) out.push_back(*text);
     return out;
   }
 
@@ -60,7 +52,7 @@ class PublishedReader : private SelectionReader {
       problems_.add(item.mark, "a published table is " + item.describe(), "write it as a map: {title: ...}");
       return table;
     }
-    checkKeys(
+    reader_.checkKeys(
         item, "a published table",
         {"title", "source", "device", "note", "unit", "columns", "measure", "passes", "relative_to", "rows"});
     table.title = word(item, "title", true);
@@ -76,7 +68,8 @@ class PublishedReader : private SelectionReader {
     table.passes = words(item, "passes");
     const YamlNode* rows = item.find("rows");
     if (!rows) problems_.add(item.mark, "'rows' of a published table is missing", "give a list of rows");
-    if (!rows || !isFilledList(*rows, "rows", "- {name: ..., values: [...], of: TECHNIQUE}")) return table;
+    if (!rows || !reader_.isFilledList(*rows, "'rows'", "- {name: ..., values: [...], of: TECHNIQUE}"))
+      return table;
     const std::string relativeTo = word(item, "relative_to", false);
     for (const YamlNode& row : rows->items) readRow(row, relativeTo, table);
     checkBases(table);
@@ -97,7 +90,7 @@ class PublishedReader : private SelectionReader {
                     "write it as a map: {name: ..., values: [...]}");
       return;
     }
-    checkKeys(item, "a row", {"name", "values", "of", "scene", "where", "relative_to", "passes"});
+    reader_.checkKeys(item, "a row", {"name", "values", "of", "scene", "where", "relative_to", "passes"});
     row.name = word(item, "name", true);
     row.technique = readName(item, "of", techniques_, "technique");
     row.scene = readName(item, "scene", scenes_, "scene");
@@ -106,9 +99,10 @@ class PublishedReader : private SelectionReader {
     row.passes = item.find("passes") ? words(item, "passes") : table.passes;
     const YamlNode* values = item.find("values");
     if (!values) problems_.add(item.mark, "'values' of a row is missing", "give the printed numbers");
-    if (values && isFilledList(*values, "values", "[1.5, 2.5]")) {
+    if (values && reader_.isFilledList(*values, "'values'", "[1.5, 2.5]")) {
       for (const YamlNode& value : values->items)
-        row.values.push_back(value.kind == Kind::Null ? std::nullopt : values_.number(value, "values"));
+        row.values.push_back(value.kind == Kind::Null ? std::nullopt
+                                                      : reader_.values().number(value, "values"));
       if (row.values.size() != table.columns.size())
         problems_.add(values->mark,
                       fmt::format("{} values for {} columns", row.values.size(), table.columns.size()),
@@ -135,9 +129,8 @@ class PublishedReader : private SelectionReader {
 }  // namespace
 
 std::vector<PublishedTable> readPublished(const YamlNode& node, const Descriptor& descriptor,
-                                          const Catalogue& catalogue,
-                                          const std::vector<Parameter>& imageParameters, Problems& problems) {
-  return PublishedReader(descriptor, catalogue, imageParameters, problems).readAll(node);
+                                          const Catalogue& catalogue, Problems& problems) {
+  return PublishedReader(descriptor, catalogue, problems).readAll(node);
 }
 
 nlohmann::json resolvePublished(const std::vector<PublishedTable>& tables,

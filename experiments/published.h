@@ -19,8 +19,7 @@ namespace limen::experiments {
 /// are) and optionally `relative_to` (name of the row that ratios are taken to). `relative_to` of the table
 /// holds for all its rows. A row may have its own `passes`.
 std::vector<PublishedTable> readPublished(const YamlNode& node, const Descriptor& descriptor,
-                                          const Catalogue& catalogue,
-                                          const std::vector<Parameter>& imageParameters, Problems& problems);
+                                          const Catalogue& catalogue, Problems& problems);
 
 /// The tables with the keys of the planned runs of each row, as JSON for the store. A row that no run
 /// matches, or that matches several runs of one scene and image size, becomes a problem.

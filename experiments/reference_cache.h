@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 
@@ -13,14 +14,22 @@ namespace limen::experiments {
 /// processes: files appear whole.
 class ReferenceCache {
  public:
-  explicit ReferenceCache(std::string folder) : folder_(std::move(folder)) {}
+  explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
+      : folder_(std::move(folder)), bytesInMemory_(bytesInMemory) {}
 
-  /// The product named `key`, made by `make` if neither memory nor disk has it. Memory keeps the latest only.
-  const Image& get(const std::string& key, const std::function<Image()>& make);
+  /// The product named `key`, made by `make` if neither memory nor disk has it. Memory holds those used last.
+  std::shared_ptr<const Image> get(const std::string& key, const std::function<Image()>& make);
 
  private:
-  std::string folder_, key_;
-  Image image_;
+  struct Held {
+    std::string key;
+    std::shared_ptr<const Image> image;
+  };
+  void hold(const std::string& key, std::shared_ptr<const Image> image);
+
+  std::string folder_;
+  size_t bytesInMemory_;
+  std::list<Held> held_;  ///< used last first
 };
 
 }  // namespace limen::experiments

@@ -43,7 +43,11 @@ class Runner {
     }
     observer_.begin(tally_.planned, tally_.skipped);
     try {
-      for (const auto& group : groups) measureGroup(group);
+      std::erase_if(groups, [](const std::vector<size_t>& group) { return group.empty(); });
+      for (size_t i = 0; i < groups.size(); ++i) {
+        if (i + 1 < groups.size()) announced_ = groups[i + 1].front();
+        measureGroup(groups[i]);
+      }
       waitForOthers();
     } catch (const Interrupted&) {
       tally_.interrupted = true;
@@ -118,10 +122,13 @@ class Runner {
     for (const size_t index : batch) runs.push_back(plan_.runs[index]);
     observer_.measuring(runs.front(), runs.size());
     std::vector<bool> reported(runs.size(), false);
+    if (announced_) executor_.announce(plan_.runs[*announced_]);
+    announced_.reset();
     executor_.execute(runs, [&](size_t index, RunOutcome outcome) {
       reported.at(index) = true;
       commit(runs[index], std::move(outcome));
     });
+    results_.sync();
     if (std::find(reported.begin(), reported.end(), false) != reported.end()) {
       throwIfInterrupted();
       throw Error("the executor left a run without an outcome");
@@ -174,6 +181,7 @@ class Runner {
   const std::string device_;
   std::optional<int64_t> environment_;
   std::vector<size_t> held_;
+  std::optional<size_t> announced_;  ///< first run of the next group
   SweepTally tally_;
 };
 
@@ -198,7 +206,7 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   std::vector<store::PlanEntry> entries;
   for (const PlannedRun& run : plan.runs)
     entries.push_back({run.key, run.technique.name, run.scene.name, run.label});
-  return results.putExperiment(experiment, entries);
+  return results.putExperiment(experiment, entries, plan.descriptions);
 }
 
 std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,

@@ -41,14 +41,14 @@ struct SweepTally {
 };
 
 /// Measures what the store does not have yet for the executor's device. Every run is claimed before and
-/// committed as soon as it is finished; claims that are not finished are given back, whatever happens. Runs
-/// that another live process holds are left to it and waited for at the end. Throws Error if store or
-/// executor cannot go on.
+/// committed as soon as it is finished; a batch is on the disk before the next begins; claims that are
+/// not finished are given back, whatever happens. Runs that another live process holds are left to it and
+/// waited for at the end. Throws Error if store or executor cannot go on.
 SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
                     const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
 
-/// Enters the experiment and its whole plan (all shards, so that merged stores know what is missing). Returns
-/// its id.
+/// Enters the experiment, its whole plan (all shards, so that merged stores know what is missing) and what
+/// its names mean. Returns its id.
 int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
 
 /// Judges the descriptor's expectations over everything that the store holds of this plan for `device`, and

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/problems.h"
-#include "experiments/base/value_reader.h"
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
+#include "experiments/base/node_reader.h"
 #include "experiments/descriptor.h"
 
 namespace limen::experiments {
@@ -15,32 +14,30 @@ namespace limen::experiments {
 /// against what the descriptor has; what it has not becomes a problem.
 class SelectionReader {
  protected:
-  /// `descriptor`: scenes, techniques and metrics are read already. `imageParameters`: `width` and `height`.
-  SelectionReader(const Descriptor& descriptor, const Catalogue& catalogue,
-                  const std::vector<Parameter>& imageParameters, Problems& problems);
+  /// `descriptor`: scenes, techniques and metrics are read already.
+  SelectionReader(const Descriptor& descriptor, const Catalogue& catalogue, Problems& problems);
 
-  /// `what` has the keys: "an expectation".
-  void checkKeys(const YamlNode& map, const char* what, const std::vector<std::string>& known);
   /// The name under `key`, one of `known`; "" if there is none. `what` it is: "technique".
   std::string readName(const YamlNode& map, const char* key, const std::vector<std::string>& known,
                        const char* what);
-  /// The map under `where`, of runs of `technique` in `scene` ("": any).
+  /// The map under `where`, of runs of `technique` in `scene` ("": any). Parameters inside of choices are
+  /// named by path or written as in the entry: `{budget.rim: 25}`, `{budget: {kind: radial, rim: 25}}`.
   Selection readWhere(const YamlNode& map, const std::string& technique, const std::string& scene);
 
   Problems& problems_;
   FileFinder files_;
-  ValueReader values_;
+  NodeReader reader_;
   std::vector<std::string> techniques_, scenes_;
   std::vector<std::string> quantities_;  ///< names of all measurements that the runs may have
 
  private:
-  /// Declarations that `name` may mean for runs of `technique` (any if empty) in `scene`, nearest meaning
-  /// first.
-  std::vector<const Parameter*> declarations(const std::string& technique, const std::string& scene,
-                                             const std::string& name, std::vector<std::string>& known) const;
+  /// All declarations of runs of `technique` (any if empty) in `scene`, nearest meaning first.
+  std::vector<DeclaredAt> declarations(const std::string& technique, const std::string& scene) const;
+  void readCondition(const std::string& path, const YamlNode& key, const YamlNode& value,
+                     const std::vector<DeclaredAt>& declared, Selection& out);
 
   const Catalogue& catalogue_;
-  const std::vector<Parameter>& imageParameters_;
+  std::vector<Parameter> imageParameters_;
 };
 
 }  // namespace limen::experiments

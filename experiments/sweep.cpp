@@ -13,6 +13,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/text.h"
+#include "experiments/catalogue_text.h"
 #include "experiments/console.h"
 #include "experiments/features.h"
 #include "experiments/plan.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/executor.h"
 
 namespace limen::experiments {

@@ -84,10 +84,30 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
   write(folder, "runs.csv", header, rows);
 }
 
+/// The data dictionary: what the columns of runs.csv and the names in measurements.csv mean.
+void exportDictionary(const Sweep& sweep, const std::string& folder) {
+  std::vector<Row> quantities, parameters;
+  for (const store::QuantityRow& q : sweep.names.descriptions().quantities)
+    quantities.push_back(
+        {q.name, q.title, q.unit, q.direction ? toText(*q.direction) : "unknown", q.kind, q.pass, q.source});
+  for (const store::ParameterRow& p : sweep.names.descriptions().parameters)
+    // The values of metrics' parameters stand in one column, "metrics".
+    parameters.push_back({p.subject == "metric" ? "metrics" : p.subject + "." + p.path, p.subject, p.owner,
+                          p.path, p.when.empty() ? "" : p.when.dump(), p.title, p.unit, p.type,
+                          p.defaultValue, p.description, p.source});
+  write(folder, "quantities.csv", {"name", "title", "unit", "direction", "kind", "pass", "source"},
+        quantities);
+  write(folder, "parameters.csv",
+        {"column", "subject", "owner", "path", "exists_when", "title", "unit", "type", "default",
+         "description", "source"},
+        parameters);
+}
+
 }  // namespace
 
 void exportTables(const Sweep& sweep, const std::string& folder) {
   exportRuns(sweep, folder);
+  exportDictionary(sweep, folder);
   std::vector<Row> measurements, frameTimes, passes;
   for (const store::Run* run : allRuns(sweep)) {
     for (const store::Measurement& m : run->measurements)

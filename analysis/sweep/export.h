@@ -8,7 +8,8 @@
 namespace limen::analysis {
 
 /// Writes runs.csv (one row a run: parameters and measurements), measurements.csv (long form),
-/// frame_times.csv and passes.csv into `folder`. Full precision; an absent value is an empty field. Failed
+/// frame_times.csv and passes.csv into `folder`, and beside them what their names mean: quantities.csv and
+/// parameters.csv. Full precision; an absent value is an empty field. Failed
 /// runs are in runs.csv.
 void exportTables(const Sweep& sweep, const std::string& folder);
 

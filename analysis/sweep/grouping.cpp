@@ -2,7 +2,6 @@
 #include "analysis/sweep/grouping.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
 #include "experiments/base/text.h"
@@ -38,7 +37,8 @@ std::vector<std::string> differing(const std::vector<const store::Run*>& runs, c
   return out;
 }
 
-std::string leaf(const std::string& path) { return path.substr(path.find('.') + 1); }
+// "technique.budget.rim" -> "budget.rim"
+std::string withoutSubject(const std::string& path) { return path.substr(path.find('.') + 1); }
 
 }  // namespace
 
@@ -48,14 +48,14 @@ std::map<std::string, std::string> flatParameters(const store::Run& run) {
   return out;
 }
 
-std::optional<std::string> findParameter(const store::Run& run, const std::string& name) {
+std::optional<std::string> findParameter(const store::Run& run, const std::string& path) {
   const std::map<std::string, std::string> all = flatParameters(run);
   for (const char* group : {"technique.", "scene.", "image."})
-    if (const auto found = all.find(group + name); found != all.end()) return found->second;
+    if (const auto found = all.find(group + path); found != all.end()) return found->second;
   return std::nullopt;
 }
 
-Grouping::Grouping(const std::vector<const store::Run*>& runs) {
+Grouping::Grouping(const std::vector<const store::Run*>& runs, const Names& names) : names_(names) {
   std::map<std::string, std::vector<const store::Run*>> techniques, scenes;
   for (const store::Run* run : runs) {
     techniques[run->technique].push_back(run);
@@ -70,12 +70,18 @@ Grouping::Grouping(const std::vector<const store::Run*>& runs) {
     for (const auto& [name, varying] : *part) paths.insert(paths.end(), varying.begin(), varying.end());
   paths.insert(paths.end(), image_.begin(), image_.end());
   std::set<std::string> seen;
-  std::map<std::string, size_t> leaves;
-  for (const std::string& path : std::set<std::string>(paths.begin(), paths.end())) ++leaves[leaf(path)];
+  std::map<std::string, size_t> count;
+  for (const std::string& path : std::set<std::string>(paths.begin(), paths.end()))
+    ++count[withoutSubject(path)];
   for (const std::string& path : paths) {
     if (!seen.insert(path).second) continue;
-    columnOfPath_[path] = leaves[leaf(path)] > 1 ? path : leaf(path);
-    columns_.push_back(columnOfPath_[path]);
+    Axis column = names.parameter(path);
+    if (count[withoutSubject(path)] > 1)
+      column.title = names.heading(path.substr(0, path.find('.'))) + ": " + column.title;
+    else
+      column.name = withoutSubject(path);
+    columnOfPath_[path] = column.name;
+    columns_.push_back(std::move(column));
   }
 }
 
@@ -88,19 +94,40 @@ std::map<std::string, std::string> Grouping::varying(const store::Run& run) cons
   return out;
 }
 
+std::string Grouping::describe(const store::Run& run, const std::vector<std::string>& paths) const {
+  const std::map<std::string, std::string> all = flatParameters(run);
+  std::vector<Setting> settings;
+  for (const std::string& path : paths)
+    if (const auto found = all.find(path); found != all.end()) settings.push_back({path, found->second});
+  return names_.describe(settings);
+}
+
+std::string Grouping::settings(const store::Run& run) const {
+  return describe(run, byTechnique_.at(run.technique));
+}
+
 std::string Grouping::group(const store::Run& run, const std::string& by) const {
   const std::map<std::string, std::string> all = flatParameters(run);
-  const auto value = [&](const std::string& path) {
+  const auto side = [&](const char* path) {
     const auto found = all.find(path);
     return found == all.end() ? std::string("–") : found->second;
   };
+  const auto size = [&] { return side("image.width") + "×" + side("image.height"); };
   if (by == "technique") return run.technique;
-  if (by == "image") return value("image.width") + "×" + value("image.height");
-  if (by != "scene") return by + "=" + findParameter(run, by).value_or("–");
-  std::vector<std::string> parts;
-  for (const std::string& path : byScene_.at(run.scene)) parts.push_back(leaf(path) + "=" + value(path));
-  if (!image_.empty()) parts.push_back(value("image.width") + "×" + value("image.height"));
-  return parts.empty() ? run.scene : run.scene + ", " + join(parts);
+  if (by == "image") return size();
+  if (by == "scene") {
+    std::vector<std::string> parts = {run.scene};
+    if (const std::string settings = describe(run, byScene_.at(run.scene)); !settings.empty())
+      parts.push_back(settings);
+    if (!image_.empty()) parts.push_back(size());
+    return join(parts);
+  }
+  for (const char* subject : {"technique.", "scene.", "image."})
+    if (const auto found = all.find(subject + by); found != all.end())
+      return names_.describe({{found->first, found->second}});
+  std::string missing = "no";
+  for (const char c : " " + by) missing += c == '.' || c == '_' ? ' ' : c;
+  return missing;
 }
 
 }  // namespace limen::analysis

@@ -19,6 +19,12 @@ extern const char* const kReportJs;
 namespace limen::analysis {
 namespace {
 
+// "3 techniques", "2 values of Budget: rim (px)"
+std::string countedGroups(const Sweep& sweep, size_t count, const std::string& by) {
+  if (by == "technique" || by == "scene" || by == "image") return counted(count, by);
+  return counted(count, "value") + " of " + sweep.names.heading(by);
+}
+
 std::string renderHead(const Sweep& sweep) {
   const store::Experiment& experiment = sweep.experiment;
   std::vector<std::string> features;
@@ -36,8 +42,8 @@ std::string renderHead(const Sweep& sweep) {
     if (std::find(devices.begin(), devices.end(), environment.device) == devices.end())
       devices.push_back(environment.device);
   fact("Runs", fmt::format("{} of {} done", counted(sweep.cells.size(), "run"), sweep.planned));
-  fact("Compared", fmt::format("{} × {}", counted(sweep.series.size(), sweep.seriesName),
-                               counted(sweep.panels.size(), sweep.panelName)));
+  fact("Compared", fmt::format("{} × {}", countedGroups(sweep, sweep.series.size(), sweep.seriesName),
+                               countedGroups(sweep, sweep.panels.size(), sweep.panelName)));
   if (!sweep.seriesPrefix.empty()) fact("All techniques are in", sweep.seriesPrefix);
   fact("Measured on", join(devices, "; "));
   fact("Source", experiment.source);
@@ -76,7 +82,9 @@ std::string renderHowToRead(const Sweep& sweep, bool footUsed) {
       "<li>p95 is the 95th percentile of the frame times, by linear interpolation.</li>"
       "<li>Every number at full precision: <a href=\"runs.csv\">runs.csv</a>, "
       "<a href=\"measurements.csv\">measurements.csv</a>, <a href=\"frame_times.csv\">frame_times.csv</a>, "
-      "<a href=\"passes.csv\">passes.csv</a>; gnuplot scripts in <a href=\"charts/\">charts/</a>.</li>"
+      "<a href=\"passes.csv\">passes.csv</a>; what their names mean: <a "
+      "href=\"quantities.csv\">quantities.csv</a>, <a href=\"parameters.csv\">parameters.csv</a>; gnuplot "
+      "scripts in <a href=\"charts/\">charts/</a>.</li>"
       "</ul></section>\n";
   return out;
 }
@@ -97,7 +105,7 @@ std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval
 std::string renderCellName(const Sweep& sweep, const Cell& cell) {
   std::string out = "<span class=\"name\">" + markerSvg(cell.series) + "<b>" +
                     breakable(sweep.series[cell.series]) + "</b>";
-  const std::string rest = sweep.seriesName == "technique" ? cell.run.label : sweep.label(cell);
+  const std::string rest = sweep.seriesName == "technique" ? cell.settings : sweep.label(cell);
   if (!rest.empty()) out += " <span class=\"settings\">" + breakable(rest) + "</span>";
   return out + "</span>";
 }

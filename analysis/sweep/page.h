@@ -9,6 +9,8 @@
 
 namespace limen::analysis {
 
+inline constexpr double kBytesPerMiB = 1024.0 * 1024.0;
+
 /// The charts of a page as inline SVG, by panel; empty text where a panel has nothing to draw.
 struct PageCharts {
   std::vector<std::string> speed, counter;
@@ -32,7 +34,7 @@ std::string renderProblems(const Sweep& sweep);
 std::string renderExpectations(const Sweep& sweep);
 std::string renderEnvironment(const Sweep& sweep);
 
-/// "soft_shadows/pcss, samples=8" with the marker of its series, as HTML.
+/// "soft_shadows/pcss, samples 8" with the marker of its series, as HTML.
 std::string renderCellName(const Sweep& sweep, const Cell& cell);
 /// "1.23 ms", with the interval if there is one, as plain text.
 std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval);

@@ -5,14 +5,13 @@
 #include <map>
 #include <set>
 
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/page.h"
-#include "analysis/output/text_output.h"
 
 namespace limen::analysis {
 namespace {
 
-constexpr double kBytesPerMiB = 1024.0 * 1024.0;
 constexpr size_t kPassColours = 8;
 constexpr size_t kOpenRows = 20;  // with more pictures only the first panel is unfolded
 
@@ -20,7 +19,7 @@ constexpr size_t kOpenRows = 20;  // with more pictures only the first panel is 
 std::vector<size_t> worthShowing(const Sweep& sweep, const Panel& panel) {
   const auto isBetter = [&](const Cell& a, const Cell& b) {
     if ((a.frontNumber > 0) != (b.frontNumber > 0)) return a.frontNumber > 0;
-    return sweep.y.higherIsBetter ? *a.y > *b.y : *a.y < *b.y;
+    return sweep.y.higherIsBetter() ? *a.y > *b.y : *a.y < *b.y;
   };
   std::map<size_t, size_t> bySeries;
   for (const size_t index : panel.cells) {
@@ -157,7 +156,7 @@ std::string renderPictures(const Sweep& sweep, const Pictures& pictures) {
           "<div class=\"picture-row\" data-series=\"{}\"><p>{} <span class=\"value\">{}, {} {}</span> "
           "<span class=\"why\">{}</span></p><div class=\"trio\">\n",
           cell.series, renderCellName(sweep, cell), escapeHtml(describeTime(sweep, cell, false)),
-          escapeHtml(sweep.y.name), escapeHtml(withUnit(*cell.y, sweep.y)), escapeHtml(row.chosen));
+          escapeHtml(sweep.y.title), escapeHtml(withUnit(*cell.y, sweep.y)), escapeHtml(row.chosen));
       for (const Picture& picture : row.pictures)
         out += renderPicture(picture, row,
                              picture.caption + " of " + sweep.label(cell) + ", " + sweep.panels[index].title,

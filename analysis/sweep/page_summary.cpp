@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/page.h"
-#include "analysis/output/text_output.h"
 #include "analysis/sweep/trade_off.h"
 
 namespace limen::analysis {
@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kOpenFront = 8;  // a longer list is folded, so that the charts stay side by side
 
 bool reaches(const Sweep& sweep, const Cell& cell, double level) {
-  return sweep.y.higherIsBetter ? *cell.y >= level : *cell.y <= level;
+  return sweep.y.higherIsBetter() ? *cell.y >= level : *cell.y <= level;
 }
 
 // Where all panels can be compared: between the tightest and the loosest error on any front.
@@ -24,12 +24,12 @@ std::vector<double> errorLevels(const Sweep& sweep) {
   for (const Panel& panel : sweep.panels)
     for (const size_t index : panel.front) {
       const double y = *sweep.cells[index].y;
-      if (!std::isfinite(y) || (y <= 0.0 && !sweep.y.higherIsBetter)) continue;
+      if (!std::isfinite(y) || (y <= 0.0 && !sweep.y.higherIsBetter())) continue;
       low = std::min(low, y);
       high = std::max(high, y);
     }
-  std::vector<double> levels = roundLevels(low, high, !sweep.y.higherIsBetter);
-  if (!sweep.y.higherIsBetter) std::reverse(levels.begin(), levels.end());
+  std::vector<double> levels = roundLevels(low, high, !sweep.y.higherIsBetter());
+  if (!sweep.y.higherIsBetter()) std::reverse(levels.begin(), levels.end());
   return levels;
 }
 
@@ -52,7 +52,7 @@ size_t countTies(const Sweep& sweep, const Panel& panel, const Cell& winner, dou
 
 std::string renderWinner(const Sweep& sweep, const Panel& panel, double level) {
   const Cell* winner = fastestWithin(sweep, panel, level);
-  const std::string open = fmt::format("<td data-level=\"{} {}\"", sweep.y.higherIsBetter ? "≥" : "≤",
+  const std::string open = fmt::format("<td data-level=\"{} {}\"", sweep.y.higherIsBetter() ? "≥" : "≤",
                                        escapeHtml(withUnit(level, sweep.y)));
   if (winner == nullptr) return open + " class=\"none\">none reaches it</td>";
   std::string out = open + ">" + renderCellName(sweep, *winner) + "<span class=\"value\">" +
@@ -65,13 +65,13 @@ std::string renderWinner(const Sweep& sweep, const Panel& panel, double level) {
 std::string renderMatrix(const Sweep& sweep) {
   const std::vector<double> levels = errorLevels(sweep);
   if (levels.empty()) return "";
-  const char* word = sweep.y.higherIsBetter ? "at least" : "at most";
+  const char* word = sweep.y.higherIsBetter() ? "at least" : "at most";
   std::string out = fmt::format(
       "<div class=\"scroll\"><table class=\"verdict\"><caption>Fastest setting with {} of {} …</caption>\n"
       "<thead><tr><th scope=\"col\">{}</th>",
-      escapeHtml(sweep.y.title), word, escapeHtml(sweep.panelName));
+      escapeHtml(sweep.y.title), word, escapeHtml(sweep.names.heading(sweep.panelName)));
   for (const double level : levels)
-    out += fmt::format("<th scope=\"col\">{} {}</th>", sweep.y.higherIsBetter ? "≥" : "≤",
+    out += fmt::format("<th scope=\"col\">{} {}</th>", sweep.y.higherIsBetter() ? "≥" : "≤",
                        escapeHtml(withUnit(level, sweep.y)));
   out += "</tr></thead>\n<tbody>";
   for (const Panel& panel : sweep.panels) {
@@ -125,7 +125,7 @@ std::string renderFront(const Sweep& sweep, const Panel& panel) {
       "<th scope=\"col\"><abbr title=\"number in the chart\">#</abbr></th><th scope=\"col\">setting</th>"
       "<th scope=\"col\" class=\"num\">{}</th><th scope=\"col\" class=\"num\">{}</th></tr></thead>\n<tbody>",
       panel.front.size() <= kOpenFront ? " open" : "", counted(panel.front.size(), "setting"),
-      escapeHtml(sweep.x.title), escapeHtml(sweep.y.title));
+      escapeHtml(sweep.x.label()), escapeHtml(sweep.y.label()));
   for (const size_t index : panel.front) {
     const Cell& cell = sweep.cells[index];
     std::string interval;
@@ -164,6 +164,12 @@ std::string renderNotices(const Sweep& sweep) {
            "<b>These times were made by a software renderer on a CPU.</b> They compare techniques on this "
            "CPU only and "
            "say nothing about a GPU. Errors and counters do not depend on that.");
+  if (!sweep.y.direction)
+    notice("warn", "<b>The store does not say whether less or more of “" + escapeHtml(sweep.y.title) +
+                       "” is better.</b> Less is taken to be: fronts and verdicts depend on that.");
+  else if (sweep.y.direction == Direction::Neither)
+    notice("note", "Of “" + escapeHtml(sweep.y.title) +
+                       "” neither less nor more is better. Fronts and verdicts here prefer less.");
   if (sweep.severalDevices)
     notice("warn",
            "<b>The runs come from several devices.</b> Each device has its own panels, since times of two "
@@ -181,7 +187,7 @@ std::string renderVerdict(const Sweep& sweep) {
   for (const Cell& cell : sweep.cells) undrawn += !cell.isDrawn();
   if (undrawn > 0)
     out += fmt::format("<p>{} {} no value of {} or {} and {} in the table only.</p>", counted(undrawn, "run"),
-                       undrawn == 1 ? "has" : "have", escapeHtml(sweep.x.name), escapeHtml(sweep.y.name),
+                       undrawn == 1 ? "has" : "have", escapeHtml(sweep.x.title), escapeHtml(sweep.y.title),
                        undrawn == 1 ? "stands" : "stand");
   return out + "</section>\n";
 }
@@ -220,7 +226,7 @@ std::string renderCounter(const Sweep& sweep, const PageCharts& charts) {
       "<section id=\"counter\"><h2>Error against {}</h2>\n<p>A cost that does not depend on the machine. "
       "Only runs that "
       "count it are drawn; the grey step is the front among them.</p>\n",
-      escapeHtml(sweep.counter->title));
+      escapeHtml(sweep.counter->label()));
   out += renderLegend(sweep) + "<div class=\"panels\">\n";
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
     if (charts.counter[index].empty()) continue;

@@ -16,10 +16,9 @@
 namespace limen::analysis {
 namespace {
 
-constexpr double kBytesPerMiB = 1024.0 * 1024.0;
-
 struct Column {
-  std::string title;
+  std::string name;   ///< as in the CSV tables; "" if it is not there
+  std::string title;  ///< with the unit
   bool numeric = false;
   std::function<std::optional<double>(const Cell&)> number;  ///< numeric columns
   std::function<std::string(const Cell&)> html;              ///< the others
@@ -37,44 +36,44 @@ std::optional<double> toNumber(const std::string& text) {
   return text.empty() || *end != '\0' ? std::nullopt : std::optional(value);
 }
 
-Column parameterColumn(const Sweep& sweep, const std::string& name) {
-  const auto value = [name](const Cell& cell) {
+Column parameterColumn(const Sweep& sweep, const Axis& parameter) {
+  const auto value = [name = parameter.name](const Cell& cell) {
     const auto found = cell.varying.find(name);
     return found == cell.varying.end() ? std::string() : found->second;
   };
   const bool numeric = std::all_of(sweep.cells.begin(), sweep.cells.end(), [&](const Cell& cell) {
     return value(cell).empty() || toNumber(value(cell));
   });
-  return {name, numeric, [value](const Cell& cell) { return toNumber(value(cell)); },
+  return {parameter.name, parameter.label(), numeric,
+          [value](const Cell& cell) { return toNumber(value(cell)); },
           [value](const Cell& cell) { return escapeHtml(value(cell)); }};
 }
 
 std::vector<Column> measurementColumns(const Sweep& sweep) {
-  struct Seen {
-    std::string name, unit, kind;
-  };
-  std::vector<Seen> seen;
+  std::vector<const store::QuantityRow*> seen;
   for (const Cell& cell : sweep.cells)
     for (const store::Measurement& m : cell.run.measurements)
-      if (std::none_of(seen.begin(), seen.end(), [&](const Seen& s) { return s.name == m.name; }))
-        seen.push_back({m.name, m.unit, m.kind});
-  const auto rank = [](const Seen& s) {
-    return s.kind == "time" ? 0 : s.kind == "error" ? 1 : s.kind == "counter" ? 2 : 3;
+      if (const store::QuantityRow* row = sweep.names.descriptions().quantity(m.name);
+          std::find(seen.begin(), seen.end(), row) == seen.end())
+        seen.push_back(row);
+  const auto rank = [](const store::QuantityRow* row) {
+    return row->kind == "time" ? 0 : row->kind == "error" ? 1 : row->kind == "counter" ? 2 : 3;
   };
-  std::stable_sort(seen.begin(), seen.end(), [&](const Seen& a, const Seen& b) { return rank(a) < rank(b); });
+  std::stable_sort(seen.begin(), seen.end(), [&](auto* a, auto* b) { return rank(a) < rank(b); });
   std::vector<Column> out;
-  for (const Seen& s : seen) {
-    const bool bytes = s.unit == "B" || s.unit == "bytes";
+  for (const store::QuantityRow* row : seen) {
+    const bool bytes = row->unit == "byte";
     const double scale = bytes ? 1.0 / kBytesPerMiB : 1.0;
-    const std::string unit = bytes ? "MiB" : s.unit;
-    out.push_back({s.name + (unit.empty() ? "" : " (" + unit + ")"),
-                   true,
-                   [name = s.name, scale](const Cell& cell) -> std::optional<double> {
-                     for (const store::Measurement& m : cell.run.measurements)
-                       if (m.name == name && m.value) return *m.value * scale;
-                     return std::nullopt;
-                   },
-                   {}});
+    out.push_back(
+        {row->name,
+         titleWithUnit(sweep.names.axis(row->name, sweep.software).title, bytes ? "MiB" : row->unit),
+         true,
+         [name = row->name, scale](const Cell& cell) -> std::optional<double> {
+           for (const store::Measurement& m : cell.run.measurements)
+             if (m.name == name && m.value) return *m.value * scale;
+           return std::nullopt;
+         },
+         {}});
   }
   return out;
 }
@@ -82,14 +81,14 @@ std::vector<Column> measurementColumns(const Sweep& sweep) {
 std::vector<Column> columnsOf(const Sweep& sweep) {
   std::vector<Column> columns;
   if (sweep.panels.size() > 1)
-    columns.push_back({sweep.panelName, false, {}, [&](const Cell& cell) {
+    columns.push_back({"", sweep.names.heading(sweep.panelName), false, {}, [&](const Cell& cell) {
                          return escapeHtml(sweep.panels[cell.panel].title);
                        }});
-  columns.push_back({"technique", false, {}, [&](const Cell& cell) {
+  columns.push_back({"technique", "Technique", false, {}, [&](const Cell& cell) {
                        return markerSvg(cell.series) +
                               breakable(cell.run.technique.substr(sweep.seriesPrefix.size()));
                      }});
-  for (const std::string& name : sweep.varyingColumns) columns.push_back(parameterColumn(sweep, name));
+  for (const Axis& parameter : sweep.varyingColumns) columns.push_back(parameterColumn(sweep, parameter));
   const bool framed =
       std::any_of(sweep.cells.begin(), sweep.cells.end(), [](const Cell& c) { return c.frame.has_value(); });
   if (framed) {
@@ -103,11 +102,12 @@ std::vector<Column> columnsOf(const Sweep& sweep) {
         return cell.interval ? std::optional((*cell.interval).*member) : std::nullopt;
       };
     };
-    columns.push_back({"median (ms)", true, frame(&Summary::median), {}});
-    columns.push_back({"95 % low (ms)", true, bound(&MedianInterval::low), {}});
-    columns.push_back({"95 % high (ms)", true, bound(&MedianInterval::high), {}});
-    columns.push_back({"p95 (ms)", true, frame(&Summary::p95), {}});
-    columns.push_back({"frames",
+    columns.push_back({"frame_median_ms", "Median (ms)", true, frame(&Summary::median), {}});
+    columns.push_back({"frame_low95_ms", "95 % low (ms)", true, bound(&MedianInterval::low), {}});
+    columns.push_back({"frame_high95_ms", "95 % high (ms)", true, bound(&MedianInterval::high), {}});
+    columns.push_back({"frame_p95_ms", "95th percentile (ms)", true, frame(&Summary::p95), {}});
+    columns.push_back({"n_frames",
+                       "Frames",
                        true,
                        [](const Cell& cell) -> std::optional<double> {
                          return cell.frame ? std::optional(static_cast<double>(cell.frame->n)) : std::nullopt;
@@ -115,7 +115,8 @@ std::vector<Column> columnsOf(const Sweep& sweep) {
                        {}});
   }
   for (Column& column : measurementColumns(sweep)) columns.push_back(std::move(column));
-  columns.push_back({"front",
+  columns.push_back({"",
+                     "Front",
                      true,
                      [](const Cell& cell) -> std::optional<double> {
                        return cell.frontNumber > 0 ? std::optional<double>(cell.frontNumber) : std::nullopt;
@@ -144,13 +145,15 @@ std::string renderRunTable(const Sweep& sweep) {
       "order.</p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All runs\"><table "
       "class=\"sortable\">"
-      "<caption>{}; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “front”: place on "
+      "<caption>{}; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “Front”: place on "
       "the Pareto "
       "front of its panel.</caption>\n<thead><tr>",
       counted(sweep.cells.size(), "finished run"));
   for (const Column& column : columns)
-    out += fmt::format("<th scope=\"col\"{}><button type=\"button\">{}</button></th>",
-                       column.numeric ? " class=\"num\"" : "", escapeHtml(column.title));
+    out += fmt::format("<th scope=\"col\"{}{}><button type=\"button\">{}</button></th>",
+                       column.numeric ? " class=\"num\"" : "",
+                       column.name.empty() ? "" : " title=\"" + escapeHtml(column.name) + "\"",
+                       escapeHtml(column.title));
   out += "</tr></thead>\n<tbody>\n";
   for (const Cell& cell : sweep.cells) {
     out += fmt::format("<tr data-run=\"{}\" data-series=\"{}\">", escapeHtml(cell.run.key), cell.series);

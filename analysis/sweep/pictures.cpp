@@ -51,7 +51,7 @@ struct Chosen {
 };
 
 std::vector<Chosen> chooseOf(const Sweep& sweep, std::vector<size_t> cells, size_t perSeries) {
-  const bool higher = sweep.y.higherIsBetter;
+  const bool higher = sweep.y.higherIsBetter();
   std::stable_sort(cells.begin(), cells.end(), [&](size_t a, size_t b) {
     const double ya = *sweep.cells[a].y, yb = *sweep.cells[b].y;
     return higher ? ya > yb : ya < yb;

@@ -70,7 +70,8 @@ PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohman
   out.device = table.at("device");
   out.note = table.at("note");
   out.unit = table.at("unit");
-  out.quantity = table.at("measure");
+  const std::string measure = table.at("measure");
+  if (!measure.empty()) out.quantity = sweep.names.axis(measure, sweep.software).label();
   out.columns = table.at("columns").get<std::vector<std::string>>();
   std::vector<std::vector<const Cell*>> cellsOfRows;
   for (const nlohmann::json& row : table.at("rows")) {
@@ -97,7 +98,7 @@ PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohman
       const auto place =
           std::find(out.ownColumns.begin(), out.ownColumns.end(), ownColumn(sweep, grouping, *cell));
       row.ours[static_cast<size_t>(place - out.ownColumns.begin())] =
-          valueOf(*cell, out.quantity, from.at("passes").get<std::vector<std::string>>());
+          valueOf(*cell, measure, from.at("passes").get<std::vector<std::string>>());
     }
     out.rows.push_back(std::move(row));
   }
@@ -170,7 +171,7 @@ std::vector<PrintedTable> comparePrinted(const Sweep& sweep) {
   if (tables == sweep.experiment.report.end()) return out;
   std::vector<const store::Run*> runs;
   for (const Cell& cell : sweep.cells) runs.push_back(&cell.run);
-  const Grouping grouping(runs);
+  const Grouping grouping(runs, sweep.names);
   for (const nlohmann::json& table : *tables) out.push_back(compare(sweep, grouping, table));
   return out;
 }

@@ -39,11 +39,13 @@ void requireComplete(const Sweep& sweep, const std::string& storePath) {
 
 std::string hoverText(const Sweep& sweep, const Cell& cell, const Axis& x, double value) {
   std::string out = sweep.label(cell) + "\n" + sweep.panels[cell.panel].title;
-  for (const auto& [name, text] : cell.varying) out += "\n" + name + ": " + text;
-  out += "\n" + x.title + ": " + formatNumber(value);
+  for (const Axis& column : sweep.varyingColumns)
+    if (const auto found = cell.varying.find(column.name); found != cell.varying.end())
+      out += "\n" + column.label() + ": " + found->second;
+  out += "\n" + x.label() + ": " + formatNumber(value);
   if (&x == &sweep.x && cell.interval)
     out += fmt::format(" [{}–{}]", formatNumber(cell.interval->low), formatNumber(cell.interval->high));
-  out += "\n" + sweep.y.title + ": " + formatNumber(*cell.y);
+  out += "\n" + sweep.y.label() + ": " + formatNumber(*cell.y);
   if (cell.frontNumber > 0) out += fmt::format("\nno. {} on the Pareto front", cell.frontNumber);
   return out;
 }
@@ -58,9 +60,9 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
     Chart chart;
     chart.name = fmt::format("{}_{}", isCounter ? "counter" : "speed", index + 1);
     chart.title = sweep.experiment.title + ", " + panel.title;
-    chart.xTitle = xAxis.title;
-    chart.yTitle = sweep.y.title;
-    chart.yUpsideDown = sweep.y.higherIsBetter;
+    chart.xTitle = xAxis.label();
+    chart.yTitle = sweep.y.label();
+    chart.yUpsideDown = sweep.y.higherIsBetter();
     std::vector<std::pair<double, double>> points;
     for (const size_t cellIndex : panel.cells) {
       const Cell& cell = sweep.cells[cellIndex];
@@ -82,14 +84,14 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
       xs.push_back(*x);
       if (mark.interval) xs.insert(xs.end(), {mark.interval->low, mark.interval->high});
       ys.push_back(*cell.y);
-      points.emplace_back(*x, sweep.y.higherIsBetter ? -*cell.y : *cell.y);
+      points.emplace_back(*x, sweep.y.higherIsBetter() ? -*cell.y : *cell.y);
       chart.marks.push_back(std::move(mark));
     }
     chart.front = paretoFront(points);
     for (const size_t place : chart.front) chart.marks[place].onFront = true;
     charts.push_back(std::move(chart));
   }
-  const ChartAxis x = makeChartAxis(xs, false), y = makeChartAxis(ys, sweep.y.higherIsBetter);
+  const ChartAxis x = makeChartAxis(xs, false), y = makeChartAxis(ys, sweep.y.higherIsBetter());
   std::vector<std::string> out;
   for (const Chart& chart : charts) {
     out.push_back(chart.marks.empty() ? "" : drawChart(chart, x, y, sweep.series.size(), folder));

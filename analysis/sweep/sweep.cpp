@@ -24,51 +24,16 @@ std::optional<double> measured(const store::Run& run, const std::string& name) {
   return *end == '\0' && !parameter->empty() ? std::optional(value) : std::nullopt;
 }
 
-std::string passOf(const std::string& name) {
-  if (name == "gpu_ms") return "frame";
-  if (name == "cpu_ms") return "cpu";
-  return name == "wall_ms" ? "wall" : "";
-}
-
-// "micro_occluders_per_px" -> "micro occluders per px"; a unit that stands in brackets is not said twice.
-std::string titleOf(const std::string& name, const std::string& unit, bool software) {
-  std::string words = name;
-  if (name == "gpu_ms")
-    words = software ? "frame time on the CPU" : "GPU time";
-  else if (name == "cpu_ms")
-    words = "CPU time";
-  else if (name == "wall_ms")
-    words = "wall time";
-  else if (unit == "ms" && words.size() > 3 && words.ends_with("_ms"))
-    words.resize(words.size() - 3);
-  if (name == "rmse" || name == "psnr" || name == "ssim" || name == "jnd" || name == "mse" || name == "flip")
-    std::transform(words.begin(), words.end(), words.begin(),
-                   [](unsigned char c) { return std::toupper(c); });
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return unit.empty() ? words : words + " (" + unit + ")";
-}
-
-Axis makeAxis(const std::string& name, const std::vector<Cell>& cells, bool software) {
-  Axis axis{name, "", "", passOf(name), false};
-  for (const Cell& cell : cells)
-    for (const store::Measurement& measurement : cell.run.measurements)
-      if (measurement.name == name) axis.unit = measurement.unit;
-  axis.title = titleOf(name, axis.unit, software);
-  // The store does not say which way a metric points; of those in use these two families grow with quality.
-  axis.higherIsBetter = name.find("psnr") != std::string::npos || name.find("ssim") != std::string::npos;
-  return axis;
-}
-
 // The counter that most runs have and that differs among them.
-std::optional<Axis> chooseCounter(const std::vector<Cell>& cells, const std::string& x, const std::string& y,
-                                  bool software) {
+std::optional<Axis> chooseCounter(const Sweep& sweep) {
+  const std::vector<Cell>& cells = sweep.cells;
   std::vector<std::string> names;
   std::map<std::string, std::set<double>> values;
   std::map<std::string, size_t> count;
   for (const Cell& cell : cells)
     for (const store::Measurement& measurement : cell.run.measurements) {
-      if (measurement.kind != "counter" || !measurement.value || measurement.name == x ||
-          measurement.name == y)
+      if (measurement.kind != "counter" || !measurement.value || measurement.name == sweep.x.name ||
+          measurement.name == sweep.y.name)
         continue;
       if (count[measurement.name]++ == 0) names.push_back(measurement.name);
       values[measurement.name].insert(*measurement.value);
@@ -76,7 +41,7 @@ std::optional<Axis> chooseCounter(const std::vector<Cell>& cells, const std::str
   std::optional<std::string> best;
   for (const std::string& name : names)
     if (values[name].size() > 1 && (!best || count[name] > count[*best])) best = name;
-  return best ? std::optional(makeAxis(*best, cells, software)) : std::nullopt;
+  return best ? std::optional(sweep.names.axis(*best)) : std::nullopt;
 }
 
 void addTimes(Cell& cell, const std::string& framePass) {
@@ -116,7 +81,7 @@ void findFronts(Sweep& sweep) {
       const Cell& cell = sweep.cells[index];
       if (!cell.isDrawn()) continue;
       drawn.push_back(index);
-      points.emplace_back(*cell.x, sweep.y.higherIsBetter ? -*cell.y : *cell.y);
+      points.emplace_back(*cell.x, sweep.y.higherIsBetter() ? -*cell.y : *cell.y);
     }
     for (const size_t place : paretoFront(points)) {
       panel.front.push_back(drawn[place]);
@@ -166,7 +131,7 @@ void sortRuns(const store::Store& store, Sweep& sweep) {
 bool isWholeFrame(const std::string& pass) { return pass == "frame" || pass == "wall" || pass == "cpu"; }
 
 std::string Sweep::label(const Cell& cell) const {
-  const std::string& settings = cell.run.label;
+  const std::string& settings = cell.settings;
   std::string out =
       seriesName == "technique" ? series[cell.series] : cell.run.technique.substr(seriesPrefix.size());
   return settings.empty() ? out : out + ", " + settings;
@@ -187,21 +152,26 @@ Sweep loadSweep(const store::Store& store, const store::Experiment& experiment) 
   }
 
   const nlohmann::json& report = experiment.report;
-  sweep.x = makeAxis(report.value("x", "gpu_ms"), sweep.cells, sweep.software);
-  sweep.y = makeAxis(report.value("y", "rmse"), sweep.cells, sweep.software);
-  sweep.counter = chooseCounter(sweep.cells, sweep.x.name, sweep.y.name, sweep.software);
+  sweep.names = Names(store.descriptions(experiment.id));
+  sweep.x = sweep.names.axis(report.value("x", "gpu_ms"), sweep.software);
+  sweep.y = sweep.names.axis(report.value("y", "rmse"), sweep.software);
+  sweep.counter = chooseCounter(sweep);
   sweep.seriesName = report.value("series", "technique");
   sweep.panelName = report.value("panels", "scene");
 
   std::vector<const store::Run*> runs;
   for (const Cell& cell : sweep.cells) runs.push_back(&cell.run);
-  const Grouping grouping(runs);
+  for (const store::Run& run : sweep.failed) runs.push_back(&run);
+  const Grouping grouping(runs, sweep.names);
   std::vector<std::string> panels;
   for (size_t index = 0; index < sweep.cells.size(); ++index) {
     Cell& cell = sweep.cells[index];
     addTimes(cell, sweep.x.pass);
     cell.x = measured(cell.run, sweep.x.name);
     if (!cell.x && cell.frame) cell.x = cell.frame->median;
+    // Where other settings were planned but are not there, the plan's own label tells them apart.
+    cell.settings = grouping.settings(cell.run);
+    if (cell.settings.empty()) cell.settings = cell.run.label;
     cell.y = measured(cell.run, sweep.y.name);
     if (sweep.counter) cell.counter = measured(cell.run, sweep.counter->name);
     cell.varying = grouping.varying(cell.run);

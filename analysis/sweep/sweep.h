@@ -7,18 +7,10 @@
 #include <vector>
 
 #include "analysis/statistics/summary.h"
+#include "analysis/sweep/names.h"
 #include "experiments/store/store.h"
 
 namespace limen::analysis {
-
-/// A quantity on an axis: a measurement or a numeric parameter.
-struct Axis {
-  std::string name;
-  std::string title;  ///< "GPU time (ms)"
-  std::string unit;
-  std::string pass;             ///< frame_time rows that it is the median of; "": none
-  bool higherIsBetter = false;  ///< PSNR, SSIM: drawn upside down on a linear axis
-};
 
 /// Times of one pass over the frames of a run.
 struct PassTime {
@@ -34,6 +26,7 @@ struct Cell {
   std::optional<Summary> frame;            ///< of the x axis' pass, milliseconds
   std::optional<MedianInterval> interval;  ///< of the median of that
   std::vector<PassTime> passes;
+  std::string settings;  ///< "budget radial, rim 25": what tells it from others of its technique
   std::map<std::string, std::string> varying;  ///< column -> value, of what varies among the runs
   int frontNumber = 0;                         ///< place on the panel's Pareto front, from 1; 0: not on it
   bool isDrawn() const { return x && y; }
@@ -53,18 +46,19 @@ struct Sweep {
   std::vector<store::Run> failed;
   std::vector<store::PlanEntry> missing;  ///< neither done nor failed: never run, or given up
   size_t planned = 0;
+  Names names;  ///< what names mean in this experiment
   Axis x, y;
   std::optional<Axis> counter;  ///< machine-independent cost, if the runs have one
   std::string seriesName, panelName;
   std::vector<std::string> series;  ///< as a reader sees them: without `seriesPrefix`
   std::string seriesPrefix;         ///< folder that all techniques share ("soft_shadows/")
   std::vector<Panel> panels;
-  std::vector<std::string> varyingColumns;
+  std::vector<Axis> varyingColumns;
   bool software = false;  ///< at least one run was timed on a software renderer
   bool severalDevices = false;
 
   bool isComplete() const { return missing.empty() && failed.empty(); }
-  /// "pcss, samples=8": what tells this cell from the others of its panel.
+  /// "pcss, samples 8": what tells this cell from the others of its panel.
   std::string label(const Cell& cell) const;
 };
 

@@ -88,7 +88,7 @@ SwitchDistance estimate(const Group& group, const std::set<std::string>& varying
   out.technique = group.first->technique;
   out.scene = group.first->scene;
   for (const auto& [path, text] : group.all)
-    if (varying.count(path)) out.condition[leafOf(path)] = text;
+    if (varying.count(path)) out.condition[path.substr(path.find('.') + 1)] = text;
   for (const auto& [distance, value] : group.views.begin()->second) out.distances.push_back(distance);
   for (const auto& [view, curve] : group.views) {
     std::vector<double> distances, values;
@@ -110,6 +110,9 @@ SwitchDistance estimate(const Group& group, const std::set<std::string>& varying
 SwitchReport analyse(const store::Store& store, const store::Experiment& experiment,
                      const SwitchOptions& options) {
   SwitchReport report{experiment.title, experiment.hash, options.probability, options.confidence, {}, 0};
+  const Names names(store.descriptions(experiment.id));
+  report.distanceLabel = names.axis(options.distance).label();
+  report.probabilityLabel = names.axis(options.measurement).label();
   const std::vector<store::Run> runs = store.runs(experiment.id);
   const size_t planned = store.plan(experiment.id).size();
   const size_t done = static_cast<size_t>(

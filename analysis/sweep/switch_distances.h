@@ -40,6 +40,7 @@ struct SwitchReport {
   size_t leftOut = 0;  ///< runs missing or failed, with `force`
   /// Without which the distances say nothing, where it is the same for all: "display", "height", "width" ...
   std::map<std::string, std::string> seen = {};
+  std::string distanceLabel = "Distance", probabilityLabel = "Probability of detection";  ///< of the axes
 };
 
 /// Distances at which each level-of-detail switch of a sweep may happen. The sweep varies the distance, and

@@ -227,14 +227,15 @@ std::string drawSwitchChart(const SwitchReport& report, const std::string& folde
           "set encoding utf8\nset border 3\nset tics nomirror out\nset logscale x\n"
           "set xrange [{6}:{7}]\nset xtics {8}\nset mxtics 1\nset rmargin 4\n"
           "set key outside below noenhanced maxcols {9} samplen 3\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
-          "set bars 0.5\nset title {1} noenhanced\nset xlabel 'distance (world units){10}' noenhanced\n"
-          "set ylabel 'probability of detection{11}'\nset yrange [0:1]\n"
+          "set bars 0.5\nset title {1} noenhanced\nset xlabel {10} noenhanced\n"
+          "set ylabel {11}\nset yrange [0:1]\n"
           "set arrow from graph 0, first {2} to graph 1, first {2} nohead dt 2 lc rgb '#777777'\n"
           "plot {3}\n",
           name, gnuplotQuoted(report.title), shortestNumber(report.probability), plots,
           shortestNumber(8.5 + 0.5 * static_cast<double>(rows)), 440 + 20 * rows, shortestNumber(low),
-          shortestNumber(high), logarithmicTics(low, high), columns, seen.empty() ? "" : ", " + seen,
-          bars ? "; bars: range over views" : ""));
+          shortestNumber(high), logarithmicTics(low, high), columns,
+          gnuplotQuoted(report.distanceLabel + (seen.empty() ? "" : ", " + seen)),
+          gnuplotQuoted(report.probabilityLabel + (bars ? "; bars: range over views" : ""))));
   runGnuplot(folder, name + ".gp");
   return base.string() + ".svg";
 }

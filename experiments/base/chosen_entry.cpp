@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/base/chosen_entry.h"
 
+#include "experiments/base/error.h"
+
 namespace limen::settings {
 namespace {
 
@@ -27,6 +29,11 @@ void EntryAccess::read(const Parameter& stated, void* settings, const ParameterV
   for (const std::string& name : options_.names)
     if (kindOf(name) == kind) chosen.name = name;
   chosen.values = values.below(path);
+  try {
+    options_.check(chosen.name, chosen.values);
+  } catch (const Error& error) {
+    throw Error(error.message(), joinPath(stated.name, error.where()), error.mend());
+  }
 }
 
 void EntryAccess::write(const Parameter& stated, const void* settings, const std::string& prefix,

@@ -17,12 +17,21 @@ struct ChosenEntry {
   ParameterValues values;  ///< complete; empty in defaults: the entry's own
 };
 
+/// All values of an entry of Info's registry: what `chosen` leaves out takes its default. Throws Error.
+template <class Info>
+ParameterValues completeValues(const ChosenEntry& chosen, const std::string& where = {}) {
+  const std::vector<Parameter>& declared = Registry<Info>::instance().get(chosen.name, where).parameters;
+  return {declared, chosen.values.all(), where};
+}
+
 namespace settings {
 
 /// Which entries may be chosen, with what they declare.
 struct EntryOptions {
   std::vector<std::string> names;  ///< as registered
   std::function<const std::vector<Parameter>&(const std::string& name)> parametersOf;
+  /// Throws Error if the values of an entry do not go together, `where` being a path within them.
+  std::function<void(const std::string& name, const ParameterValues& values)> check;
 };
 
 class EntryAccess : public MemberAccess {
@@ -65,6 +74,12 @@ Binding<S> registeredChoice(ChosenEntry S::*member, std::string name, std::vecto
   settings::EntryOptions options{std::move(entries),
                                  [](const std::string& entry) -> const std::vector<Parameter>& {
                                    return Registry<Info>::instance().get(entry).parameters;
+                                 },
+                                 [](const std::string& entry, const ParameterValues& values) {
+                                   if constexpr (requires(const Info& info) { info.check(values); }) {
+                                     const Info& info = Registry<Info>::instance().get(entry);
+                                     if (info.check) info.check(values);
+                                   }
                                  }};
   return {settings::state(ParameterType::Choice, std::move(name), std::move(description), std::move(source)),
           std::make_shared<settings::EntryMember<S>>(member, std::move(options))};

@@ -250,6 +250,18 @@ ParameterValues::ParameterValues(const std::vector<Parameter>& declared,
   }
 }
 
+std::vector<DeclaredAt> chosen(const std::vector<Parameter>& declared, const ParameterValues& values) {
+  std::vector<DeclaredAt> out;
+  for (DeclaredAt& at : flatten(declared)) {
+    const bool exists = std::all_of(at.when.begin(), at.when.end(), [&](const auto& choice) {
+      const ParameterValue* value = values.find(choice.first);
+      return value && *value == ParameterValue(choice.second);
+    });
+    if (exists) out.push_back(std::move(at));
+  }
+  return out;
+}
+
 const ParameterValue* ParameterValues::find(const std::string& path) const {
   const auto entry = values_.find(path);
   return entry == values_.end() ? nullptr : &entry->second;

@@ -48,6 +48,8 @@ struct Parameter {
   std::string shorthand = {};
   /// How the same was written formerly: names that an error answers with the new form.
   std::vector<std::string> formerNames = {};
+  /// As an axis label, without the unit; "": the words of the name.
+  std::string title = {};
 };
 
 /// One of several values of a Choice, with what belongs to it alone.
@@ -127,6 +129,9 @@ class ParameterValues {
   const ParameterValue& at(const std::string& path) const;
   std::map<std::string, ParameterValue> values_;
 };
+
+/// The declarations of `values`, those that exist under its choices, in order of declaration.
+std::vector<DeclaredAt> chosen(const std::vector<Parameter>& declared, const ParameterValues& values);
 
 /// Text form of a value, shortest that reads back to the same number ("0.05", "true", "jittered_16").
 std::string toText(const ParameterValue& value);

@@ -35,4 +35,7 @@ struct Quantity {
   std::string source;  ///< thesis section or paper; "" for the bench's own
 };
 
+/// Its title, or the words of its name if it has none.
+std::string titleOf(const Quantity& quantity);
+
 }  // namespace limen

@@ -361,6 +361,11 @@ class Binding {
     stated_.formerNames = std::move(names);
     return std::move(*this);
   }
+  /// What axes and columns call it, without the unit, where the words of its name do not do.
+  Binding&& titled(std::string title) && {
+    stated_.title = std::move(title);
+    return std::move(*this);
+  }
   /// At its default no part of run keys.
   Binding&& keyedIfGiven() && {
     stated_.keyedIfGiven = true;

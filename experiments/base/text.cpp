@@ -2,6 +2,7 @@
 #include "experiments/base/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -58,6 +59,26 @@ std::string suggest(const std::string& name, const std::vector<std::string>& can
   if (candidates.size() > kShown) list += ", ... (" + std::to_string(candidates.size()) + " in all)";
   const std::string nearest = nearestName(name, candidates);
   return (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "known: " + list;
+}
+
+std::string wordsOf(const std::string& name, const std::string& unit) {
+  std::string suffix = unit.empty() ? "" : "_" + unit;
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return c == '/' ? '_' : static_cast<char>(std::tolower(c)); });
+  const bool saysUnit = !suffix.empty() && name.size() > suffix.size() && name.ends_with(suffix);
+  std::string words = saysUnit ? name.substr(0, name.size() - suffix.size()) : name;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string titleFromName(const std::string& name, const std::string& unit) {
+  std::string title = wordsOf(name, unit);
+  if (!title.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  return title;
+}
+
+std::string titleWithUnit(const std::string& title, const std::string& unit) {
+  return unit.empty() ? title : title + " (" + unit + ")";
 }
 
 std::string shortestNumber(double value) {

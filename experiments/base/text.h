@@ -17,6 +17,14 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 /// names).
 std::string suggest(const std::string& name, const std::vector<std::string>& candidates);
 
+/// The words of a declared name, without its unit where the name ends in that: "light_size" -> "light size",
+/// "azimuth_deg" in "deg" -> "azimuth".
+std::string wordsOf(const std::string& name, const std::string& unit = {});
+/// Title of what is declared without one: its words, a capital first.
+std::string titleFromName(const std::string& name, const std::string& unit);
+/// "Light size (m)"; the title alone if there is no unit.
+std::string titleWithUnit(const std::string& title, const std::string& unit);
+
 /// Shortest decimal text that reads back to exactly `value`.
 std::string shortestNumber(double value);
 

@@ -59,6 +59,13 @@ std::optional<ParameterValue> convert(const YamlNode& node, ParameterType type) 
   return {};
 }
 
+/// "'radius' is 'wide'", "'radius' becomes 0.5 by '= size / 2' with size = 1".
+std::string sentence(const YamlNode& node, const Parameter& parameter) {
+  const std::string is =
+      node.origin.empty() ? "is " + node.describe() : "becomes " + node.describe() + " by " + node.origin;
+  return "'" + parameter.name + "' " + is;
+}
+
 std::string mendFor(const YamlNode& node, const Parameter& parameter) {
   std::string mend = "allowed: " + describeRange(parameter);
   YamlNode unquoted = node;
@@ -112,7 +119,7 @@ std::optional<std::string> FileFinder::find(const std::string& named, Mark mark,
 std::optional<ParameterValue> ValueReader::value(const YamlNode& node, const Parameter& parameter) {
   const auto converted = convert(node, parameter.type);
   if (!converted) {
-    problems_.add(node.mark, "'" + parameter.name + "' is " + node.describe(), mendFor(node, parameter));
+    problems_.add(node.mark, sentence(node, parameter), mendFor(node, parameter));
     return {};
   }
   try {
@@ -122,7 +129,7 @@ std::optional<ParameterValue> ValueReader::value(const YamlNode& node, const Par
     if (!path) return {};
     return ParameterValue(*std::move(path));
   } catch (const Error& error) {
-    problems_.add(node.mark, error.message(), error.mend());
+    problems_.add(node.mark, node.origin.empty() ? error.message() : sentence(node, parameter), error.mend());
     return {};
   }
 }

@@ -28,6 +28,7 @@ struct YamlNode {
   bool quoted = false;              ///< Scalar only: always text, never a number or boolean
   std::vector<YamlNode> items;      ///< List only
   std::vector<YamlMember> members;  ///< Map only; keys are scalars, in order of writing
+  std::string origin = {};          ///< what a calculated value comes from, for messages; "": it was written
 
   const YamlNode* find(std::string_view key) const;
   /// "a list", "a map", "nothing", "'text'": for messages.

@@ -128,11 +128,14 @@ int64_t Store::merge(const Store& other) {
     const auto same = std::find_if(known.begin(), known.end(),
                                    [&](const Experiment& own) { return own.hash == experiment.hash; });
     std::vector<PlanEntry> joined = same == known.end() ? std::vector<PlanEntry>() : plan(same->id);
+    const Descriptions ours = same == known.end() ? Descriptions() : readDescriptions(database_, same->id);
     for (const PlanEntry& entry : other.plan(experiment.id)) {
       const auto isSame = [&](const PlanEntry& own) { return own.key == entry.key; };
       if (std::none_of(joined.begin(), joined.end(), isSame)) joined.push_back(entry);
     }
-    const int64_t id = putExperiment(same == known.end() ? experiment : *same, joined);
+    const int64_t id =
+        putExperiment(same == known.end() ? experiment : *same, joined,
+                      joinDescriptions(ours, readDescriptions(other.database_, experiment.id)));
     putExpectations(id, joinExpectations(expectations(id), other.expectations(experiment.id)));
   }
 

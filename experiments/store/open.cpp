@@ -15,6 +15,7 @@
 namespace limen::embedded {
 extern const char* const kStoreSchema;
 extern const char* const kStudySchema;
+extern const char* const kDescriptionSchema;
 }  // namespace limen::embedded
 
 namespace limen::store {
@@ -27,7 +28,8 @@ constexpr int kApplicationId = 0x4c494d4e;  // "LIMN": tells a store from other 
 
 // migrations[i] leads from schema version i to i + 1. A store of today is the result of all of them, so an
 // old store and a new one cannot differ.
-const char* const kMigrations[] = {embedded::kStoreSchema, embedded::kStudySchema};
+const char* const kMigrations[] = {embedded::kStoreSchema, embedded::kStudySchema,
+                                   embedded::kDescriptionSchema};
 constexpr int kSchemaVersion = static_cast<int>(std::size(kMigrations));
 
 struct Closer {
@@ -140,7 +142,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   if (!isEmpty(database)) requireStore(database, path);
   turnOnWriteAheadLog(database);
   // With the log a commit survives the death of the process at NORMAL already; FULL syncs it too, so that it
-  // survives a power cut. A run takes seconds and commits twice, so the sync does not count.
+  // survives a power cut. What sweeps write for each run goes without and is synced batch by batch.
   execute(database, "PRAGMA synchronous = FULL");
   migrate(database, path);
   return closer.release();

@@ -10,16 +10,8 @@ namespace {
 
 using Mode = Transaction::Mode;
 
-nlohmann::json parse(const std::string& text) {
-  try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception&) {
-    throw Error("the store holds text that is no JSON: " + text.substr(0, 60));
-  }
-}
-
 Environment readEnvironment(const Statement& row) {
-  return {row.text(0), row.integer(1) != 0, parse(row.text(2))};
+  return {row.text(0), row.integer(1) != 0, parseJson(row.text(2))};
 }
 
 // Columns as the SELECTs below list them; the label is the experiment's where the run is read for one.
@@ -32,8 +24,8 @@ Run readRun(const Statement& row) {
   run.error = row.text(4);
   run.technique = row.text(5);
   run.scene = row.text(6);
-  run.parameters = parse(row.text(7));
-  run.sceneFacts = parse(row.text(8));
+  run.parameters = parseJson(row.text(7));
+  run.sceneFacts = parseJson(row.text(8));
   run.environment = row.integer(9);
   run.owner = row.text(10);
   run.started = row.text(11);
@@ -52,6 +44,14 @@ constexpr const char* kSelectOfExperiment =
     "WHERE e.experiment = ? ORDER BY e.position, r.device";
 
 }  // namespace
+
+nlohmann::json parseJson(const std::string& text) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception&) {
+    throw Error("the store holds text that is no JSON: " + text.substr(0, 60));
+  }
+}
 
 Run readRunById(sqlite3* database, int64_t id) {
   Statement row(
@@ -110,9 +110,9 @@ std::vector<Experiment> Store::experiments() const {
     experiment.title = row.text(3);
     experiment.question = row.text(4);
     experiment.source = row.text(5);
-    experiment.features = parse(row.text(6));
+    experiment.features = parseJson(row.text(6));
     experiment.descriptor = row.text(7);
-    experiment.report = parse(row.text(8));
+    experiment.report = parseJson(row.text(8));
     out.push_back(std::move(experiment));
   }
   return out;

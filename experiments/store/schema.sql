@@ -1,5 +1,6 @@
 -- Result store, schema version 1 (PRAGMA user_version). Times are UTC, ISO 8601.
--- The tables for studies (participant, session, ...) come with version 2: schema_study.sql.
+-- The tables for studies (participant, session, ...) come with version 2: schema_study.sql; those that say what names
+-- mean (quantity, parameter) with version 3: schema_descriptions.sql.
 
 CREATE TABLE experiment (
   id INTEGER PRIMARY KEY,

@@ -73,14 +73,6 @@ std::string jsonText(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-nlohmann::json parseJson(const std::string& text) {
-  try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception&) {
-    throw Error("the store holds text that is no JSON: " + text.substr(0, 60));
-  }
-}
-
 std::vector<StudySession> selectSessions(sqlite3* database) {
   Statement row(database,
                 "SELECT id, participant, name, participant_number, protocol, display, environment, seed, "

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "experiments/store/database.h"
+#include "experiments/store/rows.h"
 #include "experiments/store/sessions.h"
 
 namespace limen::store {
 
 /// JSON as the store writes it. Bytes that are no UTF-8 (from a driver) must not stop a session.
 std::string jsonText(const nlohmann::json& json);
-nlohmann::json parseJson(const std::string& text);
 
 std::vector<StudySession> selectSessions(sqlite3* database);
 std::vector<StudyEvent> selectEvents(sqlite3* database, int64_t session);

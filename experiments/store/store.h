@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/store/descriptions.h"
+
 struct sqlite3;
 
 namespace limen::store {
@@ -77,7 +79,8 @@ enum class Access { ReadOnly, ReadWrite };
 /// throws Error: a file that is no store, a newer schema, a full disk.
 class Store {
  public:
-  /// ReadWrite creates a missing file and migrates an old one; ReadOnly refuses a missing file.
+  /// ReadWrite creates a missing file and migrates an old one, which only adds tables; ReadOnly refuses a
+  /// missing file and reads an old one as it is.
   Store(const std::string& path, Access access);
   ~Store();
   Store(const Store&) = delete;
@@ -85,9 +88,10 @@ class Store {
 
   const std::string& path() const { return path_; }
 
-  /// Inserts the experiment and its plan, or finds the one with the same hash (whose plan is replaced).
-  /// Returns its id.
-  int64_t putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan);
+  /// Inserts the experiment, its plan and what its names mean, or finds the one with the same hash (whose
+  /// plan and meanings are replaced). Returns its id.
+  int64_t putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan,
+                        const Descriptions& descriptions = {});
   /// Returns the row id of an environment with the same facts, made if need be.
   int64_t putEnvironment(const Environment& environment);
   void putExpectations(int64_t experiment, const std::vector<Expectation>& expectations);
@@ -98,13 +102,19 @@ class Store {
   /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
+  /// From then on it survives the death of this process, and after sync() a power cut too.
   void finish(const Run& run);
+  /// Waits until all that was finished is on the disk.
+  void sync();
   /// Gives back claims of this process that were not finished.
   void releaseClaims();
 
   bool isDone(const std::string& key, const std::string& device) const;
   std::vector<Experiment> experiments() const;
   std::vector<PlanEntry> plan(int64_t experiment) const;
+  /// What the names of an experiment mean: as written with its plan, and formerQuantity() of what its runs
+  /// have beside that (in a store of schema 2: of all).
+  Descriptions descriptions(int64_t experiment) const;
   std::vector<Expectation> expectations(int64_t experiment) const;
   std::vector<Environment> environments() const;
   Environment environment(int64_t id) const;

@@ -29,15 +29,15 @@ struct ControlSpeeds {
 };
 
 /// Moves the eye around the target, which stays, as does their distance. `drag` in heights of the window, x
-/// to the right, y down: the scene follows the hand.
+/// to the right, y down: the scene follows the mouse.
 scene::Camera orbit(const scene::Camera& camera, glm::dvec2 drag, const ControlSpeeds& speeds = {});
 
 /// Turns the view about the eye, which stays, as does the target's distance. `drag` as for orbit(): the view
-/// follows the hand.
+/// follows the mouse.
 scene::Camera look(const scene::Camera& camera, glm::dvec2 drag, const ControlSpeeds& speeds = {});
 
 /// Moves eye and target alike within the picture's plane so that what lies at the target's depth follows the
-/// hand; `drag` as for orbit().
+/// mouse; `drag` as for orbit().
 scene::Camera pan(const scene::Camera& camera, glm::dvec2 drag);
 
 /// Moves the eye towards the target for positive `steps`, by a factor of their distance for each: it never

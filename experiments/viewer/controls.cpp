@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 
 #include "experiments/base/error.h"
@@ -13,7 +12,7 @@
 namespace limen::viewer {
 namespace {
 
-/// Ranges that span more than this are gone through by ratio.
+/// Wider ranges get a logarithmic slider.
 constexpr double kLogarithmicSpan = 100.0;
 
 /// Text as a format that prints it.
@@ -27,22 +26,39 @@ ImGuiSliderFlags sliderFlags(const Parameter& parameter) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
   const double low = *parameter.minimum, high = *parameter.maximum;
   const bool ratios = low > 0.0 && high / low > kLogarithmicSpan;
-  const bool wide = low == 0.0 && high > 10.0 * kLogarithmicSpan;
+  // From zero on: by its extent, or by a default that a linear slider could not tell from zero.
+  const auto* usual = std::get_if<double>(&parameter.defaultValue);
+  const bool wide = low == 0.0 && (high > 10.0 * kLogarithmicSpan ||
+                                   (usual && *usual > 0.0 && high > kLogarithmicSpan * *usual));
   if (ratios || wide) flags |= ImGuiSliderFlags_Logarithmic;
   return flags;
 }
 
-void tooltip(const Parameter& parameter, const ParameterValue& value) {
+/// "one of a, b", or a line for each alternative that says what it is.
+void describeAllowed(const Parameter& parameter) {
+  const bool described =
+      std::any_of(parameter.alternatives.begin(), parameter.alternatives.end(),
+                  [](const Alternative& alternative) { return !alternative.description.empty(); });
+  if (!described) return ImGui::TextDisabled("%s", describeRange(parameter).c_str());
+  for (const Alternative& alternative : parameter.alternatives)
+    ImGui::TextDisabled("%s%s%s", alternative.name.c_str(), alternative.description.empty() ? "" : ": ",
+                        alternative.description.c_str());
+}
+
+/// `value`: null for a group.
+void tooltip(const std::string& path, const Parameter& parameter, const ParameterValue* value) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30.0F);
-  ImGui::TextUnformatted((parameter.name + ": " + parameter.description).c_str());
-  ImGui::TextDisabled("%s", describeRange(parameter).c_str());
-  if (!parameter.required)
-    ImGui::TextDisabled("default %s, now %s", toText(parameter.defaultValue).c_str(), toText(value).c_str());
+  ImGui::TextUnformatted((path + ": " + parameter.description).c_str());
+  if (value) {
+    describeAllowed(parameter);
+    if (!parameter.required)
+      ImGui::TextDisabled("default %s, now %s", toText(parameter.defaultValue).c_str(),
+                          toText(*value).c_str());
+  }
   if (!parameter.source.empty()) ImGui::TextDisabled("%s", parameter.source.c_str());
-  if (parameter.type == ParameterType::Integer || parameter.type == ParameterType::Real)
-    ImGui::TextDisabled("Ctrl+click to type a value");
+  if (parameter.minimum && parameter.allowed.empty()) ImGui::TextDisabled("Ctrl+click to type a value");
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -58,66 +74,147 @@ bool editText(const char* id, std::string& text) {
   return true;
 }
 
-/// The control itself; gives the new value where there is one.
-bool control(const Parameter& parameter, const ParameterValue& now, ParameterValue& next) {
-  const std::string unit = parameter.unit.empty() ? "" : " " + escaped(parameter.unit);
+/// One of `items`, shown as textOf() has it; gives the item if another one was chosen.
+template <class Item>
+std::optional<ParameterValue> itemChooser(const std::vector<Item>& items, const Item& now,
+                                          const std::function<std::string(const Item&)>& textOf,
+                                          const std::function<std::string(const Item&)>& about,
+                                          const std::function<void(const Item&)>& noteItem) {
+  std::optional<ParameterValue> next;
+  if (!ImGui::BeginCombo("##value", textOf(now).c_str(), ImGuiComboFlags_HeightLarge)) return next;
+  for (const Item& item : items) {
+    if (ImGui::Selectable(textOf(item).c_str(), item == now) && item != now) next = item;
+    noteItem(item);
+    if (const std::string text = about(item); !text.empty() && ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s", text.c_str());
+    if (item == now) ImGui::SetItemDefaultFocus();
+  }
+  ImGui::EndCombo();
+  return next;
+}
+
+/// A slider over the declared range; `format` of printf for one number.
+template <class Number>
+std::optional<ParameterValue> slider(const Parameter& parameter, ImGuiDataType type, Number value,
+                                     const std::string& format) {
+  const auto low = static_cast<Number>(*parameter.minimum), high = static_cast<Number>(*parameter.maximum);
+  if (!ImGui::SliderScalar("##value", type, &value, &low, &high, format.c_str(), sliderFlags(parameter)))
+    return {};
+  return value;
+}
+
+/// The control itself; gives the new value if the user changed it. Items of an open list are noted as
+/// "NAME/ITEM".
+std::optional<ParameterValue> control(const Parameter& parameter, const ParameterValue& now,
+                                      const std::string& name, ControlMap& places) {
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   switch (parameter.type) {
     case ParameterType::Boolean: {
       bool on = std::get<bool>(now);
-      if (!ImGui::Checkbox("##value", &on)) return false;
-      next = on;
-      return true;
+      return ImGui::Checkbox("##value", &on) ? std::optional<ParameterValue>(on) : std::nullopt;
     }
-    case ParameterType::Integer: {
-      int64_t value = std::get<int64_t>(now);
-      const auto low = static_cast<int64_t>(*parameter.minimum),
-                 high = static_cast<int64_t>(*parameter.maximum);
-      if (!ImGui::SliderScalar("##value", ImGuiDataType_S64, &value, &low, &high, ("%lld" + unit).c_str(),
-                               sliderFlags(parameter)))
-        return false;
-      next = value;
-      return true;
-    }
-    case ParameterType::Real: {
-      double value = std::get<double>(now);
-      const double low = *parameter.minimum, high = *parameter.maximum;
-      if (!ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, ("%.5g" + unit).c_str(),
-                               sliderFlags(parameter)))
-        return false;
-      next = value;
-      return true;
-    }
-    case ParameterType::Choice: {
-      const std::string& chosen = std::get<std::string>(now);
-      bool changed = false;
-      if (!ImGui::BeginCombo("##value", chosen.c_str())) return false;
-      for (const std::string& choice : parameter.choices) {
-        if (ImGui::Selectable(choice.c_str(), choice == chosen) && choice != chosen) {
-          next = choice;
-          changed = true;
-        }
-        if (choice == chosen) ImGui::SetItemDefaultFocus();
-      }
-      ImGui::EndCombo();
-      return changed;
-    }
+    case ParameterType::Integer:
+      if (!parameter.allowed.empty())
+        return itemChooser<int64_t>(
+            parameter.allowed, std::get<int64_t>(now),
+            [&](const int64_t& number) { return std::to_string(number) + unit; },
+            [](const int64_t&) { return std::string(); },
+            [&](const int64_t& number) { places.note(name + "/" + std::to_string(number)); });
+      return slider<int64_t>(parameter, ImGuiDataType_S64, std::get<int64_t>(now), "%lld" + escaped(unit));
+    case ParameterType::Real:
+      return slider<double>(parameter, ImGuiDataType_Double, std::get<double>(now), "%.5g" + escaped(unit));
+    case ParameterType::Choice:
+      return itemChooser<std::string>(
+          parameter.choices, std::get<std::string>(now), [](const std::string& item) { return item; },
+          [&](const std::string& item) {
+            const Alternative* alternative = findAlternative(parameter, item);
+            return alternative ? alternative->description : std::string();
+          },
+          [&](const std::string& item) { places.note(name + "/" + item); });
     case ParameterType::Text:
     case ParameterType::File: {
       std::string text = std::get<std::string>(now);
-      if (!editText("##value", text)) return false;
-      next = text;
-      return true;
+      return editText("##value", text) ? std::optional<ParameterValue>(text) : std::nullopt;
     }
+    case ParameterType::Group:
+      break;
   }
-  return false;
+  return {};
 }
 
-bool contains(const std::string& name, const std::string& part) {
-  const auto lower = [](unsigned char c) { return std::tolower(c); };
-  return std::search(name.begin(), name.end(), part.begin(), part.end(), [&](char a, char b) {
-           return lower(static_cast<unsigned char>(a)) == lower(static_cast<unsigned char>(b));
-         }) != name.end();
-}
+/// The rows of a table, one for each parameter that exists.
+class ParameterRows {
+ public:
+  ParameterRows(const std::string& prefix, const Entry& entry, ControlMap& places)
+      : prefix_(prefix), entry_(entry), places_(places) {}
+
+  void build(const std::vector<Parameter>& declared, const std::string& above) {
+    for (const Parameter& parameter : declared) {
+      const std::string path = joinPath(above, parameter.name);
+      ImGui::PushID(parameter.name.c_str());
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::AlignTextToFramePadding();
+      if (parameter.type == ParameterType::Group)
+        group(parameter, path);
+      else
+        valueRow(parameter, path);
+      ImGui::PopID();
+    }
+  }
+  const std::optional<ParameterChange>& change() const { return change_; }
+
+ private:
+  void group(const Parameter& parameter, const std::string& path) {
+    const bool open = ImGui::TreeNodeEx(parameter.name.c_str(),
+                                        ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth);
+    places_.note(joinPath(prefix_, path));
+    tooltip(path, parameter, nullptr);
+    if (!open) return;
+    build(parameter.alternatives.at(0).parameters, path);
+    ImGui::TreePop();
+  }
+
+  void valueRow(const Parameter& parameter, const std::string& path) {
+    const std::string name = joinPath(prefix_, path);
+    const ParameterValue& now = valueAt(entry_, path, parameter);
+    const bool given = entry_.given.count(path) != 0;
+    if (given)
+      ImGui::TextUnformatted(parameter.name.c_str());
+    else
+      ImGui::TextDisabled("%s", parameter.name.c_str());
+    tooltip(path, parameter, &now);
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-1.0F);
+    if (const std::optional<ParameterValue> next = control(parameter, now, name, places_)) {
+      try {
+        change_ = {path, validate(parameter, *next, name)};
+      } catch (const Error&) {
+        // Typed text that is not a value: the old one stays, its range is in the tooltip.
+      }
+    }
+    places_.note(name);
+    tooltip(path, parameter, &now);
+    ImGui::TableNextColumn();
+    if (given && !parameter.required) {
+      if (ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0F})) change_ = {path, std::nullopt};
+      places_.note(name + ".default");
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("back to the default, %s", toText(parameter.defaultValue).c_str());
+    }
+    if (parameter.type != ParameterType::Choice) return;
+    const Alternative* chosen = findAlternative(parameter, std::get<std::string>(now));
+    if (!chosen || chosen->parameters.empty()) return;
+    ImGui::Indent();
+    build(chosen->parameters, path);
+    ImGui::Unindent();
+  }
+
+  const std::string& prefix_;
+  const Entry& entry_;
+  ControlMap& places_;
+  std::optional<ParameterChange> change_;
+};
 
 }  // namespace
 
@@ -135,89 +232,20 @@ const ControlMap::Place* ControlMap::find(const std::string& name) const {
   return place == places_.end() ? nullptr : &place->second;
 }
 
-bool parameterControls(const std::string& prefix, const std::vector<Parameter>& declared, Chosen& chosen,
-                       ControlMap& places) {
-  bool changed = false;
-  if (!ImGui::BeginTable((prefix + "##parameters").c_str(), 3, ImGuiTableFlags_SizingStretchProp))
-    return false;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.42F);
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58F);
-  ImGui::TableSetupColumn("back", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
-  for (const Parameter& parameter : declared) {
-    ImGui::PushID(parameter.name.c_str());
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    const ParameterValue now = shown(chosen, parameter);
-    const bool given = chosen.given.count(parameter.name) != 0;
-    if (given)
-      ImGui::TextUnformatted(parameter.name.c_str());
-    else
-      ImGui::TextDisabled("%s", parameter.name.c_str());
-    tooltip(parameter, now);
-    ImGui::TableNextColumn();
-    ImGui::SetNextItemWidth(-1.0F);
-    ParameterValue next;
-    if (control(parameter, now, next)) {
-      try {
-        give(chosen, parameter, next);
-        changed = true;
-      } catch (const Error&) {
-        // Typed text that is no value: the old one stays, its range is in the tooltip.
-      }
-    }
-    places.note(prefix + "." + parameter.name);
-    tooltip(parameter, now);
-    ImGui::TableNextColumn();
-    if (given && !parameter.required) {
-      if (ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0F})) {
-        chosen.given.erase(parameter.name);
-        changed = true;
-      }
-      places.note(prefix + "." + parameter.name + ".default");
-      if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("back to the default, %s", toText(parameter.defaultValue).c_str());
-    }
-    ImGui::PopID();
+std::optional<ParameterChange> parameterControls(const std::string& prefix,
+                                                 const std::vector<Parameter>& declared, const Entry& entry,
+                                                 ControlMap& places) {
+  ParameterRows rows(prefix, entry, places);
+  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.8F * ImGui::GetFontSize());
+  if (ImGui::BeginTable((prefix + "##parameters").c_str(), 3, ImGuiTableFlags_SizingStretchProp)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.42F);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58F);
+    ImGui::TableSetupColumn("back", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
+    rows.build(declared, {});
+    ImGui::EndTable();
   }
-  ImGui::EndTable();
-  return changed;
-}
-
-bool nameChooser(const std::string& label, const std::vector<std::string>& names, std::string& chosen,
-                 const std::function<std::string(const std::string&)>& about, ControlMap& places) {
-  bool changed = false;
-  ImGui::SetNextItemWidth(-1.0F);
-  const bool open = ImGui::BeginCombo(("##" + label).c_str(), chosen.empty() ? "none" : chosen.c_str(),
-                                      ImGuiComboFlags_HeightLarge);
-  places.note(label);
-  if (!open) {
-    if (!chosen.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", about(chosen).c_str());
-    return false;
-  }
-  static std::array<char, 128> filter{};
-  if (ImGui::IsWindowAppearing()) {
-    filter.fill('\0');
-    ImGui::SetKeyboardFocusHere();
-  }
-  ImGui::SetNextItemWidth(-1.0F);
-  ImGui::InputTextWithHint("##filter", "filter", filter.data(), filter.size());
-  std::string folder;
-  for (const std::string& name : names) {
-    if (!contains(name, filter.data())) continue;
-    const size_t slash = name.find('/');
-    const std::string own = slash == std::string::npos ? "" : name.substr(0, slash);
-    if (own != folder && !own.empty()) ImGui::TextDisabled("%s", own.c_str());
-    folder = own;
-    if (ImGui::Selectable(name.empty() ? "none" : name.c_str(), name == chosen) && name != chosen) {
-      chosen = name;
-      changed = true;
-    }
-    places.note(label + "/" + name);
-    if (!name.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", about(name).c_str());
-  }
-  ImGui::EndCombo();
-  return changed;
+  ImGui::PopStyleVar();
+  return rows.change();
 }
 
 }  // namespace limen::viewer

@@ -4,16 +4,17 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/base/parameter.h"
-#include "experiments/viewer/choices.h"
+#include "experiments/viewer/setup.h"
 
 namespace limen::viewer {
 
-/// Where the controls of the last frame are, by name ("technique.budget"), so that somebody else than a hand
-/// can use them.
+/// Where the controls of the last frame are, by name ("technique.budget.rim"), so that tests can use them as
+/// a mouse does.
 class ControlMap {
  public:
   struct Place {
@@ -31,15 +32,25 @@ class ControlMap {
   std::map<std::string, Place> places_;
 };
 
-/// A control for each declared parameter, made from its declaration alone: tick box, slider with range and
-/// unit, choice or text, a tooltip with description, range and source, and a button back to the default where
-/// it is not there. Returns true if a value changed.
-bool parameterControls(const std::string& prefix, const std::vector<Parameter>& declared, Chosen& chosen,
-                       ControlMap& places);
+struct ParameterChange {
+  std::string path;
+  std::optional<ParameterValue> value;  ///< nothing: back to the default
+};
+
+/// Controls for an entry's parameters, made from their declarations alone: check box, slider with range and
+/// unit, list or text, a tooltip with description, range and source, and a button back to the default where
+/// the value is another. Groups are sections that fold; the parameters of the chosen alternative follow below
+/// its choice, those of the others are not shown. Gives the change that the user made, if any, which is
+/// valid.
+std::optional<ParameterChange> parameterControls(const std::string& prefix,
+                                                 const std::vector<Parameter>& declared, const Entry& entry,
+                                                 ControlMap& places);
 
 /// A list of names to choose from, grouped by their folders, with a filter. `about` gives a tooltip for a
-/// name. Returns true if another one was chosen.
-bool nameChooser(const std::string& label, const std::vector<std::string>& names, std::string& chosen,
-                 const std::function<std::string(const std::string&)>& about, ControlMap& places);
+/// name. Gives the name if another one was chosen.
+std::optional<std::string> nameChooser(const std::string& label, const std::vector<std::string>& names,
+                                       const std::string& chosen,
+                                       const std::function<std::string(const std::string&)>& about,
+                                       ControlMap& places);
 
 }  // namespace limen::viewer

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "experiments/scene_rendering.h"
+
 namespace limen::viewer {
 namespace {
 
@@ -24,12 +26,12 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-LiveTechnique::LiveTechnique(gl::Context& context, const experiments::Stage& stage, glm::ivec2 sizePx,
+LiveTechnique::LiveTechnique(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
                              const experiments::Choice& choice)
     : info_(techniques::TechniqueRegistry::instance().get(choice.name)),
-      frame_(context, stage.scene, stage.gpu, sizePx),
+      frame_(context, onGpu, sizePx),
       clock_(context.device().software || info_.onCpu ? gl::Clock::Wall : gl::Clock::Gpu) {
-  experiments::requireTraits(info_, stage.scene);
+  experiments::requireTraits(info_, onGpu.scene);
   technique_ = info_.make(choice.values);
   const double compiledBefore = context.programs().compileMs();
   const auto start = Clock::now();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/stage.h"
+#include "experiments/executor.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/pass_list.h"
 #include "renderer/techniques/technique.h"
@@ -20,16 +20,16 @@ struct PassFigure {
   int64_t bytes = 0;
 };
 
-/// One technique while it is looked at: made for a stage and an image size, then rendered frame by frame and
+/// One technique while it is looked at: made for a scene and an image size, then rendered frame by frame and
 /// timed as it goes.
 class LiveTechnique {
  public:
   /// Makes, prepares and renders one frame, as a sweep does. Throws what the technique throws.
-  LiveTechnique(gl::Context& context, const experiments::Stage& stage, glm::ivec2 sizePx,
+  LiveTechnique(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
                 const experiments::Choice& choice);
 
   /// Renders and times up to `frames` frames, at least one, no more than fit `seconds`; the camera is where
-  /// the stage's is.
+  /// the scene's is.
   void render(int frames, double seconds);
 
   const techniques::TechniqueInfo& info() const { return info_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen view: look at any scene with any technique, turn any parameter, keep what was found.
+// limen view: look at any scene with any technique, change any parameter, export what you find.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/program.h"
 #include "experiments/base/text.h"
-#include "experiments/viewer/keep.h"
+#include "experiments/viewer/export_descriptor.h"
 #include "experiments/viewer/screenshot.h"
 #include "experiments/viewer/viewer.h"
 #include "renderer/gl/shader_source.h"
@@ -36,18 +36,19 @@ glm::ivec2 sizeOf(const std::string& text, const std::string& option) {
   const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end) == 2 &&
                     end == static_cast<int>(text.size());
   if (!read || width < 1 || height < 1 || width > 16384 || height > 16384)
-    throw Error("'" + text + "' is no size", option, "give it as WIDTHxHEIGHT in pixels, 1x1 to 16384x16384");
+    throw Error("'" + text + "' is not a size", option,
+                "give it as WIDTHxHEIGHT in pixels, 1x1 to 16384x16384");
   return {width, height};
 }
 
-/// How the viewer begins: what stands beside what, and what is predicted.
-struct Shown {
+/// How the viewer begins: the arrangement of pictures, and what is predicted.
+struct InitialView {
   Arrangement arrangement = Arrangement::First;
   Overlay overlay = Overlay::None;
 };
 
-Shown shownAs(const std::string& name) {
-  const std::vector<std::pair<std::string, Shown>> all = {
+InitialView initialView(const std::string& name) {
+  const std::vector<std::pair<std::string, InitialView>> all = {
       {"first", {Arrangement::First, Overlay::None}},
       {"second", {Arrangement::Second, Overlay::None}},
       {"side_by_side", {Arrangement::SideBySide, Overlay::None}},
@@ -87,62 +88,56 @@ ParameterValue valueOf(const Parameter& parameter, const std::string& text, cons
   }
 }
 
-/// "scene.light_size=2"
-void apply(Choices& choices, const std::string& text) {
+/// "scene.light_size=2", "technique.budget.rim=25"
+void apply(ViewSetup& setup, const std::string& text) {
   const size_t dot = text.find('.'), equals = text.find('=');
-  const std::string mend =
+  const std::string hint =
       "give it as scene.NAME=VALUE, technique.NAME=VALUE, second.NAME=VALUE or reference.NAME=VALUE";
   if (dot == std::string::npos || equals == std::string::npos || dot > equals)
-    throw Error("'" + text + "' names no parameter", "--set", mend);
-  const std::string what = text.substr(0, dot), name = text.substr(dot + 1, equals - dot - 1);
-  Chosen* chosen = what == "scene"                            ? &choices.scene
-                   : what == "technique"                      ? &choices.technique
-                   : what == "second" && choices.other        ? &*choices.other
-                   : what == "reference" && choices.reference ? &*choices.reference
-                                                              : nullptr;
-  if (!chosen) throw Error("nothing is called '" + what + "' here", "--set " + text, mend);
+    throw Error("'" + text + "' names no parameter", "--set", hint);
+  const std::string what = text.substr(0, dot), path = text.substr(dot + 1, equals - dot - 1);
+  const std::string value = text.substr(equals + 1);
+  Entry* entry = what == "scene"                          ? &setup.scene
+                 : what == "technique"                    ? &setup.technique
+                 : what == "second" && setup.second       ? &*setup.second
+                 : what == "reference" && setup.reference ? &*setup.reference
+                                                          : nullptr;
+  if (!entry) throw Error("nothing is called '" + what + "' here", "--set " + text, hint);
   const std::vector<Parameter> declared =
-      what == "scene" ? sceneParameters(chosen->name) : techniqueParameters(chosen->name);
-  std::vector<std::string> names;
-  for (const Parameter& parameter : declared) {
-    if (parameter.name == name) {
-      give(*chosen, parameter, valueOf(parameter, text.substr(equals + 1), "--set " + text));
-      return;
-    }
-    names.push_back(parameter.name);
-  }
-  throw Error("'" + chosen->name + "' has no parameter '" + name + "'", "--set " + text,
-              suggest(name, names));
+      what == "scene" ? sceneParameters(entry->name) : techniqueParameters(entry->name);
+  const Parameter* parameter = findDeclaration(declared, *entry, path);
+  setParameter(*entry, declared, path,
+               parameter ? valueOf(*parameter, value, "--set " + text) : ParameterValue(value));
 }
 
-Choices choicesFrom(const ViewOptions& options) {
-  Choices choices;
+ViewSetup setupFrom(const ViewOptions& options) {
+  ViewSetup setup;
   if (!options.descriptor.empty()) {
-    choices = choicesOf(options.descriptor);
+    setup = readSetup(options.descriptor);
   } else {
-    choices.scene.name = options.scene;
-    choices.technique.name = options.technique;
-    sceneParameters(choices.scene.name);
-    choices.reference = options.reference == "none" ? std::nullopt
-                        : options.reference.empty() ? usualReference(options.technique)
-                                                    : std::optional(Chosen{options.reference, {}});
-    if (choices.reference) techniqueParameters(choices.reference->name);
-    choices.sizePx = sizeOf(options.size, "--size");
+    setup.scene.name = options.scene;
+    setup.technique.name = options.technique;
+    sceneParameters(setup.scene.name);
+    setup.reference = options.reference == "none" ? std::nullopt
+                      : options.reference.empty() ? usualReference(options.technique)
+                                                  : std::optional(Entry{options.reference, {}});
+    if (setup.reference) techniqueParameters(setup.reference->name);
+    setup.sizePx = sizeOf(options.size, "--size");
   }
   if (!options.second.empty()) {
     techniqueParameters(options.second);
-    choices.other = Chosen{options.second, {}};
+    setup.second = Entry{options.second, {}};
   }
-  for (const std::string& text : options.set) apply(choices, text);
-  // What is not there or does not go together is said before any window opens.
-  completeScene(choices.scene);
-  completeTechnique(choices.technique);
-  if (choices.other) completeTechnique(*choices.other);
-  if (choices.reference) completeTechnique(*choices.reference);
-  return choices;
+  for (const std::string& text : options.set) apply(setup, text);
+  // What is missing or conflicts is reported before any window opens.
+  completeScene(setup.scene);
+  completeTechnique(setup.technique);
+  if (setup.second) completeTechnique(*setup.second);
+  if (setup.reference) completeTechnique(*setup.reference);
+  return setup;
 }
 
-int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, Shown shownFirst) {
+int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, InitialView first) {
   window::UiWindowOptions windowOptions;
   windowOptions.title = "Limen";
   windowOptions.sizePx = sizeOf(options.windowSize, "--window");
@@ -159,8 +154,8 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
   }
   window::UiWindow& window = *made;
   Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
-  viewer.arrangement = shownFirst.arrangement;
-  viewer.predict(shownFirst.overlay);
+  viewer.execute(command::Arrange{first.arrangement});
+  viewer.execute(command::Predict{first.overlay});
   using Clock = std::chrono::steady_clock;
   auto before = Clock::now();
   // The interface needs a few frames to come to rest after an event.
@@ -189,21 +184,21 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
 
 int view(const ViewOptions& options) {
   ViewerOptions viewerOptions;
-  viewerOptions.choices = choicesFrom(options);
+  viewerOptions.setup = setupFrom(options);
   viewerOptions.resultsFolder = options.results;
   viewerOptions.shaderRoot = options.shaders;
   if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);
   viewerOptions.display = perception::readDisplay(options.display);
-  const Shown shownFirst = shownAs(options.arrangement);
-  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, shownFirst);
+  const InitialView first = initialView(options.arrangement);
+  if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, first);
   window::OffscreenUi ui(sizeOf(options.windowSize, "--window"),
                          options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0F);
   Viewer viewer(ui, viewerOptions, [] {});
-  viewer.arrangement = shownFirst.arrangement;
-  viewer.predict(shownFirst.overlay);
+  viewer.execute(command::Arrange{first.arrangement});
+  viewer.execute(command::Predict{first.overlay});
   writeScreenshot(ui, viewer, options.frames, options.screenshot);
   std::printf("%s\n", options.screenshot.c_str());
-  const RenderResult& shown = *viewer.shown();
+  const RenderResult& shown = *viewer.state().shown;
   std::string wrong = shown.error;
   for (const Rendered& one : shown.rendered) wrong += one.error + one.failure;
   if (wrong.empty()) return 0;
@@ -215,7 +210,7 @@ int viewMain(int argc, char** argv) {
   installInterruptHandlers();
   ViewOptions options;
   int exitCode = 0;
-  CLI::App app("Look at any scene with any technique, turn any parameter, keep what was found.",
+  CLI::App app("Look at any scene with any technique, change any parameter, export what you find.",
                "limen-view");
   app.set_version_flag("--version", versionText("limen-view"));
   app.add_option("descriptor", options.descriptor, "Show the first run of this descriptor");
@@ -224,25 +219,26 @@ int viewMain(int argc, char** argv) {
   app.add_option("--second", options.second, "Second technique to compare with");
   app.add_option("--reference", options.reference,
                  "Reference for errors; none: without (default: the usual one)");
-  app.add_option("--set", options.set, "Parameter: scene.NAME=VALUE, technique.NAME=VALUE, ...");
+  app.add_option("--set", options.set,
+                 "Parameter, by its path: scene.light_size=2, technique.budget.rim=25, ...");
   app.add_option("--size", options.size, "Size of the picture that is rendered, pixels")
       ->capture_default_str();
   app.add_option("--window", options.windowSize, "Size of the window, pixels")->capture_default_str();
-  app.add_option("--scale", options.scale, "Of lettering (default: as the monitor asks for)")
+  app.add_option("--scale", options.scale, "Scale of text and controls (default: the monitor's)")
       ->check(CLI::Range(0.5, 4.0));
-  app.add_flag("--full-screen", options.fullScreen, "Window as large as the monitor");
+  app.add_flag("--full-screen", options.fullScreen, "Window that covers the monitor");
   app.add_option("--monitor", options.monitor, "Which monitor, from 0")->capture_default_str();
   app.add_option("--display", options.display, "Display that predictions are for: preset or YAML file")
       ->capture_default_str();
   app.add_option("--arrangement", options.arrangement,
                  "first, second, side_by_side, split, flicker, error, thresholds or popping")
       ->capture_default_str();
-  app.add_option("--results", options.results, "Folder for kept descriptors and pictures")
+  app.add_option("--results", options.results, "Folder for exported descriptors, pictures, views and paths")
       ->capture_default_str();
   app.add_option("--shaders", options.shaders, "Source tree whose shaders are read and watched for changes");
   app.add_option("--screenshot", options.screenshot,
-                 "Write a picture of the viewer (PNG) and end; needs no display");
-  app.add_option("--frames", options.frames, "With --screenshot: frames after all is on screen")
+                 "Write a picture of the viewer (PNG) and exit; needs no display");
+  app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   app.callback([&] {

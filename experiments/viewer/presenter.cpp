@@ -32,11 +32,11 @@ ScreenPicture screenPicture(const Image& displayCoded) {
   return out;
 }
 
-Presenter::Presenter(gl::Context& context, const experiments::Stage& stage, glm::ivec2 sizePx)
+Presenter::Presenter(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx)
     : context_(context),
-      stage_(stage),
+      onGpu_(onGpu),
       sizePx_(sizePx),
-      frame_(context, stage.scene, stage.gpu, sizePx),
+      frame_(context, onGpu, sizePx),
       picture_(gl::Format::RGBA8, sizePx) {}
 
 frame::Frame& Presenter::view() {
@@ -57,7 +57,7 @@ ScreenPicture Presenter::picture(techniques::ProductKind kind, const gl::Texture
 }
 
 ScreenPicture Presenter::shaded(bool isShare, const gl::Texture& product) {
-  const gl::Program& program = context_.programs().compute("viewer/present.comp.glsl");
+  const gl::Program& program = context_.programs().compute("experiments/viewer/present.comp.glsl");
   if (isShare) {
     // Before any is bound, since making them binds textures too.
     frame::Frame& frame = view();
@@ -66,9 +66,9 @@ ScreenPicture Presenter::shaded(bool isShare, const gl::Texture& product) {
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Position}).texture(),
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture()};
     for (uint32_t i = 0; i < 4; ++i) inputs[i]->bindTexture(i + 1);
-    const scene::Scene& scene = stage_.scene;
+    const scene::Scene& scene = onGpu_.scene;
     program.set("light", scene.lights.empty() ? glm::vec3(0.0F)
-                                              : glm::vec3(scene.lights[0].centre - stage_.gpu.anchor()));
+                                              : glm::vec3(scene.lights[0].centre - onGpu_.gpu.anchor()));
   }
   product.bindTexture(0);
   picture_.bindImage(0, gl::Access::Write);

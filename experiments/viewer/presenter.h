@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "experiments/base/image.h"
-#include "experiments/stage.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 #include "renderer/techniques/technique.h"
@@ -27,7 +26,7 @@ ScreenPicture screenPicture(const Image& displayCoded);
 /// no part in what is timed.
 class Presenter {
  public:
-  Presenter(gl::Context& context, const experiments::Stage& stage, glm::ivec2 sizePx);
+  Presenter(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx);
 
   /// The camera moved, or whatever else decides what is seen.
   void refresh() { fresh_ = false; }
@@ -39,7 +38,7 @@ class Presenter {
   ScreenPicture shaded(bool isShare, const gl::Texture& product);
 
   gl::Context& context_;
-  const experiments::Stage& stage_;
+  const frame::SceneOnGpu& onGpu_;
   glm::ivec2 sizePx_;
   frame::Frame frame_;
   gl::Texture picture_;

@@ -9,8 +9,9 @@
 
 #include "experiments/base/error.h"
 #include "experiments/product.h"
-#include "experiments/viewer/probe.h"
-#include "experiments/viewer/scene_stage.h"
+#include "experiments/scene_rendering.h"
+#include "experiments/viewer/texture_readback.h"
+#include "experiments/viewer/viewed_scene.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/gl/shader_source.h"
 
@@ -34,7 +35,7 @@ class RenderThread::Work {
   RenderResult live(const RenderRequest& request) {
     RenderResult out = begin(request);
     if (!out.error.empty()) return out;
-    for (size_t i = 0; i < choices_.size(); ++i) {
+    for (size_t i = 0; i < entries_.size(); ++i) {
       Rendered one;
       attempt(one, i, [&] {
         const bool fresh = !live_[i];
@@ -55,7 +56,7 @@ class RenderThread::Work {
     out.settled = true;
     if (!out.error.empty()) return out;
     auto view = std::make_shared<experiments::ViewImages>();
-    for (size_t i = 0; i < choices_.size(); ++i) {
+    for (size_t i = 0; i < entries_.size(); ++i) {
       Rendered one;
       attempt(one, i, [&] {
         live_[i].reset();
@@ -77,7 +78,7 @@ class RenderThread::Work {
       out.rendered.push_back(std::move(one));
     }
     try {
-      *view = stage_.stage().view(context_, request.choices.sizePx);
+      *view = experiments::viewImages(context_, viewed_.get(), request.setup.sizePx);
       out.view = std::move(view);
     } catch (const std::exception& error) {
       out.error = error.what();
@@ -114,50 +115,51 @@ class RenderThread::Work {
   RenderResult begin(const RenderRequest& request) {
     RenderResult out;
     out.number = request.number;
-    out.choices = request.choices;
+    out.setup = request.setup;
     try {
-      const experiments::Choice scene = completeScene(request.choices.scene);
-      if (stage_.empty() || !(scene.name == scene_.name && scene.values.all() == scene_.values.all())) {
+      const experiments::Choice scene = completeScene(request.setup.scene);
+      if (viewed_.empty() || !(scene.name == scene_.name && scene.values.all() == scene_.values.all())) {
         // Whoever holds on to a scene goes before it does.
         scene_ = {};
-        if (stage_.empty() || needsBuilding(scene)) forgetTechniques();
-        stage_.choose(scene);
+        if (viewed_.empty() || needsBuilding(scene)) forgetTechniques();
+        viewed_.show(scene);
         scene_ = scene;
         if (presenter_) presenter_->refresh();
       }
-      if (request.choices.sizePx != sizePx_) {
+      if (request.setup.sizePx != sizePx_) {
         forgetTechniques();
-        sizePx_ = request.choices.sizePx;
+        sizePx_ = request.setup.sizePx;
       }
-      if (!presenter_) presenter_ = std::make_unique<Presenter>(context_, stage_.stage(), sizePx_);
+      if (!presenter_) presenter_ = std::make_unique<Presenter>(context_, viewed_.get(), sizePx_);
     } catch (const std::exception& error) {
       forgetTechniques();
       out.error = error.what();
       return out;
     }
-    choose(request.choices);
-    const scene::Scene& scene = stage_.stage().scene;
+    dropStale(request.setup);
+    const scene::Scene& scene = viewed_.get().scene;
     out.traits = scene.traits();
     out.camera = scene.camera.at(0.0);
-    out.path = stage_.path();
+    out.path = viewed_.path();
     out.bounds = scene.bounds();
     out.triangles = scene.mesh.triangles.size();
     return out;
   }
 
-  bool needsBuilding(const experiments::Choice& scene) const { return stage_.needsBuilding(scene); }
+  bool needsBuilding(const experiments::Choice& scene) const { return viewed_.needsBuilding(scene); }
 
-  void choose(const Choices& choices) {
-    std::vector<Chosen> wanted = {choices.technique};
-    if (choices.other) wanted.push_back(*choices.other);
+  /// Keeps the techniques that the setup still asks for.
+  void dropStale(const ViewSetup& setup) {
+    std::vector<Entry> wanted = {setup.technique};
+    if (setup.second) wanted.push_back(*setup.second);
     for (size_t i = 0; i < live_.size(); ++i)
-      if (i >= wanted.size() || i >= choices_.size() || !(choices_[i] == wanted[i])) live_[i].reset();
-    choices_ = std::move(wanted);
+      if (i >= wanted.size() || i >= entries_.size() || !(entries_[i] == wanted[i])) live_[i].reset();
+    entries_ = std::move(wanted);
   }
 
   void make(size_t i) {
     live_[i] =
-        std::make_unique<LiveTechnique>(context_, stage_.stage(), sizePx_, completeTechnique(choices_[i]));
+        std::make_unique<LiveTechnique>(context_, viewed_.get(), sizePx_, completeTechnique(entries_[i]));
   }
 
   /// What a technique throws is its own error; the viewer goes on.
@@ -224,11 +226,11 @@ class RenderThread::Work {
 
   gl::Context& context_;
   std::atomic<int64_t>& frames_;
-  SceneStage stage_;
+  ViewedScene viewed_;
   experiments::Choice scene_;
   glm::ivec2 sizePx_{0};
   std::unique_ptr<Presenter> presenter_;
-  std::vector<Chosen> choices_;
+  std::vector<Entry> entries_;
   std::array<std::unique_ptr<LiveTechnique>, 2> live_;
 };
 
@@ -260,12 +262,12 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
     if (!more) requests_.wait(kWatchInterval);
     if (requests_.closed()) break;
     if (std::optional<RenderRequest> next = requests_.take()) {
-      const bool sameChoices = settled && settled->choices == next->choices;
+      const bool sameSetup = settled && settled->setup == next->setup;
       current = std::move(*next);
       if (current.moving) {
         settled.reset();
         publish(work.live(current));
-      } else if (sameChoices) {
+      } else if (sameSetup) {
         work.refresh(*settled, current, false);
         publish(*settled);
       } else {
@@ -273,7 +275,7 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
         publish(*settled);
       }
       // Times come once nobody waits for anything else.
-      untimed = settled && settled->error.empty() && (untimed || !sameChoices);
+      untimed = settled && settled->error.empty() && (untimed || !sameSetup);
     } else if (settled && (untimed || current.continuous)) {
       work.refresh(*settled, current, true);
       publish(*settled);

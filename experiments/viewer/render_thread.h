@@ -14,10 +14,11 @@
 #include <vector>
 
 #include "experiments/base/image.h"
-#include "experiments/viewer/choices.h"
-#include "experiments/viewer/latest.h"
+#include "experiments/scene_rendering.h"
 #include "experiments/viewer/live_technique.h"
+#include "experiments/viewer/mailbox.h"
 #include "experiments/viewer/presenter.h"
+#include "experiments/viewer/setup.h"
 #include "renderer/gl/context.h"
 #include "renderer/techniques/technique.h"
 
@@ -26,11 +27,11 @@ namespace limen::viewer {
 /// What the render thread is to show.
 struct RenderRequest {
   uint64_t number = 0;  ///< comes back with the result
-  Choices choices;
+  ViewSetup setup;
   std::string view;                    ///< debug view in place of the first product; "": the product
   std::optional<glm::ivec2> pickedPx;  ///< pixel whose values are wanted
-  bool moving = false;      ///< the user is at it, the camera moves: settled frames would be in the way
-  bool continuous = false;  ///< render on and on, to see times
+  bool moving = false;      ///< a control is held or the camera moves: settled frames would be in the way
+  bool continuous = false;  ///< render frame after frame, to see times
 };
 
 /// Values of one image at the picked pixel.
@@ -63,7 +64,7 @@ struct Rendered {
 
 struct RenderResult {
   uint64_t number = 0;
-  Choices choices;  ///< what was rendered
+  ViewSetup setup;  ///< what was rendered
   bool settled = false;
   std::string error;               ///< of the scene
   std::vector<Rendered> rendered;  ///< one or two; none if the scene is in error
@@ -78,7 +79,8 @@ struct RenderResult {
 /// Shaders that were read again since the last one of these.
 struct ShaderNews {
   std::vector<std::string> rebuilt;
-  std::vector<std::string> failures;  ///< the driver's words, with file and line; the old program runs on
+  std::vector<std::string>
+      failures;  ///< the driver's messages, with file and line; the old program stays in use
 };
 
 /// Renders the newest request in an OpenGL context of its own, made as a sweep makes it, so that what is seen
@@ -105,9 +107,9 @@ class RenderThread {
   class Work;
   void run(const std::function<void()>& wake, const std::string& shaderRoot);
 
-  Latest<RenderRequest> requests_;
-  Latest<RenderResult> results_;
-  Latest<ShaderNews> news_;
+  Mailbox<RenderRequest> requests_;
+  Mailbox<RenderResult> results_;
+  Mailbox<ShaderNews> news_;
   std::promise<gl::DeviceInfo> deviceMade_;
   std::shared_future<gl::DeviceInfo> device_;
   std::atomic<int64_t> frames_ = 0;

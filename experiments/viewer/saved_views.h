@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named views in a file that people may read and mend:
+// Named views in a file that people may read and edit:
 //
 //     views:
 //       - {name: "feet of the columns", scene: "columns_hall", camera: "eye ... target ..."}
@@ -13,7 +13,7 @@ namespace limen::viewer {
 struct SavedView {
   std::string name;    ///< any text but the empty one; one view of a file
   std::string scene;   ///< registered name
-  std::string camera;  ///< see scene::parseCamera(); the scene's parameter `camera` as it is
+  std::string camera;  ///< see scene::parseCamera()
   bool operator==(const SavedView&) const = default;
 };
 
@@ -24,7 +24,7 @@ std::vector<SavedView> readSavedViews(const std::string& file);
 /// Adds a view, or replaces the one of its name. The file is read anew, so that what another viewer saved
 /// meanwhile stays, and is replaced as a whole: killed at any time, all old views are there or all new ones.
 /// Throws Error, the file left as it is, if it cannot be read or the view would not read back. A file that
-/// was written by hand (comments, other order) is kept as FILE.by_hand, whose own predecessor goes.
+/// someone edited (comments, other order) is saved as FILE.by_hand first, in place of an older one.
 void saveView(const std::string& file, const SavedView& view);
 
 /// Removes the view of this name, as saveView() adds one; false if there is none.

@@ -4,173 +4,135 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "experiments/base/error.h"
 #include "experiments/product.h"
-#include "experiments/viewer/keep.h"
-#include "experiments/viewer/panes.h"
-#include "experiments/viewer/picture_pane.h"
+#include "experiments/viewer/export_descriptor.h"
+#include "experiments/viewer/interface.h"
+#include "experiments/viewer/picture_files.h"
 #include "perception/metrics/error_map.h"
-#include "renderer/scene/camera_text.h"
 
 namespace limen::viewer {
 namespace {
 
-constexpr size_t kTimesShown = 240, kMessagesKept = 50;
+constexpr size_t kTimesShown = 240, kMessagesShown = 50;
 
 }  // namespace
 
 Viewer::Viewer(window::UiSurface& surface, ViewerOptions options, std::function<void()> wake)
     : surface_(surface),
-      options_(std::move(options)),
-      render_(wake, options_.shaderRoot),
-      judge_(wake),
-      device_(render_.device()),
-      displayName_(options_.display.name) {
+      render_(wake, options.shaderRoot),
+      evaluation_(wake),
+      interface_(std::make_unique<Interface>()) {
+  state_.device = render_.device();
+  state_.resultsFolder = std::move(options.resultsFolder);
+  state_.shaderRoot = std::move(options.shaderRoot);
+  state_.display = std::move(options.display);
+  state_.displayName = state_.display.name;
   readViews();
-  choose(options_.choices);
+  show(std::move(options.setup));
 }
 
 Viewer::~Viewer() = default;
 
-void Viewer::choose(Choices choices) {
-  completeScene(choices.scene);
-  completeTechnique(choices.technique);
-  choices_ = std::move(choices);
-  ask();
+void Viewer::show(ViewSetup setup) {
+  completeScene(setup.scene);
+  completeTechnique(setup.technique);
+  state_.setup = std::move(setup);
+  requestPicture();
 }
 
 void Viewer::say(const std::string& message) {
-  messages_.push_back(message);
-  if (messages_.size() > kMessagesKept) messages_.erase(messages_.begin());
+  state_.messages.push_back(message);
+  if (state_.messages.size() > kMessagesShown) state_.messages.erase(state_.messages.begin());
 }
 
-void Viewer::ask() {
-  asked_ = choices_;
-  request_ = {++number_, choices_, view_, pickedPx_, moving_ || playing_, continuous_};
+void Viewer::requestPicture() {
+  request_ = {++number_,        state_.setup, state_.debugView, state_.pickedPx, moving_ || state_.playing,
+              state_.continuous};
   render_.ask(request_);
 }
 
-void Viewer::askJudge() {
-  if (!shown_ || !shown_->settled || shown_->rendered.empty()) return;
-  const Rendered& first = shown_->rendered[0];
-  if (!first.product || !shown_->view) return;
-  JudgeRequest request;
-  request.number = judgedNumber_ = shown_->number;
-  request.choices = shown_->choices;
-  request.kind = first.kind;
-  request.product = first.product;
-  if (shown_->rendered.size() > 1 && shown_->rendered[1].kind == first.kind)
-    request.other = shown_->rendered[1].product;
-  request.view = shown_->view;
-  request.overlay = overlay_;
-  request.display = options_.display;
-  judgePending_ = request.choices.reference.has_value() || overlay_ != Overlay::None;
-  if (!judgePending_) {
-    judged_.reset();
+void Viewer::requestEvaluation() {
+  const Rendered* first = state_.rendered(0);
+  if (!first || !state_.shown->settled || !first->product || !state_.shown->view) return;
+  EvaluationRequest request;
+  request.number = evaluatedNumber_ = state_.shown->number;
+  request.setup = state_.shown->setup;
+  request.kind = first->kind;
+  request.product = first->product;
+  if (const Rendered* second = state_.rendered(1); second && second->kind == first->kind)
+    request.second = second->product;
+  request.view = state_.shown->view;
+  request.overlay = state_.overlay;
+  request.display = state_.display;
+  evaluationPending_ = request.setup.reference.has_value() || state_.overlay != Overlay::None;
+  if (!evaluationPending_) {
+    state_.evaluated.reset();
     return;
   }
-  judge_.ask(std::move(request));
+  evaluation_.ask(std::move(request));
 }
 
 void Viewer::recordTimes() {
-  if (shown_->rendered.empty() || shown_->rendered[0].frameMs < 0.0) return;
-  const Rendered& first = shown_->rendered[0];
+  const Rendered* first = state_.rendered(0);
+  if (!first || first->frameMs < 0.0) return;
   const auto add = [&](const std::string& pass, double ms) {
-    std::deque<float>& history = passMs_[pass];
+    std::deque<float>& history = state_.passMs[pass];
     history.push_back(static_cast<float>(ms));
     if (history.size() > kTimesShown) history.pop_front();
   };
-  add("frame", first.frameMs);
-  for (const PassFigure& pass : first.passes)
+  add("frame", first->frameMs);
+  for (const PassFigure& pass : first->passes)
     if (pass.ms >= 0.0) add(pass.name, pass.ms);
-}
-
-void Viewer::predict(Overlay overlay) {
-  overlay_ = overlay;
-  askJudge();
 }
 
 bool Viewer::takeResults() {
   bool changed = false;
   if (std::optional<RenderResult> result = render_.take()) {
-    const bool another = !shown_ || !shown_->settled || result->number != shown_->number;
-    shown_ = std::move(result);
+    const bool another = !state_.shown || !state_.shown->settled || result->number != state_.shown->number;
+    state_.shown = std::move(result);
     changed = true;
     recordTimes();
-    if (shown_->settled && shown_->number == number_ && another) askJudge();
-    if (!shown_->settled) judged_.reset();
+    if (state_.shown->settled && state_.shown->number == number_ && another) requestEvaluation();
+    if (!state_.shown->settled) state_.evaluated.reset();
   }
   if (std::optional<ShaderNews> news = render_.takeNews()) {
     changed = true;
-    shaderFailure_.clear();
-    for (const std::string& failure : news->failures) shaderFailure_ += failure + "\n";
+    state_.shaderFailure.clear();
+    for (const std::string& failure : news->failures) state_.shaderFailure += failure + "\n";
     if (!news->rebuilt.empty())
-      say("built anew: " + std::to_string(news->rebuilt.size()) + " programs of changed shaders");
+      say(std::to_string(news->rebuilt.size()) + " shader programs rebuilt after a change");
   }
-  if (std::optional<JudgeResult> result = judge_.take(); result && result->number == judgedNumber_) {
-    judged_ = std::move(result);
-    if (judged_->step.empty()) judgePending_ = false;
+  if (std::optional<EvaluationResult> result = evaluation_.take();
+      result && result->number == evaluatedNumber_) {
+    state_.evaluated = std::move(result);
+    if (state_.evaluated->step.empty()) evaluationPending_ = false;
     changed = true;
   }
   return changed;
 }
 
 bool Viewer::animated() const {
-  return playing_ || flying_ || recorder_.has_value() || continuous_ || arrangement == Arrangement::Flicker;
+  return state_.playing || flying_ || state_.recording || state_.continuous ||
+         state_.arrangement == Arrangement::Flicker;
 }
 
 bool Viewer::atRest() const {
-  if (!shown_ || !shown_->settled || shown_->number != number_ || !(choices_ == asked_)) return false;
-  if (!shown_->error.empty()) return true;
-  const bool timed = std::all_of(shown_->rendered.begin(), shown_->rendered.end(), [](const Rendered& one) {
+  const std::optional<RenderResult>& shown = state_.shown;
+  if (!shown || !shown->settled || shown->number != number_ || !(state_.setup == request_.setup))
+    return false;
+  if (!shown->error.empty()) return true;
+  const bool timed = std::all_of(shown->rendered.begin(), shown->rendered.end(), [](const Rendered& one) {
     return !one.error.empty() || one.frameMs >= 0.0;
   });
-  return timed && !judgePending_;
+  return timed && !evaluationPending_;
 }
 
-void Viewer::setCamera(const scene::Camera& camera) {
-  choices_.scene.given.erase("camera_path");
-  choices_.scene.given.erase("time_s");
-  choices_.scene.given["camera"] = scene::toText(camera);
-}
-
-void Viewer::moveTo(const scene::Camera& camera) {
-  setCamera(camera);
-  playing_ = false;
-  moving_ = true;
-}
-
-scene::Camera Viewer::cameraNow() const {
-  const auto given = choices_.scene.given.find("camera");
-  if (given != choices_.scene.given.end()) return scene::parseCamera(std::get<std::string>(given->second));
-  return shown_ ? shown_->path.at(timeS_) : scene::Camera{};
-}
-
-void Viewer::dropCamera() {
-  for (const char* name : {"camera", "camera_path", "time_s"}) choices_.scene.given.erase(name);
-  timeS_ = 0.0;
-}
-
-void Viewer::setTime(double timeS) {
-  timeS_ = timeS;
-  choices_.scene.given.erase("camera");
-  if (timeS == 0.0)
-    choices_.scene.given.erase("time_s");
-  else
-    choices_.scene.given["time_s"] = timeS;
-}
-
-std::shared_ptr<const ScreenPicture> Viewer::secondPicture() const {
-  if (shown_ && shown_->rendered.size() > 1) return shown_->rendered[1].picture;
-  return judged_ ? judged_->referencePicture : nullptr;
-}
-
-std::string Viewer::keepDescriptor() {
+std::string Viewer::exportDescriptor() {
   try {
-    const std::string path = keep(choices_, options_.resultsFolder);
-    say("kept as " + path);
+    const std::string path = viewer::exportDescriptor(state_.setup, state_.resultsFolder);
+    say("exported as " + path);
     return path;
   } catch (const std::exception& error) {
     say(error.what());
@@ -180,24 +142,26 @@ std::string Viewer::keepDescriptor() {
 
 std::string Viewer::savePictures() {
   try {
-    if (!shown_ || !shown_->settled || !shown_->view)
-      throw Error("the picture is not at rest yet", {}, "try again");
+    const std::optional<RenderResult>& shown = state_.shown;
+    if (!shown || !shown->settled || !shown->view)
+      throw Error("the picture is still being rendered", {}, "try again when it is done");
     std::map<std::string, ProductImages> images;
     const auto add = [&](const std::string& name, const std::shared_ptr<const Image>& product,
                          techniques::ProductKind kind) {
       if (!product) return;
       images[name] = {product, std::make_shared<Image>(
-                                   experiments::productPicture(kind, *product, shown_->view->shading))};
+                                   experiments::productPicture(kind, *product, shown->view->shading))};
     };
-    for (size_t i = 0; i < shown_->rendered.size(); ++i)
-      add(i == 0 ? "product" : "second_product", shown_->rendered[i].product, shown_->rendered[i].kind);
-    if (judged_ && judged_->reference) add("reference", judged_->reference, shown_->rendered[0].kind);
-    if (judged_)
-      for (const auto& [name, map] : judged_->maps)
+    for (size_t i = 0; i < shown->rendered.size(); ++i)
+      add(i == 0 ? "product" : "second_product", shown->rendered[i].product, shown->rendered[i].kind);
+    if (state_.evaluated) {
+      add("reference", state_.evaluated->reference, shown->rendered[0].kind);
+      for (const auto& [name, map] : state_.evaluated->maps)
         images[name] = {map.values,
                         std::make_shared<Image>(perception::errorPicture(*map.values, map.white))};
-    const std::string path = writeProducts(images, shown_->choices, options_.resultsFolder);
-    say("pictures in " + path);
+    }
+    const std::string path = writePictures(images, shown->setup, state_.resultsFolder);
+    say("pictures saved in " + path);
     return path;
   } catch (const std::exception& error) {
     say(error.what());
@@ -205,63 +169,34 @@ std::string Viewer::savePictures() {
   }
 }
 
-void Viewer::handleKeys() {
-  if (ImGui::GetIO().WantTextInput) return;
-  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-  if (pressed('K')) keepDescriptor();
-  if (pressed('P')) savePictures();
-  if (pressed('R')) dropCamera();
-  if (pressed('F') && shown_) setCamera(frameAll(shown_->camera, shown_->bounds, aspect()));
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Space), false))
-    playing_ = !playing_ && durationS() > 0.0;
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false)) panesHidden_ = !panesHidden_;
-  constexpr Arrangement kByNumber[] = {Arrangement::First,  Arrangement::Second,  Arrangement::SideBySide,
-                                       Arrangement::Split,  Arrangement::Flicker, Arrangement::ErrorMap,
-                                       Arrangement::Overlay};
-  for (int i = 0; i < 7; ++i)
-    if (pressed('1' + i)) arrangement = kByNumber[i];
-}
-
-double Viewer::aspect() const { return double(choices_.sizePx.x) / choices_.sizePx.y; }
-
-double Viewer::durationS() const { return shown_ ? shown_->path.durationS() : 0.0; }
-
-void Viewer::play(double secondsPassed) {
-  clockS_ += secondsPassed;
-  if (!playing_) return;
-  if (durationS() <= 0.0) {
-    playing_ = false;
-    return;
-  }
-  timeS_ += secondsPassed;
-  setTime(timeS_ > durationS() ? 0.0 : timeS_);
+void Viewer::updateMoving() {
+  const bool mouseHeld = ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
+                         ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
+                         ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+  // While a control is held, its value is not yet the one that will stay.
+  if (ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+      !ImGui::GetIO().WantTextInput && !(state_.setup == request_.setup))
+    moving_ = true;
+  else if (!mouseHeld && !flying_)
+    moving_ = false;
 }
 
 void Viewer::build(double secondsPassed) {
   controls_.clear();
-  handleKeys();
   play(secondsPassed);
   record(secondsPassed);
-  const Overlay overlayBefore = overlay_;
-  const std::string displayBefore = options_.display.hash();
-  Panes panes(*this);
-  panes.build();
+  state_.camera = currentCamera();
+  state_.atRest = atRest();
+  flying_ = false;
   const bool wasMoving = moving_;
-  const glm::vec2 size(surface_.sizePx());
-  const float left = panesHidden_ ? 0.0F : panes.leftPx(), right = panesHidden_ ? 0.0F : panes.rightPx();
-  PicturePane(*this, {left, 0.0F}, {size.x - right, size.y - panes.bottomPx()}).build(secondsPassed);
-  // A control that is held: what it shows now is not what it will rest at.
-  if (ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
-      !ImGui::GetIO().WantTextInput && !(choices_ == asked_))
-    moving_ = true;
-  else if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Right) &&
-           !ImGui::IsMouseDown(ImGuiMouseButton_Middle) && !flying_)
-    moving_ = false;
-  const bool otherRequest = !(choices_ == asked_) || view_ != request_.view ||
-                            pickedPx_ != request_.pickedPx || continuous_ != request_.continuous ||
-                            (moving_ || playing_) != request_.moving || wasMoving != moving_;
-  if (otherRequest) ask();
-  if (overlay_ != overlayBefore || options_.display.hash() != displayBefore) askJudge();
+  interface_->build({state_, commands_, controls_}, glm::vec2(surface_.sizePx()), surface_.fonts().bodyPx,
+                    secondsPassed);
+  for (const ViewerCommand& command : commands_.take()) execute(command);
+  updateMoving();
+  if (!(state_.setup == request_.setup) || state_.debugView != request_.view ||
+      state_.pickedPx != request_.pickedPx || state_.continuous != request_.continuous ||
+      (moving_ || state_.playing) != request_.moving || wasMoving != moving_)
+    requestPicture();
 }
 
 }  // namespace limen::viewer

@@ -1,41 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/viewer/camera_control.h"
-#include "experiments/viewer/choices.h"
 #include "experiments/viewer/controls.h"
-#include "experiments/viewer/judge_thread.h"
+#include "experiments/viewer/evaluation_thread.h"
 #include "experiments/viewer/path_recorder.h"
 #include "experiments/viewer/render_thread.h"
-#include "experiments/viewer/saved_views.h"
-#include "experiments/viewer/ui_texture.h"
+#include "experiments/viewer/viewer_command.h"
+#include "experiments/viewer/viewer_state.h"
 #include "perception/vision/display.h"
 #include "renderer/window/ui_surface.h"
 
 namespace limen::viewer {
 
+class Interface;
+
 struct ViewerOptions {
-  Choices choices;
+  ViewSetup setup;
   std::string resultsFolder = "results/viewer";
   std::string shaderRoot;  ///< source tree whose shaders are watched; "": none
   perception::DisplayProfile display;
 };
 
-/// How pictures stand beside each other. The second picture is that of the second technique, or the reference
-/// where there is none.
-enum class Arrangement { First, Second, SideBySide, Split, Flicker, ErrorMap, Overlay };
-
-/// The viewer without its window: what is chosen, what is shown, and the threads that make it. Its calls come
-/// from one thread, with the surface's context current.
+/// The viewer without its window: the state, which its interface shows, the threads that render and evaluate,
+/// and the commands by which the state changes. Its calls come from one thread, with the surface's context
+/// current.
 class Viewer {
  public:
   /// `wake` is called from other threads when takeResults() has something to take. Throws Error: no
@@ -47,105 +41,86 @@ class Viewer {
 
   /// Takes what the threads have made; true if something on screen changes.
   bool takeResults();
-  /// One frame of the interface, in calls to ImGui; `secondsPassed` since the last one.
+  /// One frame of the interface, in calls to ImGui, and what it asks for; `secondsPassed` since the last one.
   void build(double secondsPassed);
   /// Something moves by itself: frames are wanted one after the other.
   bool animated() const;
   /// All that was asked for is on screen, the reference included.
   bool atRest() const;
 
-  const Choices& choices() const { return choices_; }
-  /// As if the controls had been used.
-  void choose(Choices choices);
+  /// As if the interface had asked for it. Errors become messages.
+  void execute(const ViewerCommand& command);
+  /// Replaces the whole setup. Throws Error, nothing changed, if it is not valid.
+  void show(ViewSetup setup);
+
+  const ViewerState& state() const { return state_; }
   const ControlMap& controls() const { return controls_; }
-  const std::optional<RenderResult>& shown() const { return shown_; }
-  const std::optional<JudgeResult>& judged() const { return judged_; }
-  const std::vector<std::string>& messages() const { return messages_; }
+  const EvaluationThread& evaluation() const { return evaluation_; }
   int64_t framesRendered() const { return render_.frames(); }
-  const JudgeThread& judge() const { return judge_; }
-  Arrangement arrangement = Arrangement::First;
 
-  /// What is to be predicted of a person's seeing the picture.
-  void predict(Overlay overlay);
-
-  /// The driver's words about changed shaders that it refused; "" if there are none.
-  const std::string& shaderFailure() const { return shaderFailure_; }
-  /// What the keys K and P do; they return the paths written, "" where that failed (see messages()).
-  std::string keepDescriptor();
+  /// What the keys K and P do; they return the paths written, "" where that failed (see
+  /// ViewerState::messages).
+  std::string exportDescriptor();
   std::string savePictures();
 
  private:
-  friend class Panes;
-  friend class PicturePane;
-
-  void ask();
+  void requestPicture();
+  void requestEvaluation();
   void recordTimes();
-  void askJudge();
   void say(const std::string& message);
-  /// A view of the user's own, in place of the scene's path.
+  void updateMoving();
+
+  void run(const command::ChooseEntry& command);
+  void run(const command::SetParameter& command);
+  void run(const command::CopyToSecond& command);
+  void run(const command::SwapTechniques& command);
+  void run(const command::SetPictureSize& command);
+  void run(const command::ShowDebugView& command);
+  void run(const command::Arrange& command);
+  void run(const command::Predict& command);
+  void run(const command::ChooseDisplay& command);
+  void run(const command::ChooseErrorMap& command);
+  void run(const command::MeasureContinuously& command);
+  void run(const command::PickPixel& command);
+  void run(const command::MoveCamera& command);
+  void run(const command::ResetCamera& command);
+  void run(const command::FrameScene& command);
+  void run(const command::SaveView& command);
+  void run(const command::RecallView& command);
+  void run(const command::RemoveView& command);
+  void run(const command::ToggleRecording& command);
+  void run(const command::TogglePlayback& command);
+  void run(const command::SetTime& command);
+  void run(const command::ExportDescriptor& command);
+  void run(const command::SavePictures& command);
+  void run(const command::DismissShaderFailure& command);
+  void run(const command::TogglePanes& command);
+
+  /// A camera of the user's own, in place of the scene's path.
   void setCamera(const scene::Camera& camera);
-  /// The same while a hand is on it.
-  void moveTo(const scene::Camera& camera);
-  /// Where the camera is, with what has been asked for and is not on screen yet.
-  scene::Camera cameraNow() const;
+  /// Where the camera is, with what was asked for and is not on screen yet.
+  scene::Camera currentCamera() const;
+  void setTime(double timeS);
+  void play(double secondsPassed);
+  void record(double secondsPassed);
   std::string viewsFile() const;
   void readViews();
-  void saveViewNow(const std::string& name);
-  void goTo(const SavedView& view);
-  void toggleRecording();
-  void record(double secondsPassed);
-  /// Their controls.
-  void views();
-  void setTime(double timeS);
-  void dropCamera();
-  std::shared_ptr<const ScreenPicture> secondPicture() const;
-  void handleKeys();
-  void play(double secondsPassed);
-  double aspect() const;
-  double durationS() const;  ///< of the camera path that is there, 0 for a still camera
 
   window::UiSurface& surface_;
-  ViewerOptions options_;
   RenderThread render_;
-  JudgeThread judge_;
-  gl::DeviceInfo device_;
+  EvaluationThread evaluation_;
+  ViewerState state_;
+  std::unique_ptr<Interface> interface_;
+  CommandQueue commands_;
+  ControlMap controls_;
+  ParameterMemory memory_;
 
-  Choices choices_, asked_;
-  uint64_t number_ = 0, judgedNumber_ = 0;
-  bool judgePending_ = false;
   RenderRequest request_;  // the last one
-  std::string view_;       // debug view of the first technique, "": product
-  std::optional<glm::ivec2> pickedPx_;
-  bool moving_ = false, flying_ = false, continuous_ = false, panesHidden_ = false;
-  Overlay overlay_ = Overlay::None;
-  std::string displayName_, mapName_ = "absolute_error";
-
-  std::optional<RenderResult> shown_;
-  std::optional<JudgeResult> judged_;
-  // Of the first technique, latest last: the whole frame under its own name, "frame".
-  std::map<std::string, std::deque<float>> passMs_;
-  std::vector<std::string> messages_;
-  std::string shaderFailure_;
-
-  // The path of the camera.
-  bool playing_ = false;
-  double timeS_ = 0.0, flickerHz_ = 2.0, clockS_ = 0.0;
-  float splitAt_ = 0.5F;
-  double zoom_ = 0.0;  // screen pixels for one of the picture; 0: as fits
-  glm::vec2 panPx_{0.0F};
-
-  std::vector<SavedView> views_;
-  std::array<char, 128> viewName_{};
+  uint64_t number_ = 0, evaluatedNumber_ = 0;
+  bool evaluationPending_ = false;
+  bool moving_ = false, flying_ = false;  // a control or the camera is held; keys move it
   std::optional<PathRecorder> recorder_;
   double recordedS_ = 0.0;
-
-  // A drag in the picture.
-  scene::Camera dragFrom_;
-  glm::vec2 dragStartPx_{0.0F}, panFrom_{0.0F};
-  bool splitHeld_ = false;
-
-  ControlMap controls_;
-  UiTexture first_, second_, map_, painted_;
 };
 
 }  // namespace limen::viewer

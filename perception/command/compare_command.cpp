@@ -55,7 +55,7 @@ Selection select(std::vector<std::string> asked, const DisplayProfile& display) 
     }
   }
   out.groups = metricSettings(out.metrics, display);
-  if (out.jnd) out.groups.push_back({kJnd, poppingParameters()});
+  if (out.jnd) out.groups.push_back({kJnd, PoppingSettings::table().parameters()});
   return out;
 }
 
@@ -84,7 +84,8 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   if (options.test.empty() || options.reference.empty())
     throw Error("an image is missing", "compare", "name two: limen-perceive compare IMAGE REFERENCE");
   const std::vector<ParameterValues> values = parseSettings(options.set, selected.groups, "--set");
-  const PoppingSettings popping = selected.jnd ? PoppingSettings::from(values.back()) : PoppingSettings{};
+  const PoppingSettings popping =
+      selected.jnd ? PoppingSettings::table().read(values.back()) : PoppingSettings{};
   const ParameterValues input = options.input();
   ImageMetrics metrics(selected.metrics, values);
   Figures declared = metrics.declared();

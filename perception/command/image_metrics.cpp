@@ -103,7 +103,12 @@ Figures ImageMetrics::declared() const {
   for (const Entry& entry : entries_) {
     std::string meaning = entry.info->summary;
     if (entry.coded) meaning += ", of coded values";
-    figures.push_back({entry.figure, entry.info->unit, meaning, entry.info->higherIsBetter, {}, {}});
+    figures.push_back({entry.figure,
+                       entry.info->unit,
+                       meaning,
+                       entry.info->direction == Direction::HigherIsBetter,
+                       {},
+                       {}});
   }
   return figures;
 }

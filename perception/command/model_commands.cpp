@@ -129,7 +129,7 @@ void ConstantOptions::add(CLI::App& command, const std::vector<std::vector<Param
       ->take_all();
   for (const std::vector<Parameter>& list : declared)
     for (const Parameter& parameter : list) {
-      if (given.count(parameter.name) != 0) continue;
+      if (parameter.type == ParameterType::Group || given.count(parameter.name) != 0) continue;
       const std::string option = optionName(parameter.name);
       if (command.get_option_no_throw(option) != nullptr) continue;  // --set reaches it
       command.add_option(option, given[parameter.name])->group("");
@@ -144,16 +144,17 @@ bool ConstantOptions::empty() const {
 std::map<std::string, ParameterValue> ConstantOptions::read(const std::vector<Parameter>& declared,
                                                             const std::string& model) const {
   std::vector<std::string> names;
-  for (const Parameter& parameter : declared) names.push_back(parameter.name);
+  const std::vector<DeclaredAt> known = flatten(declared);
+  for (const DeclaredAt& at : known) names.push_back(at.path);
   std::map<std::string, ParameterValue> out;
   const auto take = [&](std::string name, const std::string& text, const std::string& place) {
     std::replace(name.begin(), name.end(), '-', '_');
-    const auto found = std::find_if(declared.begin(), declared.end(),
-                                    [&](const Parameter& parameter) { return parameter.name == name; });
-    if (found == declared.end())
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const DeclaredAt& at) { return at.path == name; });
+    if (found == known.end())
       throw Error("'" + name + "' is no constant of " + model, place,
                   names.empty() ? "it has none" : suggest(name, names));
-    if (!out.emplace(name, validate(*found, readValue(*found, text), place)).second)
+    if (!out.emplace(name, validate(*found->parameter, readValue(*found->parameter, text), place)).second)
       throw Error("'" + name + "' is given twice", place, "keep one");
   };
   for (const std::string& one : set) {

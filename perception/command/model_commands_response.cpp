@@ -57,7 +57,7 @@ void runTvi(const TviOptions& options) {
     model = "from_csf_scaled";
   }
   const CsfInfo& info = CsfRegistry::instance().get(options.csf, "--csf");
-  const auto constants = options.constants.read(fromCsf ? info.parameters : std::vector<Parameter>(),
+  const auto constants = options.constants.read(fromCsf ? info.parameters.get() : std::vector<Parameter>(),
                                                 fromCsf ? info.name : model);
   const std::shared_ptr<const Csf> csf = info.make(ParameterValues(info.parameters, constants, info.name));
   CsfPoint point = options.point.point();

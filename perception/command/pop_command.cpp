@@ -24,7 +24,7 @@ struct PopOptions : ImageOptions {
   std::vector<std::string> weights;
 };
 
-std::vector<SettingsGroup> poppingGroups() { return {{"", poppingParameters()}}; }
+std::vector<SettingsGroup> poppingGroups() { return {{"", PoppingSettings::table().parameters()}}; }
 
 Figures allFigures() {
   Figures figures = declaredPoppingFigures();
@@ -162,8 +162,11 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   if (options.before.empty())
     throw Error("images are missing", "pop", "name two: limen-perceive pop OLD NEW");
   const std::vector<ParameterValues> values = parseSettings(options.set, poppingGroups(), "--set");
-  Call call{
-      options, readDisplay(options.displayName), options.input(), PoppingSettings::from(values.front()), {}};
+  Call call{options,
+            readDisplay(options.displayName),
+            options.input(),
+            PoppingSettings::table().read(values.front()),
+            {}};
   const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, allFigures(), "rating");
   const std::vector<FrameSet> frames = alignFrames(options);
   std::vector<std::string> files;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "perception/metrics/quantile.h"
+#include "perception/vision/masking.h"
 
 namespace limen::perception {
 namespace {
@@ -19,27 +20,14 @@ std::vector<const PoppingRegion*> byRating(const PoppingResult& result) {
   return out;
 }
 
-const char* eyeText(EyeMovement movement) {
-  switch (movement) {
-    case EyeMovement::Literal:
-      return "literal";
-    case EyeMovement::Floor:
-      return "floor";
-    case EyeMovement::Monotone:
-      return "monotone";
-    case EyeMovement::None:
-      return "none";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string poppingModelText(const PoppingSettings& settings) {
-  std::string csfs = settings.csfAchromatic + "+" + settings.csfRedGreen;
-  if (settings.csfBlueYellow != settings.csfRedGreen) csfs += "+" + settings.csfBlueYellow;
-  const std::string masking = settings.masking == "schwarz" ? "T (9.9)" : "masking " + settings.masking;
-  return fmt::format("Schwarz 2009; {}, {}, eye movement {}", csfs, masking, eyeText(settings.eyeMovement));
+  const SensitivitySettings& s = settings.sensitivity;
+  std::string csfs = s.achromatic.csf.name + "+" + s.redGreen.csf.name;
+  if (s.blueYellow.csf.name != s.redGreen.csf.name) csfs += "+" + s.blueYellow.csf.name;
+  const std::string masking = isCubic(settings.masking) ? "T (9.9)" : "masking " + settings.masking.name;
+  return fmt::format("Schwarz 2009; {}, {}, eye movement {}", csfs, masking, toText(settings.eyeModel()));
 }
 
 Figures declaredPoppingFigures() {

@@ -3,44 +3,44 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <map>
 
-#include "experiments/base/error.h"
+#include "experiments/base/assignments.h"
 #include "experiments/base/text.h"
 
 namespace limen::perception {
 namespace {
 
-std::string fullName(const SettingsGroup& group, const Parameter& parameter) {
-  return group.name.empty() ? parameter.name : group.name + "." + parameter.name;
-}
-
-template <class Number>
-bool readNumber(const std::string& text, Number& value) {
-  const char* const end = text.data() + text.size();
-  const auto [stop, code] = std::from_chars(text.data(), end, value);
-  return code == std::errc{} && stop == end;
-}
-
-/// The text as a value of the parameter's type; as text where it is none, so that validate() refuses it.
-ParameterValue typed(const Parameter& parameter, const std::string& text) {
-  int64_t whole = 0;
-  double real = 0.0;
-  switch (parameter.type) {
-    case ParameterType::Boolean:
-      if (text == "true" || text == "false") return text == "true";
-      break;
-    case ParameterType::Integer:
-      if (readNumber(text, whole)) return whole;
-      break;
-    case ParameterType::Real:
-      if (readNumber(text, real)) return real;
-      break;
-    default:
-      break;
+/// All groups as one declaration: a named one is a group of parameters.
+std::vector<Parameter> declaredOf(const std::vector<SettingsGroup>& groups) {
+  std::vector<Parameter> out;
+  for (const SettingsGroup& group : groups) {
+    if (group.name.empty()) {
+      out.insert(out.end(), group.parameters.begin(), group.parameters.end());
+      continue;
+    }
+    Parameter named;
+    named.name = group.name;
+    named.type = ParameterType::Group;
+    named.alternatives = {{{}, {}, group.parameters}};
+    out.push_back(std::move(named));
   }
-  return text;
+  return out;
+}
+
+/// "adaptation: fixed": choices that a parameter exists under; "" if it always exists.
+std::string existsWith(const DeclaredAt& at) {
+  std::vector<std::string> parts;
+  for (const auto& [path, kind] : at.when) parts.push_back(path + "=" + kind);
+  return join(parts);
+}
+
+bool exists(const DeclaredAt& at, const ParameterValues& values) {
+  return std::all_of(at.when.begin(), at.when.end(), [&](const auto& choice) {
+    const ParameterValue* value = values.find(choice.first);
+    return value && *value == ParameterValue(choice.second);
+  });
 }
 
 }  // namespace
@@ -48,50 +48,49 @@ ParameterValue typed(const Parameter& parameter, const std::string& text) {
 std::vector<ParameterValues> parseSettings(const std::vector<std::string>& texts,
                                            const std::vector<SettingsGroup>& groups,
                                            const std::string& where) {
-  std::vector<std::map<std::string, ParameterValue>> given(groups.size());
-  std::vector<std::string> known;
-  for (const SettingsGroup& group : groups)
-    for (const Parameter& parameter : group.parameters) known.push_back(fullName(group, parameter));
-  for (const std::string& text : texts) {
-    const size_t split = text.find('=');
-    if (split == std::string::npos)
-      throw Error("'" + text + "' sets nothing", where, "write name=value; see --list");
-    const std::string name = text.substr(0, split);
-    bool found = false;
-    for (size_t g = 0; g < groups.size() && !found; ++g)
-      for (const Parameter& parameter : groups[g].parameters) {
-        if (fullName(groups[g], parameter) != name) continue;
-        found = true;
-        const ParameterValue value = validate(parameter, typed(parameter, text.substr(split + 1)), where);
-        if (!given[g].emplace(parameter.name, value).second)
-          throw Error("'" + name + "' is set twice", where, "give it once");
-      }
-    if (!found) throw Error("no setting '" + name + "'", where, suggest(name, known));
-  }
+  const std::map<std::string, ParameterValue> given = readAssignments(texts, declaredOf(groups), where);
   std::vector<ParameterValues> values;
-  for (size_t g = 0; g < groups.size(); ++g) values.emplace_back(groups[g].parameters, given[g], where);
+  for (const SettingsGroup& group : groups) {
+    std::map<std::string, ParameterValue> own;
+    for (const auto& [path, value] : given) {
+      const auto named = std::find_if(groups.begin(), groups.end(), [&](const SettingsGroup& other) {
+        return !other.name.empty() && path.starts_with(other.name + ".");
+      });
+      const std::string owner = named == groups.end() ? "" : named->name;
+      if (owner == group.name) own[owner.empty() ? path : path.substr(owner.size() + 1)] = value;
+    }
+    values.emplace_back(group.parameters, own, where);
+  }
   return values;
 }
 
 std::string listSettings(const std::vector<SettingsGroup>& groups) {
+  const std::vector<Parameter> declared = declaredOf(groups);
   std::string out;
-  for (const SettingsGroup& group : groups)
-    for (const Parameter& parameter : group.parameters) {
-      out += fmt::format("  {}={}\n      {}\n      {}\n", fullName(group, parameter),
-                         toText(parameter.defaultValue), parameter.description, describeRange(parameter));
-      if (!parameter.source.empty()) out += fmt::format("      source: {}\n", parameter.source);
-    }
+  for (const DeclaredAt& at : flatten(declared)) {
+    const Parameter& parameter = *at.parameter;
+    const std::string with = existsWith(at);
+    out += fmt::format("  {}={}{}\n      {}\n      {}\n", at.path, toText(parameter.defaultValue),
+                       with.empty() ? "" : "  (with " + with + ")", parameter.description,
+                       describeRange(parameter));
+    for (const Alternative& alternative : parameter.alternatives)
+      if (!alternative.description.empty())
+        out += fmt::format("        {}: {}\n", alternative.name, alternative.description);
+    if (!parameter.source.empty()) out += fmt::format("      source: {}\n", parameter.source);
+  }
   return out.empty() ? "  none\n" : out;
 }
 
 nlohmann::json settingsAsJson(const std::vector<SettingsGroup>& groups) {
+  const std::vector<Parameter> declared = declaredOf(groups);
   nlohmann::json out = nlohmann::json::array();
-  for (const SettingsGroup& group : groups)
-    for (const Parameter& parameter : group.parameters) {
-      nlohmann::json entry = toJson(parameter);
-      entry["name"] = fullName(group, parameter);
-      out.push_back(entry);
-    }
+  for (const DeclaredAt& at : flatten(declared)) {
+    nlohmann::json entry = toJson(*at.parameter);
+    entry.erase("alternatives");  // they have entries of their own
+    entry["name"] = at.path;
+    if (!at.when.empty()) entry["when"] = at.when;
+    out.push_back(entry);
+  }
   return out;
 }
 
@@ -112,10 +111,11 @@ std::string changedSettings(const std::vector<SettingsGroup>& groups,
                             const std::vector<ParameterValues>& values) {
   std::vector<std::string> changed;
   for (size_t g = 0; g < groups.size(); ++g)
-    for (const Parameter& parameter : groups[g].parameters) {
-      const ParameterValue& value = values[g].all().at(parameter.name);
-      if (value != parameter.defaultValue)
-        changed.push_back(fullName(groups[g], parameter) + " " + toText(value));
+    for (const DeclaredAt& at : flatten(groups[g].parameters)) {
+      if (!exists(at, values[g])) continue;
+      const ParameterValue& value = values[g].all().at(at.path);
+      if (value != at.parameter->defaultValue)
+        changed.push_back(joinPath(groups[g].name, at.path) + " " + toText(value));
     }
   return join(changed);
 }

@@ -27,7 +27,7 @@ struct ThresholdOptions : ImageOptions {
   double scaleCdM2 = 0.0;
 };
 
-std::vector<SettingsGroup> thresholdGroups() { return {{"", thresholdMapParameters()}}; }
+std::vector<SettingsGroup> thresholdGroups() { return {{"", ThresholdMapSettings::table().parameters()}}; }
 
 Figures thresholdFigures(const ThresholdMap& map) {
   std::vector<double> values = map.thresholdCdM2.data;
@@ -71,7 +71,7 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
     throw Error("an image is missing", "threshold", "name one: limen-perceive threshold IMAGE");
   const DisplayProfile display = readDisplay(options.displayName);
   const std::vector<ParameterValues> values = parseSettings(options.set, thresholdGroups(), "--set");
-  const ThresholdMapSettings settings = thresholdMapSettings(values.front());
+  const ThresholdMapSettings settings = ThresholdMapSettings::table().read(values.front());
   const ParameterValues input = options.input();
   const std::vector<FrameSet> frames = alignSequences({expandImages(options.image)});
   std::vector<std::string> files;

@@ -24,15 +24,11 @@ double clampToDisplay(double value) { return std::clamp(value, 0.0, 1.0); }
 
 }  // namespace
 
-Parameter regionParameter() {
-  return choiceParameter(
-      "region", "receivers", {"all", "receivers", "penumbra"},
-      "pixels that are judged; penumbra: receivers whose reference visibility is between 0 and 1");
-}
-
-Region regionOf(const ParameterValues& values) {
-  const std::string& name = values.text("region");
-  return name == "all" ? Region::All : name == "penumbra" ? Region::Penumbra : Region::Receivers;
+const SettingsTable<ComparedRegion>& ComparedRegion::table() {
+  static const SettingsTable<ComparedRegion> kTable = {
+      {&ComparedRegion::region, "region",
+       "pixels that are compared; penumbra: receivers whose reference visibility is between 0 and 1"}};
+  return kTable;
 }
 
 Comparison::Comparison(const ComparisonInput& input, const std::string& metric, Region region)
@@ -46,7 +42,7 @@ Comparison::Comparison(const ComparisonInput& input, const std::string& metric, 
         "metric '" + metric + "' compares images of " + sizeText(test_) + " and " + sizeText(reference_), {},
         "give both the same size and kind");
   if (test_.channels == 2)
-    throw Error("metric '" + metric + "' cannot judge images of 2 channels", {}, "give 1, 3 or 4 channels");
+    throw Error("metric '" + metric + "' cannot compare images of 2 channels", {}, "give 1, 3 or 4 channels");
   if (mask_ && (mask_->width != test_.width || mask_->height != test_.height || mask_->channels != 1))
     throw Error("metric '" + metric + "': the mask is " + sizeText(*mask_) + ", the image " + sizeText(test_),
                 {}, "give a mask of the same size with 1 channel");

@@ -10,16 +10,22 @@
 
 namespace limen::perception {
 
-/// Which pixels a metric judges.
+/// Which pixels a metric evaluates.
 enum class Region {
   All,        ///< every pixel
   Receivers,  ///< where the mask is set; every pixel without a mask
   Penumbra    ///< receivers whose reference visibility lies strictly between 0 and 1
 };
 
-/// The parameter `region` and its value.
-Parameter regionParameter();
-Region regionOf(const ParameterValues& values);
+constexpr EnumNames<Region, 3> enumNames(Region) {
+  return {{{{Region::All, "all"}, {Region::Receivers, "receivers"}, {Region::Penumbra, "penumbra"}}}};
+}
+
+/// Settings of metrics that compare pixel by pixel.
+struct ComparedRegion {
+  Region region = Region::Receivers;
+  static const SettingsTable<ComparedRegion>& table();
+};
 
 /// A checked pair of products and the region in which they are compared.
 class Comparison {

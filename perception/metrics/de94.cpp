@@ -2,16 +2,33 @@
 #include <algorithm>
 #include <vector>
 
-#include "perception/vision/colour.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/quantile.h"
 #include "perception/metrics/row_sums.h"
+#include "perception/vision/colour.h"
 
 namespace limen::perception {
 namespace {
 
-MetricResult measure(const ComparisonInput& input, const ParameterValues& values) {
-  const Comparison pair(input, "de94", regionOf(values));
+/// How the pixels' values are pooled.
+enum class Statistic { Mean, Max, P99 };
+constexpr EnumNames<Statistic, 3> enumNames(Statistic) {
+  return {{{{Statistic::Mean, "mean"}, {Statistic::Max, "max"}, {Statistic::P99, "p99"}}}};
+}
+
+struct De94Settings {
+  Statistic statistic = Statistic::Mean;
+  ComparedRegion region;
+  static const SettingsTable<De94Settings>& table() {
+    static const SettingsTable<De94Settings> kTable = {
+        {&De94Settings::statistic, "statistic", "how the pixels' values are pooled"},
+        included(&De94Settings::region)};
+    return kTable;
+  }
+};
+
+MetricResult measure(const ComparisonInput& input, const De94Settings& settings) {
+  const Comparison pair(input, "de94", settings.region.region);
   MetricResult result;
   result.judgedPixels = pair.judgedPixels();
   std::vector<double> differences(pair.test().pixels());
@@ -30,10 +47,9 @@ MetricResult measure(const ComparisonInput& input, const ParameterValues& values
     return row.value();
   });
   if (result.judgedPixels > 0) {
-    const std::string& statistic = values.text("statistic");
-    if (statistic == "mean") {
+    if (settings.statistic == Statistic::Mean) {
       result.value = sum / static_cast<double>(result.judgedPixels);
-    } else if (statistic == "max") {
+    } else if (settings.statistic == Statistic::Max) {
       result.value = *std::max_element(differences.begin(), differences.end());
     } else {
       std::vector<double> judged;
@@ -49,20 +65,13 @@ MetricResult measure(const ComparisonInput& input, const ParameterValues& values
   return result;
 }
 
-MetricInfo de94Metric() {
-  MetricInfo info;
-  info.name = "de94";
-  info.summary = "CIELAB difference CIE94 (graphic arts) of the images as an sRGB display shows them";
-  info.source = "CIE 116-1995";
-  info.unit = "dE94";
-  info.parameters = {
-      choiceParameter("statistic", "mean", {"mean", "max", "p99"}, "how the pixels' values are pooled"),
-      regionParameter()};
-  info.compare = &measure;
-  return info;
-}
-
-const Registered<MetricInfo> kRegistered{de94Metric()};
+const RegisteredMetric<De94Settings> kRegistered{
+    {.name = "de94",
+     .summary = "CIELAB difference CIE94 (graphic arts) of the images as an sRGB display shows them",
+     .source = "CIE 116-1995",
+     .title = "CIE94 colour difference",
+     .unit = "dE94"},
+    &measure};
 
 }  // namespace
 }  // namespace limen::perception

@@ -43,33 +43,46 @@ struct MetricResult {
   int64_t judgedPixels = 0;
 };
 
-/// Registration of a metric: `compare` judges a test product against a reference. It throws Error where the
-/// images do not fit together or the reference holds non-finite values. A non-finite test value counts as an
-/// error of 1, the whole range of a product, so that every figure stays finite; non_finite tells such a
+/// Registration of a metric: `compare` evaluates a test product against a reference. It throws Error where
+/// the images do not fit together or the reference holds non-finite values. A non-finite test value counts as
+/// an error of 1, the whole range of a product, so that every figure stays finite; non_finite tells such a
 /// product from a bad one.
 struct MetricInfo {
   static constexpr const char* kKind = "metric";
   std::string name;
   int version = 1;  ///< raised when values change
   std::string summary;
-  std::string source;
-  std::string unit;  ///< "" for pure numbers
-  bool higherIsBetter = false;
+  std::string source = {};
+  std::string title = {};  ///< as an axis label, without the unit: "RMSE", "Mean FLIP error"
+  std::string unit = {};   ///< "" for pure numbers
+  Direction direction = Direction::LowerIsBetter;
   bool needsGl = false;
   bool needsReference = true;  ///< false: judges the test product alone (non-finite count)
   ParameterList parameters = {};
   std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare = {};
+
+  /// Its value, as reports and tables describe it.
+  Quantity quantity() const { return {name, title, unit, direction, source}; }
 };
 using MetricRegistry = Registry<MetricInfo>;
+
+/// Settings of a metric that has none.
+struct NoMetricSettings {
+  static const SettingsTable<NoMetricSettings>& table() {
+    static const SettingsTable<NoMetricSettings> kTable = {};
+    return kTable;
+  }
+};
 
 /// Registers a metric with settings S (settings_table.h) at program start. `info` says the rest; its
 /// parameters and compare are filled in.
 template <class S>
 struct RegisteredMetric {
-  RegisteredMetric(MetricInfo info, MetricResult (*compare)(const ComparisonInput&, const S&),
+  RegisteredMetric(MetricInfo info, std::function<MetricResult(const ComparisonInput&, const S&)> compare,
                    const S& defaults = {}) {
     info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
-    info.compare = [compare](const ComparisonInput& input, const ParameterValues& values) {
+    info.compare = [compare = std::move(compare)](const ComparisonInput& input,
+                                                  const ParameterValues& values) {
       return compare(input, S::table().read(values));
     };
     MetricRegistry::instance().add(std::move(info));

@@ -8,7 +8,7 @@
 namespace limen::perception {
 namespace {
 
-MetricResult countNonFinite(const ComparisonInput& input, const ParameterValues&) {
+MetricResult countNonFinite(const ComparisonInput& input, const NoMetricSettings&) {
   if (!input.test) throw Error("metric 'non_finite' has no test image");
   const Image& test = *input.test;
   const size_t perRow = static_cast<size_t>(test.width) * static_cast<size_t>(test.channels);
@@ -23,16 +23,12 @@ MetricResult countNonFinite(const ComparisonInput& input, const ParameterValues&
   return result;
 }
 
-MetricInfo nonFiniteMetric() {
-  MetricInfo info;
-  info.name = "non_finite";
-  info.summary = "count of values (all channels) that are infinite or not a number";
-  info.needsReference = false;
-  info.compare = &countNonFinite;
-  return info;
-}
-
-const Registered<MetricInfo> kRegistered{nonFiniteMetric()};
+const RegisteredMetric<NoMetricSettings> kRegistered{
+    {.name = "non_finite",
+     .summary = "count of values (all channels) that are infinite or not a number",
+     .title = "Non-finite values",
+     .needsReference = false},
+    &countNonFinite};
 
 }  // namespace
 }  // namespace limen::perception

@@ -82,44 +82,46 @@ double peakSignalToNoise(const Comparison& pair) {
   return rms > 0.0 ? std::min(kPsnrCapDb, -20.0 * std::log10(rms)) : kPsnrCapDb;
 }
 
-MetricInfo pixelMetric(const std::string& name, const std::string& summary,
-                       double (*measure)(const Comparison&), bool withMap) {
-  MetricInfo info;
-  info.name = name;
-  info.summary = summary;
-  info.parameters = {regionParameter()};
-  info.compare = [name, measure, withMap](const ComparisonInput& input, const ParameterValues& values) {
-    const Comparison pair(input, name, regionOf(values));
-    MetricResult result;
-    result.value = measure(pair);
-    result.judgedPixels = pair.judgedPixels();
-    if (withMap) {
-      result.map = absoluteErrorMap(pair);
-      result.mapName = "absolute_error";
-    }
-    return result;
-  };
-  return info;
+RegisteredMetric<ComparedRegion> pixelMetric(MetricInfo info, double (*measure)(const Comparison&),
+                                             bool withMap) {
+  const std::string name = info.name;
+  return {std::move(info), [name, measure, withMap](const ComparisonInput& input, const ComparedRegion& s) {
+            const Comparison pair(input, name, s.region);
+            MetricResult result;
+            result.value = measure(pair);
+            result.judgedPixels = pair.judgedPixels();
+            if (withMap) {
+              result.map = absoluteErrorMap(pair);
+              result.mapName = "absolute_error";
+            }
+            return result;
+          }};
 }
 
-MetricInfo psnrMetric() {
-  MetricInfo info = pixelMetric(
-      "psnr", "peak signal-to-noise ratio for a peak of 1; at most 200 dB, which equal images get",
-      &peakSignalToNoise, false);
-  info.unit = "dB";
-  info.higherIsBetter = true;
-  return info;
-}
-
-const Registered<MetricInfo> kRmse{pixelMetric("rmse", "root mean square error", &rootMeanSquare, true)};
-const Registered<MetricInfo> kMae{pixelMetric("mae", "mean absolute error", &meanAbsolute, true)};
-const Registered<MetricInfo> kSigned{
-    pixelMetric("signed_error", "mean of test minus reference; below 0 the test is too dark (over-shadowed)",
-                &meanSigned, false)};
-const Registered<MetricInfo> kLargest{pixelMetric("largest_error", "largest absolute error", &largest, true)};
-const Registered<MetricInfo> kPercentile{pixelMetric(
-    "p99_error", "99th percentile (nearest rank) of the pixels' absolute errors", &percentile99, true)};
-const Registered<MetricInfo> kPsnr{psnrMetric()};
+const auto kRmse = pixelMetric({.name = "rmse", .summary = "root mean square error", .title = "RMSE"},
+                               &rootMeanSquare, true);
+const auto kMae = pixelMetric(
+    {.name = "mae", .summary = "mean absolute error", .title = "Mean absolute error"}, &meanAbsolute, true);
+const auto kSigned =
+    pixelMetric({.name = "signed_error",
+                 .summary = "mean of test minus reference; below 0 the test is too dark (over-shadowed)",
+                 .title = "Mean signed error",
+                 .direction = Direction::Neither},
+                &meanSigned, false);
+const auto kLargest = pixelMetric(
+    {.name = "largest_error", .summary = "largest absolute error", .title = "Largest error"}, &largest, true);
+const auto kPercentile =
+    pixelMetric({.name = "p99_error",
+                 .summary = "99th percentile (nearest rank) of the pixels' absolute errors",
+                 .title = "99th percentile of the error"},
+                &percentile99, true);
+const auto kPsnr = pixelMetric(
+    {.name = "psnr",
+     .summary = "peak signal-to-noise ratio for a peak of 1; at most 200 dB, which equal images get",
+     .title = "PSNR",
+     .unit = "dB",
+     .direction = Direction::HigherIsBetter},
+    &peakSignalToNoise, false);
 
 }  // namespace
 }  // namespace limen::perception

@@ -14,8 +14,23 @@
 namespace limen::perception {
 namespace {
 
-MetricResult measureSeamStep(const ComparisonInput& input, const ParameterValues& values) {
-  const Comparison pair(input, "seam_step", regionOf(values));
+struct StepSettings {
+  ComparedRegion region;
+  double share = 1.0;  ///< of the pairs of neighbours
+  static const SettingsTable<StepSettings>& table() {
+    static const SettingsTable<StepSettings> kTable = {
+        included(&StepSettings::region),
+        {&StepSettings::share,
+         "share",
+         {0.0, 1.0},
+         "",
+         "share of the pairs of neighbours whose change is at most the figure; 1: all"}};
+    return kTable;
+  }
+};
+
+MetricResult measureSeamStep(const ComparisonInput& input, const StepSettings& settings) {
+  const Comparison pair(input, "seam_step", settings.region.region);
   pair.requireVisibility("seam_step");
   MetricResult result;
   result.judgedPixels = pair.judgedPixels();
@@ -34,27 +49,18 @@ MetricResult measureSeamStep(const ComparisonInput& input, const ParameterValues
       if (x + 1 < pair.width()) visit(x, y, x + 1, y);
       if (y + 1 < pair.height()) visit(x, y, x, y + 1);
     }
-  result.value = nearestRank(steps, values.real("share"));
+  result.value = nearestRank(steps, settings.share);
   result.map = std::move(map);
   result.mapName = "seam_step";
   return result;
 }
 
-MetricInfo seamStepMetric() {
-  MetricInfo info;
-  info.name = "seam_step";
-  info.summary =
-      "change of the error from a pixel to its neighbour (seams and all else of it that is not smooth), the "
-      "largest or one that a share of all pairs does not exceed";
-  info.parameters = {
-      regionParameter(),
-      realParameter("share", 1.0, 0.0, 1.0, "",
-                    "share of the pairs of neighbours whose change is at most the figure; 1: all")};
-  info.compare = &measureSeamStep;
-  return info;
-}
-
-const Registered<MetricInfo> kRegistered{seamStepMetric()};
+const RegisteredMetric<StepSettings> kRegistered{
+    {.name = "seam_step",
+     .summary = "change of the error from a pixel to its neighbour (level discontinuities and all else of it "
+                "that is not smooth), the largest or one that a share of all pairs does not exceed",
+     .title = "Step of the error between neighbours"},
+    &measureSeamStep};
 
 }  // namespace
 }  // namespace limen::perception

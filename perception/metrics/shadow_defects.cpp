@@ -49,7 +49,7 @@ MetricResult shareWith(const ComparisonInput& input, const std::string& metric, 
 
 /// Longest run of pixels in a row or column that are too light where the reference has shadow. A shadow that
 /// a bias detaches from its caster leaves one as long as the gap, however small a share of the image that is.
-MetricResult measureContactGap(const ComparisonInput& input, const ParameterValues&) {
+MetricResult measureContactGap(const ComparisonInput& input, const NoMetricSettings&) {
   const Comparison pair(input, "contact_gap", Region::Receivers);
   pair.requireVisibility("contact_gap");
   MetricResult result;
@@ -89,8 +89,8 @@ double largestStep(const Comparison& pair, Value value) {
   return largest;
 }
 
-MetricResult measureBandStep(const ComparisonInput& input, const ParameterValues& values) {
-  const Comparison pair(input, "band_step", regionOf(values));
+MetricResult measureBandStep(const ComparisonInput& input, const ComparedRegion& settings) {
+  const Comparison pair(input, "band_step", settings.region);
   pair.requireVisibility("band_step");
   const auto reference = [&](int x, int y) { return double{pair.reference().at(x, y)}; };
   const auto test = [&](int x, int y) { return reference(x, y) + pair.error(x, y, 0); };
@@ -100,54 +100,29 @@ MetricResult measureBandStep(const ComparisonInput& input, const ParameterValues
   return result;
 }
 
-MetricInfo leaksMetric() {
-  MetricInfo info;
-  info.name = "leaks";
-  info.summary = "share of receivers in full shadow (reference below 0.02) that get over 0.05 too much light";
-  info.compare = [](const ComparisonInput& input, const ParameterValues&) {
-    return shareWith(input, "leaks", leaks);
-  };
-  return info;
-}
-
-MetricInfo acneMetric() {
-  MetricInfo info;
-  info.name = "acne";
-  info.summary = "share of receivers that are fully lit in the reference but below 0.98";
-  info.compare = [](const ComparisonInput& input, const ParameterValues&) {
-    return shareWith(input, "acne", isAcne);
-  };
-  return info;
-}
-
-MetricInfo contactGapMetric() {
-  MetricInfo info;
-  info.name = "contact_gap";
-  info.summary =
-      "longest run of pixels in a row or column that are in shadow (reference below 0.5) and get over 0.25 "
-      "too "
-      "much light: how far shadows stand off their casters";
-  info.unit = "px";
-  info.compare = &measureContactGap;
-  return info;
-}
-
-MetricInfo bandStepMetric() {
-  MetricInfo info;
-  info.name = "band_step";
-  info.summary =
-      "largest step between neighbouring pixels, less that of the reference (bands, seams); use region: "
-      "penumbra where "
-      "the reference has hard edges";
-  info.parameters = {regionParameter()};
-  info.compare = &measureBandStep;
-  return info;
-}
-
-const Registered<MetricInfo> kLeaks{leaksMetric()};
-const Registered<MetricInfo> kAcne{acneMetric()};
-const Registered<MetricInfo> kContactGap{contactGapMetric()};
-const Registered<MetricInfo> kBandStep{bandStepMetric()};
+const RegisteredMetric<NoMetricSettings> kLeaks{
+    {.name = "leaks",
+     .summary = "share of receivers in full shadow (reference below 0.02) that get over 0.05 too much light",
+     .title = "Share of receivers that leak"},
+    [](const ComparisonInput& input, const NoMetricSettings&) { return shareWith(input, "leaks", leaks); }};
+const RegisteredMetric<NoMetricSettings> kAcne{
+    {.name = "acne",
+     .summary = "share of receivers that are fully lit in the reference but below 0.98",
+     .title = "Share of receivers with acne"},
+    [](const ComparisonInput& input, const NoMetricSettings&) { return shareWith(input, "acne", isAcne); }};
+const RegisteredMetric<NoMetricSettings> kContactGap{
+    {.name = "contact_gap",
+     .summary = "longest run of pixels in a row or column that are in shadow (reference below 0.5) and get "
+                "over 0.25 too much light: how far shadows stand off their casters",
+     .title = "Longest gap at a contact",
+     .unit = "px"},
+    &measureContactGap};
+const RegisteredMetric<ComparedRegion> kBandStep{
+    {.name = "band_step",
+     .summary = "largest step between neighbouring pixels, less that of the reference (bands, level "
+                "discontinuities); use region: penumbra where the reference has hard edges",
+     .title = "Largest step beyond the reference's"},
+    &measureBandStep};
 
 }  // namespace
 }  // namespace limen::perception

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <vector>
 
-#include "perception/vision/colour.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/row_sums.h"
+#include "perception/vision/colour.h"
 
 namespace limen::perception {
 namespace {
@@ -41,7 +41,7 @@ double similarity(const Moments& m) {
   return (2.0 * means + kC1) * (2.0 * covariance + kC2) / ((meansSquared + kC1) * (variances + kC2));
 }
 
-MetricResult measure(const ComparisonInput& input, const ParameterValues&) {
+MetricResult measure(const ComparisonInput& input, const NoMetricSettings&) {
   const Comparison pair(input, "ssim", Region::All);
   const int width = pair.width(), height = pair.height();
   const std::vector<double> acrossWeights = windowWeights(std::min(kWindow, width));
@@ -97,17 +97,13 @@ MetricResult measure(const ComparisonInput& input, const ParameterValues&) {
   return result;
 }
 
-MetricInfo ssimMetric() {
-  MetricInfo info;
-  info.name = "ssim";
-  info.summary = "mean structural similarity of the images' sRGB-coded luminance; 1 for equal images";
-  info.source = "Wang et al. 2004";
-  info.higherIsBetter = true;
-  info.compare = &measure;
-  return info;
-}
-
-const Registered<MetricInfo> kRegistered{ssimMetric()};
+const RegisteredMetric<NoMetricSettings> kRegistered{
+    {.name = "ssim",
+     .summary = "mean structural similarity of the images' sRGB-coded luminance; 1 for equal images",
+     .source = "Wang et al. 2004",
+     .title = "Mean SSIM",
+     .direction = Direction::HigherIsBetter},
+    &measure};
 
 }  // namespace
 }  // namespace limen::perception

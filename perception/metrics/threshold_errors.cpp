@@ -45,38 +45,61 @@ double meanOf(std::vector<double>& errors) {
   return errors.empty() ? 0.0 : sum.value() / static_cast<double>(errors.size());
 }
 
-MetricInfo relativeMetric(const std::string& name, const std::string& summary,
-                          double (*pool)(std::vector<double>&)) {
-  MetricInfo info;
-  info.name = name;
-  info.summary = summary;
-  info.parameters = {regionParameter(),
-                     realParameter("least_reference", 0.0, 0.0, 1e6, "product's unit",
-                                   "a smaller reference counts as this: below, the error is in its shares")};
-  info.compare = [name, pool](const ComparisonInput& input, const ParameterValues& values) {
-    const Comparison pair(input, name, regionOf(values));
-    const double least = values.real("least_reference");
-    std::vector<double> errors = relativeErrors(pair, least);
-    MetricResult result;
-    result.value = pool(errors);
-    result.judgedPixels = pair.judgedPixels();
-    Image map(pair.width(), pair.height(), 1);
-    for (int y = 0; y < pair.height(); ++y)
-      for (int x = 0; x < pair.width(); ++x)
-        if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y, least));
-    result.map = std::move(map);
-    result.mapName = "relative_error";
-    return result;
-  };
-  return info;
+struct RelativeErrorSettings {
+  ComparedRegion region;
+  double leastReference = 0.0;
+  static const SettingsTable<RelativeErrorSettings>& table() {
+    static const SettingsTable<RelativeErrorSettings> kTable = {
+        included(&RelativeErrorSettings::region),
+        {&RelativeErrorSettings::leastReference,
+         "least_reference",
+         {0.0, 1e6},
+         "product's unit",
+         "a smaller reference counts as this: below, the error is in its shares"}};
+    return kTable;
+  }
+};
+
+RegisteredMetric<RelativeErrorSettings> relativeMetric(MetricInfo info,
+                                                       double (*pool)(std::vector<double>&)) {
+  const std::string name = info.name;
+  return {std::move(info), [name, pool](const ComparisonInput& input, const RelativeErrorSettings& settings) {
+            const Comparison pair(input, name, settings.region.region);
+            const double least = settings.leastReference;
+            std::vector<double> errors = relativeErrors(pair, least);
+            MetricResult result;
+            result.value = pool(errors);
+            result.judgedPixels = pair.judgedPixels();
+            Image map(pair.width(), pair.height(), 1);
+            for (int y = 0; y < pair.height(); ++y)
+              for (int x = 0; x < pair.width(); ++x)
+                if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y, least));
+            result.map = std::move(map);
+            result.mapName = "relative_error";
+            return result;
+          }};
 }
 
-MetricResult countFlips(const ComparisonInput& input, const ParameterValues& values) {
-  const Comparison pair(input, "decision_flips", regionOf(values));
+struct FlipSettings {
+  ComparedRegion region;
+  double differenceCdM2 = 1.0;  ///< the same at all pixels
+  static const SettingsTable<FlipSettings>& table() {
+    static const SettingsTable<FlipSettings> kTable = {included(&FlipSettings::region),
+                                                       {&FlipSettings::differenceCdM2,
+                                                        "difference_cd_m2",
+                                                        {0.0, 1e5},
+                                                        "cd/m2",
+                                                        "the difference, the same at all pixels"}};
+    return kTable;
+  }
+};
+
+MetricResult countFlips(const ComparisonInput& input, const FlipSettings& settings) {
+  const Comparison pair(input, "decision_flips", settings.region.region);
   if (pair.channels() != 1)
-    throw Error("metric 'decision_flips' judges threshold maps, not colour", {},
+    throw Error("metric 'decision_flips' compares threshold maps, not colour", {},
                 "remove it for techniques whose product is a colour image");
-  const double difference = values.real("difference_cd_m2");
+  const double difference = settings.differenceCdM2;
   MetricResult result;
   result.judgedPixels = pair.judgedPixels();
   const double flips = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
@@ -90,7 +113,16 @@ MetricResult countFlips(const ComparisonInput& input, const ParameterValues& val
   return result;
 }
 
-MetricResult measureBlocks(const ComparisonInput& input, const ParameterValues& values) {
+struct BlockSettings {
+  int level = 3;  ///< of a pyramid; its texels span 2^level pixels
+  static const SettingsTable<BlockSettings>& table() {
+    static const SettingsTable<BlockSettings> kTable = {
+        {&BlockSettings::level, "level", {1, 8}, "", "pyramid level; its texels span 2^level pixels"}};
+    return kTable;
+  }
+};
+
+MetricResult measureBlocks(const ComparisonInput& input, const BlockSettings& settings) {
   if (!input.test) throw Error("metric 'block_artifacts' has no test image");
   const Image& test = *input.test;
   Plane plane(test.width, test.height);
@@ -99,44 +131,39 @@ MetricResult measureBlocks(const ComparisonInput& input, const ParameterValues& 
     plane.data[i] = std::isfinite(value) ? value : 0.0;
   }
   MetricResult result;
-  result.value = blockMetric(plane, static_cast<int>(values.integer("level"))).medianRatio();
+  result.value = blockMetric(plane, settings.level).medianRatio();
   result.judgedPixels = static_cast<int64_t>(test.pixels());
   return result;
 }
 
-MetricInfo flipsMetric() {
-  MetricInfo info;
-  info.name = "decision_flips";
-  info.summary =
-      "share of pixels where a luminance difference is above the one threshold map and not above the other";
-  info.source = "Schwarz 2009, section 9.2";
-  info.parameters = {regionParameter(), realParameter("difference_cd_m2", 1.0, 0.0, 1e5, "cd/m2",
-                                                      "the difference, the same at all pixels")};
-  info.compare = &countFlips;
-  return info;
-}
-
-MetricInfo blocksMetric() {
-  MetricInfo info;
-  info.name = "block_artifacts";
-  info.summary =
-      "median second difference on the grid of a pyramid level over that beside it (first channel); 1: no "
-      "grid. For sizes that are multiples of 2^level";
-  info.source = "Schwarz 2009, section 9.4, figure 9.6";
-  info.needsReference = false;
-  info.parameters = {integerParameter("level", 3, 1, 8, "", "pyramid level; its texels span 2^level pixels")};
-  info.compare = &measureBlocks;
-  return info;
-}
-
-const Registered<MetricInfo> kLargest{
-    relativeMetric("relative_error", "largest relative error of a pixel", &largestOf)};
-const Registered<MetricInfo> kPercentile{relativeMetric(
-    "p99_relative_error", "99th percentile (nearest rank) of the pixels' relative errors", &percentileOf)};
-const Registered<MetricInfo> kMean{
-    relativeMetric("mean_relative_error", "mean of the pixels' relative errors", &meanOf)};
-const Registered<MetricInfo> kFlips{flipsMetric()};
-const Registered<MetricInfo> kBlocks{blocksMetric()};
+const auto kLargest = relativeMetric({.name = "relative_error",
+                                      .summary = "largest relative error of a pixel",
+                                      .title = "Largest relative error"},
+                                     &largestOf);
+const auto kPercentile =
+    relativeMetric({.name = "p99_relative_error",
+                    .summary = "99th percentile (nearest rank) of the pixels' relative errors",
+                    .title = "99th percentile of the relative error"},
+                   &percentileOf);
+const auto kMean = relativeMetric({.name = "mean_relative_error",
+                                   .summary = "mean of the pixels' relative errors",
+                                   .title = "Mean relative error"},
+                                  &meanOf);
+const RegisteredMetric<FlipSettings> kFlips{{.name = "decision_flips",
+                                             .summary = "share of pixels where a luminance difference is "
+                                                        "above the one threshold map and not above the other",
+                                             .source = "Schwarz 2009, section 9.2",
+                                             .title = "Share of pixels decided otherwise"},
+                                            &countFlips};
+const RegisteredMetric<BlockSettings> kBlocks{
+    {.name = "block_artifacts",
+     .summary =
+         "median second difference on the grid of a pyramid level over that beside it (first channel); 1: no "
+         "grid. For sizes that are multiples of 2^level",
+     .source = "Schwarz 2009, section 9.4, figure 9.6",
+     .title = "Visibility of the pyramid's grid",
+     .needsReference = false},
+    &measureBlocks};
 
 }  // namespace
 }  // namespace limen::perception

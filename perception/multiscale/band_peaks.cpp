@@ -99,15 +99,6 @@ BandPeak vertex(const std::vector<BandPeak>& response) {
 
 }  // namespace
 
-std::vector<std::string> peakModelNames() { return {"halving", "no_upsample", "with_upsample"}; }
-
-PeakModel peakModelFromName(const std::string& name) {
-  const std::vector<std::string> names = peakModelNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error("no peak model '" + name + "'", {}, suggest(name, names));
-  return static_cast<PeakModel>(found - names.begin());
-}
-
 double gaussianLevelTransfer(const Kernel& kernel, int level, double w) {
   double product = 1.0;
   for (int i = 0; i < level; ++i) product *= std::abs(kernel.transfer(std::ldexp(w, i)));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "perception/multiscale/pyramid.h"
 
 /// Where the bands of a decomposition peak, which is where a CSF has to be read for them. Frequencies in
@@ -18,9 +19,11 @@ enum class PeakModel {
   NoUpsample,   ///< differences of the Gaussian levels' transfer functions
   WithUpsample  ///< the upsampling filter included
 };
-/// "halving", "no_upsample", "with_upsample", and back; throws Error on another name.
-std::vector<std::string> peakModelNames();
-PeakModel peakModelFromName(const std::string& name);
+constexpr EnumNames<PeakModel, 3> enumNames(PeakModel) {
+  return {{{{PeakModel::Halving, "halving"},
+            {PeakModel::NoUpsample, "no_upsample"},
+            {PeakModel::WithUpsample, "with_upsample"}}}};
+}
 
 struct BandPeak {
   double frequencyCyclesPerPx = 0.5, gain = 1.0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "perception/multiscale/plane.h"
 
 namespace limen::perception {
@@ -13,6 +14,9 @@ enum class Border {
   Clamp,  ///< the nearest pixel
   Mirror  ///< the image reflected at its edge: pixel -1 is pixel 0
 };
+constexpr EnumNames<Border, 2> enumNames(Border) {
+  return {{{{Border::Clamp, "clamp"}, {Border::Mirror, "mirror"}}}};
+}
 int borderIndex(int index, int size, Border border);
 
 /// Low-pass that precedes halving: five taps, applied either on a pixel of the finer level (cosited: coarse

@@ -38,17 +38,23 @@ double DetectionModel::probabilityOfAny(const std::vector<double>& ratings) cons
   return 1.0 - (1.0 - guessRate) * missed;
 }
 
-std::vector<Parameter> detectionParameters() {
-  const DetectionModel defaults;
+const SettingsTable<DetectionModel>& DetectionModel::table() {
+  using S = DetectionModel;
   const std::string derived = "derived from Schwarz 2009, sections 10.3.4 and 10.4";
-  return {realParameter("guess_rate", defaults.guessRate, 0.0, 0.49, "",
-                        "detections reported without popping", "Schwarz 2009, section 10.4"),
-          realParameter("lapse_rate", defaults.lapseRate, 0.0, 0.49, "",
-                        "pops missed however strong they are", "choice"),
-          realParameter("rating_midpoint", defaults.midpointR, -10.0, 20.0, "",
-                        "rating R that is detected half the time, guesses and lapses aside", derived),
-          realParameter("rating_scale_r", defaults.scaleR, 0.01, 10.0, "",
-                        "scale of the logistic of detection over R", derived)};
+  static const SettingsTable<S> kTable = {
+      Binding(&S::guessRate, "guess_rate", Range{0.0, 0.49}, "", "detections reported without popping",
+              "Schwarz 2009, section 10.4")
+          .formerly({"guess_rate"}),
+      Binding(&S::lapseRate, "lapse_rate", Range{0.0, 0.49}, "", "pops missed however strong they are",
+              "choice")
+          .formerly({"lapse_rate"}),
+      Binding(&S::midpointR, "midpoint", Range{-10.0, 20.0}, "",
+              "rating R that is detected half the time, guesses and lapses aside", derived)
+          .formerly({"rating_midpoint"}),
+      Binding(&S::scaleR, "scale", Range{0.01, 10.0}, "", "scale of the logistic of detection over R",
+              derived)
+          .formerly({"rating_scale_r"})};
+  return kTable;
 }
 
 }  // namespace limen::perception

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::perception {
 
@@ -22,9 +22,8 @@ struct DetectionModel {
   double rating(double probability) const;
   /// That at least one of several independent events is reported, guessing once.
   double probabilityOfAny(const std::vector<double>& ratings) const;
-};
 
-/// Declaration of the four: "guess_rate", "lapse_rate", "rating_midpoint", "rating_scale_r".
-std::vector<Parameter> detectionParameters();
+  static const SettingsTable<DetectionModel>& table();
+};
 
 }  // namespace limen::perception

@@ -21,21 +21,26 @@ PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& displ
   checkDisplay(display, "popping");
   PoppingModel model;
   model.pixelsPerDegree = display.pixelsPerDegree();
+  const auto* fixedArea = std::get_if<FixedArea>(&settings.sensitivity.stimulusArea);
   const double shownArea = display.areaDeg2({widthPx, heightPx});
-  model.areaDeg2 = settings.stimulusAreaDeg2 > 0.0 ? settings.stimulusAreaDeg2 : shownArea;
+  model.areaDeg2 = fixedArea ? fixedArea->deg2 : shownArea;
   model.widthDeg = 2.0 * std::atan(0.5 * widthPx * display.pitchM() / display.distanceM) * 180.0 / M_PI;
 
   // Nothing is upsampled in a stack.
-  const bool isStack = settings.decomposition == Decomposition::Stack;
-  const PeakModel peakModel =
-      isStack && settings.peakModel == PeakModel::WithUpsample ? PeakModel::NoUpsample : settings.peakModel;
+  const bool isStack = settings.bands.isStack();
+  const PeakModel peakModel = isStack && settings.bands.peakModel == PeakModel::WithUpsample
+                                  ? PeakModel::NoUpsample
+                                  : settings.bands.peakModel;
   const std::vector<BandPeak> peaks =
-      bandPeaks(settings.kernel(), settings.upsampler, peakModel, kMostLevels - 2);
-  int levels = settings.gaussianLevels;
-  if (levels == 0) {
+      bandPeaks(settings.bands.kernel(), settings.bands.upsampler(), peakModel, kMostLevels - 2);
+  int levels = kMostLevels;
+  if (const auto* count = std::get_if<LevelCount>(&settings.bands.levels)) {
+    levels = count->gaussian;
+  } else {
+    const double leastPeakCpd = std::get<LevelsByPeak>(settings.bands.levels).leastPeakCpd;
     int bands = 1;
     while (bands < kMostLevels - 2 &&
-           peaks[static_cast<size_t>(bands)].frequencyCpd(model.pixelsPerDegree) >= settings.leastPeakCpd)
+           peaks[static_cast<size_t>(bands)].frequencyCpd(model.pixelsPerDegree) >= leastPeakCpd)
       ++bands;
     levels = bands + 2;
   }
@@ -44,11 +49,10 @@ PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& displ
   for (int i = 0; i < model.contrastLevels; ++i) {
     const BandPeak& peak = peaks[static_cast<size_t>(i)];
     model.peakCpd.push_back(peak.frequencyCpd(model.pixelsPerDegree));
-    model.gain.push_back(settings.compensateGain ? peak.gain : 1.0);
+    model.gain.push_back(settings.bands.compensateGain ? peak.gain : 1.0);
   }
-  const int degree = settings.adaptationLevel >= 0
-                         ? settings.adaptationLevel
-                         : static_cast<int>(std::lround(std::log2(model.pixelsPerDegree)));
+  const auto* given = std::get_if<LevelAdaptation>(&settings.adaptation);
+  const int degree = given ? given->level : static_cast<int>(std::lround(std::log2(model.pixelsPerDegree)));
   model.adaptationLevel = std::clamp(degree, 0, model.gaussianLevels - 1);
 
   const std::array<double, 3> scale =

@@ -31,51 +31,66 @@ constexpr double kNodesPerDecade = 65.0;
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
 constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
 
+/// What adaptation luminance is read from, as response.glsl tells them apart.
+enum class AdaptationSource { Level, Mean, Fixed };
+constexpr EnumNames<AdaptationSource, 3> enumNames(AdaptationSource) {
+  return {{{{AdaptationSource::Level, "level"},
+            {AdaptationSource::Mean, "mean"},
+            {AdaptationSource::Fixed, "fixed"}}}};
+}
+
+AdaptationSource sourceOf(const PoppingSettings& settings) {
+  if (std::holds_alternative<MeanAdaptation>(settings.adaptation)) return AdaptationSource::Mean;
+  return std::holds_alternative<FixedAdaptation>(settings.adaptation) ? AdaptationSource::Fixed
+                                                                      : AdaptationSource::Level;
+}
+
 PoppingModel modelOf(glm::ivec2 sizePx, const DisplayProfile& display, const PoppingSettings& settings) {
-  if (settings.decomposition != Decomposition::Pyramid)
+  if (settings.bands.isStack())
     throw Error("decomposition 'stack' does not run on the GPU", "popping", "take pyramid, or the CPU");
   return poppingModel(sizePx.x, sizePx.y, display, settings);
 }
 
-gl::ShaderDefines maskingDefines(const std::string& name) {
-  const MaskingInfo& info = MaskingRegistry::instance().get(name, "popping");
-  const ParameterValues values(info.parameters, {});
+gl::ShaderDefines maskingDefines(const ChosenEntry& masking) {
+  const std::string& name = masking.name;
+  const ParameterValues values = completeValues<MaskingInfo>(masking, "popping");
   const auto number = [](double value) {
     const std::string text = shortestNumber(value);
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
   };
   if (name == "none") return {{"MASKING_NONE", "1"}};
-  if (name == "schwarz" && values.real("b") == 10.0 && values.real("s") == 0.3)
-    return {{"MASKING_CUBIC", "1"}};
+  if (isCubic(masking)) return {{"MASKING_CUBIC", "1"}};
   if (name == "schwarz" || name == "daly") {
     // (9.9) is (9.7) with k1 = k2 = 1.
-    const double s = values.real("s");
-    const double k = name == "daly" ? values.real("k1") * std::pow(values.real("k2"), s) : 1.0;
+    const auto daly = name == "daly" ? DalyMasking::table().read(values) : DalyMasking{};
+    const auto schwarz = name == "schwarz" ? SchwarzMasking::table().read(values) : SchwarzMasking{};
+    const double s = name == "daly" ? daly.s : schwarz.s, b = name == "daly" ? daly.b : schwarz.b;
+    const double k = name == "daly" ? daly.k1 * std::pow(daly.k2, s) : 1.0;
     return {{"MASKING_ELEVATION", "1"},
             {"MASKING_K", number(k)},
             {"MASKING_S", number(s)},
-            {"MASKING_B", number(values.real("b"))}};
+            {"MASKING_B", number(b)}};
   }
-  if (name == "lubin")
-    return {{"MASKING_LUBIN", "1"},
-            {"MASKING_N", number(values.real("n"))},
-            {"MASKING_W", number(values.real("w"))}};
-  if (name == "self") return {{"MASKING_ALPHA", number(values.real("alpha"))}};
+  if (name == "lubin") {
+    const auto lubin = LubinMasking::table().read(values);
+    return {{"MASKING_LUBIN", "1"}, {"MASKING_N", number(lubin.n)}, {"MASKING_W", number(lubin.w)}};
+  }
+  if (name == "self") return {{"MASKING_ALPHA", number(SelfMasking::table().read(values).alpha)}};
   throw Error("masking model '" + name + "' does not run on the GPU", "popping",
               "take none, daly, lubin, schwarz or self");
 }
 
 /// Velocity of the table's first node: the least that the eye model leaves on the retina.
 double slowest(const PoppingSettings& settings) {
-  const bool hasFloor =
-      settings.eyeMovement == EyeMovement::Floor || settings.eyeMovement == EyeMovement::Monotone;
-  return hasFloor ? std::clamp(settings.leastVelocityDegS, kSlowest, 0.5 * kFastest) : kSlowest;
+  const EyeMovement model = settings.eyeModel();
+  const bool hasFloor = model == EyeMovement::Floor || model == EyeMovement::Monotone;
+  return hasFloor ? std::clamp(settings.leastVelocityDegS(), kSlowest, 0.5 * kFastest) : kSlowest;
 }
 
 /// Luminance of the first: no mean of pixels is darker than the display's black.
 double darkest(const PoppingSettings& settings, const DisplayProfile& display) {
-  const double least =
-      settings.adaptation == AdaptationSource::Fixed ? settings.fixedLuminanceCdM2 : display.blackLevelCdM2();
+  const auto* fixed = std::get_if<FixedAdaptation>(&settings.adaptation);
+  const double least = fixed ? fixed->luminanceCdM2 : display.blackLevelCdM2();
   return std::clamp(0.99 * least, kDarkest, 0.5 * kBrightest);
 }
 
@@ -119,13 +134,15 @@ Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& disp
 std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
                                               const PoppingSettings& settings, const TableGrid& grid) {
   constexpr size_t kKept = 8;
-  std::string key = display.hash() + "|" + settings.csfAchromatic + "|" + settings.csfRedGreen + "|" +
-                    settings.csfBlueYellow + "|" + std::to_string(model.contrastLevels);
+  const SensitivitySettings& s = settings.sensitivity;
+  std::string key = display.hash() + "|" + s.achromatic.csf.name + "|" + s.redGreen.csf.name + "|" +
+                    s.blueYellow.csf.name + "|" + std::to_string(model.contrastLevels);
   const auto add = [&](double value) { key += "|" + shortestNumber(value); };
   for (const double value : model.peakCpd) add(value);
-  for (const double value : {model.areaDeg2, model.widthDeg, model.scaleA, model.scaleRg, model.scaleBy,
-                             settings.chromaticReferenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
-                             double(grid.size.x), double(grid.size.y)})
+  for (const double value :
+       {model.areaDeg2, model.widthDeg, model.scaleA, model.scaleRg, model.scaleBy,
+        Kelly83Scale::of(s.redGreen.csf).referenceCdM2, Kelly83Scale::of(s.blueYellow.csf).referenceCdM2,
+        grid.low.x, grid.low.y, grid.per.x, grid.per.y, double(grid.size.x), double(grid.size.y)})
     add(value);
   static std::mutex guard;
   static std::vector<std::pair<std::string, std::shared_ptr<const Image>>> kept;
@@ -165,6 +182,8 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       regions_(context, sizePx, settings) {
   stageDefines_ = defines_;
   stageDefines_["SHOW_STAGES"] = "1";
+  defineEnum(defines_, "EYE_MOVEMENT", settings.eyeModel());
+  defineEnum(defines_, "ADAPTATION", sourceOf(settings));
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
   const glm::dvec3 black = lmsFromXyz(display.xyz({0, 0, 0}));
   conesOfBlack_ = black;
@@ -207,7 +226,7 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
     light.set("transfer", input.linear ? 2 : static_cast<int>(display_.transfer));
     light.set("displayGamma", static_cast<float>(display_.gamma));
     light.set("hasDisplacement", actualMove ? 1 : 0);
-    light.set("everySeed", settings_.seedRule == SeedRule::None ? 1 : 0);
+    light.set("everySeed", settings_.regions.seeds == SeedRule::None ? 1 : 0);
     light.set("conesOfLight", conesOfLight_);
     light.set("conesOfBlack", conesOfBlack_);
     light.dispatch(sizePx_, kGroup);
@@ -235,7 +254,7 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
 }
 
 void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
-  const std::array<double, 5> taps = settings_.kernel().taps;
+  const std::array<double, 5> taps = settings_.bands.kernel().taps;
   const gl::Program& reduce = program("reduce");
   reduce.set("taps", glm::vec3(taps[0], taps[1], taps[2]));
   cones_.bindTexture(0);
@@ -248,7 +267,7 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 2);
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (settings_.adaptation != AdaptationSource::Mean) return;
+  if (!std::holds_alternative<MeanAdaptation>(settings_.adaptation)) return;
   const gl::Program& mean = program("mean");
   mean_.bindStorage(1);
   mean.set("level", model_.gaussianLevels - 1);
@@ -262,21 +281,23 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   sensitivities_.bindTexture(2);
   counters_.bindStorage(0);
   mean_.bindStorage(1);
-  const std::array<double, 5> taps = settings_.kernel().taps;
-  const bool expand = settings_.upsampler == Upsampler::Expand;
+  const std::array<double, 5> taps = settings_.bands.kernel().taps;
+  const bool expand = settings_.bands.upsampler() == Upsampler::Expand;
+  const auto* fixed = std::get_if<FixedAdaptation>(&settings_.adaptation);
   program.set("frameCount", 2);
   program.set("level", level);
   program.set("adaptationLevel", model_.adaptationLevel);
-  program.set("adaptationSource", static_cast<int>(settings_.adaptation));
-  program.set("eyeMovement", static_cast<int>(settings_.eyeMovement));
+  program.set("adaptationSource", static_cast<int>(sourceOf(settings_)));
+  program.set("eyeMovement", static_cast<int>(settings_.eyeModel()));
   program.set("evenTaps", expand ? glm::vec2(2.0 * taps[0], 2.0 * taps[2]) : glm::vec2(0.0F, 1.0F));
   program.set("luminanceOfCones", luminanceOfCones_);
-  program.set("epsilon", static_cast<float>(settings_.denominatorEpsilon));
+  program.set("epsilon", static_cast<float>(settings_.bands.denominatorEpsilon));
   program.set("gain", static_cast<float>(
                           level < model_.contrastLevels ? model_.gain[static_cast<size_t>(level)] : 1));
-  program.set("greyGain", static_cast<float>(settings_.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0));
-  program.set("fixedLuminance", static_cast<float>(settings_.fixedLuminanceCdM2));
-  program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS));
+  program.set("greyGain",
+              static_cast<float>(settings_.sensitivity.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0));
+  program.set("fixedLuminance", fixed ? static_cast<float>(fixed->luminanceCdM2) : 0.0F);
+  program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS()));
   program.set("degSPerPx",
               static_cast<float>(screenVelocityDegS(1.0, display_.refreshHz, model_.pixelsPerDegree)));
   program.set("tableSize", tableSize_);
@@ -288,8 +309,8 @@ void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Textu
   const gl::Program& collapse = program("collapse");
   bindResponse(collapse, 0);
   differences_.bindTexture(3);
-  const bool disocclusion = input.disocclusion && settings_.useDisocclusion;
-  const bool flicker = input.flicker && settings_.useFlicker;
+  const bool disocclusion = input.disocclusion && settings_.usesDisocclusion();
+  const bool flicker = input.flicker && settings_.usesFlicker();
   (disocclusion ? input.disocclusion : input.actual)->bindTexture(4);
   (flicker ? input.flicker : input.actual)->bindTexture(5);
   target.bindImage(0, Access::Write);

@@ -51,17 +51,17 @@ class Predictor {
         settings_(settings),
         width_(input.actual.width),
         height_(input.actual.height),
-        isStack_(settings.decomposition == Decomposition::Stack),
+        isStack_(settings.bands.isStack()),
         luminanceRow_(luminanceRow()),
-        greyGain_(settings.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
+        greyGain_(settings.sensitivity.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
-    pyramid_.kernel = settings.kernel();
-    pyramid_.upsampler = settings.upsampler;
+    pyramid_.kernel = settings.bands.kernel();
+    pyramid_.upsampler = settings.bands.upsampler();
     sensitivity_.emplace(result_.model, display, settings, options.tables);
     const Masking masking = makeMasking(settings.masking, "popping");
     transducer_ = masking.transducer;
-    closedForm_ = options.tables && settings.masking == "schwarz";
+    closedForm_ = options.tables && isCubic(settings.masking);
     const std::vector<std::string> known = poppingStages(result_.model);
     for (const std::string& name : options.stages) {
       if (name == "all")
@@ -159,9 +159,9 @@ class Predictor {
   // Luminance that the eye is adapted to, at the size of a level.
   Plane adaptation(const FrameLevels& frame, int level) const {
     const Plane& own = frame.lms[0][static_cast<size_t>(level)];
-    if (settings_.adaptation == AdaptationSource::Fixed)
-      return Plane(own.width, own.height, settings_.fixedLuminanceCdM2);
-    const bool mean = settings_.adaptation == AdaptationSource::Mean;
+    if (const auto* fixed = std::get_if<FixedAdaptation>(&settings_.adaptation))
+      return Plane(own.width, own.height, fixed->luminanceCdM2);
+    const bool mean = std::holds_alternative<MeanAdaptation>(settings_.adaptation);
     const int from = mean ? result_.model.gaussianLevels - 1 : std::max(result_.model.adaptationLevel, level);
     const auto at = static_cast<size_t>(from);
     Plane luminance(frame.lms[0][at].width, frame.lms[0][at].height);
@@ -197,9 +197,9 @@ class Predictor {
           isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
       for (size_t p = 0; p < own.data.size(); ++p) {
-        if (!(coarser.data[p] >= settings_.denominatorEpsilon)) ++guarded_;
-        contrast[c].data[p] =
-            (own.data[p] - contrast[c].data[p]) / std::max(coarser.data[p], settings_.denominatorEpsilon);
+        if (!(coarser.data[p] >= settings_.bands.denominatorEpsilon)) ++guarded_;
+        contrast[c].data[p] = (own.data[p] - contrast[c].data[p]) /
+                              std::max(coarser.data[p], settings_.bands.denominatorEpsilon);
       }
     }
     const Plane luminance = adaptation(frame, level);
@@ -213,8 +213,8 @@ class Predictor {
         for (int x = 0; x < width; ++x) {
           const double speedPx = frame.speedPx.empty() ? 0.0 : frame.speedPx[i].at(x, y);
           const double v = retinalVelocityDegS(
-              screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree),
-              settings_.eyeMovement, settings_.leastVelocityDegS);
+              screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree), eyeModel_,
+              leastVelocityDegS_);
           velocity.at(x, y) = v;
           glm::dvec3 opponent =
               opponentFromLms({contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y)}) / gain;
@@ -318,14 +318,14 @@ class Predictor {
       const double value = map.at(x, y);
       if (std::isfinite(value)) weight *= std::clamp(value, 0.0, 1.0);
     };
-    if (settings_.useDisocclusion) apply(input_.disocclusion);
-    if (settings_.useFlicker) apply(input_.flicker);
+    if (settings_.usesDisocclusion()) apply(input_.disocclusion);
+    if (settings_.usesFlicker()) apply(input_.flicker);
     return weight;
   }
 
   void findRegionsAndSum() {
     std::vector<uint8_t> seeds(result_.jndExact.size(), 1);
-    if (settings_.seedRule == SeedRule::ColourDiffers)
+    if (settings_.regions.seeds == SeedRule::ColourDiffers)
       for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x)
           seeds[index(x, y)] =
@@ -335,7 +335,7 @@ class Predictor {
     PoppingSummary& summary = result_.summary;
     for (size_t p = 0; p < seeds.size(); ++p) {
       summary.largestJnd = std::max(summary.largestJnd, result_.jndExact[p]);
-      if (!(result_.jndExact[p] >= settings_.regionThresholdJnd)) continue;
+      if (!(result_.jndExact[p] >= settings_.regions.thresholdJnd)) continue;
       ++summary.aboveThresholdPx;
       if (seeds[p]) ++summary.seedPx;
     }
@@ -364,6 +364,8 @@ class Predictor {
   const PoppingInput& input_;
   const DisplayProfile& display_;
   const PoppingSettings& settings_;
+  const EyeMovement eyeModel_ = settings_.eyeModel();
+  const double leastVelocityDegS_ = settings_.leastVelocityDegS();
   const int width_, height_;
   const bool isStack_;
   const glm::dvec3 luminanceRow_;

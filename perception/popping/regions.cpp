@@ -40,14 +40,14 @@ class PixelSets {
 
 double poppingRating(double sigma, const PoppingSettings& settings) {
   if (!(sigma > 0.0)) return -std::numeric_limits<double>::infinity();
-  return std::log(settings.ratingScale * sigma) / std::log(settings.ratingBase);
+  return std::log(settings.rating.scale * sigma) / std::log(settings.rating.base);
 }
 
 RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>& seeds, int width,
                       int height, const PoppingSettings& settings) {
   const size_t pixels = static_cast<size_t>(width) * height;
   assert(jnd.size() == pixels && (seeds.empty() || seeds.size() == pixels) && pixels < kOutside);
-  const bool diagonal = settings.connectivity == 8;
+  const bool diagonal = settings.regions.connectivity == 8;
   const auto pixelAt = [&](int x, int y) {
     return static_cast<uint32_t>(static_cast<size_t>(y) * width + x);
   };
@@ -56,7 +56,7 @@ RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const uint32_t pixel = pixelAt(x, y);
-      if (!(jnd[pixel] >= settings.regionThresholdJnd) || !std::isfinite(jnd[pixel])) continue;
+      if (!(jnd[pixel] >= settings.regions.thresholdJnd) || !std::isfinite(jnd[pixel])) continue;
       sets.make(pixel);
       if (x > 0 && sets.holds(pixel - 1)) sets.unite(pixel, pixel - 1);
       if (y == 0) continue;

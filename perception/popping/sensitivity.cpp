@@ -21,6 +21,10 @@ bool reads(const std::string& model, const std::string& argument) {
                      [&](const CsfArgument& one) { return one.name == argument; });
 }
 
+bool sameModel(const ChosenEntry& a, const ChosenEntry& b) {
+  return a.name == b.name && Kelly83Scale::of(a).referenceCdM2 == Kelly83Scale::of(b).referenceCdM2;
+}
+
 double finiteOrZero(double value) { return std::isfinite(value) && value > 0.0 ? value : 0.0; }
 
 }  // namespace
@@ -64,29 +68,28 @@ CsfPoint viewingPoint(double areaDeg2, double widthDeg, const DisplayProfile& di
 }
 
 std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoint& viewing) {
-  const auto scale = [&](const std::string& model, double luminance, double threshold) {
+  const auto scale = [&](const auto& channel) {
+    const std::string& model = channel.csf.name;
     CsfPoint point = viewing;
-    point.velocityDegS = settings.calibrationVelocityDegS;
-    point.luminanceCdM2 = luminance;
+    point.velocityDegS = settings.sensitivity.velocityDegS;
+    point.luminanceCdM2 = channel.luminanceCdM2;
     const double peak = makeCsf(model, "popping")->peak(point).sensitivity;
     if (!(peak > 0.0) || !std::isfinite(peak))
       throw Error("sensitivity '" + model + "' has no peak at the calibration's velocity and luminance",
-                  "popping", "choose another calibration_velocity_deg_s or calibration luminance");
-    return 1.0 / (threshold * peak);
+                  "popping", "choose another sensitivity.velocity_deg_s or luminance_cd_m2");
+    return 1.0 / (channel.threshold * peak);
   };
-  return {scale(settings.csfAchromatic, settings.calibrationLuminanceCdM2, settings.thresholdAchromatic),
-          scale(settings.csfRedGreen, settings.calibrationChromaticCdM2, settings.thresholdRedGreen),
-          scale(settings.csfBlueYellow, settings.calibrationChromaticCdM2, settings.thresholdBlueYellow)};
+  return {scale(settings.sensitivity.achromatic), scale(settings.sensitivity.redGreen),
+          scale(settings.sensitivity.blueYellow)};
 }
 
 Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& display,
                          const PoppingSettings& settings, bool tables)
     : peakCpd_(model.peakCpd),
       viewing_(viewingPoint(model.areaDeg2, model.widthDeg, display)),
-      chromaticReferenceCdM2_(settings.chromaticReferenceCdM2),
-      oneChromatic_(settings.csfRedGreen == settings.csfBlueYellow) {
+      oneChromatic_(sameModel(settings.sensitivity.redGreen.csf, settings.sensitivity.blueYellow.csf)) {
   if (tables) {
-    const double area = viewing_.areaDeg2, reference = chromaticReferenceCdM2_;
+    const double area = viewing_.areaDeg2;
     // daly98C0() and daly98C1() with the peak at the reference luminance found once.
     constexpr double kReferenceCdM2 = 100.0;
     const Csf::Peak peak = barten03Peak(kReferenceCdM2, area);
@@ -96,19 +99,19 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
                     kHighLuminance, 256);
     c1_ = FineTable([=](double l) { return c1 / barten03Peak(l, area).frequencyCpd; }, kLowLuminance,
                     kHighLuminance, 256);
-    chromaticScale_ = FineTable([reference](double l) { return chromaticScale(l, reference); }, kLowLuminance,
-                                kHighLuminance, 1024);
   }
-  channels_ = {makeChannel(settings.csfAchromatic, model.scaleA, tables),
-               makeChannel(settings.csfRedGreen, model.scaleRg, tables),
-               makeChannel(settings.csfBlueYellow, model.scaleBy, tables)};
+  channels_ = {makeChannel(settings.sensitivity.achromatic.csf, model.scaleA, tables),
+               makeChannel(settings.sensitivity.redGreen.csf, model.scaleRg, tables),
+               makeChannel(settings.sensitivity.blueYellow.csf, model.scaleBy, tables)};
 }
 
-Sensitivity::Channel Sensitivity::makeChannel(const std::string& name, double scale, bool tables) const {
+Sensitivity::Channel Sensitivity::makeChannel(const ChosenEntry& entry, double scale, bool tables) const {
   Channel channel;
+  const std::string& name = entry.name;
+  const double reference = Kelly83Scale::of(entry).referenceCdM2;
   const CsfInfo& info = CsfRegistry::instance().get(name, "popping");
   std::map<std::string, ParameterValue> given;
-  if (name == "kelly83") given["reference_luminance"] = chromaticReferenceCdM2_;
+  if (name == "kelly83") given["reference_luminance"] = reference;
   channel.csf = info.make(ParameterValues(info.parameters, given, "popping"));
   channel.scale = scale;
   if (!tables) return channel;
@@ -117,12 +120,15 @@ Sensitivity::Channel Sensitivity::makeChannel(const std::string& name, double sc
     channel.kind = Channel::Kind::Daly98;
     return channel;
   }
-  if (name == "kelly83")
+  if (name == "kelly83") {
     channel.kind = Channel::Kind::Kelly83;
-  else if (velocity && luminance)
+    channel.luminanceScale = FineTable([reference](double l) { return chromaticScale(l, reference); },
+                                       kLowLuminance, kHighLuminance, 1024);
+  } else if (velocity && luminance) {
     return channel;
-  else
+  } else {
     channel.kind = velocity ? Channel::Kind::Velocity : Channel::Kind::Luminance;
+  }
   for (const double cpd : peakCpd_) {
     if (channel.kind == Channel::Kind::Kelly83) {
       channel.byLevel.emplace_back([cpd](double v) { return csfKelly83(cpd, v); }, kLowVelocity,
@@ -161,7 +167,7 @@ double Sensitivity::evaluate(const Channel& channel, int level, double velocityD
       return csfDaly98(peakCpd_[i], velocityDegS, c0_(l), c1_(l));
     }
     case Channel::Kind::Kelly83:
-      return chromaticScale_(luminanceCdM2) * channel.byLevel[i](velocityDegS);
+      return channel.luminanceScale(luminanceCdM2) * channel.byLevel[i](velocityDegS);
     case Channel::Kind::Velocity:
       return channel.byLevel[i](velocityDegS);
     case Channel::Kind::Luminance:

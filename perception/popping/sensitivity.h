@@ -46,15 +46,15 @@ class Sensitivity {
     double scale = 1.0;
     enum class Kind { Direct, Daly98, Kelly83, Velocity, Luminance } kind = Kind::Direct;
     std::vector<FineTable> byLevel;  // Kelly83, Velocity, Luminance
+    FineTable luminanceScale;        // Kelly83
   };
-  Channel makeChannel(const std::string& name, double scale, bool tables) const;
+  Channel makeChannel(const ChosenEntry& entry, double scale, bool tables) const;
   double evaluate(const Channel& channel, int level, double velocityDegS, double luminanceCdM2) const;
 
   std::vector<double> peakCpd_;
   CsfPoint viewing_;
-  double chromaticReferenceCdM2_;
   bool oneChromatic_;  ///< channels a and b share their model
-  FineTable c0_, c1_, chromaticScale_;
+  FineTable c0_, c1_;
   std::array<Channel, 3> channels_;
 };
 

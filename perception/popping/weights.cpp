@@ -45,7 +45,7 @@ void forBilinear(glm::dvec2 place, int width, int height, const Use& use) {
       use(clampTo(left + i, width), clampTo(top + j, height), (i ? fx : 1.0 - fx) * (j ? fy : 1.0 - fy));
 }
 
-double visibility(const DisocclusionView& view, int x, int y, const PoppingSettings& settings) {
+double visibility(const DisocclusionView& view, int x, int y, const DisocclusionSettings& settings) {
   const glm::dvec2 place = previousPlace(view.displacement, x, y);
   if (!inside(place, view.previousDepth)) return settings.outsideVisibility;
   const double depth = view.previousDepthOfPixel.at(x, y);
@@ -67,9 +67,9 @@ Lab labAt(const Image& image, int x, int y) {
   return labFromLinearRgb(rgb);
 }
 
-bool flickers(const FlickerInput& input, int x, int y, const PoppingSettings& settings) {
+bool flickers(const FlickerInput& input, int x, int y, const FlickerSettings& settings) {
   const glm::dvec2 place = previousPlace(input.displacement, x, y);
-  if (glm::length(place - glm::dvec2(x + 0.5, y + 0.5)) >= settings.flickerMaxDisplacementPx) return false;
+  if (glm::length(place - glm::dvec2(x + 0.5, y + 0.5)) >= settings.maxDisplacementPx) return false;
   if (!inside(place, input.previousFrame)) return false;
   const bool compareDepth = !input.previousDepth.data.empty();
   const double depth = compareDepth ? finite(input.previousDepthOfPixel.at(x, y)) : 0.0;
@@ -93,12 +93,12 @@ bool flickers(const FlickerInput& input, int x, int y, const PoppingSettings& se
   for (double& value : colour) value = std::clamp(value / weights, 0.0, 1.0);
   const double overTime = differenceCie94(labFromLinearRgb(colour), labAt(input.previousShading, x, y));
   const double overLod = differenceCie94(labAt(input.actual, x, y), labAt(input.predicted, x, y));
-  return overLod > 0.0 && overTime >= settings.flickerKappa * overLod;
+  return overLod > 0.0 && overTime >= settings.kappa * overLod;
 }
 
 }  // namespace
 
-Image disocclusionWeight(const std::vector<DisocclusionView>& views, const PoppingSettings& settings) {
+Image disocclusionWeight(const std::vector<DisocclusionView>& views, const DisocclusionSettings& settings) {
   assert(!views.empty());
   const int width = views.front().displacement.width, height = views.front().displacement.height;
   Image weight(width, height, 1);
@@ -113,12 +113,12 @@ Image disocclusionWeight(const std::vector<DisocclusionView>& views, const Poppi
   return weight;
 }
 
-Image flickerWeight(const FlickerInput& input, const PoppingSettings& settings) {
+Image flickerWeight(const FlickerInput& input, const FlickerSettings& settings) {
   const int width = input.actual.width, height = input.actual.height;
   Image weight(width, height, 1, 1.0F);
   forEachRow(height, static_cast<size_t>(width), [&](int y) {
     for (int x = 0; x < width; ++x)
-      if (flickers(input, x, y, settings)) weight.at(x, y) = static_cast<float>(settings.flickerWeight);
+      if (flickers(input, x, y, settings)) weight.at(x, y) = static_cast<float>(settings.weight);
   });
   return weight;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "experiments/base/image.h"
-#include "perception/popping/settings.h"
+#include "perception/popping/weight_settings.h"
 
 /// Weight maps that tell the predictor where a difference is less likely to be noticed. Schwarz 2009, section
 /// 10.3.5.
@@ -23,7 +23,8 @@ struct DisocclusionView {
 
 /// Visibility in the previous frame, in [0, 1]: percentage-closer comparison over (2 r + 1)^2 bilinear taps,
 /// the largest over all views. A place outside the frame has visibility settings.outsideVisibility.
-Image disocclusionWeight(const std::vector<DisocclusionView>& views, const PoppingSettings& settings = {});
+Image disocclusionWeight(const std::vector<DisocclusionView>& views,
+                         const DisocclusionSettings& settings = {});
 
 struct FlickerInput {
   Image actual, predicted;  ///< current frame, new and old level of detail; linear RGB
@@ -33,10 +34,10 @@ struct FlickerInput {
   Image previousDepthOfPixel, previousDepth;  ///< as above; both empty: depth is not compared
 };
 
-/// settings.flickerWeight where shading changes over time as much as between the levels of detail,
+/// settings.weight where shading changes over time as much as between the levels of detail,
 /// dE94(previous frame at the pixel's previous place, previous shading) >= kappa * dE94(actual, predicted) >
 /// 0, and the pixel moves less than the limit; else 1. Places outside the frame or across a depth
 /// discontinuity do not flicker.
-Image flickerWeight(const FlickerInput& input, const PoppingSettings& settings = {});
+Image flickerWeight(const FlickerInput& input, const FlickerSettings& settings = {});
 
 }  // namespace limen::perception

@@ -15,7 +15,9 @@ const char* const kFlicker = "perception/popping/gpu/flicker.comp.glsl";
 }  // namespace
 
 PoppingWeightsGpu::PoppingWeightsGpu(gl::Context& context, const PoppingSettings& settings)
-    : context_(context), settings_(settings) {
+    : context_(context),
+      disocclusion_(settings.disocclusionSettings()),
+      flicker_(settings.flickerSettings()) {
   context.programs().compute(kDisocclusion);
   context.programs().compute(kFlicker);
 }
@@ -33,9 +35,9 @@ void PoppingWeightsGpu::disocclusion(const std::vector<DisocclusionTextures>& vi
   }
   weight.bindImage(0, gl::Access::Write);
   program.set("viewCount", static_cast<int>(views.size()));
-  program.set("pcfRadius", settings_.pcfRadiusPx);
-  program.set("depthTolerance", static_cast<float>(settings_.depthTolerance));
-  program.set("outsideVisibility", static_cast<float>(settings_.outsideVisibility));
+  program.set("pcfRadius", disocclusion_.pcfRadiusPx);
+  program.set("depthTolerance", static_cast<float>(disocclusion_.depthTolerance));
+  program.set("outsideVisibility", static_cast<float>(disocclusion_.outsideVisibility));
   program.dispatch(weight.sizePx(), kGroup);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -53,10 +55,10 @@ void PoppingWeightsGpu::flicker(const FlickerTextures& input, const gl::Texture&
   (compareDepth ? input.previousDepth : input.displacement)->bindTexture(6);
   weight.bindImage(0, gl::Access::Write);
   program.set("compareDepth", compareDepth ? 1 : 0);
-  program.set("kappa", static_cast<float>(settings_.flickerKappa));
-  program.set("largestDisplacement", static_cast<float>(settings_.flickerMaxDisplacementPx));
-  program.set("flickerWeight", static_cast<float>(settings_.flickerWeight));
-  program.set("depthTolerance", static_cast<float>(settings_.depthTolerance));
+  program.set("kappa", static_cast<float>(flicker_.kappa));
+  program.set("largestDisplacement", static_cast<float>(flicker_.maxDisplacementPx));
+  program.set("flickerWeight", static_cast<float>(flicker_.weight));
+  program.set("depthTolerance", static_cast<float>(flicker_.depthTolerance));
   program.dispatch(weight.sizePx(), kGroup);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -30,6 +30,7 @@ struct FlickerTextures {
 /// The weight maps of weights.h on the GPU. Colours are RGBA, linear. Neither call allocates or waits.
 class PoppingWeightsGpu {
  public:
+  /// A weight that `settings` ignores is made with the default settings.
   PoppingWeightsGpu(gl::Context& context, const PoppingSettings& settings);
   /// One or two views; `weight`: R32F of their size.
   void disocclusion(const std::vector<DisocclusionTextures>& views, const gl::Texture& weight);
@@ -37,7 +38,8 @@ class PoppingWeightsGpu {
 
  private:
   gl::Context& context_;
-  PoppingSettings settings_;
+  DisocclusionSettings disocclusion_;
+  FlickerSettings flicker_;
 };
 
 }  // namespace limen::perception

@@ -166,11 +166,9 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
       for (const bool half : {true, false}) {
         if (oneForm && (nineFetch || !stack || half)) continue;
         ThresholdMapSettings settings;
-        settings.decomposition =
-            stack ? ThresholdMapSettings::Decomposition::Stack : ThresholdMapSettings::Decomposition::Pyramid;
-        settings.half = half;
-        settings.nineFetch = nineFetch;
-        ThresholdMapGpu gpu(context, size, display, settings);
+        if (!stack) settings.decomposition = perception::SampledPyramid{};
+        if (nineFetch) settings.downsample = perception::NineFetchKernel{};
+        ThresholdMapGpu gpu(context, size, display, settings, {.precision = half ? 16 : 32});
         const auto run = [&] { gpu.run(colour); };
         const Times times = measure(run, software);
         const double back = software ? times.medianMs : throughputMs(run);

@@ -31,23 +31,17 @@ double levelWidthPx(const Settings& settings, int level) {
   const Kernel kernel = settings.kernel();
   const double powers = std::ldexp(1.0, 2 * level);
   double variance = kernel.variancePx2() * (powers - 1.0) / 3.0;
-  switch (settings.decomposition) {
-    case Settings::Decomposition::TrueStack: {
-      const double sigma = stackSigmaPx(level, kernel, settings.stackSigmaPx);
-      variance = sigma * sigma;
-      break;
-    }
-    case Settings::Decomposition::Repeated:
-      variance = Kernel::binomial5().variancePx2() * level;
-      break;
-    case Settings::Decomposition::Pyramid:
-      // A tent of half-width 2^level, less what sampling it on pixels leaves.
-      variance += powers / 6.0;
-      break;
-    case Settings::Decomposition::Stack:
-      // 1 3 3 1 of 8 (variance 3/4) at every step, or the kernel again.
-      variance += (settings.expand ? kernel.variancePx2() : 0.75) * (powers - 1.0) / 3.0;
-      break;
+  if (settings.isTrueStack()) {
+    const double sigma = stackSigmaPx(level, kernel, settings.stackSigmaPx());
+    variance = sigma * sigma;
+  } else if (std::holds_alternative<RepeatedStack>(settings.decomposition)) {
+    variance = Kernel::binomial5().variancePx2() * level;
+  } else if (settings.isPyramid()) {
+    // A tent of half-width 2^level, less what sampling it on pixels leaves.
+    variance += powers / 6.0;
+  } else {
+    // 1 3 3 1 of 8 (variance 3/4) at every step, or the kernel again.
+    variance += (settings.expands() ? kernel.variancePx2() : 0.75) * (powers - 1.0) / 3.0;
   }
   return std::sqrt(2.0 * std::numbers::pi * variance);
 }
@@ -58,19 +52,13 @@ AdaptationBlend adaptationBlend(const Settings& settings, double pixelsPerDegree
     return AdaptationBlend{static_cast<int>(std::clamp(level, 0.0, static_cast<double>(last))), 0.0};
   };
   const double lgPpd = std::log2(std::max(pixelsPerDegree, 1e-6));
-  switch (settings.adaptation) {
-    case Settings::Adaptation::NearestLevel:
-      return nearest(std::round(lgPpd));
-    case Settings::Adaptation::Level:
-      return nearest(settings.adaptationLevel);
-    case Settings::Adaptation::FractionalLevel: {
-      AdaptationBlend blend = nearest(std::floor(lgPpd));
-      if (lgPpd > 0.0 && blend.level < last) blend.next = lgPpd - std::floor(lgPpd);
-      return blend;
-    }
-    case Settings::Adaptation::MistakenDegree:
-    case Settings::Adaptation::OneDegree:
-      break;
+  if (std::holds_alternative<NearestLevelAdaptation>(settings.adaptation)) return nearest(std::round(lgPpd));
+  if (const auto* given = std::get_if<GivenLevelAdaptation>(&settings.adaptation))
+    return nearest(given->level);
+  if (std::holds_alternative<FractionalLevelAdaptation>(settings.adaptation)) {
+    AdaptationBlend blend = nearest(std::floor(lgPpd));
+    if (lgPpd > 0.0 && blend.level < last) blend.next = lgPpd - std::floor(lgPpd);
+    return blend;
   }
   AdaptationBlend blend;
   while (blend.level < last && levelWidthPx(settings, blend.level + 1) <= pixelsPerDegree) ++blend.level;
@@ -80,6 +68,12 @@ AdaptationBlend adaptationBlend(const Settings& settings, double pixelsPerDegree
   const double wide = 1.0 / levelWidthPx(settings, blend.level + 1);
   blend.next = std::clamp((narrow - 1.0 / pixelsPerDegree) / (narrow - wide), 0.0, 1.0);
   return blend;
+}
+
+template <class Low>
+double ThresholdModel::lowFrequencyOr(const Low& low, int band, double elevation) const {
+  const auto* none = std::get_if<NoLowElevation>(&low);
+  return none && at(band, 1.0).frequencyCpd < none->belowCpd ? 1.0 : elevation;
 }
 
 ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree, int widthPx, int heightPx)
@@ -95,14 +89,13 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
   adaptation_ = adaptationBlend(settings, pixelsPerDegree, levels_);
   const int bands = std::max(levels_ - 2, 0);
   const PyramidSettings pyramid = settings.pyramid();
-  const bool stack = settings.decomposition == Settings::Decomposition::TrueStack;
-  peaks_ = stack && settings.peakModel != PeakModel::Halving
-               ? stackBandPeaks(pyramid.kernel, bands, settings.stackSigmaPx)
+  peaks_ = settings.isTrueStack() && settings.peakModel != PeakModel::Halving
+               ? stackBandPeaks(pyramid.kernel, bands, settings.stackSigmaPx())
                : bandPeaks(pyramid.kernel, pyramid.upsampler, settings.peakModel, bands);
   if (!settings.gainCompensation)
     for (BandPeak& peak : peaks_) peak.gain = 1.0;
-  const bool needsPeaks =
-      settings.frequencyRule == Settings::FrequencyRule::Actual || settings.tvi.rfind("from_csf", 0) == 0;
+  const bool needsPeaks = std::holds_alternative<ActualElevation>(settings.frequencyElevation) ||
+                          settings.tvi.rfind("from_csf", 0) == 0;
   if (needsPeaks) {
     lnPeaks_.resize(kNodes);
     forRowBlocks(kNodes, 100000, [&](int first, int end) {
@@ -112,8 +105,10 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
             1.0 / kLargestElevation));
     });
   }
-  for (int band = 0; band < bands; ++band)
-    originalF_.push_back(lowFrequencyOr(band, frequencyFactor(*csf_, at(band, settings.fLuminanceCdM2))));
+  if (const auto* original = std::get_if<OriginalElevation>(&settings.frequencyElevation))
+    for (int band = 0; band < bands; ++band)
+      originalF_.push_back(
+          lowFrequencyOr(original->low, band, frequencyFactor(*csf_, at(band, original->luminanceCdM2))));
   if (settings.tvi.rfind("from_csf", 0) == 0) {
     // makeTvi() searches the peak at every call.
     const double scale = settings.tvi == "from_csf" ? 1.0 : tviWard(100.0) / (100.0 / peakSensitivity(100.0));
@@ -154,24 +149,12 @@ double ThresholdModel::sensitivity(int band, double luminanceCdM2) const {
   return csf_->sensitivity(at(band, luminanceCdM2));
 }
 
-double ThresholdModel::lowFrequencyOr(int band, double elevation) const {
-  const bool one = settings_.fLow == Settings::LowFrequencies::One ||
-                   (settings_.fLow == Settings::LowFrequencies::ByRule &&
-                    settings_.frequencyRule == Settings::FrequencyRule::Original);
-  return one && at(band, 1.0).frequencyCpd < settings_.fLowCpd ? 1.0 : elevation;
-}
-
 double ThresholdModel::frequencyElevation(int band, double luminanceCdM2) const {
-  switch (settings_.frequencyRule) {
-    case Settings::FrequencyRule::None:
-      return 1.0;
-    case Settings::FrequencyRule::Original:
-      return originalF_[static_cast<size_t>(band)];
-    case Settings::FrequencyRule::Actual:
-      break;
-  }
+  if (!originalF_.empty()) return originalF_[static_cast<size_t>(band)];
+  const auto* actual = std::get_if<ActualElevation>(&settings_.frequencyElevation);
+  if (!actual) return 1.0;
   const double peak = peakSensitivity(luminanceCdM2), here = sensitivity(band, luminanceCdM2);
-  return lowFrequencyOr(band,
+  return lowFrequencyOr(actual->low, band,
                         peak >= kLargestElevation * here ? kLargestElevation : std::max(peak / here, 1.0));
 }
 
@@ -185,8 +168,8 @@ double ThresholdModel::elevation(const std::vector<double>& contrasts, double lu
         c * frequencyElevation(i, luminanceCdM2) * maskingElevation(c * sensitivity(i, luminanceCdM2));
     sum += c;
   }
-  if (settings_.flatSmooth)
-    return std::max(1.0, (weighted + settings_.flatEpsilon) / (sum + settings_.flatEpsilon));
+  if (const auto* smooth = std::get_if<SmoothFlat>(&settings_.flat))
+    return std::max(1.0, (weighted + smooth->epsilon) / (sum + smooth->epsilon));
   return sum > 0.0 ? weighted / sum : 1.0;
 }
 

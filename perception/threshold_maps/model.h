@@ -51,7 +51,8 @@ class ThresholdModel {
 
  private:
   CsfPoint at(int band, double luminanceCdM2) const;
-  double lowFrequencyOr(int band, double elevation) const;
+  template <class Low>
+  double lowFrequencyOr(const Low& low, int band, double elevation) const;
 
   ThresholdMapSettings settings_;
   double pixelsPerDegree_;

@@ -14,15 +14,10 @@ namespace {
 
 std::vector<Plane> levelsOf(const Plane& image, const ThresholdMapSettings& settings) {
   PyramidSettings pyramid = settings.pyramid();
-  switch (settings.decomposition) {
-    case ThresholdMapSettings::Decomposition::TrueStack:
-      return gaussianStack(image, pyramid, settings.stackSigmaPx);
-    case ThresholdMapSettings::Decomposition::Repeated:
-      pyramid.kernel = Kernel::binomial5();
-      return repeatedStack(image, pyramid);
-    case ThresholdMapSettings::Decomposition::Stack:
-    case ThresholdMapSettings::Decomposition::Pyramid:
-      break;
+  if (settings.isTrueStack()) return gaussianStack(image, pyramid, settings.stackSigmaPx());
+  if (std::holds_alternative<RepeatedStack>(settings.decomposition)) {
+    pyramid.kernel = Kernel::binomial5();
+    return repeatedStack(image, pyramid);
   }
   return upsampledStack(gaussianPyramid(image, pyramid), pyramid);
 }
@@ -31,7 +26,7 @@ std::vector<Plane> levelsOf(const Plane& image, const ThresholdMapSettings& sett
 /// number, taken for the side of the averaging kernel.
 std::optional<Plane> mistakenMean(const Plane& image, double pixelsPerDegree,
                                   const ThresholdMapSettings& settings) {
-  if (settings.adaptation != ThresholdMapSettings::Adaptation::MistakenDegree) return {};
+  if (!std::holds_alternative<MistakenDegreeAdaptation>(settings.adaptation)) return {};
   // The field of view whose centre has these pixels per degree: W = 2 tan(fov / 2) ppd / tan(1 degree).
   const double side = std::tan(std::numbers::pi / 180.0) * image.width / pixelsPerDegree / 0.01745;
   const int sidePx = std::clamp(static_cast<int>(std::lround(side)), 1, 4096);

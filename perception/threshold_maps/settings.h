@@ -2,73 +2,191 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <variant>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
 
-/// Threshold maps: for each pixel of one image the luminance increment that stays invisible. Sources:
-/// Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4.
+/// Settings of threshold maps: for each pixel of one image the luminance increment that stays invisible.
+/// Sources: Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4.
 namespace limen::perception {
 
-struct ThresholdMapSettings {
-  enum class Decomposition {
-    Stack,      ///< pyramid whose levels are brought up one level at a time (section 9.4)
-    Pyramid,    ///< pyramid sampled directly: faster, blocky
-    TrueStack,  ///< Gaussians of doubling sigma at full resolution: what both stand for (CPU only)
-    Repeated    ///< a published mistake (section 9.6): one small kernel applied again and again (CPU only)
-  };
-  enum class Adaptation {
-    OneDegree,        ///< mean over one degree: the two levels that enclose it, blended
-    NearestLevel,     ///< level round(lg2 ppd), whose pixels are about a degree apart
-    FractionalLevel,  ///< levels around lg2 ppd, blended
-    Level,            ///< level `adaptationLevel`; 0: each pixel adapts to itself
-    MistakenDegree    ///< a published mistake (section 9.6): a count of degrees taken for pixels (CPU only)
-  };
-  enum class FrequencyRule {
-    Original,  ///< at `fLuminanceCdM2`
-    Actual,    ///< at the adaptation luminance
-    None       ///< 1
-  };
-  enum class LowFrequencies { ByRule, One, AsComputed };
+/// How a stack brings levels up.
+enum class StackUpsampler {
+  Bilinear,
+  Expand  ///< with the kernel; CPU only
+};
+constexpr EnumNames<StackUpsampler, 2> enumNames(StackUpsampler) {
+  return {{{{StackUpsampler::Bilinear, "bilinear"}, {StackUpsampler::Expand, "expand"}}}};
+}
 
+// Where bands come from.
+struct UpsampledStack {
+  static constexpr const char *kKind = "stack",
+                              *kSummary = "pyramid whose levels are brought up one level at a time";
+  StackUpsampler upsampler = StackUpsampler::Bilinear;
+  static const SettingsTable<UpsampledStack>& table();
+};
+struct SampledPyramid {
+  static constexpr const char *kKind = "pyramid", *kSummary = "pyramid sampled directly: faster, blocky";
+};
+
+struct KernelSigma {
+  static constexpr const char *kKind = "of_kernel", *kSummary = "as the pyramid's kernel has in the limit";
+};
+struct GivenSigma {
+  static constexpr const char *kKind = "given", *kSummary = "a given one";
+  double px = 1.0;
+  static const SettingsTable<GivenSigma>& table();
+};
+struct TrueStack {
+  static constexpr const char *kKind = "true_stack",
+                              *kSummary =
+                                  "Gaussians of doubling sigma at full resolution: what the others "
+                                  "stand for (CPU only)";
+  std::variant<KernelSigma, GivenSigma> sigma;  ///< of level 1
+  static const SettingsTable<TrueStack>& table();
+};
+struct RepeatedStack {
+  static constexpr const char *kKind = "repeated",
+                              *kSummary =
+                                  "one small kernel again and again, a published mistake "
+                                  "(section 9.6; CPU only)";
+};
+
+// The 5x5 kernel before the bilinear step of halving, which the thesis does not name.
+struct BinomialKernel {
+  static constexpr const char *kKind = "binomial", *kSummary = "binomial, as six taps an axis";
+};
+struct NineFetchKernel {
+  static constexpr const char *kKind = "nine_fetch",
+                              *kSummary =
+                                  "binomial, as the thesis's nine bilinear fetches, which equal the "
+                                  "six taps for even sizes only";
+};
+struct BurtKernel {
+  static constexpr const char *kKind = "burt", *kSummary = "Burt and Adelson's five taps";
+  double centre = 0.4;  ///< weight in the middle; 0.375: binomial
+  static const SettingsTable<BurtKernel>& table();
+};
+
+// Adaptation luminance.
+struct OneDegreeAdaptation {
+  static constexpr const char *kKind = "one_degree",
+                              *kSummary = "mean over one degree: the two levels that enclose it, blended";
+};
+struct NearestLevelAdaptation {
+  static constexpr const char *kKind = "nearest_level", *kSummary = "level round(lg2 ppd)";
+};
+struct FractionalLevelAdaptation {
+  static constexpr const char *kKind = "fractional_level", *kSummary = "levels around lg2 ppd, blended";
+};
+struct GivenLevelAdaptation {
+  static constexpr const char *kKind = "level", *kSummary = "a given level";
+  int level = 5;  ///< 0: each pixel adapts to itself
+  static const SettingsTable<GivenLevelAdaptation>& table();
+};
+struct MistakenDegreeAdaptation {
+  static constexpr const char *kKind = "mistaken_degree",
+                              *kSummary =
+                                  "the image's degrees taken for the pixels to average, a published "
+                                  "mistake (section 9.6; CPU only)";
+};
+
+// Elevation of the threshold at low frequencies.
+struct NoLowElevation {
+  static constexpr const char *kKind = "one", *kSummary = "none";
+  double belowCpd = 4.0;
+  static const SettingsTable<NoLowElevation>& table();
+};
+struct ComputedLowElevation {
+  static constexpr const char *kKind = "as_computed", *kSummary = "as at all others";
+};
+
+// Elevation of the threshold by frequency.
+struct ActualElevation {
+  static constexpr const char *kKind = "actual", *kSummary = "at the adaptation luminance";
+  std::variant<ComputedLowElevation, NoLowElevation> low;
+  static const SettingsTable<ActualElevation>& table();
+};
+struct OriginalElevation {
+  static constexpr const char *kKind = "original", *kSummary = "at one luminance";
+  double luminanceCdM2 = 100.0;
+  std::variant<NoLowElevation, ComputedLowElevation> low;
+  static const SettingsTable<OriginalElevation>& table();
+};
+struct NoFrequencyElevation {
+  static constexpr const char *kKind = "none", *kSummary = "none";
+};
+
+// Elevation where there is no contrast.
+struct SmoothFlat {
+  static constexpr const char *kKind = "smooth", *kSummary = "(sum + epsilon) / (sum + epsilon), at least 1";
+  double epsilon = 1e-4;
+  static const SettingsTable<SmoothFlat>& table();
+};
+struct ExactFlat {
+  static constexpr const char *kKind = "exact", *kSummary = "1 where the sum is exactly 0";
+};
+
+/// The model, as reference and GPU share it.
+struct ThresholdMapSettings {
   int levels = 7;
-  Decomposition decomposition = Decomposition::Stack;
-  bool nineFetch = false;  ///< downsample as the thesis's nine bilinear fetches
-  bool burt = false;       ///< Burt's five taps in place of the binomial ones
-  double burtA = 0.4;
-  bool expand = false;  ///< Stack: bring levels up with the kernel in place of bilinearly (CPU only)
+  std::variant<UpsampledStack, SampledPyramid, TrueStack, RepeatedStack> decomposition;
+  std::variant<BinomialKernel, NineFetchKernel, BurtKernel> downsample;
   Border border = Border::Clamp;
-  double stackSigmaPx = 0.0;
   PeakModel peakModel = PeakModel::NoUpsample;
   bool gainCompensation = false;
-  Adaptation adaptation = Adaptation::OneDegree;
-  int adaptationLevel = 5;
+  std::variant<OneDegreeAdaptation, NearestLevelAdaptation, FractionalLevelAdaptation, GivenLevelAdaptation,
+               MistakenDegreeAdaptation>
+      adaptation;
   std::string csf = "barten89", masking = "daly", tvi = "ward";
-  FrequencyRule frequencyRule = FrequencyRule::Actual;
-  double fLuminanceCdM2 = 100.0;
-  LowFrequencies fLow = LowFrequencies::ByRule;
-  double fLowCpd = 4.0;
+  std::variant<ActualElevation, OriginalElevation, NoFrequencyElevation> frequencyElevation;
   double tviFactor = 0.2;
-  bool flatSmooth = true;
-  double flatEpsilon = 1e-4;
+  std::variant<SmoothFlat, ExactFlat> flat;
   double contrastEpsilonCdM2 = 1e-4;
   double largestCdM2 = 6e4;
-  // GPU only:
-  bool half = false;      ///< intermediate results in 16 bits in place of 32
-  int levelsPerPass = 0;  ///< of the pyramid, from level 1; 0: one for large levels, three for small ones
-  bool direct = false;    ///< CSF computed per pixel in place of read from tables
+  static const SettingsTable<ThresholdMapSettings>& table();
 
   /// Five taps and how they are applied.
   Kernel kernel() const;
   PyramidSettings pyramid() const;
+  bool nineFetch() const { return std::holds_alternative<NineFetchKernel>(downsample); }
+  bool isTrueStack() const { return std::holds_alternative<TrueStack>(decomposition); }
+  bool isPyramid() const { return std::holds_alternative<SampledPyramid>(decomposition); }
+  /// Levels are brought up with the kernel.
+  bool expands() const;
+  /// Of level 1 of a true stack; 0: as of the kernel.
+  double stackSigmaPx() const;
 };
 
-/// Declarations of the above, those of the GPU aside.
-std::vector<Parameter> thresholdMapParameters();
-/// `precision` (16 or 32 bits), `lookup` (tables or direct) and `levels_per_pass`.
-std::vector<Parameter> thresholdMapGpuParameters();
-/// Values of thresholdMapParameters(), and of thresholdMapGpuParameters() where given.
-ThresholdMapSettings thresholdMapSettings(const ParameterValues& values);
+enum class ThresholdLookup {
+  Tables,  ///< CSF and TVI from tables over luminance
+  Direct   ///< computed for every pixel
+};
+constexpr EnumNames<ThresholdLookup, 2> enumNames(ThresholdLookup) {
+  return {{{{ThresholdLookup::Tables, "tables"}, {ThresholdLookup::Direct, "direct"}}}};
+}
+
+// Pyramid levels that a pass makes, from level 1 on.
+struct AutomaticLevels {
+  static constexpr const char *kKind = "automatic", *kSummary = "one of large levels, three of small ones";
+};
+struct GivenLevels {
+  static constexpr const char *kKind = "given", *kSummary = "a given number";
+  int count = 1;
+  static const SettingsTable<GivenLevels>& table();
+};
+
+/// How the GPU computes them.
+struct ThresholdMapGpuSettings {
+  int precision = 32;  ///< bits of intermediate results
+  ThresholdLookup lookup = ThresholdLookup::Tables;
+  std::variant<AutomaticLevels, GivenLevels> levelsPerPass = {};
+  static const SettingsTable<ThresholdMapGpuSettings>& table();
+
+  bool half() const { return precision == 16; }
+  bool direct() const { return lookup == ThresholdLookup::Direct; }
+};
 
 }  // namespace limen::perception

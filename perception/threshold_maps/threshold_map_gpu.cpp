@@ -40,52 +40,50 @@ struct RunBlock {
 
 glm::ivec2 halvedSize(glm::ivec2 size) { return {halved(size.x), halved(size.y)}; }
 
-void refuse(bool wrong, const char* what, const char* where, const char* mend) {
-  if (wrong) throw Error(what, where, mend);
+void refuse(bool wrong, const char* what, const char* where, const char* hint) {
+  if (wrong) throw Error(what, where, hint);
 }
 
-void checkSettings(const Settings& settings) {
-  refuse(settings.decomposition == Settings::Decomposition::TrueStack,
-         "a true stack is not computed on the GPU", "decomposition",
+void checkSettings(const Settings& settings, const ThresholdMapGpuSettings& gpu) {
+  refuse(settings.isTrueStack(), "a true stack is not computed on the GPU", "decomposition",
          "use stack or pyramid, or the technique perception/threshold_map_reference");
-  refuse(settings.decomposition == Settings::Decomposition::Repeated,
+  refuse(std::holds_alternative<RepeatedStack>(settings.decomposition),
          "the mistaken stack is not computed on the GPU", "decomposition",
          "use stack or pyramid, or the technique perception/threshold_map_reference");
-  refuse(settings.adaptation == Settings::Adaptation::MistakenDegree,
+  refuse(std::holds_alternative<MistakenDegreeAdaptation>(settings.adaptation),
          "the mistaken mean is not computed on the GPU", "adaptation",
          "use one_degree, or the technique perception/threshold_map_reference");
-  refuse(settings.expand, "levels are brought up bilinearly on the GPU", "upsampler",
+  refuse(settings.expands(), "levels are brought up bilinearly on the GPU", "decomposition.upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
-  refuse(settings.direct && (settings.csf != "barten89" || settings.tvi != "ward"),
+  refuse(gpu.direct() && (settings.csf != "barten89" || settings.tvi != "ward"),
          "only csf: barten89 and tvi: ward are computed directly", "lookup", "use lookup: tables");
-  refuse(settings.nineFetch && settings.border != Border::Clamp, "bilinear fetches know no mirrored border",
-         "border", "use border: clamp or downsample: exact");
+  refuse(settings.nineFetch() && settings.border != Border::Clamp, "bilinear fetches know no mirrored border",
+         "border", "use border: clamp or downsample: binomial");
 }
 
 /// Model number in the shader and its constants.
 std::pair<int, glm::vec4> maskingConstants(const std::string& name) {
-  const MaskingInfo& info = MaskingRegistry::instance().get(name, "masking");
-  const ParameterValues values(info.parameters, {});
-  if (name == "daly")
-    return {1,
-            {std::log2(values.real("k1")) + values.real("s") * std::log2(values.real("k2")), values.real("s"),
-             values.real("b"), 0.0}};
-  if (name == "schwarz") return {1, {0.0, values.real("s"), values.real("b"), 0.0}};
-  if (name == "lubin") return {2, {values.real("n"), values.real("w"), 0.0, 0.0}};
-  if (name == "self") return {3, {1.0 - values.real("alpha"), 0.0, 0.0, 0.0}};
+  const DalyMasking daly;
+  const LubinMasking lubin;
+  if (name == "daly") return {1, {std::log2(daly.k1) + daly.s * std::log2(daly.k2), daly.s, daly.b, 0.0}};
+  if (name == "schwarz") return {1, {0.0, SchwarzMasking{}.s, SchwarzMasking{}.b, 0.0}};
+  if (name == "lubin") return {2, {lubin.n, lubin.w, 0.0, 0.0}};
+  if (name == "self") return {3, {1.0 - SelfMasking{}.alpha, 0.0, 0.0, 0.0}};
   refuse(name != "none", "this masking model has no form for the GPU", "masking", "use another one");
   return {0, glm::vec4(0.0F)};
 }
 
-RunBlock runBlock(const Settings& settings, const ThresholdModel& model, const DisplayProfile& display) {
+RunBlock runBlock(const Settings& settings, const ThresholdMapGpuSettings& gpu, const ThresholdModel& model,
+                  const DisplayProfile& display) {
   RunBlock block;
   const Kernel kernel = settings.kernel();
   block.kernel = {kernel.taps[0], kernel.taps[1], kernel.taps[2], 0.0};
   const double largest =
-      settings.half ? std::min<double>(settings.largestCdM2, kLargestHalfCdM2) : settings.largestCdM2;
+      gpu.half() ? std::min<double>(settings.largestCdM2, kLargestHalfCdM2) : settings.largestCdM2;
   block.light = {display.blackLevelCdM2(), display.whiteLevelCdM2() - display.blackLevelCdM2(), largest,
                  settings.contrastEpsilonCdM2};
-  block.rule = {model.adaptation().next, settings.flatEpsilon, settings.tviFactor, 0.0};
+  const auto* smooth = std::get_if<SmoothFlat>(&settings.flat);
+  block.rule = {model.adaptation().next, smooth ? smooth->epsilon : 0.0, settings.tviFactor, 0.0};
   block.masking = maskingConstants(settings.masking).second;
   for (int band = 0; band < model.bands(); ++band) {
     const BandPeak& peak = model.peaks()[static_cast<size_t>(band)];
@@ -109,25 +107,27 @@ struct ThresholdMapGpu::Programs {
 };
 
 ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
-                                 const Settings& settings, bool colourInput)
+                                 const Settings& settings, const ThresholdMapGpuSettings& gpu,
+                                 bool colourInput)
     : context_(context),
       sizePx_(sizePx),
       settings_(settings),
+      gpu_(gpu),
       colourInput_(colourInput),
       levels_(std::min(settings.levels, mostLevels(sizePx.x, sizePx.y))),
       threshold_(Format::R32F, sizePx),
-      finest_(settings.half ? Format::R16F : Format::R32F, sizePx, 1, 0,
-              settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest),
+      finest_(gpu.half() ? Format::R16F : Format::R32F, sizePx, 1, 0,
+              settings.nineFetch() ? gl::Sampling::Linear : gl::Sampling::Nearest),
       tiles_((sizePx + kTilePx - 1) / kTilePx),
       programs_(std::make_unique<Programs>()) {
-  checkSettings(settings);
+  checkSettings(settings, gpu);
   const ThresholdModel model(settings, display.pixelsPerDegree(), sizePx.x, sizePx.y);
   assert(levels_ == model.levels());
   if (levels_ > 1) {
     const glm::ivec2 half = halvedSize(sizePx);
-    gaussian_.emplace(settings.half && settings.nineFetch ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
-                      settings.nineFetch ? gl::Sampling::Linear : gl::Sampling::Nearest);
-    const bool direct = settings.decomposition == Settings::Decomposition::Pyramid;
+    gaussian_.emplace(gpu.half() && settings.nineFetch() ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
+                      settings.nineFetch() ? gl::Sampling::Linear : gl::Sampling::Nearest);
+    const bool direct = settings.isPyramid();
     std::vector<glm::vec4> taps = levelTaps(sizePx.x, levels_, direct);
     const std::vector<glm::vec4> rowTaps = levelTaps(sizePx.y, levels_, direct);
     std::vector<glm::ivec2> patches = tilePatches(taps, sizePx.x, kTilePx.x, levels_);
@@ -145,7 +145,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     upward_ = std::move(places.upward);
     downward_ = std::move(places.downward);
   }
-  const RunBlock block = runBlock(settings, model, display);
+  const RunBlock block = runBlock(settings, gpu, model, display);
   run_.emplace(int64_t{sizeof block}, &block);
   tables_.emplace(thresholdTables(model));
   elevations_.emplace(elevationTable(model));
@@ -153,15 +153,15 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
   const int maskingModel = maskingConstants(settings.masking).first;
   defines_ = {{"COLOUR", yes(colourInput)},
               {"MIRROR", yes(settings.border == Border::Mirror)},
-              {"HALF", yes(settings.half)},
+              {"HALF", yes(gpu.half())},
               {"LEVELS", std::to_string(levels_)},
               {"BANDS", std::to_string(model.bands())},
-              {"FINEST_LUMINANCE", yes(settings.nineFetch)},
+              {"FINEST_LUMINANCE", yes(settings.nineFetch())},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(settings.direct ? maskingModel : 0)},  // tables know it otherwise
-              {"FOURTH_ROOT", yes(settings.direct && maskingModel == 1 && block.masking.z == 4.0F)},
-              {"FLAT_SMOOTH", yes(settings.flatSmooth)},
-              {"DIRECT", yes(settings.direct)},
+              {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // tables know it otherwise
+              {"FOURTH_ROOT", yes(gpu.direct() && maskingModel == 1 && block.masking.z == 4.0F)},
+              {"FLAT_SMOOTH", yes(std::holds_alternative<SmoothFlat>(settings.flat))},
+              {"DIRECT", yes(gpu.direct())},
               {"TILE_X", std::to_string(kTilePx.x)},
               {"TILE_Y", std::to_string(kTilePx.y)},
               {"THREADS", std::to_string(kInvocations)},
@@ -175,12 +175,12 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     for (const char* name : names) extra[name] = defines_.at(name);
     return &programs.compute(folder + file, extra);
   };
-  if (settings.nineFetch || levels_ == 1) {
+  if (settings.nineFetch() || levels_ == 1) {
     programs_->first = make("luminance.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
     if (levels_ > 1) programs_->next = make("nine_fetch.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
   } else {
     programs_->first = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
-                            {{"FROM_LEVEL", "0"}, {"BAND", settings.half ? "16" : "32"}});
+                            {{"FROM_LEVEL", "0"}, {"BAND", gpu.half() ? "16" : "32"}});
     programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "0"}});
     for (int steps = 1; steps <= kMostSteps; ++steps)
       programs_->many[static_cast<size_t>(steps - 1)] =
@@ -215,7 +215,7 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
     work();
   };
   timed("threshold_map/levels",
-        [&] { settings_.nineFetch || levels_ == 1 ? reduceNineFetch(input) : reduce(input); });
+        [&] { settings_.nineFetch() || levels_ == 1 ? reduceNineFetch(input) : reduce(input); });
   timed("threshold_map/evaluate", [&] { evaluate(); });
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -239,7 +239,8 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   glm::ivec2 size = halvedSize(sizePx_);
   for (int level = 1; level + 1 < levels_;) {
     const bool small = int64_t{size.x} * size.y <= kSmallLevelPx;
-    const int wanted = settings_.levelsPerPass > 0 ? settings_.levelsPerPass : small ? kMostSteps : 1;
+    const auto* given = std::get_if<GivenLevels>(&gpu_.levelsPerPass);
+    const int wanted = given ? given->count : small ? kMostSteps : 1;
     const int steps = std::min(levels_ - 1 - level, wanted);
     for (int step = 0; step < steps; ++step)
       gaussian_->bindImage(static_cast<uint32_t>(step), Access::Write, level + step);
@@ -282,7 +283,7 @@ void ThresholdMapGpu::evaluate() {
 
 std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
   std::map<std::string, const gl::Texture*> out;
-  out[settings_.nineFetch || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
+  out[settings_.nineFetch() || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
   if (gaussian_) out["gaussian"] = &*gaussian_;
   if (stages_) out["stages"] = &*stages_;
   return out;
@@ -300,7 +301,7 @@ int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
   // The input and the map once; what lies between is written and read again: levels by the next one and by
   // the evaluation.
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
-  if (settings_.nineFetch) bytes += finest_.bytes();
+  if (settings_.nineFetch()) bytes += finest_.bytes();
   if (gaussian_) bytes += 3 * gaussian_->bytes();
   return bytes;
 }

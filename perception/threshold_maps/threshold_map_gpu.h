@@ -33,7 +33,8 @@ class ThresholdMapGpu {
   /// luminance (one channel, cd/m2). Throws Error on settings that only the reference knows (true_stack,
   /// expand; direct with models other than barten89 and ward).
   ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
-                  const ThresholdMapSettings& settings, bool colourInput = true);
+                  const ThresholdMapSettings& settings, const ThresholdMapGpuSettings& gpu = {},
+                  bool colourInput = true);
   ~ThresholdMapGpu();
   ThresholdMapGpu(const ThresholdMapGpu&) = delete;
   ThresholdMapGpu& operator=(const ThresholdMapGpu&) = delete;
@@ -62,6 +63,7 @@ class ThresholdMapGpu {
   gl::Context& context_;
   glm::ivec2 sizePx_;
   ThresholdMapSettings settings_;
+  ThresholdMapGpuSettings gpu_;
   bool colourInput_;
   int levels_;
   gl::ShaderDefines defines_;

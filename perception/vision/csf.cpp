@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "perception/vision/csf_arguments.h"
+
 namespace limen::perception {
 namespace {
 
@@ -83,6 +85,12 @@ Csf::Peak Csf::peak(const CsfPoint& point) const {
   // The ends of the range, and a plateau, whose first point counts.
   if (const double v = value(place); v >= bestValue) return {std::exp(place), v};
   return {std::exp(low + best * step), bestValue};
+}
+
+const SettingsTable<CsfGain>& CsfGain::table() {
+  static const SettingsTable<CsfGain> kTable = {
+      {&CsfGain::value, "gain", {0.0, 1e6}, "", "factor on the sensitivity"}};
+  return kTable;
 }
 
 std::unique_ptr<Csf> makeCsf(const std::string& name, const std::string& where) {

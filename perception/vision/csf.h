@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::perception {
 
@@ -55,14 +56,24 @@ struct CsfInfo {
   std::string name;
   int version = 1;
   std::string summary;  ///< with the stated answer outside the valid range
-  std::string source;
+  std::string source = {};
   Channel channel = Channel::Achromatic;
-  std::vector<CsfArgument> arguments;
-  std::vector<Parameter>
-      parameters;  ///< constants of the model, with their defaults (daly98: c0, c1, c2 ...)
-  std::function<std::unique_ptr<Csf>(const ParameterValues&)> make;
+  std::vector<CsfArgument> arguments = {};
+  ParameterList parameters = {};  ///< constants of the model, with their defaults (daly98: c0, c1, c2 ...)
+  std::function<std::unique_ptr<Csf>(const ParameterValues&)> make = {};
 };
 using CsfRegistry = Registry<CsfInfo>;
+
+/// Registers a model with constants S (settings_table.h) at program start. `info` says the rest; its
+/// parameters and make are filled in. `defaults` are the constants of this registration.
+template <class S>
+struct RegisteredCsf {
+  RegisteredCsf(CsfInfo info, std::unique_ptr<Csf> (*make)(const S&), const S& defaults = {}) {
+    info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
+    info.make = [make](const ParameterValues& values) { return make(S::table().read(values)); };
+    CsfRegistry::instance().add(std::move(info));
+  }
+};
 
 /// The model with its default constants. Throws Error naming the nearest known model.
 std::unique_ptr<Csf> makeCsf(const std::string& name, const std::string& where = {});

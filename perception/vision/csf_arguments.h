@@ -18,12 +18,13 @@ inline CsfArgument luminanceArgument(double low, double high) {
 }
 inline CsfArgument areaArgument(double low, double high) { return {"area_deg2", "deg2", low, high}; }
 
-/// Declared by every model: the peak that studies report differs by far more than the models' shapes.
-inline Parameter gainParameter() {
-  return realParameter("gain", 1.0, 0.0, 1e6, "", "factor on the sensitivity");
-}
+/// Included by every model: the peak that studies report differs by far more than the models' shapes.
+struct CsfGain {
+  double value = 1.0;  ///< factor on the sensitivity
+  static const SettingsTable<CsfGain>& table();
+};
 
-/// A model that is one function of the point; times the parameter `gain`.
+/// A model that is one function of the point; times `gain`.
 class FunctionCsf : public Csf {
  public:
   FunctionCsf(double gain, std::function<double(const CsfPoint&)> function)
@@ -35,9 +36,9 @@ class FunctionCsf : public Csf {
   std::function<double(const CsfPoint&)> function_;
 };
 
-inline std::unique_ptr<Csf> makeFunctionCsf(const ParameterValues& values,
+inline std::unique_ptr<Csf> makeFunctionCsf(const CsfGain& gain,
                                             std::function<double(const CsfPoint&)> function) {
-  return std::make_unique<FunctionCsf>(values.real("gain"), std::move(function));
+  return std::make_unique<FunctionCsf>(gain.value, std::move(function));
 }
 
 }  // namespace limen::perception

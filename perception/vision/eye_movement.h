@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "experiments/base/enum_names.h"
+
 namespace limen::perception {
 
 /// How the eye's tracking of a moving stimulus leaves velocity on the retina. Daly 1998; Schwarz 2009,
@@ -11,6 +13,13 @@ enum class EyeMovement {
   Monotone,  ///< max(0.15, 0.18 v - 0.15) below saturation
   None       ///< retinal velocity = screen velocity
 };
+
+constexpr EnumNames<EyeMovement, 4> enumNames(EyeMovement) {
+  return {{{{EyeMovement::Literal, "literal"},
+            {EyeMovement::Floor, "floor"},
+            {EyeMovement::Monotone, "monotone"},
+            {EyeMovement::None, "none"}}}};
+}
 
 inline constexpr double kLeastRetinalVelocityDegS = 0.15;
 

@@ -55,76 +55,115 @@ double elevationSchwarz(double c) { return refused(c) ? 0.0 : softMaximum(std::p
 
 double transducerSchwarz(double c) { return refused(c) ? 0.0 : c / elevationSchwarz(c); }
 
+Masking makeMasking(const ChosenEntry& chosen, const std::string& where) {
+  return MaskingRegistry::instance().get(chosen.name, where).make(completeValues<MaskingInfo>(chosen, where));
+}
+
 Masking makeMasking(const std::string& name, const std::string& where) {
-  const MaskingInfo& info = MaskingRegistry::instance().get(name, where);
-  return info.make(ParameterValues(info.parameters, {}));
+  return makeMasking(ChosenEntry{name, {}}, where);
+}
+
+bool isCubic(const ChosenEntry& masking) {
+  if (masking.name != "schwarz") return false;
+  const auto constants = SchwarzMasking::table().read(completeValues<MaskingInfo>(masking));
+  return constants.b == 10.0 && constants.s == 0.3;
 }
 
 namespace {
 
 const char* const kThesis = "Schwarz 2009, section 9.1.2";
 
-const Registered<MaskingInfo> kNone{
-    MaskingInfo{"none", "No masking: the response is the contrast.", "", {}, [](const ParameterValues&) {
-                  return Masking{[](double c) { return refused(c) ? 0.0 : 1.0; },
-                                 [](double c) { return refused(c) ? 0.0 : c; }};
-                }}};
+}  // namespace
 
-const Registered<MaskingInfo> kDaly{MaskingInfo{
-    "daly",
-    "Threshold elevation (1 + (k1 (k2 c)^s)^b)^(1/b); 1 at low contrast, c^s at high.",
-    "Daly 1993; Schwarz 2009, (9.7)",
-    {realParameter("k1", 0.0153, 1e-6, 1e3, "", "with k2, the contrast at which masking sets in", kThesis),
-     realParameter("k2", 392.498, 1e-6, 1e6, "", "with k1, the contrast at which masking sets in", kThesis),
-     realParameter("b", 4.0, 0.1, 100.0, "", "how sharply masking sets in", kThesis),
-     realParameter("s", 0.7, 0.0, 1.0, "", "slope of lg elevation over lg contrast; 0.65 to 1 in use",
-                   kThesis)},
-    [](const ParameterValues& values) {
-      const double k1 = values.real("k1"), k2 = values.real("k2"), b = values.real("b"), s = values.real("s");
-      return Masking{[=](double c) { return elevationDaly(c, k1, k2, b, s); },
-                     [=](double c) { return transducerDaly(c, k1, k2, b, s); }};
-    }}};
+const SettingsTable<NoMasking>& NoMasking::table() {
+  static const SettingsTable<NoMasking> kTable = {};
+  return kTable;
+}
 
-const Registered<MaskingInfo> kLubin{MaskingInfo{
-    "lubin",
-    "Transducer 2 c^n / (c^(n-w) + 1): facilitates near threshold. The elevation c / transducer, which grows "
-    "without bound towards c = 0, is held below 1e-6.",
-    "Lubin 1995; Schwarz 2009, (9.8)",
-    {realParameter("n", 2.2, 1.0, 4.0, "", "exponent at low contrast; 2 to 2.5 published", kThesis),
-     realParameter("w", 0.2, 0.0, 0.99, "", "exponent at high contrast", kThesis)},
-    [](const ParameterValues& values) {
-      const double n = values.real("n"), w = values.real("w");
-      return Masking{[=](double c) {
+const SettingsTable<DalyMasking>& DalyMasking::table() {
+  using S = DalyMasking;
+  static const SettingsTable<S> kTable = {
+      {&S::k1, "k1", {1e-6, 1e3}, "", "with k2, the contrast at which masking sets in", kThesis},
+      {&S::k2, "k2", {1e-6, 1e6}, "", "with k1, the contrast at which masking sets in", kThesis},
+      {&S::b, "b", {0.1, 100.0}, "", "how sharply masking sets in", kThesis},
+      {&S::s, "s", {0.0, 1.0}, "", "slope of lg elevation over lg contrast; 0.65 to 1 in use", kThesis}};
+  return kTable;
+}
+
+const SettingsTable<LubinMasking>& LubinMasking::table() {
+  using S = LubinMasking;
+  static const SettingsTable<S> kTable = {
+      {&S::n, "n", {1.0, 4.0}, "", "exponent at low contrast; 2 to 2.5 published", kThesis},
+      {&S::w, "w", {0.0, 0.99}, "", "exponent at high contrast", kThesis}};
+  return kTable;
+}
+
+const SettingsTable<SelfMasking>& SelfMasking::table() {
+  static const SettingsTable<SelfMasking> kTable = {
+      {&SelfMasking::alpha, "alpha", {0.05, 1.0}, "", "exponent; 0.7 in the thesis, 0.3 elsewhere", kThesis}};
+  return kTable;
+}
+
+const SettingsTable<SchwarzMasking>& SchwarzMasking::table() {
+  using S = SchwarzMasking;
+  static const SettingsTable<S> kTable = {
+      {&S::b, "b", {0.1, 100.0}, "", "how sharply masking sets in", kThesis},
+      {&S::s, "s", {0.0, 1.0}, "", "slope of lg elevation over lg contrast", kThesis}};
+  return kTable;
+}
+
+namespace {
+
+const RegisteredMasking<NoMasking> kNone{
+    {.name = "none", .summary = "No masking: the response is the contrast.", .source = ""},
+    [](const NoMasking&) {
+      return Masking{[](double c) { return refused(c) ? 0.0 : 1.0; },
+                     [](double c) { return refused(c) ? 0.0 : c; }};
+    }};
+
+const RegisteredMasking<DalyMasking> kDaly{
+    {.name = "daly",
+     .summary = "Threshold elevation (1 + (k1 (k2 c)^s)^b)^(1/b); 1 at low contrast, c^s at high.",
+     .source = "Daly 1993; Schwarz 2009, (9.7)"},
+    [](const DalyMasking& k) {
+      return Masking{[k](double c) { return elevationDaly(c, k.k1, k.k2, k.b, k.s); },
+                     [k](double c) { return transducerDaly(c, k.k1, k.k2, k.b, k.s); }};
+    }};
+
+const RegisteredMasking<LubinMasking> kLubin{
+    {.name = "lubin",
+     .summary =
+         "Transducer 2 c^n / (c^(n-w) + 1): facilitates near threshold. The elevation c / transducer, which "
+         "grows without bound towards c = 0, is held below 1e-6.",
+     .source = "Lubin 1995; Schwarz 2009, (9.8)"},
+    [](const LubinMasking& k) {
+      return Masking{[k](double c) {
                        if (refused(c)) return 0.0;
                        const double x = std::max(std::abs(c), kLeastContrast);
-                       return x / transducerLubin(x, n, w);
+                       return x / transducerLubin(x, k.n, k.w);
                      },
-                     [=](double c) { return transducerLubin(c, n, w); }};
-    }}};
+                     [k](double c) { return transducerLubin(c, k.n, k.w); }};
+    }};
 
-const Registered<MaskingInfo> kSelf{MaskingInfo{
-    "self",
-    "Self-masking of JPEG 2000: sign(c) |c|^alpha. Its elevation |c|^(1 - alpha) is below 1 for c < 1.",
-    "Zeng, Daly and Lei 2002; Schwarz 2009, section 9.1.2",
-    {realParameter("alpha", 0.7, 0.05, 1.0, "", "exponent; 0.7 in the thesis, 0.3 elsewhere", kThesis)},
-    [](const ParameterValues& values) {
-      const double alpha = values.real("alpha");
-      return Masking{[=](double c) { return refused(c) ? 0.0 : std::pow(std::abs(c), 1.0 - alpha); },
-                     [=](double c) { return selfMask(c, alpha); }};
-    }}};
+const RegisteredMasking<SelfMasking> kSelf{
+    {.name = "self",
+     .summary =
+         "Self-masking of JPEG 2000: sign(c) |c|^alpha. Its elevation |c|^(1 - alpha) is below 1 for c < 1.",
+     .source = "Zeng, Daly and Lei 2002; Schwarz 2009, section 9.1.2"},
+    [](const SelfMasking& k) {
+      return Masking{[k](double c) { return refused(c) ? 0.0 : std::pow(std::abs(c), 1.0 - k.alpha); },
+                     [k](double c) { return selfMask(c, k.alpha); }};
+    }};
 
-const Registered<MaskingInfo> kSchwarz{
-    MaskingInfo{"schwarz",
-                "Transducer c / (1 + |c|^(s b))^(1/b): the identity at low contrast, |c|^(1 - s) at high.",
-                "Schwarz 2009, (9.9)",
-                {realParameter("b", 10.0, 0.1, 100.0, "", "how sharply masking sets in", kThesis),
-                 realParameter("s", 0.3, 0.0, 1.0, "", "slope of lg elevation over lg contrast", kThesis)},
-                [](const ParameterValues& values) {
-                  // (9.9) is (9.7) with k1 = k2 = 1.
-                  const double b = values.real("b"), s = values.real("s");
-                  return Masking{[=](double c) { return elevationDaly(c, 1.0, 1.0, b, s); },
-                                 [=](double c) { return transducerDaly(c, 1.0, 1.0, b, s); }};
-                }}};
+const RegisteredMasking<SchwarzMasking> kSchwarz{
+    {.name = "schwarz",
+     .summary = "Transducer c / (1 + |c|^(s b))^(1/b): the identity at low contrast, |c|^(1 - s) at high.",
+     .source = "Schwarz 2009, (9.9)"},
+    [](const SchwarzMasking& k) {
+      // (9.9) is (9.7) with k1 = k2 = 1.
+      return Masking{[k](double c) { return elevationDaly(c, 1.0, 1.0, k.b, k.s); },
+                     [k](double c) { return transducerDaly(c, 1.0, 1.0, k.b, k.s); }};
+    }};
 
 }  // namespace
 }  // namespace limen::perception

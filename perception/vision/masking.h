@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/chosen_entry.h"
+#include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 
 /// Contrast masking within a channel. Contrasts c are CSF-normalised (1: just visible). All are finite for
 /// any finite argument; NaN and infinity give 0. Source: Schwarz 2009, section 9.1.2.
@@ -38,10 +40,48 @@ struct MaskingInfo {
   std::string name;
   std::string summary;
   std::string source;
-  std::vector<Parameter> parameters;
-  std::function<Masking(const ParameterValues&)> make;
+  ParameterList parameters = {};
+  std::function<Masking(const ParameterValues&)> make = {};
 };
 using MaskingRegistry = Registry<MaskingInfo>;
+
+/// Registers a model with constants S at program start. `info` says the rest; its parameters and make are
+/// filled in.
+template <class S>
+struct RegisteredMasking {
+  RegisteredMasking(MaskingInfo info, Masking (*make)(const S&)) {
+    info.parameters = ParameterList([] { return S::table().parameters(); });
+    info.make = [make](const ParameterValues& values) { return make(S::table().read(values)); };
+    MaskingRegistry::instance().add(std::move(info));
+  }
+};
+
+/// Throws Error naming the nearest known model.
+Masking makeMasking(const ChosenEntry& chosen, const std::string& where = {});
+/// The model with its default constants.
 Masking makeMasking(const std::string& name, const std::string& where = {});
+
+// Constants of the models.
+struct NoMasking {
+  static const SettingsTable<NoMasking>& table();
+};
+struct DalyMasking {
+  double k1 = 0.0153, k2 = 392.498, b = 4.0, s = 0.7;
+  static const SettingsTable<DalyMasking>& table();
+};
+struct LubinMasking {
+  double n = 2.2, w = 0.2;
+  static const SettingsTable<LubinMasking>& table();
+};
+struct SelfMasking {
+  double alpha = 0.7;
+  static const SettingsTable<SelfMasking>& table();
+};
+struct SchwarzMasking {
+  double b = 10.0, s = 0.3;
+  static const SettingsTable<SchwarzMasking>& table();
+};
+/// (9.9) as the thesis has it: elevation (1 + |c|^3)^(1/10), for which there is a faster form.
+bool isCubic(const ChosenEntry& masking);
 
 }  // namespace limen::perception

@@ -18,40 +18,78 @@ const char* const kAdaptSection = "Schwarz 2009, section 10.3";
 const std::vector<CsfArgument> kMotionArguments = {frequencyArgument(0.05, 60.0),
                                                    velocityArgument(0.1, 32.0)};
 
-Parameter leastVelocity() {
-  return realParameter("least_velocity", 0.0, 0.0, 10.0, "deg/s",
-                       "slower motion counts as this; 0: a stabilised image vanishes, as the model says",
-                       "Schwarz 2009, section 9.1.1: about 0.15 for fixation");
-}
+struct LeastVelocity {
+  double degS = 0.0;
+  static const SettingsTable<LeastVelocity>& table() {
+    static const SettingsTable<LeastVelocity> kTable = {
+        {&LeastVelocity::degS,
+         "least_velocity",
+         {0.0, 10.0},
+         "deg/s",
+         "slower motion counts as this; 0: a stabilised image vanishes, as the model says",
+         "Schwarz 2009, section 9.1.1: about 0.15 for fixation"}};
+    return kTable;
+  }
+};
 
-const Registered<CsfInfo> kKelly79{CsfInfo{
-    "kelly79",
-    1,
-    "Spatio-velocity surface of stabilised vision. Beyond its range extrapolated; 0 at rest.",
-    "Kelly 1979; Schwarz 2009, (9.3)",
-    Channel::Achromatic,
-    kMotionArguments,
-    {gainParameter(), leastVelocity(), realParameter("k1", 6.1, 0.0, 1e3, "", "height at 3 deg/s", kSection),
-     realParameter("k2", 7.3, 0.0, 1e3, "", "rise of the height away from 3 deg/s", kSection),
-     realParameter("k3", 45.9, 0.1, 1e3, "deg/s cpd", "band: frequency times speed", kSection)},
-    [](const ParameterValues& values) {
-      const Kelly79Constants k = {values.real("k1"), values.real("k2"), values.real("k3")};
-      const double least = values.real("least_velocity");
-      return makeFunctionCsf(values, [k, least](const CsfPoint& p) {
+struct Kelly79Settings {
+  CsfGain gain;
+  LeastVelocity least;
+  double k1 = Kelly79Constants{}.k1, k2 = Kelly79Constants{}.k2, k3 = Kelly79Constants{}.k3;
+  static const SettingsTable<Kelly79Settings>& table() {
+    using S = Kelly79Settings;
+    static const SettingsTable<S> kTable = {
+        included(&S::gain),
+        included(&S::least),
+        {&S::k1, "k1", {0.0, 1e3}, "", "height at 3 deg/s", kSection},
+        {&S::k2, "k2", {0.0, 1e3}, "", "rise of the height away from 3 deg/s", kSection},
+        {&S::k3, "k3", {0.1, 1e3}, "deg/s cpd", "band: frequency times speed", kSection}};
+    return kTable;
+  }
+};
+
+const RegisteredCsf<Kelly79Settings> kKelly79{
+    {.name = "kelly79",
+     .summary = "Spatio-velocity surface of stabilised vision. Beyond its range extrapolated; 0 at rest.",
+     .source = "Kelly 1979; Schwarz 2009, (9.3)",
+     .arguments = kMotionArguments},
+    [](const Kelly79Settings& s) {
+      const Kelly79Constants k = {s.k1, s.k2, s.k3};
+      return makeFunctionCsf(s.gain, [k, least = s.least.degS](const CsfPoint& p) {
         return csfKelly79(p.frequencyCpd, std::max(std::abs(p.velocityDegS), least), k);
       });
-    }}};
+    }};
+
+struct Daly98Settings {
+  CsfGain gain;
+  LeastVelocity least;
+  double c0 = 1.14, c1 = 0.67, c2 = 1.7;
+  bool adapt = true;
+  double referenceCdM2 = 100.0;  ///< where c0 and c1 hold
+  static const SettingsTable<Daly98Settings>& table() {
+    using S = Daly98Settings;
+    static const SettingsTable<S> kTable = {
+        included(&S::gain),
+        included(&S::least),
+        {&S::c0, "c0", {0.0, 100.0}, "", "height, at the reference luminance"},
+        {&S::c1, "c1", {0.01, 100.0}, "", "frequency scale, at the reference luminance"},
+        {&S::c2, "c2", {0.01, 100.0}, "", "velocity scale"},
+        {&S::adapt, "adapt", "c0 and c1 follow the luminance as Barten 2003 moves its peak", kAdaptSection},
+        {&S::referenceCdM2, "reference_luminance", {1e-4, 1e4}, "cd/m2", "where c0 and c1 hold"}};
+    return kTable;
+  }
+};
 
 class Daly98 : public Csf {
  public:
-  explicit Daly98(const ParameterValues& values)
-      : gain_(values.real("gain")),
-        c0_(values.real("c0")),
-        c1_(values.real("c1")),
-        c2_(values.real("c2")),
-        least_(values.real("least_velocity")),
-        reference_(values.real("reference_luminance")),
-        adapt_(values.boolean("adapt")) {}
+  explicit Daly98(const Daly98Settings& s)
+      : gain_(s.gain.value),
+        c0_(s.c0),
+        c1_(s.c1),
+        c2_(s.c2),
+        least_(s.least.degS),
+        reference_(s.referenceCdM2),
+        adapt_(s.adapt) {}
 
   double sensitivity(const CsfPoint& p) const override {
     if (adapt_ && (std::isnan(p.luminanceCdM2) || std::isnan(p.areaDeg2))) return 0.0;
@@ -92,72 +130,83 @@ class Daly98 : public Csf {
   bool adapt_;
 };
 
-CsfInfo daly98(const char* name, const char* summary, const char* source, double c0, double c1, double c2,
-               const char* constantsSource, double referenceCdM2) {
-  CsfInfo info;
-  info.name = name;
-  info.summary = summary;
-  info.source = source;
-  info.arguments = kMotionArguments;
-  info.arguments.push_back(luminanceArgument(1e-4, 1e4));
-  info.arguments.push_back(areaArgument(0.05, 3600.0));
-  info.parameters = {
-      gainParameter(),
-      leastVelocity(),
-      realParameter("c0", c0, 0.0, 100.0, "", "height, at the reference luminance", constantsSource),
-      realParameter("c1", c1, 0.01, 100.0, "", "frequency scale, at the reference luminance",
-                    constantsSource),
-      realParameter("c2", c2, 0.01, 100.0, "", "velocity scale", constantsSource),
-      booleanParameter("adapt", true, "c0 and c1 follow the luminance as Barten 2003 moves its peak",
-                       kAdaptSection),
-      realParameter("reference_luminance", referenceCdM2, 1e-4, 1e4, "cd/m2", "where c0 and c1 hold",
-                    constantsSource)};
-  info.make = [](const ParameterValues& values) -> std::unique_ptr<Csf> {
-    return std::make_unique<Daly98>(values);
-  };
-  return info;
+std::vector<CsfArgument> daly98Arguments() {
+  std::vector<CsfArgument> out = kMotionArguments;
+  out.push_back(luminanceArgument(1e-4, 1e4));
+  out.push_back(areaArgument(0.05, 3600.0));
+  return out;
 }
 
-const Registered<CsfInfo> kDaly98{daly98("daly98",
-                                         "Kelly 1979 for natural viewing, adapted to luminance. Beyond its "
-                                         "range extrapolated; 0 at rest; luminance "
-                                         "is held to [1e-4, 1e4] cd/m2.",
-                                         "Daly 1998; Schwarz 2009, (9.4) and section 10.3", 1.14, 0.67, 1.7,
-                                         kSection, 100.0)};
+std::unique_ptr<Csf> makeDaly98(const Daly98Settings& settings) { return std::make_unique<Daly98>(settings); }
+
+const RegisteredCsf<Daly98Settings> kDaly98{
+    {.name = "daly98",
+     .summary = "Kelly 1979 for natural viewing, adapted to luminance. Beyond its range extrapolated; 0 at "
+                "rest; luminance is held to [1e-4, 1e4] cd/m2.",
+     .source = "Daly 1998; Schwarz 2009, (9.4) and section 10.3",
+     .arguments = daly98Arguments()},
+    &makeDaly98};
 
 // The height is that of (9.4); one public implementation multiplies it by c1 once more. Only `gain` would
 // differ.
-const Registered<CsfInfo> kLaird06{
-    daly98("laird06",
-           "Daly 1998 fitted anew to unstabilised moving Gabor patches at 60 cd/m2, adapted to luminance "
-           "from there. "
-           "Beyond its range extrapolated; 0 at rest; luminance is held to [1e-4, 1e4] cd/m2.",
-           "Laird, Rosen, Pelz, Montag and Daly 2006 (doi 10.1117/12.647870)", 0.6329, 0.8404, 0.7986,
-           "Laird et al. 2006", 60.0)};
+const RegisteredCsf<Daly98Settings> kLaird06{
+    {.name = "laird06",
+     .summary =
+         "Daly 1998 fitted anew to unstabilised moving Gabor patches at 60 cd/m2, adapted to luminance from "
+         "there. Beyond its range extrapolated; 0 at rest; luminance is held to [1e-4, 1e4] cd/m2.",
+     .source = "Laird, Rosen, Pelz, Montag and Daly 2006 (doi 10.1117/12.647870)",
+     .arguments = daly98Arguments()},
+    &makeDaly98,
+    {.gain = {}, .least = {}, .c0 = 0.6329, .c1 = 0.8404, .c2 = 0.7986, .referenceCdM2 = 60.0}};
 
-const Registered<CsfInfo> kBurbeckKelly80{
-    CsfInfo{"burbeck_kelly80",
-            1,
-            "Excitation less inhibition, each a product of a spatial and a temporal part. Beyond its range "
-            "extrapolated; 0 at rest and where inhibition exceeds excitation.",
-            "Burbeck and Kelly 1980; Schwarz 2009, section 9.1.1",
-            Channel::Achromatic,
-            kMotionArguments,
-            {gainParameter(), leastVelocity()},
-            [](const ParameterValues& values) {
-              const double least = values.real("least_velocity");
-              return makeFunctionCsf(values, [least](const CsfPoint& p) {
-                return csfBurbeckKelly80(p.frequencyCpd, std::max(std::abs(p.velocityDegS), least));
-              });
-            }}};
+struct BurbeckKellySettings {
+  CsfGain gain;
+  LeastVelocity least;
+  static const SettingsTable<BurbeckKellySettings>& table() {
+    static const SettingsTable<BurbeckKellySettings> kTable = {included(&BurbeckKellySettings::gain),
+                                                               included(&BurbeckKellySettings::least)};
+    return kTable;
+  }
+};
+
+const RegisteredCsf<BurbeckKellySettings> kBurbeckKelly80{
+    {.name = "burbeck_kelly80",
+     .summary =
+         "Excitation less inhibition, each a product of a spatial and a temporal part. Beyond its range "
+         "extrapolated; 0 at rest and where inhibition exceeds excitation.",
+     .source = "Burbeck and Kelly 1980; Schwarz 2009, section 9.1.1",
+     .arguments = kMotionArguments},
+    [](const BurbeckKellySettings& s) {
+      return makeFunctionCsf(s.gain, [least = s.least.degS](const CsfPoint& p) {
+        return csfBurbeckKelly80(p.frequencyCpd, std::max(std::abs(p.velocityDegS), least));
+      });
+    }};
+
+struct Kelly83Settings {
+  CsfGain gain;
+  LeastVelocity least;
+  bool adapt = true;
+  double referenceCdM2 = 35.0;  ///< where the scale is 1
+  static const SettingsTable<Kelly83Settings>& table() {
+    using S = Kelly83Settings;
+    static const SettingsTable<S> kTable = {
+        included(&S::gain),
+        included(&S::least),
+        {&S::adapt, "adapt", "sensitivity follows the root of retinal illuminance", kAdaptSection},
+        {&S::referenceCdM2,
+         "reference_luminance",
+         {1e-4, 1e4},
+         "cd/m2",
+         "where the scale is 1",
+         kAdaptSection}};
+    return kTable;
+  }
+};
 
 class Kelly83 : public Csf {
  public:
-  explicit Kelly83(const ParameterValues& values)
-      : gain_(values.real("gain")),
-        least_(values.real("least_velocity")),
-        reference_(values.real("reference_luminance")),
-        adapt_(values.boolean("adapt")) {}
+  explicit Kelly83(const Kelly83Settings& s)
+      : gain_(s.gain.value), least_(s.least.degS), reference_(s.referenceCdM2), adapt_(s.adapt) {}
   double sensitivity(const CsfPoint& p) const override {
     if (adapt_ && std::isnan(p.luminanceCdM2)) return 0.0;
     const double scale = adapt_ ? chromaticScale(p.luminanceCdM2, reference_) : 1.0;
@@ -170,19 +219,18 @@ class Kelly83 : public Csf {
 };
 
 // One function serves both chromatic axes; registered as red-green, which Kelly measured.
-const Registered<CsfInfo> kKelly83{CsfInfo{
-    "kelly83",
-    1,
-    "Chromatic: excitation plus inhibition, low-pass above 0.5 cpd, times the root of retinal illuminance. "
-    "Serves red-green and blue-yellow alike. Beyond its range extrapolated; 0 at rest; luminance is held to "
-    "[1e-4, 1e4] cd/m2.",
-    "Kelly 1983; Schwarz 2009, (9.5) and section 10.3",
-    Channel::RedGreen,
-    {frequencyArgument(0.05, 60.0), velocityArgument(0.1, 32.0), luminanceArgument(1e-4, 1e4)},
-    {gainParameter(), leastVelocity(),
-     booleanParameter("adapt", true, "sensitivity follows the root of retinal illuminance", kAdaptSection),
-     realParameter("reference_luminance", 35.0, 1e-4, 1e4, "cd/m2", "where the scale is 1", kAdaptSection)},
-    [](const ParameterValues& values) -> std::unique_ptr<Csf> { return std::make_unique<Kelly83>(values); }}};
+const RegisteredCsf<Kelly83Settings> kKelly83{
+    {.name = "kelly83",
+     .summary =
+         "Chromatic: excitation plus inhibition, low-pass above 0.5 cpd, times the root of retinal "
+         "illuminance. Serves red-green and blue-yellow alike. Beyond its range extrapolated; 0 at rest; "
+         "luminance is held to [1e-4, 1e4] cd/m2.",
+     .source = "Kelly 1983; Schwarz 2009, (9.5) and section 10.3",
+     .channel = Channel::RedGreen,
+     .arguments = {frequencyArgument(0.05, 60.0), velocityArgument(0.1, 32.0), luminanceArgument(1e-4, 1e4)}},
+    [](const Kelly83Settings& settings) -> std::unique_ptr<Csf> {
+      return std::make_unique<Kelly83>(settings);
+    }};
 
 }  // namespace
 }  // namespace limen::perception

@@ -89,79 +89,163 @@ double csfStela(double rho, double omega, double l, double areaDeg2, double ecce
 
 namespace {
 
-std::string numbered(const std::string& name, size_t i) { return name + std::to_string(i + 1); }
+// The transient mechanism has a power law instead of hyperbolas, and one peak frequency at all luminances:
+// the constants that would be 0 are no settings of it.
+struct TransientSettings {
+  double gain1 = 0.0, gain3 = 0.0, frequency1 = 0.0;
+  double bandwidth = 0.0, truncation = 0.0, areaLimit = 0.0, corner = 0.0;
+  double width = 0.0, exponent = 0.0, hz = 0.0, slope = 0.0;
+  static const SettingsTable<TransientSettings>& table();
+};
+struct SustainedSettings {
+  double gain1 = 0.0, gain2 = 0.0, gain3 = 0.0, gain4 = 0.0, gain5 = 0.0;
+  double frequency1 = 0.0, frequency2 = 0.0, frequency3 = 0.0;
+  double bandwidth = 0.0, truncation = 0.0, areaLimit = 0.0, corner = 0.0;
+  double width = 0.0, exponent = 0.0;
+  static const SettingsTable<SustainedSettings>& table();
+};
+struct StelaSettings {
+  CsfGain gain;
+  SustainedSettings sustained;
+  TransientSettings transient;
+  double drop = 0.0, dropPerCpd = 0.0;
+  static const SettingsTable<StelaSettings>& table();
+};
 
-/// Declares the constants or, given values, reads them: one list serves both, so that they cannot drift
-/// apart.
-template <class Visit>
-void visitConstants(StelaConstants& k, Visit&& visit) {
-  const auto channelConstants = [&](const std::string& prefix, StelaChannel& c) {
-    // The transient mechanism has a power law instead of hyperbolas, and one peak frequency at all
-    // luminances.
-    for (size_t i = 0; i < c.gain.size(); ++i)
-      if (c.gain[1] > 0.0 || i == 0 || i == 2)
-        visit(numbered(prefix + "gain", i), c.gain[i], 1e12, "", "gain over luminance");
-    for (size_t i = 0; i < c.frequency.size(); ++i)
-      if (c.frequency[1] > 0.0 || i == 0)
-        visit(numbered(prefix + "frequency", i), c.frequency[i], 1e6, "", "peak frequency over luminance");
-    visit(prefix + "bandwidth", c.bandwidth, 20.0, "", "lg 2 of the log-parabola's width");
-    visit(prefix + "truncation", c.truncation, 1.0, "", "largest fall below the peak frequency");
-    visit(prefix + "area_limit", c.area, 1e6, "deg2", "largest area that is integrated over");
-    visit(prefix + "corner", c.cornerCpd, 1e3, "cpd", "frequency above which that area shrinks");
-  };
-  channelConstants("sustained_", k.sustained);
-  visit("sustained_width", k.sustainedWidth, 1e6, "", "decay with temporal frequency");
-  visit("sustained_exponent", k.sustainedExponent, 10.0, "", "decay with temporal frequency");
-  channelConstants("transient_", k.transient);
-  visit("transient_width", k.transientWidth, 1e6, "", "width around its best temporal frequency");
-  visit("transient_exponent", k.transientExponent, 10.0, "", "width around its best temporal frequency");
-  visit("transient_hz", k.transientHz, 1e3, "Hz", "best temporal frequency at 1 cd/m2");
-  visit("transient_slope", k.transientSlope, 1e3, "Hz", "change of it with lg luminance");
-  visit("drop", k.drop, 10.0, "1/deg", "lg loss with eccentricity, nasal field");
-  visit("drop_per_cpd", k.dropPerCpd, 10.0, "1/(deg cpd)", "lg loss with eccentricity and frequency");
+constexpr const char *kGain = "gain over luminance", *kFrequency = "peak frequency over luminance",
+                     *kDecay = "decay with temporal frequency",
+                     *kWidth = "width around its best temporal frequency";
+
+Binding<SustainedSettings> constant(double SustainedSettings::*member, const char* name, double most,
+                                    const char* unit, const char* description) {
+  return {member, name, Range{0.0, most}, unit, description};
+}
+Binding<TransientSettings> constant(double TransientSettings::*member, const char* name, double most,
+                                    const char* unit, const char* description) {
+  return {member, name, Range{0.0, most}, unit, description};
 }
 
-CsfInfo info(const char* name, const StelaConstants& constants, const char* summary, const char* source) {
-  CsfInfo out;
-  out.name = name;
-  out.summary = summary;
-  out.source = source;
-  out.arguments = {frequencyArgument(0.0625, 64.0), velocityArgument(0.0, 1000.0),
-                   luminanceArgument(1e-3, 1e4), areaArgument(0.001, 1e4),
-                   CsfArgument{"eccentricity_deg", "deg", 0.0, 60.0}};
-  out.parameters = {gainParameter()};
-  StelaConstants declared = constants;
-  visitConstants(declared, [&](const std::string& constant, double& value, double high, const char* unit,
-                               const char* description) {
-    out.parameters.push_back(realParameter(constant, value, 0.0, high, unit, description, source));
-  });
-  out.make = [constants](const ParameterValues& values) {
-    StelaConstants k = constants;
-    visitConstants(k, [&](const std::string& constant, double& value, double, const char*, const char*) {
-      value = values.real(constant);
-    });
-    return makeFunctionCsf(values, [k](const CsfPoint& p) {
-      return csfStela(p.frequencyCpd, p.frequencyCpd * p.velocityDegS, p.luminanceCdM2, p.areaDeg2,
-                      p.eccentricityDeg, k);
-    });
-  };
+const SettingsTable<SustainedSettings>& SustainedSettings::table() {
+  using S = SustainedSettings;
+  static const SettingsTable<S> kTable = {
+      constant(&S::gain1, "gain1", 1e12, "", kGain),
+      constant(&S::gain2, "gain2", 1e12, "", kGain),
+      constant(&S::gain3, "gain3", 1e12, "", kGain),
+      constant(&S::gain4, "gain4", 1e12, "", kGain),
+      constant(&S::gain5, "gain5", 1e12, "", kGain),
+      constant(&S::frequency1, "frequency1", 1e6, "", kFrequency),
+      constant(&S::frequency2, "frequency2", 1e6, "", kFrequency),
+      constant(&S::frequency3, "frequency3", 1e6, "", kFrequency),
+      constant(&S::bandwidth, "bandwidth", 20.0, "", "lg 2 of the log-parabola's width"),
+      constant(&S::truncation, "truncation", 1.0, "", "largest fall below the peak frequency"),
+      constant(&S::areaLimit, "area_limit", 1e6, "deg2", "largest area that is integrated over"),
+      constant(&S::corner, "corner", 1e3, "cpd", "frequency above which that area shrinks"),
+      constant(&S::width, "width", 1e6, "", kDecay),
+      constant(&S::exponent, "exponent", 10.0, "", kDecay)};
+  return kTable;
+}
+
+const SettingsTable<TransientSettings>& TransientSettings::table() {
+  using S = TransientSettings;
+  static const SettingsTable<S> kTable = {
+      constant(&S::gain1, "gain1", 1e12, "", kGain),
+      constant(&S::gain3, "gain3", 1e12, "", kGain),
+      constant(&S::frequency1, "frequency1", 1e6, "", kFrequency),
+      constant(&S::bandwidth, "bandwidth", 20.0, "", "lg 2 of the log-parabola's width"),
+      constant(&S::truncation, "truncation", 1.0, "", "largest fall below the peak frequency"),
+      constant(&S::areaLimit, "area_limit", 1e6, "deg2", "largest area that is integrated over"),
+      constant(&S::corner, "corner", 1e3, "cpd", "frequency above which that area shrinks"),
+      constant(&S::width, "width", 1e6, "", kWidth),
+      constant(&S::exponent, "exponent", 10.0, "", kWidth),
+      constant(&S::hz, "hz", 1e3, "Hz", "best temporal frequency at 1 cd/m2"),
+      constant(&S::slope, "slope", 1e3, "Hz", "change of it with lg luminance")};
+  return kTable;
+}
+
+const SettingsTable<StelaSettings>& StelaSettings::table() {
+  using S = StelaSettings;
+  static const SettingsTable<S> kTable = {
+      included(&S::gain),
+      {&S::sustained, "sustained", "mechanism of slow changes"},
+      {&S::transient, "transient", "mechanism of fast changes"},
+      {&S::drop, "drop", {0.0, 10.0}, "1/deg", "lg loss with eccentricity, nasal field"},
+      {&S::dropPerCpd,
+       "drop_per_cpd",
+       {0.0, 10.0},
+       "1/(deg cpd)",
+       "lg loss with eccentricity and frequency"}};
+  return kTable;
+}
+
+StelaSettings settingsOf(const StelaConstants& k) {
+  const StelaChannel &s = k.sustained, &t = k.transient;
+  StelaSettings out;
+  out.sustained = {s.gain[0],      s.gain[1],      s.gain[2],        s.gain[3],          s.gain[4],
+                   s.frequency[0], s.frequency[1], s.frequency[2],   s.bandwidth,        s.truncation,
+                   s.area,         s.cornerCpd,    k.sustainedWidth, k.sustainedExponent};
+  out.transient = {t.gain[0],   t.gain[2],        t.frequency[0],      t.bandwidth,   t.truncation,    t.area,
+                   t.cornerCpd, k.transientWidth, k.transientExponent, k.transientHz, k.transientSlope};
+  out.drop = k.drop;
+  out.dropPerCpd = k.dropPerCpd;
   return out;
 }
 
-const Registered<CsfInfo> kStela{
-    info("stelacsf", kStela2022,
+StelaConstants constantsOf(const StelaSettings& settings) {
+  const SustainedSettings& s = settings.sustained;
+  const TransientSettings& t = settings.transient;
+  StelaConstants k{};
+  k.sustained = {{s.gain1, s.gain2, s.gain3, s.gain4, s.gain5},
+                 {s.frequency1, s.frequency2, s.frequency3},
+                 s.bandwidth,
+                 s.truncation,
+                 s.areaLimit,
+                 s.corner};
+  k.transient = {{t.gain1, 0.0, t.gain3, 0.0, 0.0},
+                 {t.frequency1, 0.0, 0.0},
+                 t.bandwidth,
+                 t.truncation,
+                 t.areaLimit,
+                 t.corner};
+  k.sustainedWidth = s.width, k.sustainedExponent = s.exponent;
+  k.transientWidth = t.width, k.transientExponent = t.exponent;
+  k.transientHz = t.hz, k.transientSlope = t.slope;
+  k.drop = settings.drop, k.dropPerCpd = settings.dropPerCpd;
+  return k;
+}
+
+std::unique_ptr<Csf> make(const StelaSettings& settings) {
+  return makeFunctionCsf(settings.gain, [k = constantsOf(settings)](const CsfPoint& p) {
+    return csfStela(p.frequencyCpd, p.frequencyCpd * p.velocityDegS, p.luminanceCdM2, p.areaDeg2,
+                    p.eccentricityDeg, k);
+  });
+}
+
+std::vector<CsfArgument> stelaArguments() {
+  return {frequencyArgument(0.0625, 64.0), velocityArgument(0.0, 1000.0), luminanceArgument(1e-3, 1e4),
+          areaArgument(0.001, 1e4), CsfArgument{"eccentricity_deg", "deg", 0.0, 60.0}};
+}
+
+const RegisteredCsf<StelaSettings> kStela{
+    {.name = "stelacsf",
+     .summary =
          "Fit to 11 studies of spatial and temporal frequency (speed times frequency), luminance, area and "
          "eccentricity. Beyond its range extrapolated; luminance is held to [1e-3, 1e4] cd/m2; 0 for an area "
          "of 0.",
-         "Mantiuk, Ashraf and Chapiro 2022, constants published with the paper")};
+     .source = "Mantiuk, Ashraf and Chapiro 2022, constants published with the paper",
+     .arguments = stelaArguments()},
+    &make,
+    settingsOf(kStela2022)};
 
-const Registered<CsfInfo> kCastle{info(
-    "castlecsf", kCastle2024,
-    "Achromatic mechanism of castleCSF, fit to 18 studies like stelaCSF with other constants and a transient "
-    "mechanism that slows in the dark. Beyond its range extrapolated; luminance is held to [1e-3, 1e4] "
-    "cd/m2; "
-    "0 for an area of 0.",
-    "Ashraf, Mantiuk, Chapiro and Wuerger 2024, constants published with the paper")};
+const RegisteredCsf<StelaSettings> kCastle{
+    {.name = "castlecsf",
+     .summary =
+         "Achromatic mechanism of castleCSF, fit to 18 studies like stelaCSF with other constants and a "
+         "transient mechanism that slows in the dark. Beyond its range extrapolated; luminance is held to "
+         "[1e-3, 1e4] cd/m2; 0 for an area of 0.",
+     .source = "Ashraf, Mantiuk, Chapiro and Wuerger 2024, constants published with the paper",
+     .arguments = stelaArguments()},
+    &make,
+    settingsOf(kCastle2024)};
 
 }  // namespace
 }  // namespace limen::perception

@@ -9,6 +9,7 @@
 
 #include "renderer/frame/compute_raster.h"
 #include "renderer/frame/gpu_scene.h"
+#include "renderer/frame/scene_on_gpu.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
 #include "renderer/gl/texture.h"
@@ -43,6 +44,9 @@ class Frame {
  public:
   Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gpuScene, glm::ivec2 sizePx,
         double timeS = 0.0, Raster raster = Raster::Auto);
+  Frame(gl::Context& context, const SceneOnGpu& onGpu, glm::ivec2 sizePx, double timeS = 0.0,
+        Raster raster = Raster::Auto)
+      : Frame(context, onGpu.scene, onGpu.gpu, sizePx, timeS, raster) {}
   /// Another view or another choice of levels within a frame of `parent`: inputs of its own, passes in the
   /// parent's list behind "`name`/". Starts at the parent's time with the finest levels; begin() it after its
   /// parent.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/frame/summed_area_table.h"
 
 namespace limen::frame {
@@ -13,6 +14,9 @@ enum class Prefilter {
   Sums,  ///< summed-area table: any rectangle
   Mips   ///< pyramid of averages: squares of a power of two, blended
 };
+constexpr EnumNames<Prefilter, 2> enumNames(Prefilter) {
+  return {{{{Prefilter::Sums, "sums"}, {Prefilter::Mips, "mips"}}}};
+}
 
 /// A square array of layers, and what averages over any part of each are taken from.
 class LayerAverages {

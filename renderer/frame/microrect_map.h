@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
@@ -10,6 +11,9 @@ namespace limen::frame {
 /// By which difference of depth a microrect prefers one neighbour to another. Schwarz 2009, section 4.5.2,
 /// takes the plain one; a share of the nearer depth keeps choices the same where a scene is farther off.
 enum class MergeMetric { Absolute, Relative };
+constexpr EnumNames<MergeMetric, 2> enumNames(MergeMetric) {
+  return {{{{MergeMetric::Absolute, "absolute"}, {MergeMetric::Relative, "relative"}}}};
+}
 
 /// What becomes of a microrect that is dropped on both axes, and so lies between four that are kept.
 enum class DiagonalMerge {
@@ -21,6 +25,9 @@ enum class DiagonalMerge {
   /// then comes forward.
   Nearest
 };
+constexpr EnumNames<DiagonalMerge, 2> enumNames(DiagonalMerge) {
+  return {{{{DiagonalMerge::Contained, "contained"}, {DiagonalMerge::Nearest, "nearest"}}}};
+}
 
 struct MergeRule {
   MergeMetric metric = MergeMetric::Absolute;

@@ -28,38 +28,33 @@ gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const Surfac
 
 std::string ShadedSetting::key() const {
   std::string out;
-  for (const double value : {ambient, diffuse, specular, shininess, double(background.x),
-                             double(background.y), double(background.z), double(shadowResolution), eyeDtS})
+  for (const double value :
+       {ambient, diffuse, specular, shininess, background, double(shadowResolution), eyeDtS})
     out += shortestNumber(value) + "/";
   for (const bool flag : {smoothNormals, pattern, shadow}) out += flag ? '1' : '0';
   return out;
 }
 
-std::vector<Parameter> ShadedSetting::parameters() {
-  return {
-      realParameter("ambient", 0.2, 0.0, 1.0, "", "Share of the albedo that is seen without a light"),
-      realParameter("diffuse", 0.8, 0.0, 1.0, "", "Share of the albedo by the cosine to the light"),
-      realParameter("specular", 0.0, 0.0, 4.0, "", "Strength of the highlight (Blinn-Phong)"),
-      realParameter("shininess", 32.0, 1.0, 4096.0, "", "Exponent of the highlight"),
-      realParameter("background", 0.05, 0.0, 1.0, "", "Linear grey where no surface is",
-                    "Schwarz 2009, section 10.4.1 (dark grey; value not given there)"),
-      booleanParameter("smooth_normals", true, "Normals of the vertices or the patch where a mesh has any",
-                       "Schwarz 2009, section 10.4.1"),
-      booleanParameter("pattern", true, "Solid textures of the scene's materials"),
-      booleanParameter("shadow", false, "Hard shadow of the first light")};
-}
-
-ShadedSetting ShadedSetting::from(const ParameterValues& values) {
-  ShadedSetting setting;
-  setting.ambient = values.real("ambient");
-  setting.diffuse = values.real("diffuse");
-  setting.specular = values.real("specular");
-  setting.shininess = values.real("shininess");
-  setting.background = glm::vec3(static_cast<float>(values.real("background")));
-  setting.smoothNormals = values.boolean("smooth_normals");
-  setting.pattern = values.boolean("pattern");
-  setting.shadow = values.boolean("shadow");
-  return setting;
+const SettingsTable<ShadedSetting>& ShadedSetting::table() {
+  using S = ShadedSetting;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::ambient, "ambient", Range{0.0, 1.0}, "", "Share of the albedo that is seen without a light")
+          .formerly({"ambient"}),
+      Binding(&S::diffuse, "diffuse", Range{0.0, 1.0}, "", "Share of the albedo by the cosine to the light")
+          .formerly({"diffuse"}),
+      Binding(&S::specular, "specular", Range{0.0, 4.0}, "", "Strength of the highlight (Blinn-Phong)")
+          .formerly({"specular"}),
+      Binding(&S::shininess, "shininess", Range{1.0, 4096.0}, "", "Exponent of the highlight")
+          .formerly({"shininess"}),
+      Binding(&S::background, "background", Range{0.0, 1.0}, "", "Linear grey where no surface is",
+              "Schwarz 2009, section 10.4.1 (dark grey; value not given there)")
+          .formerly({"background"}),
+      Binding(&S::smoothNormals, "smooth_normals",
+              "Normals of the vertices or the patch where a mesh has any", "Schwarz 2009, section 10.4.1")
+          .formerly({"smooth_normals"}),
+      Binding(&S::pattern, "pattern", "Solid textures of the scene's materials").formerly({"pattern"}),
+      Binding(&S::shadow, "shadow", "Hard shadow of the first light").formerly({"shadow"})};
+  return kTable;
 }
 
 Shaded::Shaded(Frame& frame, ShadedSetting setting)
@@ -85,7 +80,7 @@ void Shaded::make(Frame& frame) {
   program_.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
   program_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
   program_.set("sizePx", frame.sizePx());
-  program_.set("background", setting_.background);
+  program_.set("background", glm::vec3(static_cast<float>(setting_.background)));
   program_.set("ambient", static_cast<float>(setting_.ambient));
   program_.set("diffuse", static_cast<float>(setting_.diffuse));
   program_.set("specular", static_cast<float>(setting_.specular));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-#include <vector>
+#include <string>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 
@@ -20,7 +19,7 @@ struct ShadedSetting {
   double diffuse = 0.8;   ///< share by the cosine to the light's centre; no fall-off with distance
   double specular = 0.0;  ///< Blinn-Phong highlight, added
   double shininess = 32.0;
-  glm::vec3 background{0.05F};  ///< linear; 0.05 is the dark grey 63 of 255 of sRGB
+  double background = 0.05;     ///< linear grey; 0.05 is the dark grey 63 of 255 of sRGB
   bool smoothNormals = true;    ///< vertex or patch normals where the mesh has them
   bool pattern = true;          ///< solid textures of the materials
   bool shadow = false;          ///< hard shadow by a map of frame.casters() from the light's centre
@@ -28,11 +27,15 @@ struct ShadedSetting {
   double eyeDtS = 0.0;          ///< highlights as the camera saw them this long ago
   std::string key() const;
 
-  /// Declared parameters that shadedSetting() reads: ambient, diffuse, specular, shininess, background,
-  /// smooth_normals, pattern, shadow.
-  static std::vector<Parameter> parameters();
-  static ShadedSetting from(const ParameterValues& values);
+  /// Of all but shadowResolution and eyeDtS, which are up to whoever asks for the picture.
+  static const SettingsTable<ShadedSetting>& table();
 };
+
+/// The line `shading` in the table of whatever shades.
+template <class S>
+Binding<S> shadingBinding(ShadedSetting S::*member) {
+  return {member, "shading", "How the picture is lit"};
+}
 
 /// The picture of a frame: RGBA32F, row 0 at the top, linear display-referred radiance (0..1 for albedos and
 /// lighting shares that sum to 1; highlights may pass 1), alpha 1. Background pixels hold the setting's

@@ -20,7 +20,6 @@ namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
 
 constexpr const char* kUnionName = "soft_shadows/exact_union";
 
@@ -68,9 +67,23 @@ bool bound(ConvexRegion& region, glm::dvec3 n, glm::dvec3 p, double offset, glm:
   return true;
 }
 
+struct ExactUnionSettings {
+  int64_t maxTriangles = 20000;
+  static const SettingsTable<ExactUnionSettings>& table() {
+    static const SettingsTable<ExactUnionSettings> kTable = {
+        {&ExactUnionSettings::maxTriangles,
+         "max_triangles",
+         {1, 10000000},
+         "triangles",
+         "Scenes with more triangles are refused: time grows with triangles times pixels"}};
+    return kTable;
+  }
+};
+
 class ExactUnion : public techniques::Technique {
  public:
-  explicit ExactUnion(const ParameterValues& values) : maxTriangles_(values.integer("max_triangles")) {}
+  using Settings = ExactUnionSettings;
+  explicit ExactUnion(const ExactUnionSettings& settings) : maxTriangles_(settings.maxTriangles) {}
 
   void prepare(frame::Frame& frame) override {
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
@@ -78,7 +91,7 @@ class ExactUnion : public techniques::Technique {
       throw Error("the scene has " + std::to_string(triangles_->count()) +
                       " triangles, more than 'max_triangles' (" + std::to_string(maxTriangles_) + ")",
                   kUnionName,
-                  "raise it (time grows with triangles times pixels) or use references/ray_traced_light");
+                  "raise it (time grows with triangles times pixels) or use soft_shadows/ray_traced");
     const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
     for (size_t i = 0; i < triangles_->count(); ++i) {
       if (i % kGroup == 0) groups_.emplace_back();
@@ -106,7 +119,7 @@ class ExactUnion : public techniques::Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"occluders_per_receiver", occludersPerReceiver_, ""}};
+    return {{"occluders_per_receiver", occludersPerReceiver_}};
   }
 
  private:
@@ -204,20 +217,16 @@ class ExactUnion : public techniques::Technique {
   double occludersPerReceiver_ = 0.0;
 };
 
-const Registered<TechniqueInfo> kExactUnionRegistered{TechniqueInfo{
-    .name = kUnionName,
-    .version = 1,
-    .summary = "Exact visible area of the light: union of all triangles' projections, double precision",
-    .source = "Schwarz 2009, section 3.3 (beam tracing)",
-    .parameters = {integerParameter(
-        "max_triangles", 20000, 1, 10000000, "triangles",
-        "Scenes with more triangles are refused: time grows with triangles times pixels")},
-    .needs = {"area_light"},
-    .reference = true,
-    .onCpu = true,
-    .make = [](const ParameterValues& values) { return std::make_unique<ExactUnion>(values); },
-    .errorBound = nullptr,
-    .counters = {"occluders_per_receiver"}}};
+const techniques::RegisteredTechnique<ExactUnion> kExactUnionRegistered{
+    {.name = kUnionName,
+     .version = 1,
+     .summary = "Exact visible area of the light: union of all triangles' projections, double precision",
+     .source = "Schwarz 2009, section 3.3 (beam tracing)",
+     .needs = {"area_light"},
+     .reference = true,
+     .onCpu = true,
+     .counters = {{"occluders_per_receiver", "Occluding triangles per receiver", "",
+                   Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::references

@@ -10,24 +10,27 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
 
 constexpr const char* kColours = "soft_shadows/ray_traced_colours";
 
-int sideOf(const ParameterValues& values) {
-  const int64_t samples = values.integer("samples");
-  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
-  if (side * side != samples)
-    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kColours,
-                "give " + std::to_string(side * side));
-  return static_cast<int>(side);
-}
+struct ColoursSettings {
+  int64_t samples = 256, seed = 1;
+  static const SettingsTable<ColoursSettings>& table() {
+    using S = ColoursSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::samples, "samples", {4, 65536}, "rays", "Shadow rays to each part of the light; a square number"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
+    return kTable;
+  }
+  void check() const { checkSquareNumber(samples); }
+};
 
 /// A part of the light, sampled by itself: its visibility has the same bound as that of a light of one
 /// colour, and with it the mean that weighs the parts by what they emit.
@@ -61,8 +64,9 @@ std::vector<EmittingPart> partsOf(const scene::AreaLight& light) {
 
 class RayTracedColours : public techniques::Technique {
  public:
-  explicit RayTracedColours(const ParameterValues& values)
-      : side_(sideOf(values)), seed_(static_cast<uint64_t>(values.integer("seed"))) {}
+  using Settings = ColoursSettings;
+  explicit RayTracedColours(const ColoursSettings& settings)
+      : side_(gridSide(settings.samples)), seed_(static_cast<uint64_t>(settings.seed)) {}
 
   void prepare(frame::Frame& frame) override {
     parts_ = partsOf(frame.scene().lights.at(0));
@@ -86,8 +90,7 @@ class RayTracedColours : public techniques::Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"rays_per_receiver", double(side_) * side_ * double(parts_.size()), ""},
-            {"rays", double(rays_), ""}};
+    return {{"rays_per_receiver", double(side_) * side_ * double(parts_.size())}, {"rays", double(rays_)}};
   }
 
  private:
@@ -137,26 +140,21 @@ class RayTracedColours : public techniques::Technique {
   Image colour_;
 };
 
-double colourHalfWidth(const ParameterValues& values) {
-  return hoeffdingHalfWidth(values.integer("samples"));
-}
+double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 
-const Registered<TechniqueInfo> kRegisteredColours{TechniqueInfo{
-    .name = kColours,
-    .version = 1,
-    .summary = "Share of a coloured light's radiance by shadow rays to each of its parts (Embree)",
-    .source = "Schwarz 2009, section 3.3",
-    .product = techniques::ProductKind::LightColour,
-    .parameters = {integerParameter("samples", 256, 4, 65536, "rays",
-                                    "Shadow rays to each part of the light; a square number"),
-                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the points on the light")},
-    .needs = {"area_light"},
-    .reference = true,
-    .onCpu = true,
-    .make = [](const ParameterValues& values) { return std::make_unique<RayTracedColours>(values); },
-    .errorBound = colourHalfWidth,
-    .counters = {"rays_per_receiver", "rays"},
-    .effort = "samples"}};
+const techniques::RegisteredTechnique<RayTracedColours> kRegisteredColours{
+    {.name = kColours,
+     .version = 1,
+     .summary = "Share of a coloured light's radiance by shadow rays to each of its parts (Embree)",
+     .source = "Schwarz 2009, section 3.3",
+     .product = techniques::ProductKind::LightColour,
+     .needs = {"area_light"},
+     .reference = true,
+     .onCpu = true,
+     .counters = {{"rays_per_receiver", "Shadow rays per receiver", "", Direction::LowerIsBetter},
+                  {"rays", "Shadow rays", "", Direction::LowerIsBetter}},
+     .effort = "samples"},
+    colourHalfWidth};
 
 }  // namespace
 }  // namespace limen::references

@@ -10,30 +10,46 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
 
-int strataPerAxis(const ParameterValues& values) {
-  if (values.text("pattern") != "stratified") return 0;
-  const int64_t samples = values.integer("samples");
-  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
-  if (side * side != samples)
-    throw Error("'samples' is " + std::to_string(samples) + ", not a square number",
-                "soft_shadows/ray_traced", "give " + std::to_string(side * side) + ", or pattern: random");
-  return static_cast<int>(side);
+enum class RayPattern {
+  Stratified,  ///< a point in each cell of a square grid over the light
+  Random       ///< anywhere
+};
+constexpr EnumNames<RayPattern, 2> enumNames(RayPattern) {
+  return {{{{RayPattern::Stratified, "stratified"}, {RayPattern::Random, "random"}}}};
 }
+
+struct RayTracedSettings {
+  int64_t samples = 1024;
+  RayPattern pattern = RayPattern::Stratified;
+  int64_t seed = 1;
+  static const SettingsTable<RayTracedSettings>& table() {
+    using S = RayTracedSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::samples, "samples", {16, 65536}, "rays", "Shadow rays a receiver; a square number if stratified"},
+        {&S::pattern, "pattern", "One point in each cell of a square grid over the light, or anywhere"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
+    return kTable;
+  }
+  void check() const {
+    if (pattern == RayPattern::Stratified) checkSquareNumber(samples, ", or pattern: random");
+  }
+};
 
 class RayTracedLight : public techniques::Technique {
  public:
-  explicit RayTracedLight(const ParameterValues& values)
-      : samples_(values.integer("samples")),
-        seed_(static_cast<uint64_t>(values.integer("seed"))),
-        strata_(strataPerAxis(values)) {}
+  using Settings = RayTracedSettings;
+  explicit RayTracedLight(const RayTracedSettings& settings)
+      : samples_(settings.samples),
+        seed_(static_cast<uint64_t>(settings.seed)),
+        strata_(settings.pattern == RayPattern::Stratified ? gridSide(settings.samples) : 0) {}
 
   void prepare(frame::Frame& frame) override {
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
@@ -56,7 +72,7 @@ class RayTracedLight : public techniques::Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"rays_per_receiver", double(samples_), ""}, {"rays", double(rays_), ""}};
+    return {{"rays_per_receiver", double(samples_)}, {"rays", double(rays_)}};
   }
 
  private:
@@ -100,25 +116,20 @@ class RayTracedLight : public techniques::Technique {
   Image visibility_;
 };
 
-double halfWidth(const ParameterValues& values) { return hoeffdingHalfWidth(values.integer("samples")); }
+double halfWidth(const RayTracedSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 
-const Registered<TechniqueInfo> kRayTracedLightRegistered{TechniqueInfo{
-    .name = "soft_shadows/ray_traced",
-    .version = 1,
-    .summary = "Shadow rays to points on the light against the true triangles (Embree)",
-    .source = "Schwarz 2009, section 3.3",
-    .parameters = {integerParameter("samples", 1024, 16, 65536, "rays",
-                                    "Shadow rays a receiver; a square number if stratified"),
-                   choiceParameter("pattern", "stratified", {"stratified", "random"},
-                                   "One point in each cell of a square grid over the light, or anywhere"),
-                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the points on the light")},
-    .needs = {"area_light"},
-    .reference = true,
-    .onCpu = true,
-    .make = [](const ParameterValues& values) { return std::make_unique<RayTracedLight>(values); },
-    .errorBound = halfWidth,
-    .counters = {"rays_per_receiver", "rays"},
-    .effort = "samples"}};
+const techniques::RegisteredTechnique<RayTracedLight> kRayTracedLightRegistered{
+    {.name = "soft_shadows/ray_traced",
+     .version = 1,
+     .summary = "Shadow rays to points on the light against the true triangles (Embree)",
+     .source = "Schwarz 2009, section 3.3",
+     .needs = {"area_light"},
+     .reference = true,
+     .onCpu = true,
+     .counters = {{"rays_per_receiver", "Shadow rays per receiver", "", Direction::LowerIsBetter},
+                  {"rays", "Shadow rays", "", Direction::LowerIsBetter}},
+     .effort = "samples"},
+    halfWidth};
 
 }  // namespace
 }  // namespace limen::references

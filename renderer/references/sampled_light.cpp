@@ -10,6 +10,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/references/square_number.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/techniques/technique.h"
 
@@ -17,27 +18,50 @@ namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
 
 constexpr const char* kSampledName = "soft_shadows/sampled_light";
 
-int gridSide(int64_t samples) {
-  const auto side = static_cast<int64_t>(std::lround(std::sqrt(double(samples))));
-  if (side * side != samples)
-    throw Error("'samples' is " + std::to_string(samples) + ", not a square number", kSampledName,
-                "give " + std::to_string(side * side));
-  return static_cast<int>(side);
-}
+struct GridPoints {
+  static constexpr const char *kKind = "grid", *kSummary = "centres of the cells of a square grid";
+};
+struct JitteredPoints {
+  static constexpr const char *kKind = "jittered", *kSummary = "a point anywhere in each cell of the grid";
+  int64_t seed = 1;
+  static const SettingsTable<JitteredPoints>& table() {
+    static const SettingsTable<JitteredPoints> kTable = {
+        Binding(&JitteredPoints::seed, "seed", Range{0, 1000000}, "", "Seed of the jitter").formerly({"seed"})};
+    return kTable;
+  }
+};
+
+struct SampledLightSettings {
+  int64_t samples = 1024;
+  int resolution = 1024;
+  std::variant<GridPoints, JitteredPoints> pattern;
+  double bias = 1e-4, slopeBias = 0.6;
+  static const SettingsTable<SampledLightSettings>& table() {
+    using S = SampledLightSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::samples, "samples", {1, 4096}, "maps", "Shadow maps; a square number", "Schwarz 2009, section 3.3"},
+        {&S::resolution, "resolution", {64, 4096}, "texels", "Side of each shadow map"},
+        {&S::pattern, "pattern", "Points on the light"},
+        {&S::bias, "bias", {0.0, 0.1}, "", "Depth bias as a share of the depth"},
+        {&S::slopeBias,
+         "slope_bias",
+         {0.0, 8.0},
+         "texels",
+         "Depth bias as the plane's change over so many texels; half a texel is what a plane needs, the rest "
+         "is for the curvature of depth over a texel"}};
+    return kTable;
+  }
+  void check() const { checkSquareNumber(samples); }
+};
 
 class SampledLight : public techniques::Technique {
  public:
-  explicit SampledLight(const ParameterValues& values)
-      : side_(gridSide(values.integer("samples"))),
-        resolution_(static_cast<int>(values.integer("resolution"))),
-        jittered_(values.text("pattern") == "jittered"),
-        seed_(values.integer("seed")),
-        bias_(static_cast<float>(values.real("bias"))),
-        slopeBias_(static_cast<float>(values.real("slope_bias"))) {}
+  using Settings = SampledLightSettings;
+  explicit SampledLight(const SampledLightSettings& settings)
+      : settings_(settings), side_(gridSide(settings.samples)), resolution_(settings.resolution) {}
 
   void prepare(frame::Frame& frame) override {
     const frame::LightCasters casters(frame.scene());
@@ -63,8 +87,8 @@ class SampledLight : public techniques::Technique {
       accumulate_->set("sizePx", frame.sizePx());
       accumulate_->set("anchorToLight", glm::mat3(frame.scene().lights.at(0).toLightSpace()));
       accumulate_->set("resolution", resolution_);
-      accumulate_->set("bias", bias_);
-      accumulate_->set("slopeBias", slopeBias_);
+      accumulate_->set("bias", static_cast<float>(settings_.bias));
+      accumulate_->set("slopeBias", static_cast<float>(settings_.slopeBias));
       for (const frame::LightFrustum& frustum : frusta_) {
         raster_->draw(frame, frame.geometry(), frustum);
         receivers.bindTexture(0);
@@ -97,9 +121,9 @@ class SampledLight : public techniques::Technique {
     const auto maps = double(frusta_.size());
     const auto cut = std::count_if(frusta_.begin(), frusta_.end(),
                                    [](const frame::LightFrustum& frustum) { return frustum.castersCut; });
-    return {{"shadow_maps", maps, "", true},
-            {"triangles_drawn", maps * frame.gpuScene().triangleCount(), "", true},
-            {"maps_cutting_casters_share", double(cut) / maps, "", false}};
+    return {{"shadow_maps", maps},
+            {"triangles_drawn", maps * frame.gpuScene().triangleCount()},
+            {"maps_cutting_casters_share", double(cut) / maps}};
   }
 
  private:
@@ -108,11 +132,12 @@ class SampledLight : public techniques::Technique {
   /// the mean over the points kept is the mean over the light.
   std::vector<glm::dvec2> lightPoints(const scene::AreaLight& light) const {
     std::vector<glm::dvec2> points;
-    scene::Random random(seed_);
+    const auto* jitter = std::get_if<JitteredPoints>(&settings_.pattern);
+    scene::Random random(jitter ? jitter->seed : 0);
     for (int y = 0; y < side_; ++y)
       for (int x = 0; x < side_; ++x) {
         glm::dvec2 inCell(0.5);
-        if (jittered_) inCell.x = random.uniform(0.0, 1.0), inCell.y = random.uniform(0.0, 1.0);
+        if (jitter) inCell.x = random.uniform(0.0, 1.0), inCell.y = random.uniform(0.0, 1.0);
         const glm::dvec2 unit = (glm::dvec2(x, y) + inCell) / double(side_);
         if (light.contains(unit)) points.push_back(unit);
       }
@@ -121,10 +146,8 @@ class SampledLight : public techniques::Technique {
     return points;
   }
 
+  SampledLightSettings settings_;
   int side_, resolution_;
-  bool jittered_;
-  int64_t seed_;
-  float bias_, slopeBias_;
   std::vector<frame::LightFrustum> frusta_;
   std::optional<frame::ShadowRaster> raster_;
   const gl::Program *accumulate_ = nullptr, *resolve_ = nullptr;
@@ -135,33 +158,23 @@ class SampledLight : public techniques::Technique {
 /// cell's one point misjudge the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It holds for
 /// a convex occluder with one edge across the light; each further edge adds as much, and the maps' resolution
 /// and biases are not in it.
-double edgeBound(const ParameterValues& values) {
-  return std::min(1.0, 2.0 / std::sqrt(double(values.integer("samples"))));
+double edgeBound(const SampledLightSettings& settings) {
+  return std::min(1.0, 2.0 / std::sqrt(double(settings.samples)));
 }
 
-const Registered<TechniqueInfo> kSampledLightRegistered{TechniqueInfo{
-    .name = kSampledName,
-    .version = 1,
-    .summary = "Mean of hard shadow maps from a grid of points on the light",
-    .source = "Schwarz 2009, section 3.3",
-    .parameters = {integerParameter("samples", 1024, 1, 4096, "maps", "Shadow maps; a square number",
-                                    "Schwarz 2009, section 3.3"),
-                   integerParameter("resolution", 1024, 64, 4096, "texels", "Side of each shadow map"),
-                   choiceParameter(
-                       "pattern", "grid", {"grid", "jittered"},
-                       "Centres of the cells of a square grid over the light, or a seeded point in each"),
-                   integerParameter("seed", 1, 0, 1000000, "", "Seed of the jitter"),
-                   realParameter("bias", 1e-4, 0.0, 0.1, "", "Depth bias as a share of the depth"),
-                   realParameter(
-                       "slope_bias", 0.6, 0.0, 8.0, "texels",
-                       "Depth bias as the plane's change over so many texels; half a texel is what a plane "
-                       "needs, the rest is for the curvature of depth over a texel")},
-    .needs = {"area_light"},
-    .reference = true,
-    .make = [](const ParameterValues& values) { return std::make_unique<SampledLight>(values); },
-    .errorBound = edgeBound,
-    .counters = {"shadow_maps", "triangles_drawn", "maps_cutting_casters_share"},
-    .effort = "samples"}};
+const techniques::RegisteredTechnique<SampledLight> kSampledLightRegistered{
+    {.name = kSampledName,
+     .version = 1,
+     .summary = "Mean of hard shadow maps from a grid of points on the light",
+     .source = "Schwarz 2009, section 3.3",
+     .needs = {"area_light"},
+     .reference = true,
+     .counters = {{"shadow_maps", "Shadow maps", "", Direction::LowerIsBetter},
+                  {"triangles_drawn", "Triangles drawn", "", Direction::LowerIsBetter},
+                  {"maps_cutting_casters_share", "Share of maps that cut casters", "",
+                   Direction::Neither}},
+     .effort = "samples"},
+    edgeBound};
 
 }  // namespace
 }  // namespace limen::references

@@ -13,14 +13,24 @@ namespace limen::references {
 namespace {
 
 using techniques::Counter;
-using techniques::TechniqueInfo;
+
+struct ThresholdMapReferenceSettings {
+  perception::ThresholdMapSettings map;
+  perception::ViewingSettings viewing;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ThresholdMapReferenceSettings>& table() {
+    using S = ThresholdMapReferenceSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::map, "map", "The model"}, included(&S::viewing), frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
 
 class ThresholdMapReference : public techniques::Technique {
  public:
-  explicit ThresholdMapReference(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = ThresholdMapReferenceSettings;
+  explicit ThresholdMapReference(const Settings& settings)
+      : settings_(settings.map), display_(settings.viewing.profile()), shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
     product_.emplace(gl::Format::R32F, frame.sizePx());
@@ -38,8 +48,8 @@ class ThresholdMapReference : public techniques::Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"guarded_contrasts", static_cast<double>(map_.guarded), "", false},
-            {"pixels_per_degree", display_.pixelsPerDegree(), "px/deg", false}};
+    return {{"guarded_contrasts", static_cast<double>(map_.guarded)},
+            {"pixels_per_degree", display_.pixelsPerDegree()}};
   }
 
  private:
@@ -50,27 +60,16 @@ class ThresholdMapReference : public techniques::Technique {
   std::optional<gl::Texture> product_;
 };
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapParameters(), perception::viewingParameters(),
-                            frame::ShadedSetting::parameters()})
-    out.insert(out.end(), group.begin(), group.end());
-  return out;
-}
-
-const Registered<TechniqueInfo> kThresholdMapReferenceRegistered{
+const techniques::RegisteredTechnique<ThresholdMapReference> kThresholdMapReferenceRegistered{
     {.name = "perception/threshold_map_reference",
      .version = 1,
      .summary = "Threshold map in double precision, any variant, true Gaussians too",
      .source = "Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4 (SP-28)",
      .product = techniques::ProductKind::Threshold,
-     .parameters = parameters(),
-     .needs = {},
      .reference = true,
      .onCpu = true,
-     .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapReference>(values); },
-     .errorBound = {},
-     .counters = {"guarded_contrasts", "pixels_per_degree"}}};
+     .counters = {{"guarded_contrasts", "Contrasts with a bounded denominator", "", Direction::Neither},
+                  {"pixels_per_degree", "Pixels per degree", "px/deg", Direction::Neither}}}};
 
 }  // namespace
 }  // namespace limen::references

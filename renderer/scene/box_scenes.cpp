@@ -7,20 +7,37 @@
 namespace limen::scene {
 namespace {
 
+constexpr double kHeightOfLight = 3.2;
+
+struct BoxSettings {
+  double boxHeight = 1.0, clearance = 0.0;
+  bool sides = true;
+  static const SettingsTable<BoxSettings>& table() {
+    using S = BoxSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::boxHeight, "box_height", {0.05, 2.0}, "m", "Height of the box; the light is at 3.2 m"},
+        {&S::clearance, "clearance", {0.0, 2.0}, "m", "Height of the box's underside above the ground"},
+        {&S::sides, "sides", "Without, two flat blockers are left: the top and the underside"}};
+    return kTable;
+  }
+  void check() const {
+    const double top = clearance + boxHeight;
+    if (top >= kHeightOfLight)
+      throw Error("the box reaches up to " + shortestNumber(top) + " m, and the light is at " +
+                      shortestNumber(kHeightOfLight) + " m",
+                  "box_height", "lower 'box_height' or 'clearance'");
+  }
+};
+
 /// The light is wider than the box and straight above it: from the light's centre only the box's top is seen,
 /// from its rim the sides shadow more. A single shadow map from the centre misses that, and where the box
 /// hovers it misses the umbra below.
-Scene buildBoxUnderLight(const ParameterValues& values) {
-  constexpr double kHeightOfLight = 3.2;
-  const double foot = values.real("clearance"), top = foot + values.real("box_height");
-  if (top >= kHeightOfLight)
-    throw Error("the box reaches up to " + shortestNumber(top) + " m, and the light is at " +
-                    shortestNumber(kHeightOfLight) + " m",
-                "box_under_light", "lower 'box_height' or 'clearance'");
+Scene buildBoxUnderLight(const BoxSettings& settings) {
+  const double foot = settings.clearance, top = foot + settings.boxHeight;
   Scene scene;
   addGround(scene, 12.0);
   Mesh caster = box({-0.5, foot, -0.5}, {0.5, top, 0.5});
-  if (!values.boolean("sides"))
+  if (!settings.sides)
     std::erase_if(caster.triangles, [&](const glm::uvec3& t) {
       return caster.positions[t.x].y != caster.positions[t.y].y ||
              caster.positions[t.x].y != caster.positions[t.z].y;
@@ -31,10 +48,19 @@ Scene buildBoxUnderLight(const ParameterValues& values) {
   return scene;
 }
 
+struct TwoBoxesSettings {
+  double gap = 0.3;
+  static const SettingsTable<TwoBoxesSettings>& table() {
+    static const SettingsTable<TwoBoxesSettings> kTable = {
+        {&TwoBoxesSettings::gap, "gap", {0.0, 0.6}, "m", "Clear height between the boxes; 0: they touch"}};
+    return kTable;
+  }
+};
+
 /// A small high box partly above a low wide one: their penumbrae meet on the ground and the upper one falls
 /// on the lower.
-Scene buildTwoBoxes(const ParameterValues& values) {
-  const double gap = values.real("gap");
+Scene buildTwoBoxes(const TwoBoxesSettings& settings) {
+  const double gap = settings.gap;
   Scene scene;
   addGround(scene, 9.0);
   addPart(scene, "low_box", box({-0.7, 0.0, -0.4}, {0.5, 0.4, 0.5}), {0.45F, 0.55F, 0.7F});
@@ -43,9 +69,18 @@ Scene buildTwoBoxes(const ParameterValues& values) {
   return scene;
 }
 
+struct PoleSettings {
+  double radius = 0.04;
+  static const SettingsTable<PoleSettings>& table() {
+    static const SettingsTable<PoleSettings> kTable = {
+        {&PoleSettings::radius, "radius", {0.002, 0.2}, "m", "Radius of the pole at its foot"}};
+    return kTable;
+  }
+};
+
 /// The shadow is sharp at the foot and soft at its end.
-Scene buildPole(const ParameterValues& values) {
-  const double radius = values.real("radius");
+Scene buildPole(const PoleSettings& settings) {
+  const double radius = settings.radius;
   Scene scene;
   addGround(scene, 10.0);
   Mesh pole = frustum({0.0, 0.0, 0.0}, {0.0, 1.9, 0.0}, radius, 0.7 * radius, 24);
@@ -57,32 +92,26 @@ Scene buildPole(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kBoxUnderLight{SceneInfo{
-    .name = "box_under_light",
-    .version = 1,
-    .summary = "Box below a larger light: a shadow map from the centre sees only its top",
-    .source = "Schwarz 2009, Fig. 4.3",
-    .parameters =
-        {realParameter("box_height", 1.0, 0.05, 2.0, "m", "Height of the box; the light is at 3.2 m"),
-         realParameter("clearance", 0.0, 0.0, 2.0, "m", "Height of the box's underside above the ground"),
-         booleanParameter("sides", true, "Without, two flat blockers are left: the top and the underside")},
-    .build = buildBoxUnderLight}};
+const RegisteredScene<BoxSettings> kBoxUnderLight{
+    {.name = "box_under_light",
+     .version = 1,
+     .summary = "Box below a larger light: a shadow map from the centre sees only its top",
+     .source = "Schwarz 2009, Fig. 4.3"},
+    buildBoxUnderLight};
 
-const Registered<SceneInfo> kTwoBoxes{SceneInfo{
-    .name = "two_boxes",
-    .version = 1,
-    .summary = "A floating box above a standing one: fused penumbrae and a shadow on an occluder",
-    .source = "bench",
-    .parameters = {realParameter("gap", 0.3, 0.0, 0.6, "m", "Clear height between the boxes; 0: they touch")},
-    .build = buildTwoBoxes}};
+const RegisteredScene<TwoBoxesSettings> kTwoBoxes{
+    {.name = "two_boxes",
+     .version = 1,
+     .summary = "A floating box above a standing one: fused penumbrae and a shadow on an occluder",
+     .source = "bench"},
+    buildTwoBoxes};
 
-const Registered<SceneInfo> kPole{SceneInfo{
-    .name = "pole",
-    .version = 1,
-    .summary = "Street lamp: one thin shadow from contact to far penumbra",
-    .source = "Schwarz 2009, Fig. 3.2",
-    .parameters = {realParameter("radius", 0.04, 0.002, 0.2, "m", "Radius of the pole at its foot")},
-    .build = buildPole}};
+const RegisteredScene<PoleSettings> kPole{
+    {.name = "pole",
+     .version = 1,
+     .summary = "Street lamp: one thin shadow from contact to far penumbra",
+     .source = "Schwarz 2009, Fig. 3.2"},
+    buildPole};
 
 }  // namespace
 }  // namespace limen::scene

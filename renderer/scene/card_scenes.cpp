@@ -21,28 +21,58 @@ AreaLight lightAbove(glm::dvec2 size) {
   return lightTowards({0.0, kCardLightHeight, 0.0}, glm::dvec3(0.0), size);
 }
 
+/// Sizes of the lower cards of a stack.
+enum class CardFit {
+  Projective,  ///< same projection from the light's centre
+  Umbra,       ///< sections of the topmost card's umbra
+  Strips       ///< narrow cards side by side, a step each
+};
+constexpr EnumNames<CardFit, 3> enumNames(CardFit) {
+  return {{{{CardFit::Projective, "projective"}, {CardFit::Umbra, "umbra"}, {CardFit::Strips, "strips"}}}};
+}
+
+constexpr double kTopCard = 1.2;
+
+struct CardStackSettings {
+  int64_t cards = 8;
+  double spacing = 0.01;
+  CardFit fit = CardFit::Projective;
+  static const SettingsTable<CardStackSettings>& table() {
+    using S = CardStackSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::cards, "cards", {1, 64}, "cards", "Number of cards"},
+        {&S::spacing, "spacing", {0.0001, 0.15}, "m", "Vertical distance between two cards"},
+        {&S::fit, "fit",
+         "Size of the lower cards: same projection from the light's centre, or the section of the topmost "
+         "card's umbra; strips: narrow cards side by side, a step each"}};
+    return kTable;
+  }
+  void check() const {
+    if (spacing * static_cast<double>(cards - 1) >= kTopCard)
+      throw Error("a stack of " + std::to_string(cards) + " cards with 'spacing' " + shortestNumber(spacing) +
+                      " m reaches below the ground",
+                  "spacing", "keep (cards - 1) * spacing below " + shortestNumber(kTopCard) + " m");
+  }
+};
+
 /// Occluder fusion: cards below the topmost one, none of which a shadow map from the light's centre can see.
 /// Projective cards all have the same projection from the light's centre. Umbra cards are the sections of the
 /// topmost card's umbra, so that no light ray meets one that has not met the topmost: visibility on the
 /// ground is then the same for any number of cards (as long as light_size is at most 1). Strips are a
 /// staircase of narrow cards that lie side by side as seen from the light's centre, so that the map misses
 /// nothing: receivers beyond its deep end see them overlap on the light, the more the more there are.
-Scene buildCardStack(const ParameterValues& values) {
-  constexpr double kTop = 1.2, kHalf = 0.35, kLightSize = 0.3, kStripTangent = 0.04;
+Scene buildCardStack(const CardStackSettings& settings) {
+  constexpr double kTop = kTopCard, kHalf = 0.35, kLightSize = 0.3, kStripTangent = 0.04;
   const double depthOfTop = kCardLightHeight - kTop;
-  const std::string& fit = values.text("fit");
-  const int64_t count = values.integer("cards");
-  const double spacing = values.real("spacing");
-  if (spacing * static_cast<double>(count - 1) >= kTop)
-    throw Error("a stack of " + std::to_string(count) + " cards with 'spacing' " + shortestNumber(spacing) +
-                    " m reaches below the ground",
-                "card_stack", "keep (cards - 1) * spacing below " + shortestNumber(kTop) + " m");
+  const CardFit fit = settings.fit;
+  const int64_t count = settings.cards;
+  const double spacing = settings.spacing;
   Mesh cards;
   for (int64_t i = 0; i < count; ++i) {
     const double drop = spacing * static_cast<double>(i);
     const double depth = depthOfTop + drop, grown = depth / depthOfTop;
-    const double half = fit == "umbra" ? kHalf * grown - 0.5 * kLightSize * (grown - 1.0) : kHalf * grown;
-    const bool strip = fit == "strips";
+    const double half = fit == CardFit::Umbra ? kHalf * grown - 0.5 * kLightSize * (grown - 1.0) : kHalf * grown;
+    const bool strip = fit == CardFit::Strips;
     const double centre = strip ? kStripTangent * (static_cast<double>(i) + 0.5) * depth : 0.0;
     append(cards, flatCard({centre, kTop - drop, 0.0}, {strip ? 0.5 * kStripTangent * depth : half, half}));
   }
@@ -54,11 +84,23 @@ Scene buildCardStack(const ParameterValues& values) {
   return scene;
 }
 
+struct HalfPlaneSettings {
+  double edgeHeight = 1.0;
+  static const SettingsTable<HalfPlaneSettings>& table() {
+    static const SettingsTable<HalfPlaneSettings> kTable = {{&HalfPlaneSettings::edgeHeight,
+                                                             "edge_height",
+                                                             {0.05, 1.8},
+                                                             "m",
+                                                             "Height of the half-plane; the light is at 2 m"}};
+    return kTable;
+  }
+};
+
 /// Covers x < 0 at one height; its edge x = 0 is parallel to the light's y axis. The ground at x then sees
 /// the share 1/2 + x (H - h) / (h w) of a light of width w at height H, clamped to [0, 1]. The card reaches
 /// far enough to every other side that no other edge comes between the light and the ground plane's middle.
-Scene buildHalfPlane(const ParameterValues& values) {
-  const double edgeHeight = values.real("edge_height");
+Scene buildHalfPlane(const HalfPlaneSettings& settings) {
+  const double edgeHeight = settings.edgeHeight;
   constexpr double kReach = 4.5;
   Scene scene;
   addGround(scene, 8.0);
@@ -69,52 +111,51 @@ Scene buildHalfPlane(const ParameterValues& values) {
   return scene;
 }
 
-Scene buildParallelRectangle(const ParameterValues& values) {
+struct RectangleSettings {
+  double height = 0.7, width = 0.6, depth = 0.4;
+  static const SettingsTable<RectangleSettings>& table() {
+    using S = RectangleSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::height, "height", {0.05, 1.8}, "m", "Height of the rectangle; the light is at 2 m"},
+        {&S::width, "width", {0.01, 2.0}, "m", "Extent along the light's x axis"},
+        {&S::depth, "depth", {0.01, 2.0}, "m", "Extent along the light's y axis"}};
+    return kTable;
+  }
+};
+
+Scene buildParallelRectangle(const RectangleSettings& settings) {
   Scene scene;
   addGround(scene, 8.0);
   addPart(scene, "rectangle",
-          flatCard({0.0, values.real("height"), 0.0},
-                   0.5 * glm::dvec2(values.real("width"), values.real("depth"))),
+          flatCard({0.0, settings.height, 0.0}, 0.5 * glm::dvec2(settings.width, settings.depth)),
           kCardAlbedo);
   scene.lights = {lightAbove({0.4, 0.3})};
   setStillCamera(scene, orbitCamera({0.0, 0.15, 0.0}, 2.4, 20.0, 38.0));
   return scene;
 }
 
-const Registered<SceneInfo> kCardStack{SceneInfo{
-    .name = "card_stack",
-    .version = 1,
-    .summary =
-        "Parallel cards one below another that cover each other as seen from the light: occluder fusion",
-    .source = "Schwarz 2009, section 4.2",
-    .parameters = {integerParameter("cards", 8, 1, 64, "cards", "Number of cards"),
-                   realParameter("spacing", 0.01, 0.0001, 0.15, "m", "Vertical distance between two cards"),
-                   choiceParameter(
-                       "fit", "projective", {"projective", "umbra", "strips"},
-                       "Size of the lower cards: same projection from the light's centre, or the section of "
-                       "the topmost card's umbra; strips: narrow cards side by side, a step each")},
-    .build = buildCardStack}};
+const RegisteredScene<CardStackSettings> kCardStack{
+    {.name = "card_stack",
+     .version = 1,
+     .summary =
+         "Parallel cards one below another that cover each other as seen from the light: occluder fusion",
+     .source = "Schwarz 2009, section 4.2"},
+    buildCardStack};
 
-const Registered<SceneInfo> kHalfPlane{SceneInfo{
-    .name = "half_plane",
-    .version = 1,
-    .summary =
-        "Half-plane with its edge parallel to the light: penumbra linear in distance, known in closed form",
-    .source = "bench",
-    .parameters = {realParameter("edge_height", 1.0, 0.05, 1.8, "m",
-                                 "Height of the half-plane; the light is at 2 m")},
-    .build = buildHalfPlane}};
+const RegisteredScene<HalfPlaneSettings> kHalfPlane{
+    {.name = "half_plane",
+     .version = 1,
+     .summary =
+         "Half-plane with its edge parallel to the light: penumbra linear in distance, known in closed form",
+     .source = "bench"},
+    buildHalfPlane};
 
-const Registered<SceneInfo> kParallelRectangle{
-    SceneInfo{.name = "parallel_rectangle",
-              .version = 1,
-              .summary = "One rectangle parallel to the light: visibility known in closed form",
-              .source = "bench",
-              .parameters = {realParameter("height", 0.7, 0.05, 1.8, "m",
-                                           "Height of the rectangle; the light is at 2 m"),
-                             realParameter("width", 0.6, 0.01, 2.0, "m", "Extent along the light's x axis"),
-                             realParameter("depth", 0.4, 0.01, 2.0, "m", "Extent along the light's y axis")},
-              .build = buildParallelRectangle}};
+const RegisteredScene<RectangleSettings> kParallelRectangle{
+    {.name = "parallel_rectangle",
+     .version = 1,
+     .summary = "One rectangle parallel to the light: visibility known in closed form",
+     .source = "bench"},
+    buildParallelRectangle};
 
 }  // namespace
 }  // namespace limen::scene

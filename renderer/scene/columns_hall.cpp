@@ -30,11 +30,28 @@ CameraPath walk(double length) {
            key(8.0, {0.0, 2.0, -0.8 * half}, {0.9, 0.2, -half - 1.2})}};
 }
 
+enum class HallMotion { Still, Walk };
+constexpr EnumNames<HallMotion, 2> enumNames(HallMotion) {
+  return {{{{HallMotion::Still, "still"}, {HallMotion::Walk, "walk"}}}};
+}
+
+struct ColumnsHallSettings {
+  int columnsPerRow = 6, segments = 32;
+  HallMotion motion = HallMotion::Still;
+  static const SettingsTable<ColumnsHallSettings>& table() {
+    using S = ColumnsHallSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::columnsPerRow, "columns_per_row", {2, 32}, "columns", "Columns in each of the two rows"},
+        {&S::segments, "segments", {3, 128}, "segments", "Sides of a column's shaft"},
+        {&S::motion, "motion", "A still view from outside, or a walk of 8 s down the aisle"}};
+    return kTable;
+  }
+};
+
 /// Two rows of columns along z without a ceiling. The light stands at the left, so that shadows cross the
 /// aisle, and the higher the longer the hall, so that all of the ground is before it.
-Scene buildColumnsHall(const ParameterValues& values) {
-  const auto perRow = static_cast<int>(values.integer("columns_per_row"));
-  const auto segments = static_cast<int>(values.integer("segments"));
+Scene buildColumnsHall(const ColumnsHallSettings& settings) {
+  const int perRow = settings.columnsPerRow, segments = settings.segments;
   const double length = kColumnPitch * (perRow - 1);
   Mesh columns;
   for (int i = 0; i < perRow; ++i)
@@ -46,7 +63,7 @@ Scene buildColumnsHall(const ParameterValues& values) {
   addPart(scene, "columns", columns, {0.72F, 0.68F, 0.6F});
   scene.lights = {
       lightTowards(ground * glm::dvec3(-0.225, 0.4, 0.125), {0.0, 0.5, 0.0}, glm::dvec2(0.025 * ground))};
-  if (values.text("motion") == "walk") {
+  if (settings.motion == HallMotion::Walk) {
     scene.camera = walk(length);
   } else {
     setStillCamera(scene, orbitCamera({0.3, 0.5, 0.3 * length}, 6.5, 14.0, 40.0, 40.0));
@@ -54,17 +71,12 @@ Scene buildColumnsHall(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kColumnsHallRegistered{SceneInfo{
-    .name = "columns_hall",
-    .version = 1,
-    .summary = "Two rows of columns on a floor: long shadows over floor and other columns",
-    .source = "bench",
-    .parameters = {integerParameter("columns_per_row", 6, 2, 32, "columns",
-                                    "Columns in each of the two rows"),
-                   integerParameter("segments", 32, 3, 128, "segments", "Sides of a column's shaft"),
-                   choiceParameter("motion", "still", {"still", "walk"},
-                                   "A still view from outside, or a walk of 8 s down the aisle")},
-    .build = buildColumnsHall}};
+const RegisteredScene<ColumnsHallSettings> kColumnsHallRegistered{
+    {.name = "columns_hall",
+     .version = 1,
+     .summary = "Two rows of columns on a floor: long shadows over floor and other columns",
+     .source = "bench"},
+    buildColumnsHall};
 
 }  // namespace
 }  // namespace limen::scene

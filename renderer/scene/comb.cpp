@@ -5,12 +5,24 @@
 namespace limen::scene {
 namespace {
 
+struct CombSettings {
+  int slats = 24;
+  double width = 0.4;
+  static const SettingsTable<CombSettings>& table() {
+    using S = CombSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::slats, "slats", {1, 256}, "slats", "Slats over the 2.4 m of the fence"},
+        {&S::width, "width", {0.02, 0.95}, "", "Width of a slat as a share of their distance"}};
+    return kTable;
+  }
+};
+
 /// Fence of slats along x. With many slats one is narrower than a shadow-map texel, and the penumbrae of
 /// neighbours overlap far from the foot.
-Scene buildComb(const ParameterValues& values) {
-  const auto slats = static_cast<int>(values.integer("slats"));
+Scene buildComb(const CombSettings& settings) {
+  const int slats = settings.slats;
   constexpr double kLength = 2.4, kHeight = 1.0, kThickness = 0.02;
-  const double pitch = kLength / slats, width = values.real("width") * pitch;
+  const double pitch = kLength / slats, width = settings.width * pitch;
   Mesh fence;
   for (int i = 0; i < slats; ++i) {
     const double x = -0.5 * kLength + (i + 0.5) * pitch;
@@ -26,15 +38,12 @@ Scene buildComb(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kCombRegistered{SceneInfo{
-    .name = "comb",
-    .version = 1,
-    .summary = "Fence of thin slats: many narrow occluders side by side",
-    .source = "bench",
-    .parameters = {integerParameter("slats", 24, 1, 256, "slats", "Slats over the 2.4 m of the fence"),
-                   realParameter("width", 0.4, 0.02, 0.95, "",
-                                 "Width of a slat as a share of their distance")},
-    .build = buildComb}};
+const RegisteredScene<CombSettings> kCombRegistered{
+    {.name = "comb",
+     .version = 1,
+     .summary = "Fence of thin slats: many narrow occluders side by side",
+     .source = "bench"},
+    buildComb};
 
 }  // namespace
 }  // namespace limen::scene

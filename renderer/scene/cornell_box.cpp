@@ -33,7 +33,7 @@ Mesh block(double height, glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d
                      at(c, height), at(d, height)});
 }
 
-Scene buildCornellBox(const ParameterValues&) {
+Scene buildCornellBox(const NoSettings&) {
   using V = glm::dvec3;
   Scene scene;
   const auto addWall = [&](const char* name, V a, V b, V c, V d, glm::vec3 albedo) {
@@ -64,14 +64,13 @@ Scene buildCornellBox(const ParameterValues&) {
   return scene;
 }
 
-const Registered<SceneInfo> kCornellBoxRegistered{SceneInfo{
-    .name = "cornell_box",
-    .version = 1,
-    .summary =
-        "Cornell box: two blocks in a room under a ceiling light; one side is open, use a square image",
-    .source = "Cornell University Program of Computer Graphics, measured Cornell box data",
-    .parameters = {},
-    .build = buildCornellBox}};
+const RegisteredScene<NoSettings> kCornellBoxRegistered{
+    {.name = "cornell_box",
+     .version = 1,
+     .summary =
+         "Cornell box: two blocks in a room under a ceiling light; one side is open, use a square image",
+     .source = "Cornell University Program of Computer Graphics, measured Cornell box data"},
+    buildCornellBox};
 
 }  // namespace
 }  // namespace limen::scene

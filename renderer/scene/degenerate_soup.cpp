@@ -104,9 +104,20 @@ class Soup {
   std::array<glm::dvec3, 3> corner_{}, sound_{};
 };
 
-Scene buildDegenerateSoup(const ParameterValues& values) {
-  Soup soup(values.integer("seed"));
-  for (int64_t i = 0; i < values.integer("triangles"); ++i)
+struct SoupSettings {
+  int64_t triangles = 600, seed = 1;
+  static const SettingsTable<SoupSettings>& table() {
+    using S = SoupSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::triangles, "triangles", {10, 100000}, "triangles", "Number of triangles of the soup"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the soup"}};
+    return kTable;
+  }
+};
+
+Scene buildDegenerateSoup(const SoupSettings& settings) {
+  Soup soup(settings.seed);
+  for (int64_t i = 0; i < settings.triangles; ++i)
     soup.add(static_cast<Flaw>(i % static_cast<int64_t>(Flaw::Count)));
   Scene scene;
   addGround(scene, 10.0);
@@ -116,17 +127,13 @@ Scene buildDegenerateSoup(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kDegenerateSoupRegistered{
-    SceneInfo{.name = "degenerate_soup",
-              .version = 1,
-              .summary = "Triangles without area, slivers, duplicates, coplanar overlaps and triangles in "
-                         "the light's plane, over "
-                         "a sound ground",
-              .source = "bench",
-              .parameters = {integerParameter("triangles", 600, 10, 100000, "triangles",
-                                              "Number of triangles of the soup"),
-                             integerParameter("seed", 1, 0, 1000000, "", "Seed of the soup")},
-              .build = buildDegenerateSoup}};
+const RegisteredScene<SoupSettings> kDegenerateSoupRegistered{
+    {.name = "degenerate_soup",
+     .version = 1,
+     .summary = "Triangles without area, slivers, duplicates, coplanar overlaps and triangles in the light's "
+                "plane, over a sound ground",
+     .source = "bench"},
+    buildDegenerateSoup};
 
 }  // namespace
 }  // namespace limen::scene

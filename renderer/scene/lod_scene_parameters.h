@@ -1,35 +1,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <variant>
 #include <vector>
 
+#include "experiments/base/settings_table.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::scene {
 
-/// How the camera of an LOD scene moves: towards or past what it looks at, in a straight line at constant
-/// speed without turning.
+/// The camera moves towards what it looks at.
+struct Approach {
+  static constexpr const char *kKind = "approach", *kSummary = "towards the object";
+  double speed = 1.0;      ///< world units/s; 0: still
+  double durationS = 4.5;  ///< ends earlier where it would reach the object
+  static const SettingsTable<Approach>& table();
+};
+
+/// The camera moves past what it looks at.
+struct Horizontal {
+  static constexpr const char *kKind = "horizontal", *kSummary = "past the object";
+  double speed = 1.0;  ///< world units/s; 0: still
+  double durationS = 4.5;
+  static const SettingsTable<Horizontal>& table();
+};
+
+struct Still {
+  static constexpr const char *kKind = "still", *kSummary = "the camera rests";
+};
+
+/// How the camera of an LOD scene moves, in a straight line at constant speed without turning.
+using CameraMotion = std::variant<Approach, Horizontal, Still>;
+
+/// Where that motion begins.
 struct Ride {
   glm::dvec3 target{0.0};          ///< looked at when the ride begins
   glm::dvec3 back{0.0, 0.0, 1.0};  ///< unit, from the target to the eye
   /// Unit, the way of an approach; the zero vector: straight at the target.
   glm::dvec3 forward{0.0};
-  double distance = 1.0;
-  std::string motion;  ///< "approach", "horizontal" or "still"
-  double speed = 0.0, durationS = 0.0;
-  double nearest = 0.0;  ///< an approach ends at this distance at the latest
+  double distance = 1.0;  ///< from the eye to the target
+  double nearest = 0.0;   ///< an approach ends at this distance at the latest
   double verticalFovDeg = 32.0;
 };
-void setRide(Scene& scene, const Ride& ride);
+void setRide(Scene& scene, const Ride& ride, const CameraMotion& motion);
 
-/// Parameters distance, motion, speed, duration_s with the given defaults.
-std::vector<Parameter> rideParameters(double distance, double longest, double speed, double fastest);
-/// Reads them.
-Ride rideOf(const ParameterValues& values);
+/// Distances at which levels change, set by hand: level i + 1 is shown from distance * growth^i on.
+struct SwitchSettings {
+  double distance = 1.0;  ///< world units
+  double growth = 2.0;
+  static const SettingsTable<SwitchSettings>& table();
+  std::vector<double> distances(size_t levels) const;
+};
 
-/// Parameters switch_distance, switch_growth: level i + 1 from switch_distance * switch_growth^i on.
-std::vector<Parameter> switchParameters(double distance, double farthest);
-std::vector<double> switchDistances(const ParameterValues& values, size_t levels);
+/// Lines of an LOD scene's table for its members `distance`, `motion` and `switching`.
+template <class S>
+Binding<S> distanceBinding(double S::*member, double longest) {
+  return {member, "distance",
+          Range{0.02 * longest, longest},
+          "world units", "From the eye to the object's middle when the ride begins"};
+}
+template <class S>
+Binding<S> motionBinding(CameraMotion S::*member) {
+  return {member, "motion", "How the camera moves", "Schwarz 2009, section 10.4.2"};
+}
+template <class S>
+Binding<S> switchBinding(SwitchSettings S::*member) {
+  return Binding<S>(member, "switching", "Distances at which levels change").shorthand("distance");
+}
 
 }  // namespace limen::scene

@@ -28,13 +28,30 @@ Scene overGround(const ImportedMesh& imported, double meshHeight, bool ground) {
   return scene;
 }
 
-Scene buildMesh(const ParameterValues& values) {
-  ImportedMesh imported = importMesh(values.text("file"));
-  if (values.text("up") == "z") turnZUpToYUp(imported.mesh);
+enum class UpAxis { Y, Z };
+constexpr EnumNames<UpAxis, 2> enumNames(UpAxis) { return {{{{UpAxis::Y, "y"}, {UpAxis::Z, "z"}}}}; }
+
+struct MeshSettings {
+  FilePath file;
+  UpAxis up = UpAxis::Y;
+  bool ground = true;
+  static const SettingsTable<MeshSettings>& table() {
+    using S = MeshSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::file, "file", FileIs::Required, "OBJ, PLY, glTF or 3DS file"},
+        {&S::up, "up", "Axis of the file that points up"},
+        {&S::ground, "ground", "Adds a plane that only receives shadows"}};
+    return kTable;
+  }
+};
+
+Scene buildMesh(const MeshSettings& settings) {
+  ImportedMesh imported = importMesh(settings.file.path);
+  if (settings.up == UpAxis::Z) turnZUpToYUp(imported.mesh);
   standOnGround(imported.mesh, 0.0);
   double height = 0.0;
   for (const glm::dvec3& p : imported.mesh.positions) height = std::max(height, p.y);
-  return overGround(imported, height, values.boolean("ground"));
+  return overGround(imported, height, settings.ground);
 }
 
 /// 3DS has z up and is read so, but the cat was saved with y up: read, it lies on its back.
@@ -49,39 +66,33 @@ Scene buildModel(const std::string& file, Turned turned) {
   return overGround(imported, kHeight, true);
 }
 
-const Registered<SceneInfo> kMeshRegistered{
-    SceneInfo{.name = "mesh",
-              .version = 1,
-              .summary = "A mesh from a file, standing on a ground plane, in the file's own units",
-              .source = "bench",
-              .parameters = {fileParameter("file", "OBJ, PLY, glTF or 3DS file"),
-                             choiceParameter("up", "y", {"y", "z"}, "Axis of the file that points up"),
-                             booleanParameter("ground", true, "Adds a plane that only receives shadows")},
-              .build = buildMesh}};
+const RegisteredScene<MeshSettings> kMeshRegistered{
+    {.name = "mesh",
+     .version = 1,
+     .summary = "A mesh from a file, standing on a ground plane, in the file's own units",
+     .source = "bench"},
+    buildMesh};
 
-const Registered<SceneInfo> kBunny{
-    SceneInfo{.name = "bunny",
-              .version = 1,
-              .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
-              .source = "Stanford 3D Scanning Repository; stand-in for Schwarz 2009, Fig. 4.16",
-              .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("bunny.obj", Turned::No); }}};
+const RegisteredScene<NoSettings> kBunny{
+    {.name = "bunny",
+     .version = 1,
+     .summary = "Stanford bunny of height 1 over a plane of 8 x 8 (package glmark2-data)",
+     .source = "Stanford 3D Scanning Repository; stand-in for Schwarz 2009, Fig. 4.16"},
+    [](const NoSettings&) { return buildModel("bunny.obj", Turned::No); }};
 
-const Registered<SceneInfo> kHorse{
-    SceneInfo{.name = "horse",
-              .version = 1,
-              .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
-              .source = "stand-in for Schwarz 2009, Fig. 4.28",
-              .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("horse.3ds", Turned::No); }}};
+const RegisteredScene<NoSettings> kHorse{
+    {.name = "horse",
+     .version = 1,
+     .summary = "Horse of height 1 over a plane: thin legs (package glmark2-data)",
+     .source = "stand-in for Schwarz 2009, Fig. 4.28"},
+    [](const NoSettings&) { return buildModel("horse.3ds", Turned::No); }};
 
-const Registered<SceneInfo> kCat{
-    SceneInfo{.name = "cat",
-              .version = 1,
-              .summary = "Cat of height 1 over a plane (package glmark2-data)",
-              .source = "stand-in for Schwarz 2009, Fig. 4.28",
-              .parameters = {},
-              .build = [](const ParameterValues&) { return buildModel("cat.3ds", Turned::Over); }}};
+const RegisteredScene<NoSettings> kCat{
+    {.name = "cat",
+     .version = 1,
+     .summary = "Cat of height 1 over a plane (package glmark2-data)",
+     .source = "stand-in for Schwarz 2009, Fig. 4.28"},
+    [](const NoSettings&) { return buildModel("cat.3ds", Turned::Over); }};
 
 }  // namespace
 }  // namespace limen::scene

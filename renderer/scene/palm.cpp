@@ -125,41 +125,58 @@ Mesh creature(int legPairs) {
   return body;
 }
 
-Scene buildPalm(const ParameterValues& values) {
-  const auto fronds = static_cast<int>(values.integer("fronds"));
-  const auto leaflets = static_cast<int>(values.integer("leaflets"));
-  Random random(values.integer("seed"));
+struct PalmSettings {
+  int fronds = 14, leaflets = 40;
+  double leafletWidth = 0.022;
+  int legPairs = 2;
+  int64_t seed = 1;
+  static const SettingsTable<PalmSettings>& table() {
+    using S = PalmSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::fronds, "fronds", {1, 64}, "fronds", "Fronds of the crown"},
+        {&S::leaflets,
+         "leaflets",
+         {1, 400},
+         "leaflets",
+         "Leaflets on each side of a frond, two triangles each"},
+        {&S::leafletWidth,
+         "leaflet_width",
+         {0.001, 0.1},
+         "m",
+         "Largest width of a leaflet; a frond is about 1.15 m long"},
+        {&S::legPairs, "leg_pairs", {1, 12}, "pairs", "Pairs of legs of the animal"},
+        {&S::seed, "seed", {0, 1000000}, "", "Of the places of fronds and leaflets"}};
+    return kTable;
+  }
+};
+
+Scene buildPalm(const PalmSettings& settings) {
+  const int fronds = settings.fronds, leaflets = settings.leaflets;
+  Random random(settings.seed);
   Mesh wood = trunk(), leaves;
   for (int i = 0; i < fronds; ++i) {
     const double azimuth = 2.0 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / fronds;
     const Frond frond(trunkPoint(1.0), azimuth, random.uniform(0.5, 1.1),
                       kFrondLength * random.uniform(0.85, 1.1));
     append(wood, frond.rib());
-    frond.addLeaflets(leaves, leaflets, values.real("leaflet_width"), random);
+    frond.addLeaflets(leaves, leaflets, settings.leafletWidth, random);
   }
   Scene scene;
   addGround(scene, 13.0);
   addPart(scene, "wood", wood, {0.38F, 0.28F, 0.18F});
   addPart(scene, "leaves", leaves, {0.22F, 0.42F, 0.13F});
-  addPart(scene, "creature", creature(static_cast<int>(values.integer("leg_pairs"))), {0.45F, 0.5F, 0.42F});
+  addPart(scene, "creature", creature(settings.legPairs), {0.45F, 0.5F, 0.42F});
   scene.lights = {lightTowards({-2.6, 5.2, 1.8}, {0.0, 0.8, 0.1}, glm::dvec2(0.4))};
   setStillCamera(scene, orbitCamera({0.1, 0.6, 0.1}, 5.2, 14.0, 37.0));
   return scene;
 }
 
-const Registered<SceneInfo> kPalmRegistered{SceneInfo{
-    .name = "palm",
-    .version = 1,
-    .summary = "Long-necked animal under a palm: shadows of thin fronds on a body and on the ground",
-    .source = "stand-in for Schwarz 2009, Fig. 5.3",
-    .parameters = {integerParameter("fronds", 14, 1, 64, "fronds", "Fronds of the crown"),
-                   integerParameter("leaflets", 40, 1, 400, "leaflets",
-                                    "Leaflets on each side of a frond, two triangles each"),
-                   realParameter("leaflet_width", 0.022, 0.001, 0.1, "m",
-                                 "Largest width of a leaflet; a frond is about 1.15 m long"),
-                   integerParameter("leg_pairs", 2, 1, 12, "pairs", "Pairs of legs of the animal"),
-                   integerParameter("seed", 1, 0, 1000000, "", "Of the places of fronds and leaflets")},
-    .build = buildPalm}};
+const RegisteredScene<PalmSettings> kPalmRegistered{
+    {.name = "palm",
+     .version = 1,
+     .summary = "Long-necked animal under a palm: shadows of thin fronds on a body and on the ground",
+     .source = "stand-in for Schwarz 2009, Fig. 5.3"},
+    buildPalm};
 
 }  // namespace
 }  // namespace limen::scene

@@ -190,7 +190,8 @@ struct Scene {
   std::set<std::string> traits() const;
 };
 
-/// Registration of a scene. `parameters` does not hold the common parameters (see commonParameters()).
+/// Registration of a scene. `parameters` are its own, without those of every scene (PlacementSettings, see
+/// placement.h).
 struct SceneInfo {
   static constexpr const char* kKind = "scene";
   std::string name;
@@ -199,41 +200,35 @@ struct SceneInfo {
   std::string source;
   ParameterList parameters = {};
   std::function<Scene(const ParameterValues&)> build = {};
+  /// Throws Error if its own values do not go together; null: all do.
+  std::function<void(const ParameterValues&)> check = {};
 
-  /// Own parameters followed by the common ones.
+  /// Own parameters followed by those of every scene.
   std::vector<Parameter> allParameters() const;
+  /// Throws Error if values of allParameters() do not go together or the camera cannot be used. Reads the file
+  /// of a camera path.
+  void checkValues(const ParameterValues& complete) const;
 };
 using SceneRegistry = Registry<SceneInfo>;
 
+/// Of scenes that have no parameters of their own.
+struct NoSettings {
+  static const SettingsTable<NoSettings>& table();
+};
+
 /// Registers a scene that is built from settings S (settings_table.h) at program start. `info` says the rest;
-/// its parameters and build are filled in.
+/// its parameters, build and check are filled in.
 template <class S>
 struct RegisteredScene {
   RegisteredScene(SceneInfo info, Scene (*build)(const S&), const S& defaults = {}) {
     info.parameters = ParameterList([defaults] { return S::table().parameters(defaults); });
     info.build = [build](const ParameterValues& values) { return build(S::table().read(values)); };
+    info.check = [](const ParameterValues& values) { S::table().read(values); };
     SceneRegistry::instance().add(std::move(info));
   }
 };
 
-/// Parameters of every scene: `scale` (whole world, 1e-6..1e6), `offset` (moves the world by this many of its
-/// own diagonals along (1,1,1)/sqrt(3), 0..1e6), `light_size` (multiplies the light's extents, 0.001..100),
-/// `light_shape` (as_built, rectangle, disc, polygon: a hexagon), `time_s` (position on the camera path: the
-/// path is moved so that its time 0 is that of `time_s`; camera.at(0) is the camera of a still picture),
-/// `camera` (a still view in place of the scene's own, see camera_text.h; "": the scene's own), `camera_path`
-/// (a file with a path in place of the scene's own, see camera_path_file.h). A view or path that is given is
-/// in the units of the built world: `scale` and `offset` do not move it.
-std::vector<Parameter> commonParameters();
-
-/// Throws Error if `camera` or `camera_path` cannot be used, or if both are given. Reads the path's file.
-void checkCameraParameters(const ParameterValues& complete);
-
-/// What `time_s`, `camera` and `camera_path` make of a scene's own path, the last step of buildScene(): with
-/// `built` the camera of a scene that was built with the defaults of these three, the result is to the bit
-/// that of the scene built with `complete`. Throws Error as checkCameraParameters() does.
-CameraPath cameraFor(const CameraPath& built, const ParameterValues& complete);
-
-/// Builds a registered scene and applies the common parameters; what `values` leaves out takes its default.
+/// Builds a registered scene and places it (placement.h); what `values` leaves out takes its default.
 /// The parts of the result tile its triangles in order. Throws Error.
 Scene buildScene(const std::string& name, const ParameterValues& values);
 

@@ -7,11 +7,30 @@
 namespace limen::scene {
 namespace {
 
+struct SphereGridSettings {
+  int spheresPerAxis = 3, tessellation = 16;
+  static const SettingsTable<SphereGridSettings>& table() {
+    using S = SphereGridSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::spheresPerAxis,
+         "spheres_per_axis",
+         {1, 6},
+         "spheres",
+         "Spheres along each edge of the cube",
+         "Schwarz 2009, Fig. 4.33"},
+        {&S::tessellation,
+         "tessellation",
+         {1, 48},
+         "segments",
+         "Segments in a quarter circle; a sphere has 8 times its square triangles"}};
+    return kTable;
+  }
+};
+
 /// Grid of spheres in a cube of side 1.6 whose lowest point floats above the ground: every shadow ray can
 /// meet several spheres one behind another, and every sphere is a receiver too.
-Scene buildSphereGrid(const ParameterValues& values) {
-  const auto perAxis = static_cast<int>(values.integer("spheres_per_axis"));
-  const auto cells = static_cast<int>(values.integer("tessellation"));
+Scene buildSphereGrid(const SphereGridSettings& settings) {
+  const int perAxis = settings.spheresPerAxis, cells = settings.tessellation;
   constexpr double kSide = 1.6, kLowest = 0.15;
   const double pitch = kSide / perAxis, radius = 0.36 * pitch;
   Mesh spheres;
@@ -29,9 +48,21 @@ Scene buildSphereGrid(const ParameterValues& values) {
   return scene;
 }
 
+struct TwoColourSettings {
+  int tessellation = 16;
+  static const SettingsTable<TwoColourSettings>& table() {
+    static const SettingsTable<TwoColourSettings> kTable = {{&TwoColourSettings::tessellation,
+                                                             "tessellation",
+                                                             {1, 48},
+                                                             "segments",
+                                                             "Segments in a quarter circle"}};
+    return kTable;
+  }
+};
+
 /// The light's left half is red and its right half blue, so that shadows separate into two colours.
-Scene buildTwoColourLight(const ParameterValues& values) {
-  const auto cells = static_cast<int>(values.integer("tessellation"));
+Scene buildTwoColourLight(const TwoColourSettings& settings) {
+  const int cells = settings.tessellation;
   Scene scene;
   addGround(scene, 9.0);
   addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, cells), {0.75F, 0.75F, 0.75F});
@@ -55,9 +86,18 @@ glm::vec3 pictureAt(glm::dvec2 unit) {
   return letter ? glm::vec3(1.0F, 0.85F, 0.2F) : glm::vec3(0.1F + 0.3F * unit.x, 0.05F, 0.2F + 0.6F * unit.y);
 }
 
+struct TexturedLightSettings {
+  int cells = 8;
+  static const SettingsTable<TexturedLightSettings>& table() {
+    static const SettingsTable<TexturedLightSettings> kTable = {
+        {&TexturedLightSettings::cells, "cells", {2, 32}, "cells", "Cells of the picture along a side"}};
+    return kTable;
+  }
+};
+
 /// The light is a picture of square cells.
-Scene buildTexturedLight(const ParameterValues& values) {
-  const auto cells = static_cast<int>(values.integer("cells"));
+Scene buildTexturedLight(const TexturedLightSettings& settings) {
+  const int cells = settings.cells;
   Scene scene;
   addGround(scene, 9.0);
   addPart(scene, "sphere", sphere({-0.45, 0.4, 0.1}, 0.4, 16), {0.75F, 0.75F, 0.75F});
@@ -75,33 +115,26 @@ Scene buildTexturedLight(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kSphereGrid{SceneInfo{
-    .name = "sphere_grid",
-    .version = 1,
-    .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
-    .source = "Schwarz 2009, Fig. 4.33",
-    .parameters = {integerParameter("spheres_per_axis", 3, 1, 6, "spheres",
-                                    "Spheres along each edge of the cube", "Schwarz 2009, Fig. 4.33"),
-                   integerParameter(
-                       "tessellation", 16, 1, 48, "segments",
-                       "Segments in a quarter circle; a sphere has 8 times its square triangles")},
-    .build = buildSphereGrid}};
+const RegisteredScene<SphereGridSettings> kSphereGrid{
+    {.name = "sphere_grid",
+     .version = 1,
+     .summary = "Cubic grid of spheres over a plane: overlapping occluders at many depths",
+     .source = "Schwarz 2009, Fig. 4.33"},
+    buildSphereGrid};
 
-const Registered<SceneInfo> kTwoColourLight{SceneInfo{
-    .name = "two_colour_light",
-    .version = 1,
-    .summary = "Sphere and cone under a light whose halves differ in colour",
-    .source = "stand-in for Schwarz 2009, Fig. 4.4",
-    .parameters = {integerParameter("tessellation", 16, 1, 48, "segments", "Segments in a quarter circle")},
-    .build = buildTwoColourLight}};
+const RegisteredScene<TwoColourSettings> kTwoColourLight{
+    {.name = "two_colour_light",
+     .version = 1,
+     .summary = "Sphere and cone under a light whose halves differ in colour",
+     .source = "stand-in for Schwarz 2009, Fig. 4.4"},
+    buildTwoColourLight};
 
-const Registered<SceneInfo> kTexturedLight{SceneInfo{
-    .name = "textured_light",
-    .version = 1,
-    .summary = "Sphere and cone under a light that shows a picture",
-    .source = "Schwarz 2009, section 4.2.2",
-    .parameters = {integerParameter("cells", 8, 2, 32, "cells", "Cells of the picture along a side")},
-    .build = buildTexturedLight}};
+const RegisteredScene<TexturedLightSettings> kTexturedLight{
+    {.name = "textured_light",
+     .version = 1,
+     .summary = "Sphere and cone under a light that shows a picture",
+     .source = "Schwarz 2009, section 4.2.2"},
+    buildTexturedLight};
 
 }  // namespace
 }  // namespace limen::scene

@@ -6,16 +6,38 @@
 namespace limen::scene {
 namespace {
 
+struct StreetLightSettings {
+  double poleRadius = 0.03, trunkRadius = 0.035;
+  int branching = 4;
+  int64_t seed = 3;
+  static const SettingsTable<StreetLightSettings>& table() {
+    using S = StreetLightSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::poleRadius, "pole_radius", {0.002, 0.1}, "m", "Radius of the pole at its foot"},
+        {&S::trunkRadius,
+         "trunk_radius",
+         {0.002, 0.1},
+         "m",
+         "Radius of the tree's foot; each branching halves it"},
+        {&S::branching,
+         "branching",
+         {0, 5},
+         "",
+         "Times that the tree branches, into 6 twigs each; 20 triangles a twig"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the tree"}};
+    return kTable;
+  }
+};
+
 /// A lamp post and, behind it, a bare tree whose crown is partly out of the picture while its shadow is in
 /// it.
-Scene buildStreetLight(const ParameterValues& values) {
-  const double radius = values.real("pole_radius");
+Scene buildStreetLight(const StreetLightSettings& settings) {
+  const double radius = settings.poleRadius;
   Mesh pole = frustum({-0.55, 0.0, 0.25}, {-0.55, 1.7, 0.25}, radius, 0.7 * radius, 24);
   append(pole, frustum({-0.55, 1.68, 0.25}, {-0.1, 1.76, 0.25}, 0.6 * radius, 0.6 * radius, 24));
   append(pole, box({-0.2, 1.7, 0.18}, {0.08, 1.75, 0.32}));
-  Tree tree(values.integer("seed"));
-  const auto depth = static_cast<int>(values.integer("branching"));
-  tree.grow({0.35, 0.0, -0.6}, {0.0, 1.0, 0.0}, 1.0, values.real("trunk_radius"), depth);
+  Tree tree(settings.seed);
+  tree.grow({0.35, 0.0, -0.6}, {0.0, 1.0, 0.0}, 1.0, settings.trunkRadius, settings.branching);
   Scene scene;
   addGround(scene, 12.0);
   addPart(scene, "pole", pole, {0.4F, 0.4F, 0.42F});
@@ -25,18 +47,12 @@ Scene buildStreetLight(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kStreetLightRegistered{SceneInfo{
-    .name = "street_light",
-    .version = 1,
-    .summary = "Lamp post and bare tree: shadows that harden on contact, twigs thinner than a pixel",
-    .source = "Schwarz 2009, Fig. 3.2",
-    .parameters = {realParameter("pole_radius", 0.03, 0.002, 0.1, "m", "Radius of the pole at its foot"),
-                   realParameter("trunk_radius", 0.035, 0.002, 0.1, "m",
-                                 "Radius of the tree's foot; each branching halves it"),
-                   integerParameter("branching", 4, 0, 5, "",
-                                    "Times that the tree branches, into 6 twigs each; 20 triangles a twig"),
-                   integerParameter("seed", 3, 0, 1000000, "", "Seed of the tree")},
-    .build = buildStreetLight}};
+const RegisteredScene<StreetLightSettings> kStreetLightRegistered{
+    {.name = "street_light",
+     .version = 1,
+     .summary = "Lamp post and bare tree: shadows that harden on contact, twigs thinner than a pixel",
+     .source = "Schwarz 2009, Fig. 3.2"},
+    buildStreetLight};
 
 }  // namespace
 }  // namespace limen::scene

@@ -15,29 +15,78 @@ Mesh groundBetween(double low, double high) {
   return mesh;
 }
 
-Pattern patternNamed(const ParameterValues& values) {
-  const std::string& texture = values.text("texture");
+struct NoiseTexture {
+  static constexpr const char *kKind = "noise", *kSummary = "value noise";
+  static constexpr Pattern::Kind kPattern = Pattern::Kind::ValueNoise;
+  double size = 0.06, contrast = 0.9;
+  static const SettingsTable<NoiseTexture>& table() {
+    using S = NoiseTexture;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::size, "size", Range{0.005, 2.0}, "m", "Pitch of the coarsest lattice")
+            .formerly({"texture_size"}),
+        Binding(&S::contrast, "contrast", Range{0.0, 1.0}, "", "Contrast of the texture")
+            .formerly({"texture_contrast"})};
+    return kTable;
+  }
+};
+
+struct CheckerTexture {
+  static constexpr const char *kKind = "checker", *kSummary = "cubes of two shades";
+  static constexpr Pattern::Kind kPattern = Pattern::Kind::Checker;
+  double size = 0.06, contrast = 0.9;
+  static const SettingsTable<CheckerTexture>& table() {
+    using S = CheckerTexture;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::size, "size", Range{0.005, 2.0}, "m", "Edge of the cubes").formerly({"texture_size"}),
+        Binding(&S::contrast, "contrast", Range{0.0, 1.0}, "", "Contrast of the texture")
+            .formerly({"texture_contrast"})};
+    return kTable;
+  }
+};
+
+struct NoTexture {
+  static constexpr const char *kKind = "none", *kSummary = "plain";
+};
+
+struct TexturedGroundSettings {
+  std::variant<NoiseTexture, CheckerTexture, NoTexture> texture;
+  double texturedShare = 0.5;
+  static const SettingsTable<TexturedGroundSettings>& table() {
+    using S = TexturedGroundSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::texture, "texture", "Solid texture of the textured ground"},
+        {&S::texturedShare,
+         "textured_share",
+         {0.0, 1.0},
+         "",
+         "Share of the ground that is textured, from its right side (+x) on"}};
+    return kTable;
+  }
+};
+
+template <class Texture>
+Pattern patternOf(const Texture& texture) {
   Pattern pattern;
-  pattern.kind = texture == "none"      ? Pattern::Kind::None
-                 : texture == "checker" ? Pattern::Kind::Checker
-                                        : Pattern::Kind::ValueNoise;
-  pattern.size = values.real("texture_size");
-  pattern.contrast = values.real("texture_contrast");
+  pattern.kind = Texture::kPattern;
+  pattern.size = texture.size;
+  pattern.contrast = texture.contrast;
   // Off the ground: a checker's cubes must not end in the very plane that is seen.
   pattern.origin = {0.0, -0.5 * pattern.size, 0.0};
   return pattern;
 }
+Pattern patternOf(const NoTexture&) { return {}; }
 
 /// A rail along x throws the same penumbrae on the plain and on the textured part of the ground, so that what
 /// the texture masks is all that differs.
-Scene buildTexturedGround(const ParameterValues& values) {
-  const double half = 0.5 * kGroundSize, border = half - kGroundSize * values.real("textured_share");
+Scene buildTexturedGround(const TexturedGroundSettings& settings) {
+  const double half = 0.5 * kGroundSize, border = half - kGroundSize * settings.texturedShare;
   Scene scene;
   const glm::vec3 albedo(0.5F, 0.5F, 0.48F);
   if (border > -half) addPart(scene, "ground", groundBetween(-half, border), albedo, Role::ReceiverOnly);
   if (border < half) {
     addPart(scene, "textured_ground", groundBetween(border, half), albedo, Role::ReceiverOnly);
-    scene.materials.back().pattern = patternNamed(values);
+    scene.materials.back().pattern =
+        std::visit([](const auto& texture) { return patternOf(texture); }, settings.texture);
   }
   Mesh rails;
   for (int i = 0; i < 4; ++i) {
@@ -55,19 +104,12 @@ Scene buildTexturedGround(const ParameterValues& values) {
   return scene;
 }
 
-const Registered<SceneInfo> kTexturedGroundRegistered{SceneInfo{
-    .name = "textured_ground",
-    .version = 1,
-    .summary = "The same penumbrae on plain and on highly textured ground: what texture masks",
-    .source = "stand-in for Schwarz 2009, Fig. 5.4",
-    .parameters = {choiceParameter("texture", "noise", {"none", "checker", "noise"},
-                                   "Solid texture of the textured ground"),
-                   realParameter("texture_size", 0.06, 0.005, 2.0, "m",
-                                 "Edge of a checker's cubes, or pitch of the noise's coarsest lattice"),
-                   realParameter("texture_contrast", 0.9, 0.0, 1.0, "", "Contrast of the texture"),
-                   realParameter("textured_share", 0.5, 0.0, 1.0, "",
-                                 "Share of the ground that is textured, from its right side (+x) on")},
-    .build = buildTexturedGround}};
+const RegisteredScene<TexturedGroundSettings> kTexturedGroundRegistered{
+    {.name = "textured_ground",
+     .version = 1,
+     .summary = "The same penumbrae on plain and on highly textured ground: what texture masks",
+     .source = "stand-in for Schwarz 2009, Fig. 5.4"},
+    buildTexturedGround};
 
 }  // namespace
 }  // namespace limen::scene

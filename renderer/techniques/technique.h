@@ -35,7 +35,7 @@ std::string toText(ProductKind kind);
 struct Counter {
   std::string name;  ///< snake_case with unit: "micro_occluders_per_px"
   double value = 0.0;
-  std::string unit;
+  std::string unit = {};
   bool isCost = true;  ///< work done; otherwise a fact about how the product came about
 };
 

@@ -55,7 +55,7 @@ void PresentedPlayer::prepare(const Trial& trial, const Session&, const std::fun
   const int64_t budget = pictureBudgetBytes() / static_cast<int64_t>(trial.stimuli.size());
   for (const Stimulus& stimulus : trial.stimuli) {
     auto renderer =
-        std::make_unique<StimulusRenderer>(window_.context(), stimulus, sizePx, display_, &stages_);
+        std::make_unique<StimulusRenderer>(window_.context(), stimulus, sizePx, display_, &scenes_);
     prepared->stimuli.push_back(
         std::make_unique<PreparedStimulus>(std::move(renderer), budget, [&](int, int) {
           idle();

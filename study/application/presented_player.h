@@ -9,7 +9,7 @@
 #include "study/application/ui_screen.h"
 #include "study/presentation/presenter.h"
 #include "study/protocol/protocol.h"
-#include "study/stimulus/stage.h"
+#include "study/stimulus/stimulus_scene.h"
 
 namespace limen::study {
 
@@ -38,7 +38,7 @@ class PresentedPlayer : public StimulusPlayer {
   bool anyTiming_;
   PhotodiodePatch patch_;
   UiScreen screen_;
-  StageCache stages_;
+  SceneCache scenes_;
   std::unique_ptr<Prepared> prepared_;
 };
 

@@ -8,13 +8,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/base/catalogue.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/text.h"
+#include "renderer/catalogue.h"
 #include "study/command/commands.h"
 #include "study/observers/popping_model.h"
 #include "study/observers/power.h"
 #include "study/observers/summary.h"
-#include "study/protocol/declarations.h"
 
 namespace limen::study {
 namespace {
@@ -168,7 +169,7 @@ void runPower(const PowerOptions& given, Run& run) {
   if (options.thresholdWidth > 0.0) options.request.thresholdWidth = options.thresholdWidth;
   if (options.asJson && options.asCsv) throw Error("--json and --csv exclude one another", "power");
   const ObserverChoice observer = chooseObserver(options.kind, options.settings);
-  const Protocol protocol = readProtocol(options.protocol, declarationsFromRegistries());
+  const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
   std::unique_ptr<StimulusModel> model;
   if (observer.behaviour.fromModel || Simulation(protocol).needsModel())
     model = makePoppingModel(

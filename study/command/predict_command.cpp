@@ -8,9 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/base/assignments.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/text.h"
-#include "experiments/base/value_reader.h"
 #include "perception/popping/settings.h"
 #include "study/command/commands.h"
 #include "study/stimulus/store_predictions.h"
@@ -27,28 +27,8 @@ struct PredictOptions {
 };
 
 ParameterValues poppingValues(const std::vector<std::string>& settings) {
-  const std::vector<Parameter>& declared = perception::poppingParameters();
-  std::vector<std::string> names;
-  for (const Parameter& parameter : declared) names.push_back(parameter.name);
-  std::map<std::string, ParameterValue> given;
-  for (const std::string& setting : settings) {
-    const size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw Error("'" + setting + "' is no setting", "--set", "write --set NAME=VALUE");
-    const std::string name = setting.substr(0, equals);
-    const auto place = std::find(names.begin(), names.end(), name);
-    if (place == names.end())
-      throw Error("the predictor has no parameter '" + name + "'", "--set", suggest(name, names));
-    if (given.count(name)) throw Error("'" + name + "' is set twice", "--set");
-    Problems problems("--set " + setting);
-    FileFinder files("");
-    const YamlNode node = parseYaml(setting.substr(equals + 1), problems.file());
-    const auto value =
-        ValueReader(problems, files).value(node, declared[static_cast<size_t>(place - names.begin())]);
-    problems.throwIfAny();
-    if (value) given[name] = *value;
-  }
-  return ParameterValues(declared, given, "--set");
+  const std::vector<Parameter> declared = perception::PoppingSettings::table().parameters();
+  return {declared, readAssignments(settings, declared, "--set"), "--set"};
 }
 
 /// Says on standard error how far it is: over the same line on a terminal, else at every tenth stimulus.

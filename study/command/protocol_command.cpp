@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "experiments/base/text.h"
+#include "renderer/catalogue.h"
 #include "study/command/commands.h"
 #include "study/protocol/describe.h"
 
@@ -31,10 +32,10 @@ void listProtocols(bool asJson) {
 }
 
 void showProtocols(const ProtocolOptions& options) {
-  const std::shared_ptr<const Declarations> declarations = declarationsFromRegistries();
+  const std::shared_ptr<const Catalogue> catalogue = catalogueFromRegistries();
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& name : options.names) {
-    const Protocol protocol = readProtocol(name, declarations);
+    const Protocol protocol = readProtocol(name, catalogue);
     const Design design = makeDesign(protocol, options.seed, options.participantNumber);
     if (options.check) {
       const size_t trials = trialsOf(design);

@@ -11,6 +11,7 @@
 #include "experiments/base/build_facts.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/interrupt.h"
+#include "renderer/catalogue.h"
 #include "renderer/gl/window_context.h"
 #include "renderer/gl/window_system.h"
 #include "study/application/presented_player.h"
@@ -137,7 +138,7 @@ void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const Session
 }
 
 void runStudy(const RunOptions& options, Run& run) {
-  const Protocol protocol = readProtocol(options.protocol, declarationsFromRegistries());
+  const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
   checkCode(options.participant, "participant");
   checkCode(options.session, "session");
   const SessionRequest request = requestOf(options, protocol);

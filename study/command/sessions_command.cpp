@@ -11,6 +11,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "experiments/store/sessions.h"
+#include "renderer/catalogue.h"
 #include "study/command/commands.h"
 #include "study/session/replay.h"
 
@@ -140,7 +141,7 @@ void replay(const SessionsOptions& options, Run& run) {
   const store::SessionReader reader(options.store);
   const store::StudySession session = findSession(reader, options);
   const store::StudyProtocol stored = reader.protocol(session.protocol);
-  const Protocol protocol = parseProtocol(stored.text, stored.path, declarationsFromRegistries());
+  const Protocol protocol = parseProtocol(stored.text, stored.path, catalogueFromRegistries());
   const Verification verification = verifySession(reader, session, protocol);
   const std::vector<store::StudyTrial> trials = reader.trials(session.id);
   const bool good = verification.differences.empty();

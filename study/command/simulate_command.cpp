@@ -8,13 +8,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/base/catalogue.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/text.h"
+#include "renderer/catalogue.h"
 #include "study/command/commands.h"
 #include "study/observers/popping_model.h"
 #include "study/observers/simulate.h"
 #include "study/observers/summary.h"
-#include "study/protocol/declarations.h"
 
 namespace limen::study {
 namespace {
@@ -34,12 +35,12 @@ void listKinds(bool asJson) {
   for (const ObserverKind* kind : observerKinds()) {
     nlohmann::json parameters = nlohmann::json::array();
     text += fmt::format("{}: {}\n", kind->name, kind->summary);
-    for (const Parameter& parameter : kind->parameters) {
-      parameters.push_back(toJson(parameter));
-      text +=
-          fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", parameter.name, parameter.description,
-                      "", describeRange(parameter), limen::toText(parameter.defaultValue),
-                      parameter.source.empty() ? "" : " [" + parameter.source + "]");
+    for (const Parameter& parameter : kind->parameters) parameters.push_back(toJson(parameter));
+    for (const DeclaredAt& at : flatten(kind->parameters)) {
+      const Parameter& parameter = *at.parameter;
+      text += fmt::format("    {:<18} {}\n    {:<18} {}; default {}{}\n", at.path, parameter.description, "",
+                          describeRange(parameter), limen::toText(parameter.defaultValue),
+                          parameter.source.empty() ? "" : " [" + parameter.source + "]");
     }
     out.push_back({{"name", kind->name},
                    {"version", kind->version},
@@ -84,7 +85,7 @@ void runSimulate(const SimulateOptions& options, Run& run) {
   if (options.protocol.empty())
     throw Error("no protocol is named", "simulate", "give a name or a file, or --list");
   const ObserverChoice observer = chooseObserver(options.kind, options.settings);
-  const Protocol protocol = readProtocol(options.protocol, declarationsFromRegistries());
+  const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
 
   SimulationRequest request;
   request.store = options.store.empty() ? "results/" + protocol.name + "_simulated.sqlite" : options.store;

@@ -47,6 +47,6 @@ std::vector<std::pair<std::string, std::string>> shippedExamples();
 
 /// The study's protocol, its window replaced if the study has one of its own: the text that is stored with
 /// the answers says so. Throws Error as readProtocol().
-Protocol protocolOf(const ExampleStudy& study, std::shared_ptr<const Declarations> declarations);
+Protocol protocolOf(const ExampleStudy& study, std::shared_ptr<const Catalogue> catalogue);
 
 }  // namespace limen::study

@@ -41,10 +41,10 @@ std::string withWindow(const Protocol& protocol, std::pair<int, int> windowPx) {
 
 }  // namespace
 
-Protocol protocolOf(const ExampleStudy& study, std::shared_ptr<const Declarations> declarations) {
-  Protocol protocol = readProtocol(study.protocol, declarations);
+Protocol protocolOf(const ExampleStudy& study, std::shared_ptr<const Catalogue> catalogue) {
+  Protocol protocol = readProtocol(study.protocol, catalogue);
   if (!study.windowPx) return protocol;
-  return parseProtocol(withWindow(protocol, *study.windowPx), protocol.path, declarations);
+  return parseProtocol(withWindow(protocol, *study.windowPx), protocol.path, catalogue);
 }
 
 }  // namespace limen::study

@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/base/entry_reader.h"
 #include "experiments/base/error.h"
+#include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
 #include "experiments/base/value_reader.h"
 #include "perception/vision/display.h"
 #include "study/example/example.h"
-#include "study/protocol/node_reader.h"
 
 namespace limen::study {
 namespace {
@@ -88,11 +89,11 @@ class ExampleReader {
     if (const YamlNode* display = node.find("display"); display && !out.display.empty())
       checkDisplay(*display, out.display);
     readObserver(node, out);
-    reader_.take(node, integerParameter("observers", 1, 1, 100000, "", ""), out.observers);
+    reader_.take(node, "observers", {1, 100000}, "", out.observers);
     int seed = 1;
-    reader_.take(node, integerParameter("seed", 1, 0, 2147483647, "", ""), seed);
+    reader_.take(node, "seed", {0, 2147483647}, "", seed);
     out.seed = static_cast<uint64_t>(seed);
-    reader_.take(node, booleanParameter("predictions", true, ""), out.predictions);
+    reader_.take(node, "predictions", out.predictions);
     readWindow(node, out);
     return out;
   }
@@ -127,7 +128,7 @@ class ExampleReader {
   }
 
   void readObserver(const YamlNode& study, ExampleStudy& out) {
-    const std::string example = "{kind: lapsing, lapse: 0.02}";
+    const std::string example = "{kind: drifting, lapse_per_100: 0.01}";
     const YamlNode* node = study.find("observer");
     if (!node) {
       problems_.add(study.mark, "'observer' is missing", "say who answers: " + example);
@@ -147,21 +148,12 @@ class ExampleReader {
       problems_.add(node->find("kind")->mark, "no kind of observer '" + name + "'", suggest(name, kinds));
       return;
     }
-    std::vector<std::string> known = {"kind"}, settings;
-    for (const Parameter& parameter : kind->parameters) known.push_back(parameter.name);
-    reader_.checkKeys(*node, "observer '" + name + "'", known);
-    bool good = true;
-    for (const Parameter& parameter : kind->parameters) {
-      const YamlNode* value = node->find(parameter.name);
-      if (!value) continue;
-      if (reader_.values().value(*value, parameter))
-        settings.push_back(parameter.name + "=" + value->text);
-      else
-        good = false;
-    }
-    if (!good) return;
+    AxisPoint given;
+    EntryReader entry(reader_, "give one value");
+    for (const Axis& axis : entry.axes(*node, kind->parameters, "observer '" + name + "'", {"kind"}))
+      given.insert(axis.points.front().begin(), axis.points.front().end());
     try {
-      out.observer = chooseObserver(name, settings);
+      out.observer = chooseObserver(*kind, given);
     } catch (const Error& error) {
       problems_.add(node->mark, error.message(), error.mend());
     }
@@ -172,8 +164,8 @@ class ExampleReader {
     if (!node || !reader_.isMap(*node, "'window'", "{width_px: 320, height_px: 240}")) return;
     reader_.checkKeys(*node, "window", {"width_px", "height_px"});
     std::pair<int, int> window(0, 0);
-    reader_.take(*node, integerParameter("width_px", 1024, 16, 16384, "px", ""), window.first);
-    reader_.take(*node, integerParameter("height_px", 768, 16, 16384, "px", ""), window.second);
+    reader_.take(*node, "width_px", {16, 16384}, "px", window.first);
+    reader_.take(*node, "height_px", {16, 16384}, "px", window.second);
     for (const char* key : {"width_px", "height_px"})
       if (!node->find(key))
         problems_.add(node->mark, std::string("'") + key + "' of window is missing",

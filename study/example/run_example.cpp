@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/example/run_example.h"
+#include "renderer/catalogue.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <sstream>
 
 #include "experiments/base/build_facts.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/text.h"
@@ -19,7 +21,6 @@
 #include "study/example/sibling.h"
 #include "study/observers/popping_model.h"
 #include "study/observers/simulate.h"
-#include "study/protocol/declarations.h"
 #include "study/stimulus/store_predictions.h"
 
 namespace limen::study {
@@ -55,9 +56,9 @@ class ExampleRun {
     fs::create_directories(request_.folder, failed);
     if (failed) throw Error("the folder cannot be made: " + failed.message(), request_.folder);
     // All protocols are read before anything is simulated.
-    const auto declarations = declarationsFromRegistries();
+    const auto catalogue = catalogueFromRegistries();
     std::vector<Protocol> protocols;
-    for (const ExampleStudy& study : example_.studies) protocols.push_back(protocolOf(study, declarations));
+    for (const ExampleStudy& study : example_.studies) protocols.push_back(protocolOf(study, catalogue));
     for (size_t i = 0; i < protocols.size(); ++i)
       if (!simulate(example_.studies[i], protocols[i])) return stopped();
     for (size_t i = 0; i < protocols.size(); ++i)
@@ -104,7 +105,7 @@ class ExampleRun {
     request_.say(study.name + ": what predictors say of the stimuli");
     StorePredictionRequest request;
     request.store = storeOf(study);
-    request.popping = ParameterValues(perception::poppingParameters(), {}, "predictor");
+    request.popping = ParameterValues(perception::PoppingSettings::table().parameters(), {}, "predictor");
     request.cacheFile = cacheOf(study);
     request.progress = [this](int done, int all) {
       request_.progress(fmt::format("{} of {} stimuli", done, all));

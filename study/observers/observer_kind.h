@@ -2,12 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/parameter_list.h"
+#include "experiments/base/registry.h"
+#include "experiments/base/settings_table.h"
 #include "perception/popping/detection.h"
 
 namespace limen::study {
@@ -31,8 +34,19 @@ struct ObserverKind {
   std::string name;
   int version = 1;  ///< raised when the same settings give other answers
   std::string summary;
-  std::vector<Parameter> parameters;
-  std::function<ObserverBehaviour(const ParameterValues&)> make;
+  ParameterList parameters = {};
+  std::function<ObserverBehaviour(const ParameterValues&)> make = {};
+};
+
+/// Registers a kind with settings S at program start. `kind` says the rest; its parameters and make are
+/// filled in.
+template <class S>
+struct RegisteredObserver {
+  RegisteredObserver(ObserverKind kind, ObserverBehaviour (*make)(const S&)) {
+    kind.parameters = ParameterList([] { return S::table().parameters(); });
+    kind.make = [make](const ParameterValues& values) { return make(S::table().read(values)); };
+    Registry<ObserverKind>::instance().add(std::move(kind));
+  }
 };
 
 /// "biased", "drifting", "ideal", "lapsing", "model", in this order.
@@ -47,8 +61,12 @@ struct ObserverChoice {
   ParameterValues values;
   ObserverBehaviour behaviour;
 };
-/// `settings`: texts "NAME=VALUE". Throws Error: unknown kind or name, a value that does not fit.
+/// `settings`: texts "NAME=VALUE" (see readAssignments()). Throws Error: unknown kind or name, a value that
+/// does not fit.
 ObserverChoice chooseObserver(const std::string& kind, const std::vector<std::string>& settings = {});
+/// `given`: values by path. Throws Error.
+ObserverChoice chooseObserver(const ObserverKind& kind, const std::map<std::string, ParameterValue>& given,
+                              const std::string& where = {});
 /// {kind, version, parameters}
 nlohmann::json toJson(const ObserverChoice& choice);
 

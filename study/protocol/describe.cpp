@@ -6,7 +6,6 @@
 #include "experiments/base/text.h"
 #include "study/protocol/blocks.h"
 #include "study/protocol/conditions.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 namespace {

@@ -11,7 +11,6 @@
 #include "study/protocol/order.h"
 #include "study/protocol/part_reader.h"
 #include "study/protocol/stimulus_reader.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 namespace {
@@ -69,7 +68,7 @@ void PartReader::checkSize(const Part& part, Mark mark) {
 }
 
 void PartReader::checkStimuli(const Part& part) {
-  StimulusReader stimuli(reader_, declarations_);
+  StimulusReader stimuli(reader_, catalogue_);
   std::vector<Variables> sets = {{}};
   if (procedure_) {
     sets = corners(*procedure_);
@@ -85,9 +84,10 @@ void PartReader::checkStimuli(const Part& part) {
     for (const Variables& more : sets) {
       const auto stimulus = stimuli.read(part.stimulus, merged(condition.variables, more));
       if (stimulus && needsChange && !stimulus->changes)
-        reader_.problems().add(part.stimulus.node.mark,
-                               "nothing changes in the stimuli of a task '" + toText(part.task.type) + "'",
-                               "give 'levels: {before: 1, after: 0}', or 'before' and 'after'");
+        reader_.problems().add(
+            part.stimulus.node.mark,
+            "nothing changes in the stimuli of a task '" + std::string(limen::toText(part.task.type)) + "'",
+            "give 'levels: {before: 1, after: 0}', or 'before' and 'after'");
     }
 }
 

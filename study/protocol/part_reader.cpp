@@ -10,7 +10,6 @@
 #include "experiments/base/text.h"
 #include "study/protocol/conditions.h"
 #include "study/protocol/expression.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 
@@ -26,28 +25,26 @@ const std::vector<std::string>& partKeys() {
 OrderSetting readOrder(NodeReader& reader, const YamlNode& node, const std::string& key,
                        const std::vector<std::string>& limits) {
   OrderSetting out;
-  std::string kind = "shuffle";
   if (node.kind == Kind::Scalar) {
-    if (const auto value = reader.values().value(node, choiceParameter(key, kind, orderNames(), "")))
-      out.kind = orderNamed(std::get<std::string>(*value));
+    if (const auto kind = reader.choice(node, key, namesOf<OrderKind>()))
+      out.kind = fromText<OrderKind>(*kind);
     return out;
   }
   if (!reader.isMap(node, "'" + key + "'", "{kind: shuffle, at_most_in_a_row: {change: 4}}")) return out;
   reader.checkKeys(node, key, {"kind", "at_most_in_a_row"});
-  reader.takeChoice(node, choiceParameter("kind", kind, orderNames(), ""), kind);
-  out.kind = orderNamed(kind);
+  reader.take(node, "kind", out.kind);
   const YamlNode* runs = node.find("at_most_in_a_row");
   if (!runs || !reader.isMap(*runs, "'at_most_in_a_row'", "{change: 4}")) return out;
   if (out.kind != OrderKind::Shuffle)
-    reader.problems().add(runs->mark, "'at_most_in_a_row' goes with the order '" + kind + "'",
-                          "only 'shuffle' can keep to it");
+    reader.problems().add(
+        runs->mark, "'at_most_in_a_row' goes with the order '" + std::string(limen::toText(out.kind)) + "'",
+        "only 'shuffle' can keep to it");
   if (limits.empty())
     reader.problems().add(runs->mark, "'at_most_in_a_row' of '" + key + "'", "only 'order' has it");
   else
     reader.checkKeys(*runs, "at_most_in_a_row", limits);
   for (const auto& [name, value] : runs->members)
-    if (const auto most =
-            reader.values().value(value, integerParameter(name.text, 1, 1, 1000000, "trials", "")))
+    if (const auto most = reader.number(value, name.text, {1, 1000000}, "trials", true))
       out.atMostInARow[name.text] = static_cast<int>(std::get<int64_t>(*most));
   return out;
 }
@@ -133,11 +130,11 @@ void PartReader::readTrials(const YamlNode& map, Part& out) {
     reader_.checkKeys(
         *node, "trials",
         out.procedure ? std::vector<std::string>{"catch"} : std::vector<std::string>{"change", "catch"});
-    reader_.take(*node, integerParameter("change", 1, 1, 100000, "", ""), out.changeRepetitions);
-    reader_.take(*node, integerParameter("catch", 0, 0, 100000, "", ""), out.catchRepetitions);
+    reader_.take(*node, "change", {1, 100000}, "", out.changeRepetitions);
+    reader_.take(*node, "catch", {0, 100000}, "", out.catchRepetitions);
     if (out.catchRepetitions > 0 && out.task.type != Task::YesNo && out.task.type != Task::Rating)
       reader_.problems().add(node->find("catch")->mark,
-                             "catch trials of a task '" + toText(out.task.type) + "'",
+                             "catch trials of a task '" + std::string(limen::toText(out.task.type)) + "'",
                              "'yes_no' and 'rating' can have them; the others show what does not change in "
                              "every trial");
   }
@@ -148,7 +145,8 @@ void PartReader::readItems(const YamlNode& map, Part& out) {
   const YamlNode* node = map.find("items");
   if (out.task.type != Task::Pairwise) {
     if (node)
-      problems.add(node->mark, "'items' in a part with task '" + toText(out.task.type) + "'",
+      problems.add(node->mark,
+                   "'items' in a part with task '" + std::string(limen::toText(out.task.type)) + "'",
                    "only 'pairwise' compares items");
     return;
   }
@@ -250,20 +248,21 @@ void PartReader::readPractice(const YamlNode& node, Part& out) {
   reader_.checkKeys(node, "practice", {"trials", "feedback", "correct", "rounds", "on_failure", "stimuli"});
   if (!node.find("trials"))
     problems.add(node.mark, "'trials' of practice is missing", "give it: a whole number, 0 for none");
-  reader_.take(node, integerParameter("trials", 0, 0, 10000, "", ""), practice.trials);
-  reader_.take(node, booleanParameter("feedback", true, ""), practice.feedback);
-  reader_.take(node, integerParameter("correct", 0, 0, 10000, "trials", ""), practice.correct);
-  reader_.take(node, integerParameter("rounds", 3, 1, 100, "", ""), practice.rounds);
-  std::string failure = "continue";
-  reader_.takeChoice(node, choiceParameter("on_failure", failure, {"stop", "continue"}, ""), failure);
-  practice.stopOnFailure = failure == "stop";
+  reader_.take(node, "trials", {0, 10000}, "", practice.trials);
+  reader_.take(node, "feedback", practice.feedback);
+  reader_.take(node, "correct", {0, 10000}, "trials", practice.correct);
+  reader_.take(node, "rounds", {1, 100}, "", practice.rounds);
+  if (const YamlNode* failure = node.find("on_failure"))
+    practice.stopOnFailure = reader_.choice(*failure, "on_failure", {"stop", "continue"}) == "stop";
   if (practice.correct > practice.trials)
     problems.add(node.mark, fmt::format("{} right answers in {} trials", practice.correct, practice.trials),
                  "ask for as many as there are trials at most");
   const bool right = out.task.type != Task::Rating && out.task.type != Task::Pairwise;
   if (!right && (practice.correct > 0 || (node.find("feedback") && practice.feedback)))
-    problems.add(node.mark, "'correct' or 'feedback' in a part with task '" + toText(out.task.type) + "'",
-                 "its answers are neither right nor wrong: leave 'correct' out and set 'feedback: false'");
+    problems.add(
+        node.mark,
+        "'correct' or 'feedback' in a part with task '" + std::string(limen::toText(out.task.type)) + "'",
+        "its answers are neither right nor wrong: leave 'correct' out and set 'feedback: false'");
   if (!right) practice.feedback = false;
 
   const YamlNode* stimuli = node.find("stimuli");
@@ -317,7 +316,7 @@ Part PartReader::read(const YamlNode& map, const std::string& defaultName,
   if (const YamlNode* node = map.find("breaks");
       node && reader_.isMap(*node, "'breaks'", "{every_trials: 30}")) {
     reader_.checkKeys(*node, "breaks", {"every_trials"});
-    reader_.take(*node, integerParameter("every_trials", 0, 0, 100000, "", ""), out.breakEveryTrials);
+    reader_.take(*node, "every_trials", {0, 100000}, "", out.breakEveryTrials);
   }
   if (const YamlNode* node = map.find("practice")) readPractice(*node, out);
   checkNames(out, map.mark);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "experiments/base/node_reader.h"
 #include "study/procedures/procedure.h"
-#include "study/protocol/node_reader.h"
+#include "study/protocol/protocol.h"
 
 namespace limen::study {
 
@@ -12,8 +13,8 @@ const std::vector<std::string>& partKeys();
 /// Reads one part of a protocol, and checks that all its conditions give stimuli and its orders exist.
 class PartReader {
  public:
-  PartReader(NodeReader& reader, const Declarations& declarations, double refreshHz)
-      : reader_(reader), declarations_(declarations), refreshHz_(refreshHz) {}
+  PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz)
+      : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz) {}
 
   /// `otherKeys`: keys of the map that are not the part's, where a single part stands at the top level.
   Part read(const YamlNode& map, const std::string& defaultName, const std::vector<std::string>& otherKeys);
@@ -36,7 +37,7 @@ class PartReader {
   void checkOrders(const Part& part, Mark mark);
 
   NodeReader& reader_;
-  const Declarations& declarations_;
+  const Catalogue& catalogue_;
   double refreshHz_;
   std::optional<ProcedureSettings> procedure_;
 };

@@ -4,7 +4,6 @@
 
 #include "experiments/base/text.h"
 #include "study/protocol/part_reader.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 
@@ -23,7 +22,7 @@ std::optional<Scale> PartReader::readScale(const YamlNode& node, const std::stri
   } else {
     reader_.problems().add(node.mark, "'labels' of " + key + " is missing", "give it: [hardly, clearly]");
   }
-  if (always) reader_.take(node, booleanParameter("always", false, ""), out.task.severityAlways);
+  if (always) reader_.take(node, "always", out.task.severityAlways);
   return scale;
 }
 
@@ -50,7 +49,7 @@ void PartReader::readAnswers(const YamlNode& map, Part& out) {
   const bool rating = task.type == Task::Rating;
   if (rating ? task.answers.size() < 2 || task.answers.size() > 11 : task.answers.size() != expected)
     reader_.problems().add(
-        node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), toText(task.type)),
+        node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), limen::toText(task.type)),
         rating ? "a scale has two to eleven steps, the least first" : fmt::format("give {}", expected));
 }
 
@@ -63,22 +62,20 @@ void PartReader::readTask(const YamlNode& map, Part& out) {
   }
   if (!reader_.isMap(*node, "'task'", example)) return;
   std::vector<std::string> keys = {"type", "question", "answers", "severity", "confidence"};
-  std::string type = "yes_no";
   if (!node->find("type"))
-    reader_.problems().add(node->mark, "'type' of task is missing", "one of " + join(taskNames()));
-  reader_.takeChoice(*node, choiceParameter("type", type, taskNames(), ""), type);
+    reader_.problems().add(node->mark, "'type' of task is missing", "one of " + join(namesOf<Task>()));
   TaskSetting& task = out.task;
-  task.type = taskNamed(type);
+  task.type = Task::YesNo;
+  reader_.take(*node, "type", task.type);
   const bool several = task.type == Task::Interval || task.type == Task::Alternative;
   if (several) keys.emplace_back("alternatives");
   if (task.type == Task::Pairwise) keys.emplace_back("layout");
-  reader_.checkKeys(*node, "task '" + type + "'", keys);
-  if (several) reader_.take(*node, integerParameter("alternatives", 2, 2, 9, "", ""), task.alternatives);
+  reader_.checkKeys(*node, fmt::format("task '{}'", limen::toText(task.type)), keys);
+  if (several) reader_.take(*node, "alternatives", {2, 9}, "", task.alternatives);
   if (task.type == Task::Pairwise) {
-    std::string layout = "side_by_side";
-    reader_.takeChoice(*node, choiceParameter("layout", layout, {"side_by_side", "one_after_the_other"}, ""),
-                       layout);
-    task.sideBySide = layout == "side_by_side";
+    const YamlNode* layout = node->find("layout");
+    task.sideBySide = !layout || reader_.choice(*layout, "layout", {"side_by_side", "one_after_the_other"}) !=
+                                     "one_after_the_other";
   }
   reader_.takeText(*node, "question", true, task.question);
   readAnswers(*node, out);

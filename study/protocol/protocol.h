@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/catalogue.h"
+#include "experiments/base/enum_names.h"
 #include "experiments/base/yaml_tree.h"
-#include "study/protocol/declarations.h"
 
 namespace limen {
 class FileFinder;
@@ -25,6 +26,13 @@ enum class Task {
   Rating,       ///< one sequence, a step of a scale
   Pairwise      ///< two items side by side, or one after the other; which is better (or more of something)
 };
+constexpr EnumNames<Task, 5> enumNames(Task) {
+  return {{{{Task::YesNo, "yes_no"},
+            {Task::Interval, "interval"},
+            {Task::Alternative, "alternative"},
+            {Task::Rating, "rating"},
+            {Task::Pairwise, "pairwise"}}}};
+}
 
 /// A scale of named steps, 1 the least.
 struct Scale {
@@ -87,6 +95,12 @@ enum class OrderKind {
   Latin,    ///< row of a balanced Latin square by participant number
   Williams  ///< row of a Williams design (first-order carry-over balanced) by participant number
 };
+constexpr EnumNames<OrderKind, 4> enumNames(OrderKind) {
+  return {{{{OrderKind::Fixed, "fixed"},
+            {OrderKind::Shuffle, "shuffle"},
+            {OrderKind::Latin, "latin"},
+            {OrderKind::Williams, "williams"}}}};
+}
 
 struct OrderSetting {
   OrderKind kind = OrderKind::Shuffle;
@@ -137,6 +151,11 @@ struct WindowSetting {
 };
 
 enum class ResumePolicy { Resume, RestartBlock, Refuse };
+constexpr EnumNames<ResumePolicy, 3> enumNames(ResumePolicy) {
+  return {{{{ResumePolicy::Resume, "resume"},
+            {ResumePolicy::RestartBlock, "restart_block"},
+            {ResumePolicy::Refuse, "refuse"}}}};
+}
 struct SessionSetting {
   ResumePolicy resume = ResumePolicy::Resume;
   double maximumAgeH = 24.0;    ///< of the last event; an older session is not resumed
@@ -178,15 +197,15 @@ struct Protocol {
   nlohmann::json simulation;  ///< what simulated observers see in its conditions (see observers/)
   std::map<std::string, std::string> fileHashes;  ///< path of each file that a stimulus names -> SHA-256
   /// What its stimuli were checked against, and are made with.
-  std::shared_ptr<const Declarations> declarations;
+  std::shared_ptr<const Catalogue> catalogue;
   std::shared_ptr<const FileFinder> files;
 };
 
 /// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" for everything
 /// that is wrong. `nameOrPath`: a file, or the name of a shipped protocol.
-Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations);
+Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue);
 Protocol parseProtocol(const std::string& text, const std::string& path,
-                       std::shared_ptr<const Declarations> declarations);
+                       std::shared_ptr<const Catalogue> catalogue);
 /// Names of the protocols in study/protocols, with their titles.
 std::vector<std::pair<std::string, std::string>> shippedProtocols();
 

@@ -6,13 +6,12 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
 #include "perception/vision/display.h"
 #include "study/protocol/expression.h"
-#include "study/protocol/node_reader.h"
 #include "study/protocol/part_reader.h"
-#include "study/protocol/words.h"
 
 namespace limen::study {
 namespace {
@@ -37,11 +36,11 @@ const std::vector<std::string>& exclusionRules() {
 
 class ProtocolReader {
  public:
-  ProtocolReader(const std::string& path, std::shared_ptr<const Declarations> declarations)
+  ProtocolReader(const std::string& path, std::shared_ptr<const Catalogue> catalogue)
       : problems_(path), files_(path), reader_(problems_, files_) {
     out_.path = path;
     out_.name = fs::path(path).stem().string();
-    out_.declarations = std::move(declarations);
+    out_.catalogue = std::move(catalogue);
   }
 
   Protocol read(const std::string& text) {
@@ -107,9 +106,9 @@ class ProtocolReader {
     WindowSetting& window = out_.window;
     if (node && reader_.isMap(*node, "'window'", "{width_px: 1024, height_px: 768}")) {
       reader_.checkKeys(*node, "window", {"width_px", "height_px", "background"});
-      reader_.take(*node, integerParameter("width_px", 1024, 16, 16384, "px", ""), window.widthPx);
-      reader_.take(*node, integerParameter("height_px", 768, 16, 16384, "px", ""), window.heightPx);
-      reader_.take(*node, realParameter("background", 0.05, 0, 1, "", ""), window.background);
+      reader_.take(*node, "width_px", {16, 16384}, "px", window.widthPx);
+      reader_.take(*node, "height_px", {16, 16384}, "px", window.heightPx);
+      reader_.take(*node, "background", {0, 1}, "", window.background);
     }
     if (resolutionPx_.x > 0 && (window.widthPx > resolutionPx_.x || window.heightPx > resolutionPx_.y))
       problems_.add(node ? node->mark : root.mark,
@@ -119,7 +118,7 @@ class ProtocolReader {
   }
 
   void readParts(const YamlNode& root) {
-    PartReader parts(reader_, *out_.declarations, refreshHz_);
+    PartReader parts(reader_, *out_.catalogue, refreshHz_);
     const YamlNode* list = root.find("parts");
     if (!list) {
       out_.parts.push_back(parts.read(root, "main", protocolKeys()));
@@ -148,7 +147,7 @@ class ProtocolReader {
     std::vector<std::string> known;
     for (const auto& [name, target] : keys) {
       known.emplace_back(name);
-      reader_.take(node, realParameter(name, 0, 0, 3600, "s", ""), *target);
+      reader_.take(node, name, {0, 3600}, "s", *target);
     }
     reader_.checkKeys(node, "timing", known);
   }
@@ -157,15 +156,9 @@ class ProtocolReader {
     if (!reader_.isMap(node, "'session'", "{resume: resume, maximum_age_h: 24}")) return;
     reader_.checkKeys(node, "session", {"resume", "maximum_age_h", "repeat_invalid_at_most"});
     SessionSetting& session = out_.session;
-    std::string resume = "resume";
-    reader_.takeChoice(node, choiceParameter("resume", resume, {"resume", "restart_block", "refuse"}, ""),
-                       resume);
-    session.resume = resume == "resume"          ? ResumePolicy::Resume
-                     : resume == "restart_block" ? ResumePolicy::RestartBlock
-                                                 : ResumePolicy::Refuse;
-    reader_.take(node, realParameter("maximum_age_h", 24, 0, 87600, "h", ""), session.maximumAgeH);
-    reader_.take(node, integerParameter("repeat_invalid_at_most", 3, 0, 1000, "", ""),
-                 session.repeatInvalidAtMost);
+    reader_.take(node, "resume", session.resume);
+    reader_.take(node, "maximum_age_h", {0, 87600}, "h", session.maximumAgeH);
+    reader_.take(node, "repeat_invalid_at_most", {0, 1000}, "", session.repeatInvalidAtMost);
   }
 
   void readTexts(const YamlNode& root) {
@@ -215,8 +208,7 @@ class ProtocolReader {
     for (const auto& [key, value] : node.members) {
       const std::string& rule = key.text;
       const bool rate = rule.rfind("reaction_time", 0) != 0;
-      if (const auto limit = reader_.values().value(
-              value, rate ? realParameter(rule, 0, 0, 1, "", "") : realParameter(rule, 0, 0, 3600, "s", "")))
+      if (const auto limit = reader_.number(value, rule, {0.0, rate ? 1.0 : 3600.0}, rate ? "" : "s", false))
         out_.exclusions.push_back({rule, std::get<double>(*limit)});
     }
   }
@@ -232,15 +224,15 @@ class ProtocolReader {
 }  // namespace
 
 Protocol parseProtocol(const std::string& text, const std::string& path,
-                       std::shared_ptr<const Declarations> declarations) {
-  return ProtocolReader(path, std::move(declarations)).read(text);
+                       std::shared_ptr<const Catalogue> catalogue) {
+  return ProtocolReader(path, std::move(catalogue)).read(text);
 }
 
 std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shippedFiles(kProtocolFolder); }
 
-Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Declarations> declarations) {
+Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue) {
   const std::string path = findShipped(nameOrPath, kProtocolFolder, "protocol");
-  return parseProtocol(readTextFile(path), path, std::move(declarations));
+  return parseProtocol(readTextFile(path), path, std::move(catalogue));
 }
 
 }  // namespace limen::study

@@ -11,7 +11,7 @@ std::vector<Stimulus> stimuliOf(const Protocol& protocol, const PlannedTrial& tr
   Problems problems(protocol.path);
   FileFinder files = *protocol.files;
   NodeReader reader(problems, files);
-  StimulusReader stimuli(reader, *protocol.declarations);
+  StimulusReader stimuli(reader, *protocol.catalogue);
   const Variables variables = merged(trial.variables, axes);
   const auto read = [&](const Variables& all) {
     std::optional<Stimulus> out = stimuli.read(part.stimulus, all);

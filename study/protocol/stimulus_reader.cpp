@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "experiments/base/entry_reader.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "study/protocol/expression.h"
@@ -25,12 +26,6 @@ std::string origin(const Expression& expression, const Variables& variables) {
   return "'=" + expression.text + "'" + (used.empty() ? "" : " with " + join(used));
 }
 
-const Parameter* findParameter(const std::vector<Parameter>& declared, const std::string& name) {
-  const auto found = std::find_if(declared.begin(), declared.end(),
-                                  [&](const Parameter& parameter) { return parameter.name == name; });
-  return found == declared.end() ? nullptr : &*found;
-}
-
 template <class Entries>
 std::vector<std::string> namesOf(const Entries& entries) {
   std::vector<std::string> out;
@@ -38,93 +33,71 @@ std::vector<std::string> namesOf(const Entries& entries) {
   return out;
 }
 
-std::vector<std::string> namesOf(const std::vector<Parameter>& declared) {
-  std::vector<std::string> out;
-  for (const Parameter& parameter : declared) out.push_back(parameter.name);
-  return out;
-}
-
 }  // namespace
 
 std::optional<YamlNode> StimulusReader::resolved(const YamlNode& node) {
-  if (!isExpression(node)) return node;
-  try {
-    return toYaml(evaluate(expressionOf(node), *variables_, reader_.problems().file()), node.mark);
-  } catch (const Error& error) {
-    reader_.problems().add(node.mark, error.message(), error.mend());
-    return {};
-  }
-}
-
-std::optional<ParameterValue> StimulusReader::value(const YamlNode& node, const Parameter& parameter) {
-  std::optional<YamlNode> plain = resolved(node);
-  if (!plain) return {};
-  // A number that was calculated is one, whole or not; a text that a variable holds may be a number's.
   if (isExpression(node)) {
-    plain->quoted =
-        plain->quoted && parameter.type != ParameterType::Real && parameter.type != ParameterType::Integer;
-    if (parameter.type != ParameterType::File && !ValueReader::fits(*plain, parameter)) {
-      reader_.problems().add(node.mark,
-                             fmt::format("'{}' becomes {} by {}", parameter.name, plain->describe(),
-                                         origin(expressionOf(node), *variables_)),
-                             "allowed: " + describeRange(parameter));
+    try {
+      YamlNode out = toYaml(evaluate(expressionOf(node), *variables_, reader_.problems().file()), node.mark);
+      out.origin = origin(expressionOf(node), *variables_);
+      // A number that was calculated is one, whole or not; a text that a variable holds may be a number's.
+      out.quoted = false;
+      return out;
+    } catch (const Error& error) {
+      reader_.problems().add(node.mark, error.message(), error.mend());
       return {};
     }
   }
-  return reader_.values().value(*plain, parameter);
+  YamlNode out = node;
+  for (YamlMember& member : out.members) {
+    std::optional<YamlNode> value = resolved(member.value);
+    if (!value) return {};
+    member.value = *std::move(value);
+  }
+  for (YamlNode& item : out.items) {
+    std::optional<YamlNode> value = resolved(item);
+    if (!value) return {};
+    item = *std::move(value);
+  }
+  return out;
 }
 
-template <class Value>
-void StimulusReader::take(const YamlNode& map, const Parameter& parameter, Value& out) {
-  const YamlNode* node = map.find(parameter.name);
-  if (!node) return;
-  const auto found = value(*node, parameter);
-  if (!found) return;
-  if constexpr (std::is_same_v<Value, int>)
-    out = static_cast<int>(std::get<int64_t>(*found));
-  else
-    out = std::get<Value>(*found);
+template <class... Arguments>
+void StimulusReader::take(const YamlNode& map, const std::string& key, Arguments&&... arguments) {
+  const YamlNode* node = map.find(key);
+  const std::optional<YamlNode> plain = node ? resolved(*node) : std::nullopt;
+  if (!plain) return;
+  YamlNode name, alone;
+  name.kind = Kind::Scalar;
+  name.text = key;
+  alone.kind = Kind::Map;
+  alone.members = {{name, *plain}};
+  reader_.take(alone, key, std::forward<Arguments>(arguments)...);
 }
 
 ParameterValues StimulusReader::readValues(const YamlNode& map, const std::string& what,
                                            const std::vector<Parameter>& declared, bool named,
                                            std::map<std::string, std::string>* fileHashes) {
-  Problems& problems = reader_.problems();
-  std::map<std::string, ParameterValue> given;
-  bool complete = true;
-  for (const auto& [key, node] : map.members) {
-    if (named && key.text == "name") continue;
-    const Parameter* parameter = findParameter(declared, key.text);
-    if (!parameter) {
-      problems.add(key.mark, what + " has no parameter '" + key.text + "'",
-                   declared.empty() ? "it has none" : suggest(key.text, namesOf(declared)));
-      continue;
+  const std::string listHint =
+      "a stimulus has one value; several are levels of a factor: 'size: = size' and 'factors: {size: [...]}'";
+  const size_t before = reader_.problems().size();
+  EntryReader entry(reader_, listHint);
+  const std::vector<Axis> axes =
+      entry.axes(map, declared, what, named ? std::vector<std::string>{"name"} : std::vector<std::string>{});
+  // A problem that was met before does not count again: then it is an axis without a place that tells.
+  const std::vector<AxisPoint> given = combine(axes);
+  if (reader_.problems().size() != before || given.empty()) return {};
+  ParameterValues values(declared, given[0]);
+  for (const DeclaredAt& at : chosen(declared, values))
+    if (at.parameter->type == ParameterType::File && fileHashes) {
+      const auto hash = reader_.files().hashes().find(std::get<std::string>(*values.find(at.path)));
+      if (hash != reader_.files().hashes().end()) (*fileHashes)[at.path] = hash->second;
     }
-    if (node.kind == Kind::List) {
-      problems.add(node.mark, "'" + key.text + "' of " + what + " is a list",
-                   "a stimulus has one value; several are levels of a factor: '" + key.text +
-                       ": = " + key.text + "' and 'factors: {" + key.text + ": [...]}'");
-      continue;
-    }
-    const auto found = value(node, *parameter);
-    if (!found) continue;
-    given[key.text] = *found;
-    if (parameter->type == ParameterType::File && fileHashes)
-      (*fileHashes)[key.text] = reader_.files().hashes().at(std::get<std::string>(*found));
-  }
-  for (const Parameter& parameter : declared)
-    if (parameter.required && !map.find(parameter.name)) {
-      problems.add(map.mark, "'" + parameter.name + "' of " + what + " is missing",
-                   "give it: " + describeRange(parameter));
-      complete = false;
-    } else if (parameter.required && !given.count(parameter.name)) {
-      complete = false;
-    }
-  return complete ? ParameterValues(declared, given) : ParameterValues();
+  return values;
 }
 
 std::optional<NamedEntry> StimulusReader::readEntry(const YamlNode& node, const char* kind,
-                                                    const std::map<std::string, Declaration>& known) {
+                                                    const CatalogueKind& known) {
   Problems& problems = reader_.problems();
   const std::optional<YamlNode> map = resolved(node);
   if (!map || !reader_.isMap(*map, std::string("a ") + kind, kEntryExample)) return {};
@@ -157,10 +130,12 @@ void StimulusReader::readLevels(const YamlNode& node, Stimulus& out) {
     if (!map->find(key))
       reader_.problems().add(map->mark, fmt::format("'{}' of levels is missing", key),
                              "give it: number of a level, 0 the finest");
-  take(*map, integerParameter("object", 0, 0, 1000000, "", ""), change.object);
-  take(*map, integerParameter("before", 1, 0, 63, "", ""), change.before);
-  take(*map, integerParameter("after", 0, 0, 63, "", ""), change.after);
-  take(*map, choiceParameter("others", "finest", {"finest", "distance", "omitted"}, ""), change.others);
+  take(*map, "object", Range{0, 1000000}, "", change.object);
+  take(*map, "before", Range{0, 63}, "", change.before);
+  take(*map, "after", Range{0, 63}, "", change.after);
+  if (const YamlNode* others = map->find("others"))
+    if (const auto choice = reader_.choice(*others, "others", {"finest", "distance", "omitted"}))
+      change.others = *choice;
   if (change.before == change.after && map->find("before") && map->find("after"))
     reader_.problems().add(map->mark,
                            fmt::format("level {} changes to level {}", change.before, change.after),
@@ -182,13 +157,14 @@ void StimulusReader::readChange(const YamlNode& map, Stimulus& out) {
   if (shading && !levels)
     problems.add(shading->mark, "'shading' is without 'levels'", "a technique shades by itself");
   if (levels) readLevels(*levels, out);
-  if (before) out.before = readEntry(*before, "technique", declarations_.techniques);
-  if (after) out.after = readEntry(*after, "technique", declarations_.techniques);
+  if (before) out.before = readEntry(*before, "technique", catalogue_.techniques);
+  if (after) out.after = readEntry(*after, "technique", catalogue_.techniques);
   YamlNode none;
   none.kind = Kind::Map;
   none.mark = map.mark;
-  if (levels && (!shading || reader_.isMap(*shading, "'shading'", "{ambient: 0.2}")))
-    out.shading = readValues(shading ? *shading : none, "shading", declarations_.shading, false, nullptr);
+  const std::optional<YamlNode> plain = shading ? resolved(*shading) : none;
+  if (levels && plain && (!shading || reader_.isMap(*plain, "'shading'", "{ambient: 0.2}")))
+    out.shading = readValues(*plain, "shading", catalogue_.shading, false, nullptr);
 }
 
 void StimulusReader::readCue(const YamlNode& node, Stimulus& out) {
@@ -196,13 +172,11 @@ void StimulusReader::readCue(const YamlNode& node, Stimulus& out) {
   const std::optional<YamlNode> map = resolved(node);
   if (!map || !reader_.isMap(*map, "'cue'", "{kind: circle, x_px: 512, y_px: 384, duration_s: 2}")) return;
   reader_.checkKeys(*map, "cue", {"kind", "x_px", "y_px", "radius_px", "duration_s"});
-  std::string kind = "none";
-  take(*map, choiceParameter("kind", "none", {"none", "arrow", "circle"}, ""), kind);
-  out.cue.kind = kind == "arrow" ? Cue::Kind::Arrow : kind == "circle" ? Cue::Kind::Circle : Cue::Kind::None;
-  take(*map, realParameter("x_px", 0, -16384, 16384, "px", ""), out.cue.xPx);
-  take(*map, realParameter("y_px", 0, -16384, 16384, "px", ""), out.cue.yPx);
-  take(*map, realParameter("radius_px", 50, 1, 16384, "px", ""), out.cue.radiusPx);
-  take(*map, realParameter("duration_s", 0, 0, 60, "s", ""), out.cue.durationS);
+  take(*map, "kind", out.cue.kind);
+  take(*map, "x_px", Range{-16384, 16384}, "px", out.cue.xPx);
+  take(*map, "y_px", Range{-16384, 16384}, "px", out.cue.yPx);
+  take(*map, "radius_px", Range{1, 16384}, "px", out.cue.radiusPx);
+  take(*map, "duration_s", Range{0, 60}, "s", out.cue.durationS);
   if (out.cue.kind == Cue::Kind::None) return;
   for (const char* key : {"x_px", "y_px", "duration_s"})
     if (!map->find(key))
@@ -220,23 +194,22 @@ std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, con
                     {"scene", "levels", "before", "after", "shading", "presentation", "duration_s",
                      "change_at_s", "start_s", "showings", "gap_s", "samples", "catch_shows", "cue"});
   if (const YamlNode* scene = map.find("scene")) {
-    if (const auto entry = readEntry(*scene, "scene", declarations_.scenes)) out.scene = *entry;
+    if (const auto entry = readEntry(*scene, "scene", catalogue_.scenes)) out.scene = *entry;
   } else {
     problems.add(map.mark, "'scene' of a stimulus is missing", std::string("give it: ") + kEntryExample);
   }
   readChange(map, out);
-  std::string presentation = "dynamic", catchShows = "before";
-  take(map, choiceParameter("presentation", presentation, {"dynamic", "static"}, ""), presentation);
-  out.presentation = presentation == "static" ? Presentation::Static : Presentation::Dynamic;
-  take(map, choiceParameter("catch_shows", catchShows, {"before", "after"}, ""), catchShows);
-  out.catchShowsAfter = catchShows == "after";
-  take(map, realParameter("duration_s", 4, 0.02, 600, "s", ""), out.durationS);
+  take(map, "presentation", out.presentation);
+  if (const YamlNode* catchShows = map.find("catch_shows"))
+    if (const auto plain = resolved(*catchShows))
+      out.catchShowsAfter = reader_.choice(*plain, "catch_shows", {"before", "after"}) == "after";
+  take(map, "duration_s", Range{0.02, 600}, "s", out.durationS);
   out.changeAtS = 0.5 * out.durationS;
-  take(map, realParameter("change_at_s", 2, 0, 600, "s", ""), out.changeAtS);
-  take(map, realParameter("start_s", 0, -600, 3600, "s", ""), out.sceneStartS);
-  take(map, integerParameter("showings", 1, 1, 20, "", ""), out.showings);
-  take(map, realParameter("gap_s", 1, 0, 60, "s", ""), out.gapS);
-  take(map, integerParameter("samples", 2, 1, 16, "", ""), out.samples);
+  take(map, "change_at_s", Range{0, 600}, "s", out.changeAtS);
+  take(map, "start_s", Range{-600, 3600}, "s", out.sceneStartS);
+  take(map, "showings", Range{1, 20}, "", out.showings);
+  take(map, "gap_s", Range{0, 60}, "s", out.gapS);
+  take(map, "samples", Range{1, 16}, "", out.samples);
   if (const YamlNode* cue = map.find("cue")) readCue(*cue, out);
   out.changes = out.levels || out.after;
   if (out.changes && !(out.changeAtS > 0.0 && out.changeAtS < out.durationS)) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "study/protocol/node_reader.h"
+#include "experiments/base/node_reader.h"
 #include "study/stimulus/stimulus.h"
 
 namespace limen::study {
@@ -11,8 +11,7 @@ namespace limen::study {
 /// Makes stimuli of a template. What does not fit becomes a problem.
 class StimulusReader {
  public:
-  StimulusReader(NodeReader& reader, const Declarations& declarations)
-      : reader_(reader), declarations_(declarations) {}
+  StimulusReader(NodeReader& reader, const Catalogue& catalogue) : reader_(reader), catalogue_(catalogue) {}
 
   /// The stimulus with these variables; `changes` as if a change is due. Nothing after a problem.
   std::optional<Stimulus> read(const StimulusTemplate& source, const Variables& variables);
@@ -21,20 +20,20 @@ class StimulusReader {
   void readChange(const YamlNode& map, Stimulus& out);
   void readLevels(const YamlNode& node, Stimulus& out);
   void readCue(const YamlNode& node, Stimulus& out);
-  std::optional<NamedEntry> readEntry(const YamlNode& node, const char* kind,
-                                      const std::map<std::string, Declaration>& known);
+  std::optional<NamedEntry> readEntry(const YamlNode& node, const char* kind, const CatalogueKind& known);
   ParameterValues readValues(const YamlNode& map, const std::string& what,
                              const std::vector<Parameter>& declared, bool named,
                              std::map<std::string, std::string>* fileHashes);
 
-  /// The node with expressions worked out at its top; nothing after a problem.
+  /// The node with the expressions in it worked out, those of maps and lists below it too; nothing after a
+  /// problem.
   std::optional<YamlNode> resolved(const YamlNode& node);
-  std::optional<ParameterValue> value(const YamlNode& node, const Parameter& parameter);
-  template <class Value>
-  void take(const YamlNode& map, const Parameter& parameter, Value& out);
+  /// As NodeReader::take() of the same arguments, with an expression worked out.
+  template <class... Arguments>
+  void take(const YamlNode& map, const std::string& key, Arguments&&... arguments);
 
   NodeReader& reader_;
-  const Declarations& declarations_;
+  const Catalogue& catalogue_;
   const Variables* variables_ = nullptr;
 };
 

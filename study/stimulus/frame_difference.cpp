@@ -58,7 +58,7 @@ FrameComparer::FrameComparer(gl::Context& context, glm::ivec2 windowPx,
 FrameComparer::~FrameComparer() = default;
 
 double FrameComparer::flipPixelsPerDegree() const {
-  const Parameter& parameter = metric("flip").parameters.front();
+  const Parameter& parameter = metric("flip").parameters.get().front();
   return std::clamp(display_.pixelsPerDegree(), *parameter.minimum, *parameter.maximum);
 }
 
@@ -70,7 +70,7 @@ nlohmann::json FrameComparer::settings() {
 }
 
 FrameDifference FrameComparer::compare(const Stimulus& stimulus) {
-  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &stages_);
+  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   const Image testCodes = renderer.readBackState(timeS, true),
               referenceCodes = renderer.readBackState(timeS, false);

@@ -7,8 +7,8 @@
 
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
-#include "study/stimulus/stage.h"
 #include "study/stimulus/stimulus.h"
+#include "study/stimulus/stimulus_scene.h"
 
 namespace limen::perception {
 class MetricGpu;
@@ -47,7 +47,7 @@ class FrameComparer {
   gl::Context& context_;
   glm::ivec2 windowPx_;
   perception::DisplayProfile display_;
-  StageCache stages_;
+  SceneCache scenes_;
   std::unique_ptr<perception::MetricGpu> gpu_;
 };
 

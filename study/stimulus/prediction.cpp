@@ -31,11 +31,11 @@ void addMotion(perception::PoppingInput& input, frame::Frame& parent,
   const frame::LodPair::View &actual = pair.actual(), &predicted = pair.predicted();
   input.actualDisplacement = actual.displacement->read();
   input.predictedDisplacement = predicted.displacement->read();
-  if (settings.useDisocclusion) {
+  if (settings.usesDisocclusion()) {
     std::vector<perception::DisocclusionView> views;
     for (const frame::LodPair::View* view : {&actual, &predicted})
       views.push_back({view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
-    input.disocclusion = perception::disocclusionWeight(views, settings);
+    input.disocclusion = perception::disocclusionWeight(views, settings.disocclusionSettings());
   }
   // Flicker is what the level before the change shows over time.
   if (pairSetting.previousColour)
@@ -43,7 +43,7 @@ void addMotion(perception::PoppingInput& input, frame::Frame& parent,
         {actual.colour->read(), predicted.colour->read(), predicted.shadedBefore->read(),
          pair.previousColour()->read(), predicted.displacement->read(), predicted.previousDepth->read(),
          predicted.depthBefore->read()},
-        settings);
+        settings.flickerSettings());
 }
 
 /// 1 where the window shows the object before or after the change.
@@ -64,7 +64,7 @@ Image objectMask(frame::Frame& frame, size_t object,
 }
 
 double ratingWithoutRegion(const perception::PoppingSettings& settings) {
-  return perception::poppingRating(settings.regionThresholdJnd, settings) - 1.0;
+  return perception::poppingRating(settings.regions.thresholdJnd, settings) - 1.0;
 }
 
 }  // namespace
@@ -74,9 +74,10 @@ Predictor::Predictor(gl::Context& context, glm::ivec2 windowPx, const perception
     : context_(context),
       windowPx_(windowPx),
       display_(display),
-      popping_(perception::poppingParameters(), popping.all(), "settings of the predictor"),
+      popping_(perception::PoppingSettings::table().parameters(), popping.all(), "settings of the predictor"),
       cache_(cache ? *cache : own_) {
-  perception::poppingModel(windowPx.x, windowPx.y, display_, perception::PoppingSettings::from(popping_));
+  perception::poppingModel(windowPx.x, windowPx.y, display_,
+                           perception::PoppingSettings::table().read(popping_));
 }
 
 std::string Predictor::key(const Stimulus& stimulus) const {
@@ -93,7 +94,7 @@ std::string Predictor::key(const Stimulus& stimulus) const {
 }
 
 PredictedPopping Predictor::withoutChange() const {
-  const perception::PoppingSettings settings = perception::PoppingSettings::from(popping_);
+  const perception::PoppingSettings settings = perception::PoppingSettings::table().read(popping_);
   PredictedPopping out;
   out.rating = ratingWithoutRegion(settings);
   out.detectionProbability = settings.detection.guessRate;
@@ -111,25 +112,25 @@ PredictedPopping Predictor::predict(const Stimulus& stimulus) {
 }
 
 PredictedPopping Predictor::make(const Stimulus& stimulus) {
-  const perception::PoppingSettings settings = perception::PoppingSettings::from(popping_);
-  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &stages_);
+  const perception::PoppingSettings settings = perception::PoppingSettings::table().read(popping_);
+  StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   perception::PoppingInput input;
   input.actual = renderer.readBackState(timeS, true);
   input.predicted = renderer.readBackState(timeS, false);
 
-  const scene::Scene& scene = renderer.stage().scene;
+  const scene::Scene& scene = renderer.scene().scene;
   const scene::LodSelection finest = scene::finestLevels(scene);
   const auto levels = stimulus.levels
                           ? std::pair{levelsOf(scene, *stimulus.levels, true, timeS, windowPx_.y),
                                       levelsOf(scene, *stimulus.levels, false, timeS, windowPx_.y)}
                           : std::pair{finest, finest};
-  frame::Frame frame(context_, scene, renderer.stage().gpu, windowPx_, timeS);
+  frame::Frame frame(context_, renderer.scene(), windowPx_, timeS);
   if (stimulus.presentation == Presentation::Dynamic) {
     frame::LodPairSetting pair;
     pair.dtS = 1.0 / display_.refreshHz;
     pair.shaded = shadingOf(stimulus);
-    pair.previousColour = settings.useFlicker && stimulus.levels.has_value();
+    pair.previousColour = settings.usesFlicker() && stimulus.levels.has_value();
     frame.begin();
     addMotion(input, frame, pair, levels, settings);
     frame.end();

@@ -11,8 +11,8 @@
 #include "experiments/base/parameter.h"
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
-#include "study/stimulus/stage.h"
 #include "study/stimulus/stimulus.h"
+#include "study/stimulus/stimulus_scene.h"
 
 namespace limen::study {
 
@@ -62,7 +62,7 @@ class PredictionCache {
 /// Where a technique changes there is no flicker weight, since it has no shading of its own to judge it by.
 class Predictor {
  public:
-  /// `popping`: values of perception::poppingParameters(); what is left out takes its default. Throws Error.
+  /// `popping`: values of perception::PoppingSettings; what is left out takes its default. Throws Error.
   Predictor(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display,
             const ParameterValues& popping = {}, PredictionCache* cache = nullptr);
 
@@ -81,7 +81,7 @@ class Predictor {
   ParameterValues popping_;
   PredictionCache own_;
   PredictionCache& cache_;
-  StageCache stages_;
+  SceneCache scenes_;
 };
 
 }  // namespace limen::study

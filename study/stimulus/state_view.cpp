@@ -71,29 +71,29 @@ scene::LodSelection levelsOf(const scene::Scene& scene, const LevelChange& chang
 }
 
 frame::ShadedSetting shadingOf(const Stimulus& stimulus) {
-  return frame::ShadedSetting::from(
-      ParameterValues(frame::ShadedSetting::parameters(), stimulus.shading.all(), "shading of the stimulus"));
+  const SettingsTable<frame::ShadedSetting>& table = frame::ShadedSetting::table();
+  return table.read({table.parameters(), stimulus.shading.all(), "shading of the stimulus"});
 }
 
-StateView::StateView(gl::Context& context, std::shared_ptr<const Stage> stage, const Stimulus& stimulus,
-                     bool after, glm::ivec2 sizePx, double changeSceneTimeS)
-    : stage_(std::move(stage)), shaded_(shadingOf(stimulus)) {
+StateView::StateView(gl::Context& context, std::shared_ptr<const frame::SceneOnGpu> onGpu,
+                     const Stimulus& stimulus, bool after, glm::ivec2 sizePx, double changeSceneTimeS)
+    : scene_(std::move(onGpu)), shaded_(shadingOf(stimulus)) {
   checkSize(sizePx, stimulus.samples);
   const glm::ivec2 sampledPx = sizePx * stimulus.samples;
-  const scene::Scene& scene = stage_->scene;
+  const scene::Scene& scene = scene_->scene;
   if (stimulus.levels.has_value() == stimulus.before.has_value() || (stimulus.after && !stimulus.before))
     throw Error("a stimulus shows levels of detail or a technique", "stimulus",
                 "give either 'levels', or 'before' with or without 'after'");
   if (stimulus.levels) {
     const scene::LodSelection levels = levelsOf(scene, *stimulus.levels, after, changeSceneTimeS, sizePx.y);
-    frame_ = std::make_unique<frame::Frame>(context, scene, stage_->gpu, sampledPx);
+    frame_ = std::make_unique<frame::Frame>(context, *scene_, sampledPx);
     frame_->setLevels(levels);
   } else {
     const NamedEntry& entry = after && stimulus.after ? *stimulus.after : *stimulus.before;
     const techniques::TechniqueInfo& info = techniqueOf(entry, scene);
     modulates_ = info.product == techniques::ProductKind::Visibility;
     if (modulates_) shaded_.shadow = false;
-    frame_ = std::make_unique<frame::Frame>(context, scene, stage_->gpu, sampledPx);
+    frame_ = std::make_unique<frame::Frame>(context, *scene_, sampledPx);
     frame_->setTime(changeSceneTimeS);
     technique_ =
         info.make(ParameterValues(info.parameters, entry.values.all(), "technique '" + entry.name + "'"));

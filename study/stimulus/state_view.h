@@ -7,7 +7,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/technique.h"
-#include "study/stimulus/stage.h"
+#include "study/stimulus/stimulus_scene.h"
 
 namespace limen::study {
 
@@ -27,8 +27,8 @@ class StateView {
   /// Compiles and allocates; render() does neither. Throws Error: unknown technique, one whose product is no
   /// picture or which needs what the scene lacks, a picture larger than the driver's largest texture, or
   /// levels that do not exist.
-  StateView(gl::Context& context, std::shared_ptr<const Stage> stage, const Stimulus& stimulus, bool after,
-            glm::ivec2 sizePx, double changeSceneTimeS);
+  StateView(gl::Context& context, std::shared_ptr<const frame::SceneOnGpu> onGpu, const Stimulus& stimulus,
+            bool after, glm::ivec2 sizePx, double changeSceneTimeS);
   ~StateView();
 
   struct Picture {
@@ -41,7 +41,7 @@ class StateView {
   bool modulates() const { return modulates_; }
 
  private:
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const frame::SceneOnGpu> scene_;
   frame::ShadedSetting shaded_;
   bool modulates_ = false;
   std::unique_ptr<frame::Frame> frame_;

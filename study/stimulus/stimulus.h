@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/base/enum_names.h"
 #include "experiments/base/parameter.h"
 
 namespace limen::study {
@@ -30,10 +31,19 @@ enum class Presentation {
   Dynamic,  ///< the camera moves as the scene says
   Static    ///< the frame of the change, before and after it, the camera at rest
 };
+constexpr EnumNames<Presentation, 2> enumNames(Presentation) {
+  return {{{{Presentation::Dynamic, "dynamic"}, {Presentation::Static, "static"}}}};
+}
+
+enum class CueKind { None, Arrow, Circle };
+constexpr EnumNames<CueKind, 3> enumNames(CueKind) {
+  return {{{{CueKind::None, "none"}, {CueKind::Arrow, "arrow"}, {CueKind::Circle, "circle"}}}};
+}
 
 /// What guides the viewer's attention before a stimulus.
 struct Cue {
-  enum class Kind { None, Arrow, Circle } kind = Kind::None;
+  using Kind = CueKind;
+  Kind kind = Kind::None;
   double xPx = 0.0, yPx = 0.0;  ///< where it points, from the window's upper left corner
   double radiusPx = 50.0;       ///< Circle only
   double durationS = 0.0;       ///< shown before the stimulus, over its first frame

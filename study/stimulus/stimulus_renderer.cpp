@@ -29,12 +29,12 @@ Image codesOf(const Image& image) {
 }  // namespace
 
 StimulusRenderer::StimulusRenderer(gl::Context& context, const Stimulus& stimulus, glm::ivec2 sizePx,
-                                   const perception::DisplayProfile& display, StageCache* stages)
+                                   const perception::DisplayProfile& display, SceneCache* scenes)
     : context_(context),
       stimulus_(stimulus),
       timeline_(timelineOf(stimulus, display.refreshHz)),
       sizePx_(sizePx),
-      stage_(stages ? stages->get(stimulus.scene) : buildStage(stimulus.scene)),
+      scene_(scenes ? scenes->get(stimulus.scene) : buildStimulusScene(stimulus.scene)),
       thresholds_(gl::Format::R32F, {255, 1}),
       coded_(gl::Format::RGBA8, sizePx) {
   Image thresholds(255, 1, 1);
@@ -48,14 +48,14 @@ StimulusRenderer::StimulusRenderer(gl::Context& context, const Stimulus& stimulu
     const double timeS = timeline_.sceneTimeS(frame),
                  before = frame > 0 ? timeline_.sceneTimeS(frame - 1) : 0.0;
     const bool same = frame > 0 && timeline_.showsAfter(frame) == timeline_.showsAfter(frame - 1) &&
-                      (timeS == before || (byCamera && sameView(stage_->scene.camera.at(timeS),
-                                                                stage_->scene.camera.at(before))));
+                      (timeS == before || (byCamera && sameView(scene_->scene.camera.at(timeS),
+                                                                scene_->scene.camera.at(before))));
     if (!same) firstFrames_.push_back(frame);
     pictureOf_.push_back(static_cast<int>(firstFrames_.size()) - 1);
   }
   for (const bool after : {false, true})
     if (timeline_.showsAfter(0) == after || timeline_.showsAfter(timeline_.frames - 1) == after) {
-      views_[after] = std::make_unique<StateView>(context_, stage_, stimulus_, after, sizePx_,
+      views_[after] = std::make_unique<StateView>(context_, scene_, stimulus_, after, sizePx_,
                                                   timeline_.changeSceneTimeS);
       renderState(timeline_.changeSceneTimeS, after);  // compiles
     }

@@ -9,8 +9,8 @@
 #include "perception/vision/display.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
-#include "study/stimulus/stage.h"
 #include "study/stimulus/stimulus.h"
+#include "study/stimulus/stimulus_scene.h"
 #include "study/stimulus/timeline.h"
 
 namespace limen::study {
@@ -25,17 +25,17 @@ class StateView;
 /// time. See Timeline for which frame shows what.
 class StimulusRenderer {
  public:
-  /// Compiles and allocates all that render() needs. `stages`, if given, keeps scenes for other renderers.
-  /// Throws Error as timelineOf(), buildStage() and StateView.
+  /// Compiles and allocates all that render() needs. `scenes`, if given, keeps scenes for other renderers.
+  /// Throws Error as timelineOf(), buildStimulusScene() and StateView.
   StimulusRenderer(gl::Context& context, const Stimulus& stimulus, glm::ivec2 sizePx,
-                   const perception::DisplayProfile& display, StageCache* stages = nullptr);
+                   const perception::DisplayProfile& display, SceneCache* scenes = nullptr);
   ~StimulusRenderer();
   StimulusRenderer(const StimulusRenderer&) = delete;
   StimulusRenderer& operator=(const StimulusRenderer&) = delete;
 
   const Stimulus& stimulus() const { return stimulus_; }
   const Timeline& timeline() const { return timeline_; }
-  const Stage& stage() const { return *stage_; }
+  const frame::SceneOnGpu& scene() const { return *scene_; }
   glm::ivec2 sizePx() const { return sizePx_; }
   int frameCount() const { return timeline_.frames; }
 
@@ -59,7 +59,7 @@ class StimulusRenderer {
   Stimulus stimulus_;
   Timeline timeline_;
   glm::ivec2 sizePx_;
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const frame::SceneOnGpu> scene_;
   std::unique_ptr<StateView> views_[2];  // before, after; of a sequence without change only what it shows
   std::vector<int> pictureOf_, firstFrames_;
   gl::Texture thresholds_, coded_;

@@ -13,7 +13,7 @@ struct StorePredictionRequest {
   std::string store;
   std::string protocol;  ///< name or SHA-256; "": all
   std::string display;   ///< preset or profile in place of the one that a session was shown on; "" that one
-  ParameterValues popping;  ///< of perception::poppingParameters()
+  ParameterValues popping;  ///< of perception::PoppingSettings
   /// File that keeps what the popping predictor said, shared with observers who see with it; "" none.
   std::string cacheFile;
   /// Called after each stimulus with how many are done and how many there are.

@@ -50,14 +50,14 @@ const char* const kProbe = R"js(<script>
   button.click();
   out.shownAgain = shown(all('.mark[data-series="1"]'));
 
-  const headings = all("#runs thead th"), column = headings.findIndex(h => h.textContent.startsWith("rmse"));
+  const headings = all("#runs thead th"), column = headings.findIndex(h => h.textContent.startsWith("RMSE"));
   const values = () => all("#runs tbody tr").map(r => Number(r.cells[column].dataset.v));
   headings[column].querySelector("button").click();
   out.ascending = values(); out.sortName = headings[column].getAttribute("aria-sort");
   headings[column].querySelector("button").click();
   out.descending = values();
   out.rows = values().length;
-  const counter = headings.findIndex(h => h.textContent.startsWith("micro_occluders"));
+  const counter = headings.findIndex(h => h.textContent.startsWith("Micro-occluders"));
   for (let press = 0; press < 2; ++press) {
     headings[counter].querySelector("button").click();
     const filled = all("#runs tbody tr").map(r => r.cells[counter].textContent !== "");
@@ -104,7 +104,7 @@ TEST(ReportPage, WorksInABrowserAndDoesNotScrollSidewaysOnAPhone) {
   EXPECT_EQ(found.at("tipBefore"), true);
   const std::string tip = found.at("tip");
   EXPECT_THAT(tip, HasSubstr(found.at("markLabel").get<std::string>()));
-  for (const char* part : {"samples: ", "(ms): ", "RMSE: ", "["}) EXPECT_THAT(tip, HasSubstr(part));
+  for (const char* part : {"Samples: ", "(ms): ", "RMSE: ", "["}) EXPECT_THAT(tip, HasSubstr(part));
   EXPECT_THAT(tip, HasSubstr(formatNumber(std::stod(found.at("markX").get<std::string>()))));
   EXPECT_EQ(found.at("tipAfter"), true);
 

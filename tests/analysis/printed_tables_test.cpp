@@ -75,7 +75,7 @@ TEST_F(PrintedTables, SaysWhatIsPrintedAndWhatIsMeasured) {
   const auto tables = compare({10, 20}, {4, 12}, {{1, 2}, {3, 5}});
   const std::string html = renderPrinted(tables);
   EXPECT_THAT(html, HasSubstr("Table &lt;1&gt;"));
-  EXPECT_THAT(html, HasSubstr("Printed: Test 2024, Old GPU; values in ms; here gpu_ms."));
+  EXPECT_THAT(html, HasSubstr("Printed: Test 2024, Old GPU; values in ms; here GPU time (ms)."));
   EXPECT_THAT(html, HasSubstr("20 <small>×2</small>"));
   EXPECT_THAT(printedCsv(tables), HasSubstr("Table <1>,2,1,printed,two,5,2.5,ms"));
   EXPECT_THAT(renderPrinted({}), "");

@@ -14,11 +14,14 @@ using testing::ElementsAre;
 class SweepTest : public testing::Test {
  protected:
   Sweep load(std::vector<store::Run> runs, const nlohmann::json& report = nlohmann::json::object(),
-             const std::vector<store::PlanEntry>& missing = {}) {
+             const std::vector<store::PlanEntry>& missing = {},
+             const store::Descriptions& descriptions = {}) {
     store::Experiment experiment;
     experiment.title = "t";
+    experiment.hash = "t" + report.dump();
     experiment.report = report;
-    const int64_t id = writeExperiment(store_, experiment, std::move(runs), missing);
+    const int64_t id = writeExperiment(store_, experiment, std::move(runs), missing,
+                                       {"Test GPU", false, nlohmann::json::object()}, descriptions);
     for (const store::Experiment& one : store_.experiments())
       if (one.id == id) return loadSweep(store_, one);
     ADD_FAILURE();
@@ -28,6 +31,12 @@ class SweepTest : public testing::Test {
   TemporaryFolder folder_;
   store::Store store_{folder_.path("s.sqlite"), store::Access::ReadWrite};
 };
+
+std::vector<std::string> columnsOf(const Sweep& sweep) {
+  std::vector<std::string> names;
+  for (const Axis& column : sweep.varyingColumns) names.push_back(column.name);
+  return names;
+}
 
 TEST_F(SweepTest, TheFrontOfAPanelHoldsWhatNothingBeats) {
   // b is slower and worse than a; c is slower but better; another scene is another panel.
@@ -68,8 +77,8 @@ TEST_F(SweepTest, ASceneThatVariesGivesAPanelForEachOfItsSettings) {
   runs[1].parameters["scene"]["size"] = 2.5;
   const Sweep sweep = load(runs);
   ASSERT_EQ(sweep.panels.size(), 2U);
-  EXPECT_EQ(sweep.panels[1].title, "s, size=2.5");
-  EXPECT_THAT(sweep.varyingColumns, ElementsAre("samples", "size"));
+  EXPECT_EQ(sweep.panels[1].title, "s, size 2.5");
+  EXPECT_THAT(columnsOf(sweep), ElementsAre("samples", "size"));
   EXPECT_EQ(sweep.cells[1].varying.at("samples"), "2");
   EXPECT_EQ(sweep.cells[1].varying.count("bias"), 0U) << "what does not vary is no column";
 }
@@ -77,7 +86,7 @@ TEST_F(SweepTest, ASceneThatVariesGivesAPanelForEachOfItsSettings) {
 TEST_F(SweepTest, PanelsAndSeriesCanBeParametersAndAnAxisToo) {
   const Sweep sweep = load({makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 4, {1}, 0.2)},
                            {{"x", "samples"}, {"y", "rmse"}, {"series", "samples"}, {"panels", "technique"}});
-  EXPECT_THAT(sweep.series, ElementsAre("samples=1", "samples=4"));
+  EXPECT_THAT(sweep.series, ElementsAre("samples 1", "samples 4"));
   EXPECT_EQ(sweep.panels.at(0).title, "a");
   EXPECT_EQ(sweep.cells[1].x, 4.0);
 }
@@ -119,6 +128,108 @@ TEST_F(SweepTest, TheCounterThatMostRunsHaveIsTheSecondAxis) {
   ASSERT_TRUE(sweep.counter);
   EXPECT_EQ(sweep.counter->name, "nodes_per_px");
   EXPECT_EQ(sweep.cells[2].counter, 12.0);
+}
+
+TEST_F(SweepTest, TitlesUnitsAndDirectionsAreTheStoresAndNotGuessedFromNames) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0), makeRun("b", "s", 1, {2}, 0),
+                                  makeRun("c", "s", 1, {3}, 0)};
+  const double values[] = {30, 20, 40};
+  for (size_t i = 0; i < 3; ++i) {
+    runs[i].measurements.push_back({"psnr_distance", values[i], "", "error"});
+    runs[i].measurements.push_back({"agreement", values[i], "", "error"});
+  }
+  store::Descriptions said;
+  said.quantities = {
+      {"psnr_distance", "Distance of signals", "dB", Direction::LowerIsBetter, "error", "", ""},
+      {"agreement", "Agreement", "", Direction::HigherIsBetter, "error", "", ""}};
+  const Sweep lower = load(runs, {{"x", "gpu_ms"}, {"y", "psnr_distance"}}, {}, said);
+  EXPECT_EQ(lower.y.label(), "Distance of signals (dB)");
+  EXPECT_THAT(lower.panels[0].front, ElementsAre(0, 1));
+  for (store::Run& run : runs) run.key += "again";
+  const Sweep higher = load(runs, {{"x", "gpu_ms"}, {"y", "agreement"}}, {}, said);
+  EXPECT_EQ(higher.y.label(), "Agreement");
+  EXPECT_THAT(higher.panels[0].front, ElementsAre(0, 2));
+}
+
+TEST_F(SweepTest, AnErrorOfAnOldStoreThatNobodyKnowsHasNoDirection) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0)};
+  runs[0].measurements.push_back({"ssim_of_tomorrow", 1.0, "", "error"});
+  const Sweep sweep = load(runs, {{"x", "gpu_ms"}, {"y", "ssim_of_tomorrow"}});
+  EXPECT_EQ(sweep.y.direction, std::nullopt);
+  EXPECT_EQ(sweep.y.label(), "Ssim of tomorrow");
+}
+
+// budget: [none, {kind: radial, rim: [25, 50]}], and for the second technique rim alone varies.
+class PartialParameterTest : public SweepTest {
+ protected:
+  static store::Run run(const std::string& technique, const nlohmann::json& parameters, double ms) {
+    store::Run out = makeRun(technique, "s", 1, {ms}, 1.0 / ms);
+    out.key = technique + parameters.dump();
+    out.label = parameters.dump();
+    out.parameters["technique"] = parameters;
+    return out;
+  }
+  static std::vector<store::Run> runs() {
+    return {run("a", {{"budget", "none"}}, 3.0), run("a", {{"budget", "radial"}, {"budget.rim", 25}}, 1.0),
+            run("a", {{"budget", "radial"}, {"budget.rim", 50}}, 2.0),
+            run("b", {{"budget", "radial"}, {"budget.rim", 25}}, 4.0),
+            run("b", {{"budget", "radial"}, {"budget.rim", 50}}, 5.0)};
+  }
+  static store::Descriptions said() {
+    store::Descriptions out;
+    for (const char* owner : {"a", "b"}) {
+      store::ParameterRow budget;
+      budget.subject = "technique";
+      budget.owner = owner;
+      budget.path = "budget";
+      budget.title = "Budget";
+      store::ParameterRow rim = budget;
+      rim.path = "budget.rim";
+      rim.when = {{"budget", "radial"}};
+      rim.title = "Budget: rim";
+      rim.unit = "taps";
+      out.parameters.insert(out.parameters.end(), {budget, rim});
+    }
+    return out;
+  }
+};
+
+TEST_F(PartialParameterTest, LabelsNameTheOwnerOnceAndLeaveOutWhatARunDoesNotHave) {
+  const Sweep sweep = load(runs(), {}, {}, said());
+  EXPECT_EQ(sweep.label(sweep.cells[0]), "a, budget none");
+  EXPECT_EQ(sweep.label(sweep.cells[1]), "a, budget radial, rim 25 taps");
+  EXPECT_EQ(sweep.label(sweep.cells[3]), "b, budget rim 25 taps");
+}
+
+TEST_F(PartialParameterTest, ColumnsAreEmptyWhereTheParameterDoesNotExist) {
+  const Sweep sweep = load(runs(), {}, {}, said());
+  EXPECT_THAT(columnsOf(sweep), ElementsAre("budget", "budget.rim"));
+  EXPECT_EQ(sweep.varyingColumns[1].label(), "Budget: rim (taps)");
+  EXPECT_EQ(sweep.cells[0].varying.count("budget.rim"), 0U);
+  EXPECT_EQ(sweep.cells[1].varying.at("budget.rim"), "25");
+}
+
+TEST_F(PartialParameterTest, AnAxisInsideAnAlternativeDrawsTheRunsThatHaveIt) {
+  const Sweep sweep = load(
+      runs(), {{"x", "budget.rim"}, {"y", "rmse"}, {"series", "technique"}, {"panels", "scene"}}, {}, said());
+  EXPECT_EQ(sweep.x.label(), "Budget: rim (taps)");
+  EXPECT_FALSE(sweep.cells[0].isDrawn());
+  EXPECT_EQ(sweep.cells[2].x, 50.0);
+}
+
+TEST_F(PartialParameterTest, SeriesAndPanelsInsideAnAlternativeHaveOneForTheRunsWithoutIt) {
+  const Sweep sweep = load(
+      runs(), {{"x", "gpu_ms"}, {"y", "rmse"}, {"series", "budget.rim"}, {"panels", "budget"}}, {}, said());
+  EXPECT_THAT(sweep.series, ElementsAre("no budget rim", "budget rim 25 taps", "budget rim 50 taps"));
+  ASSERT_EQ(sweep.panels.size(), 2U);
+  EXPECT_EQ(sweep.panels[0].title, "budget none");
+  EXPECT_EQ(sweep.panels[1].title, "budget radial");
+}
+
+TEST_F(PartialParameterTest, AnOldStoreNamesThemByTheWordsOfTheirPaths) {
+  const Sweep sweep = load(runs());
+  EXPECT_EQ(sweep.varyingColumns[1].label(), "Budget: rim");
+  EXPECT_EQ(sweep.label(sweep.cells[1]), "a, budget radial, rim 25");
 }
 
 }  // namespace

@@ -85,14 +85,15 @@ store::Run makeRun(const std::string& technique, const std::string& scene, int s
 }
 
 int64_t writeExperiment(store::Store& store, store::Experiment experiment, std::vector<store::Run> runs,
-                        const std::vector<store::PlanEntry>& missing, const store::Environment& environment) {
+                        const std::vector<store::PlanEntry>& missing, const store::Environment& environment,
+                        const store::Descriptions& descriptions) {
   if (experiment.hash.empty()) experiment.hash = sha256(experiment.title);
   if (experiment.report.empty())
     experiment.report = {{"x", "gpu_ms"}, {"y", "rmse"}, {"series", "technique"}, {"panels", "scene"}};
   std::vector<store::PlanEntry> plan;
   for (const store::Run& run : runs) plan.push_back({run.key, run.technique, run.scene, run.label});
   plan.insert(plan.end(), missing.begin(), missing.end());
-  const int64_t id = store.putExperiment(experiment, plan);
+  const int64_t id = store.putExperiment(experiment, plan, descriptions);
   const int64_t environmentId = store.putEnvironment(environment);
   for (store::Run& run : runs) {
     run.environment = environmentId;
@@ -137,7 +138,7 @@ size_t writeLargeExperiment(const std::string& storePath, bool software) {
           run.measurements.push_back({"cpu_ms", 0.05, "ms", "time"});
           run.measurements.push_back({"flip", error * 0.7, "", "error"});
           run.measurements.push_back({"error_png_white", 0.25, "", "fact"});
-          run.measurements.push_back({"bytes_held", 4e6 * hard, "B", "fact"});
+          run.measurements.push_back({"bytes_held", 4e6 * hard, "byte", "fact"});
           if (run.technique.find("bitmask") != std::string::npos)
             run.measurements.push_back({"micro_occluders_per_px", samples * hard * 1.7, "1/px", "counter"});
           const std::vector<std::pair<std::string, double>> shares = {

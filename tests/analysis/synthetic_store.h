@@ -27,12 +27,14 @@ class TemporaryFolder {
 store::Run makeRun(const std::string& technique, const std::string& scene, int samples,
                    const std::vector<double>& ms, double rmse);
 
-/// Writes runs as one experiment whose plan has them all and the entries of `missing`. Returns the
-/// experiment's id.
+/// Writes runs as one experiment whose plan has them all and the entries of `missing`. Without `descriptions`
+/// it is as a sweep of schema 2 left it. Returns the experiment's id.
 int64_t writeExperiment(store::Store& store, store::Experiment experiment, std::vector<store::Run> runs,
                         const std::vector<store::PlanEntry>& missing = {},
-                        const store::Environment& environment = {
-                            "Test GPU", false, {{"command", "limen-sweep x"}}});
+                        const store::Environment& environment = {"Test GPU",
+                                                                 false,
+                                                                 {{"command", "limen-sweep x"}}},
+                        const store::Descriptions& descriptions = {});
 
 /// Six techniques, three scenes, costs and errors over decades, with counters, passes and pictures, as a real
 /// sweep leaves them. Returns the number of runs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tree as it is: directions of dependency, licence lines, and the README's table of packages.
+// The tree as it is: directions of dependency, licence lines, and the documented table of packages.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -74,9 +74,9 @@ TEST(Architecture, SourcesStartWithTheLicenceLine) {
   EXPECT_THAT(checkLicenceLines(LIMEN_SOURCE_DIR), IsEmpty());
 }
 
-TEST(Architecture, ReadmeListsThePackagesThatTheLauncherInstalls) {
+TEST(Architecture, DocsListThePackagesThatTheLauncherInstalls) {
   const std::filesystem::path root = LIMEN_SOURCE_DIR;
-  EXPECT_THAT(checkPackageTable(readText(root / "README.md"), readText(root / "packages.txt")), IsEmpty());
+  EXPECT_THAT(checkPackageTable(readText(root / "docs/building.md"), readText(root / "packages.txt")), IsEmpty());
 }
 
 }  // namespace

@@ -119,9 +119,9 @@ Violations checkLicenceLines(const fs::path& root) {
   return violations;
 }
 
-Violations checkPackageTable(const std::string& readme, const std::string& packages) {
+Violations checkPackageTable(const std::string& page, const std::string& packages) {
   std::vector<std::string> told, listed;
-  std::istringstream rows(readme), lines(packages);
+  std::istringstream rows(page), lines(packages);
   std::string line;
   static const std::regex kRow("^\\| *`([^`]+)` *\\|([^|]*)\\|([^|]*)\\| *$");
   std::smatch match;
@@ -142,7 +142,7 @@ Violations checkPackageTable(const std::string& readme, const std::string& packa
     const std::string row = i < told.size() ? told[i] : "nothing",
                       entry = i < listed.size() ? listed[i] : "nothing";
     if (row != entry)
-      violations.push_back("README says '" + row + "' where packages.txt says '" + entry + "'");
+      violations.push_back("the page says '" + row + "' where packages.txt says '" + entry + "'");
   }
   return violations;
 }

@@ -19,9 +19,9 @@ Violations checkIncludes(const std::filesystem::path& root);
 /// Every .h, .cpp and .glsl file of the modules and tests under `root` starts with the licence line.
 Violations checkLicenceLines(const std::filesystem::path& root);
 
-/// The dependency table in a README (rows "| `package` | when | reason |") says what packages.txt says, in
-/// its order.
-Violations checkPackageTable(const std::string& readme, const std::string& packages);
+/// The dependency table of a page (rows "| `package` | when | reason |") says what packages.txt says, in its
+/// order.
+Violations checkPackageTable(const std::string& page, const std::string& packages);
 
 struct Target {
   std::string folder;           ///< relative to the root; "." for the root

@@ -182,7 +182,7 @@ std::vector<Malformed> malformed() {
       {"AxisOnReference",
        withLine(9, "reference: {name: soft/sampled, samples: [1, 2]}"),
        "9:",
-       {"one value only"}},
+       {"give one value"}},
       {"TwoReferences", withLine(9, "reference: [{name: soft/sampled}]"), "9:", {"one reference"}},
       {"MetricWithoutReference", withLine(9, ""), "12:11:", {"'rmse' needs a reference", "soft/sampled"}},
       {"OtherProduct", withLine(8, "  - {name: colour/lambert}"), "8:5:", {"colour", "visibility"}},

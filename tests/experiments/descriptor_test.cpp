@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/descriptor.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -9,6 +9,15 @@
 
 namespace limen::experiments {
 namespace {
+
+using testing::ElementsAre;
+
+/// Of an axis along which one parameter varies.
+std::vector<ParameterValue> valuesOf(const Axis& axis) {
+  std::vector<ParameterValue> out;
+  for (const AxisPoint& point : axis.points) out.push_back(point.at(axis.name));
+  return out;
+}
 
 Descriptor parse(const std::string& text) { return parseDescriptor(text, "d.yaml", fakeCatalogue(), {}); }
 
@@ -24,10 +33,10 @@ TEST(Descriptor, ReadsEveryKey) {
   EXPECT_EQ(descriptor.features, (std::vector<std::string>{"SS-12", "SS-13"}));
   ASSERT_EQ(descriptor.techniques.size(), 2U);
   ASSERT_EQ(descriptor.techniques[0].axes.size(), 1U);
-  EXPECT_EQ(descriptor.techniques[0].axes[0].values.size(), 3U);
-  EXPECT_EQ(descriptor.techniques[0].axes[0].values[2], ParameterValue(int64_t{32}));
+  EXPECT_THAT(valuesOf(descriptor.techniques[0].axes[0]),
+              ElementsAre(int64_t{8}, int64_t{16}, ParameterValue(int64_t{32})));
   // A whole number stands for a real one where a real one is declared.
-  EXPECT_EQ(descriptor.scenes[0].axes[0].values[1], ParameterValue(1.0));
+  EXPECT_EQ(valuesOf(descriptor.scenes[0].axes[0])[1], ParameterValue(1.0));
   ASSERT_TRUE(descriptor.reference);
   EXPECT_EQ(descriptor.reference->name, "soft/sampled");
   EXPECT_EQ(descriptor.timing.frames, 4);
@@ -74,7 +83,7 @@ TEST(Descriptor, NumbersInTheFormsOfYaml) {
       "title: a\nquestion: b\nscenes: [{name: grid, light_size: [+1, 2., .5, 1e1, 2.5E-1]}]\n"
       "techniques: [{name: soft/pcss}]\n");
   const std::vector<ParameterValue> expected = {1.0, 2.0, 0.5, 10.0, 0.25};
-  EXPECT_EQ(descriptor.scenes[0].axes[0].values, expected);
+  EXPECT_EQ(valuesOf(descriptor.scenes[0].axes[0]), expected);
 }
 
 /// The catalogue with a free text and a file that may be given, as scenes have them for their camera.
@@ -88,7 +97,7 @@ Catalogue catalogueWithView() {
 std::vector<ParameterValue> camerasOf(const std::string& written) {
   const std::string text = "title: a\nquestion: b\nscenes:\n  - {name: grid, camera: " + written +
                            "}\ntechniques: [{name: soft/pcss}]\n";
-  return parseDescriptor(text, "d.yaml", catalogueWithView(), {}).scenes[0].axes[0].values;
+  return valuesOf(parseDescriptor(text, "d.yaml", catalogueWithView(), {}).scenes[0].axes[0]);
 }
 
 TEST(Descriptor, TextIsAScalarAndAListOfThemAnAxis) {

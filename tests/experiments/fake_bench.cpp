@@ -54,7 +54,8 @@ Catalogue fakeCatalogue() {
       entry(1, "Perceived difference", {realParameter("ppd", 67.0, 1.0, 500.0, "px/deg", "Resolution")});
   out.metrics["crack_count"] = entry(1, "Cracks", {});
   out.metrics["crack_count"].needsReference = false;
-  out.measurements = {"gpu_ms", "wall_ms"};
+  for (auto& [name, metric] : out.metrics)
+    metric.quantity = {name, "", "", Direction::LowerIsBetter, metric.source};
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/catalogue.h"
+#include "experiments/base/catalogue.h"
 #include "experiments/executor.h"
 
 namespace limen::experiments {

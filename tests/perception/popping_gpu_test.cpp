@@ -89,10 +89,10 @@ class PoppingGpu : public gl::GlTest {
                                        const DisplayProfile& display = studyDisplay()) {
     SCOPED_TRACE(what);
     PoppingResult reference = predictPopping(in, display, settings);
-    const double threshold = thresholdBetweenPixels(reference.jndExact, settings.regionThresholdJnd);
-    EXPECT_LT(threshold, 1.05 * settings.regionThresholdJnd);
-    if (threshold != settings.regionThresholdJnd) {
-      settings.regionThresholdJnd = threshold;
+    const double threshold = thresholdBetweenPixels(reference.jndExact, settings.regions.thresholdJnd);
+    EXPECT_LT(threshold, 1.05 * settings.regions.thresholdJnd);
+    if (threshold != settings.regions.thresholdJnd) {
+      settings.regions.thresholdJnd = threshold;
       reference = predictPopping(in, display, settings);
     }
     const Run run = onGpu(in, settings, display);
@@ -112,7 +112,7 @@ class PoppingGpu : public gl::GlTest {
     // The same map gives the same regions, and so do both maps.
     const std::vector<double> asDouble(run.jnd.data.begin(), run.jnd.data.end());
     std::vector<uint8_t> seeds;
-    if (settings.seedRule == SeedRule::ColourDiffers) {
+    if (settings.regions.seeds == SeedRule::ColourDiffers) {
       seeds.resize(asDouble.size());
       for (size_t p = 0; p < seeds.size(); ++p) {
         const auto channels = static_cast<size_t>(in.actual.channels);
@@ -257,25 +257,35 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   const auto with = [&](const std::map<std::string, ParameterValue>& given) {
     std::string what;
     for (const auto& [name, value] : given) what += name + "=" + toText(value) + " ";
-    expectReference(in, what, PoppingSettings::from(ParameterValues(poppingParameters(), given)));
+    expectReference(
+        in, what,
+        PoppingSettings::table().read(ParameterValues(PoppingSettings::table().parameters(), given)));
   };
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
+  with({{"masking.b", 4.0}, {"masking.s", 0.5}});
+  with({{"sensitivity.red_green.csf.reference_cd_m2", 20.0}});
   for (const char* eye : {"literal", "floor", "none"}) with({{"eye_movement", eye}});
   with({{"adaptation", "mean"}});
-  with({{"adaptation", "fixed"}, {"fixed_luminance_cd_m2", 20.0}});
-  with({{"upsampler", "linear"}, {"peak_model", "no_upsample"}});
-  with({{"peak_model", "halving"}, {"compensate_gain", false}, {"divide_grey_gain", false}});
+  with({{"adaptation", "fixed"}, {"adaptation.luminance_cd_m2", 20.0}});
+  with({{"bands.decomposition.upsampler", "linear"}, {"bands.peak_model", "no_upsample"}});
+  with({{"bands.peak_model", "halving"},
+        {"bands.compensate_gain", false},
+        {"sensitivity.divide_grey_gain", false}});
   with({{"collapse", "magnitude"}, {"minkowski_exponent", 4.0}});
-  with({{"connectivity", "4"}, {"region_threshold_jnd", 0.7}, {"seed_rule", "none"}});
-  with({{"kernel_centre", 0.4}});
-  with({{"gaussian_levels", int64_t{4}}, {"adaptation_level", int64_t{1}}});
-  with(
-      {{"csf_achromatic", "barten03"}, {"csf_red_green", "martin92_rg"}, {"csf_blue_yellow", "martin92_by"}});
+  with({{"regions.connectivity", int64_t{4}}, {"regions.threshold_jnd", 0.7}, {"regions.seeds", "none"}});
+  with({{"bands.kernel_centre", 0.4}});
+  with({{"bands.levels", "count"},
+        {"bands.levels.gaussian", int64_t{4}},
+        {"adaptation", "level"},
+        {"adaptation.level", int64_t{1}}});
+  with({{"sensitivity.achromatic.csf", "barten03"},
+        {"sensitivity.red_green.csf", "martin92_rg"},
+        {"sensitivity.blue_yellow.csf", "martin92_by"}});
 }
 
 TEST_F(PoppingGpu, StacksAreRefused) {
   PoppingSettings settings;
-  settings.decomposition = Decomposition::Stack;
+  settings.bands.decomposition = StackBands{};
   EXPECT_THROW(PoppingPredictorGpu(context(), {32, 32}, studyDisplay(), settings), Error);
 }
 
@@ -336,7 +346,7 @@ TEST_F(PoppingGpu, RegionsMatchFloodFill) {
   const Image seedNoise = noiseImage(w, h, 1, 77);
   for (const int connectivity : {8, 4}) {
     PoppingSettings settings;
-    settings.connectivity = connectivity;
+    settings.regions.connectivity = connectivity;
     RegionsGpu gpu(context(), {w, h}, settings);
     for (size_t i = 0; i < maps.size(); ++i)
       for (const double seedShare : {1.1, 0.02}) {
@@ -378,9 +388,9 @@ TEST_F(PoppingGpu, WeightsMatchTheReference) {
   }
   PoppingSettings settings;
   for (const int radius : {0, 1}) {
-    settings.pcfRadiusPx = radius;
-    settings.outsideVisibility = 0.25 * radius;
-    const Image expected = disocclusionWeight(views, settings);
+    const DisocclusionSettings weight{.outsideVisibility = 0.25 * radius, .pcfRadiusPx = radius};
+    settings.disocclusion = weight;
+    const Image expected = disocclusionWeight(views, weight);
     std::vector<Texture> textures;
     for (const DisocclusionView& view : views) {
       textures.push_back(Upload::upload(view.previousDepthOfPixel, 1));
@@ -412,7 +422,7 @@ TEST_F(PoppingGpu, WeightsMatchTheReference) {
   PoppingWeightsGpu weights(context(), settings);
   for (const bool compareDepth : {true, false}) {
     if (!compareDepth) input.previousDepth = input.previousDepthOfPixel = {};
-    const Image expected = flickerWeight(input, settings);
+    const Image expected = flickerWeight(input, settings.flickerSettings());
     weights.flicker({&colours[0], &colours[1], &colours[2], &colours[3], &move,
                      compareDepth ? &depths[0] : nullptr, compareDepth ? &depths[1] : nullptr},
                     target);

@@ -74,7 +74,7 @@ TEST(PoppingRegions, DiagonalsCountForEightNeighboursOnly) {
   const Drawing drawing({"#..", ".#.", "..#"});
   EXPECT_EQ(drawing.find().regions.size(), 1U);
   PoppingSettings settings;
-  settings.connectivity = 4;
+  settings.regions.connectivity = 4;
   EXPECT_EQ(drawing.find(settings).regions.size(), 3U);
 }
 
@@ -134,7 +134,7 @@ TEST(PoppingRegions, MatchGrowingFromSeeds) {
         }
       }
       PoppingSettings settings;
-      settings.connectivity = connectivity;
+      settings.regions.connectivity = connectivity;
       const RegionMap map = findRegions(jnd, seeds, w, h, settings);
       ASSERT_EQ(map.regions.size(), static_cast<size_t>(count));
       // The same partition, numbered otherwise.
@@ -219,7 +219,7 @@ TEST(PoppingWeights, ComparisonIsFiltered) {
   view.displacement = Image(16, 8, 2);
   for (size_t p = 0; p < 128; ++p) view.displacement.data[2 * p] = 0.5F;
   EXPECT_NEAR(disocclusionWeight({view}).at(8, 3), 0.5, 1e-6);
-  PoppingSettings settings;
+  DisocclusionSettings settings;
   settings.pcfRadiusPx = 1;
   // Places at 7, 8, 9: 0, 0.5 and 1.
   EXPECT_NEAR(disocclusionWeight({view}, settings).at(8, 3), 0.5, 1e-6);
@@ -238,7 +238,7 @@ TEST(PoppingWeights, BorderAndBackground) {
   EXPECT_EQ(weight.at(0, 0), 0.0F);
   EXPECT_EQ(weight.at(1, 0), 1.0F);
   EXPECT_EQ(weight.at(2, 0), 1.0F);
-  PoppingSettings settings;
+  DisocclusionSettings settings;
   settings.outsideVisibility = 0.75;
   EXPECT_EQ(disocclusionWeight({view}, settings).at(0, 0), 0.75F);
   // A point at infinity behind anything is hidden.
@@ -269,8 +269,8 @@ TEST(PoppingWeights, FlickerNeedsAsMuchChangeOverTime) {
 
 TEST(PoppingWeights, FastPixelsAndOthersSurfacesDoNotFlicker) {
   FlickerInput input = flickerInput();
-  PoppingSettings settings;
-  settings.flickerMaxDisplacementPx = 2.0;
+  FlickerSettings settings;
+  settings.maxDisplacementPx = 2.0;
   input.displacement.at(3, 3, 0) = 2.0F;
   input.displacement.at(4, 3, 0) = 1.9F;
   Image weight = flickerWeight(input, settings);

@@ -28,10 +28,9 @@ class PoppingRenders : public gl::GlTest {
   /// Facets under one distant light: linear RGBA.
   static Image renderSpheres(int64_t tessellation) {
     const scene::SceneInfo& info = scene::SceneRegistry::instance().get("sphere_grid");
-    const scene::Scene scene =
-        scene::buildScene(info.name, ParameterValues(info.allParameters(), {{"tessellation", tessellation}}));
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, kSizePx);
+    const frame::SceneOnGpu onGpu(scene::buildScene(
+        info.name, ParameterValues(info.allParameters(), {{"tessellation", tessellation}})));
+    frame::Frame frame(context(), onGpu, kSizePx);
     frame.begin();
     const Image normal =
         frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Normal}).texture().read();
@@ -119,10 +118,10 @@ TEST_F(PoppingRenders, ChangeOfLevelRunsThroughAllSteps) {
   scene.camera.keys = {{0.0, from}, {1.0, to}};
 
   constexpr glm::ivec2 kSize{128, 96};
-  const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, kSize, 0.5);
+  const frame::SceneOnGpu onGpu(std::move(scene));
+  frame::Frame frame(context(), onGpu, kSize, 0.5);
   frame::LodPair pair(frame, {});
-  const auto [actualLevels, predictedLevels] = frame::objectChange(scene::finestLevels(scene), 0, 0, 1);
+  const auto [actualLevels, predictedLevels] = frame::objectChange(scene::finestLevels(onGpu.scene), 0, 0, 1);
   pair.setLevels(actualLevels, predictedLevels);
   frame.begin();
   pair.render();
@@ -151,11 +150,11 @@ TEST_F(PoppingRenders, ChangeOfLevelRunsThroughAllSteps) {
   in.disocclusion =
       disocclusionWeight({{now.previousDepth->read(), in.actualDisplacement, now.depthBefore->read()},
                           {kept.previousDepth->read(), in.predictedDisplacement, kept.depthBefore->read()}},
-                         settings);
+                         settings.disocclusionSettings());
   in.flicker =
       flickerWeight({in.actual, in.predicted, now.shadedBefore->read(), pair.previousColour()->read(),
                      in.actualDisplacement, now.previousDepth->read(), kept.depthBefore->read()},
-                    settings);
+                    settings.flickerSettings());
   const PoppingResult result = predictPopping(in, studyDisplay(), settings);
 
   const Image seen = disocclusion.read(), jnd = predictor.jnd().read();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -55,9 +56,8 @@ double amplitude(const Image& stage, double cyclesPerSample) {
 /// 100 cd/m2 whatever the picture, no masking: responses are contrast times sensitivity.
 PoppingSettings plainSettings() {
   PoppingSettings settings;
-  settings.masking = "none";
-  settings.adaptation = AdaptationSource::Fixed;
-  settings.fixedLuminanceCdM2 = 100.0;
+  settings.masking = {"none", {}};
+  settings.adaptation = FixedAdaptation{100.0};
   return settings;
 }
 
@@ -102,35 +102,64 @@ TEST(PoppingModel, LevelsFollowTheDisplayAndTheImage) {
   EXPECT_EQ(poppingModel(1024, 3, display, {}).contrastLevels, 0);
   EXPECT_EQ(poppingModel(1, 1, display, {}).contrastLevels, 0);
   PoppingSettings settings;
-  settings.gaussianLevels = 4;
+  settings.bands.levels = LevelCount{4};
   EXPECT_EQ(poppingModel(1024, 768, display, settings).contrastLevels, 2);
 }
 
-TEST(Popping, ParametersRoundTrip) {
-  const PoppingSettings defaults = PoppingSettings::from(ParameterValues(poppingParameters(), {}));
-  EXPECT_EQ(defaults.thresholdAchromatic, 0.005);
-  EXPECT_EQ(defaults.thresholdRedGreen, 0.010);
-  EXPECT_EQ(defaults.thresholdBlueYellow, 0.012);
-  EXPECT_EQ(defaults.regionThresholdJnd, 2.0);
+PoppingSettings settingsFrom(const std::map<std::string, ParameterValue>& given) {
+  return PoppingSettings::table().read(ParameterValues(PoppingSettings::table().parameters(), given));
+}
+
+TEST(Popping, DefaultsAreThoseOfTheThesis) {
+  const PoppingSettings defaults = settingsFrom({});
+  EXPECT_EQ(defaults.sensitivity.achromatic.threshold, 0.005);
+  EXPECT_EQ(defaults.sensitivity.redGreen.threshold, 0.010);
+  EXPECT_EQ(defaults.sensitivity.blueYellow.threshold, 0.012);
+  EXPECT_EQ(defaults.regions.thresholdJnd, 2.0);
   EXPECT_EQ(defaults.minkowskiExponent, 2.4);
-  EXPECT_EQ(defaults.ratingScale, 0.375);
-  EXPECT_EQ(defaults.ratingBase, 2.25);
-  EXPECT_EQ(defaults.connectivity, 8);
-  EXPECT_EQ(defaults.eyeMovement, EyeMovement::Monotone);
-  EXPECT_EQ(defaults.peakModel, PeakModel::WithUpsample);
-  const PoppingSettings other =
-      PoppingSettings::from(ParameterValues(poppingParameters(), {{"eye_movement", "literal"},
-                                                                  {"peak_model", "halving"},
-                                                                  {"adaptation", "mean"},
-                                                                  {"collapse", "magnitude"},
-                                                                  {"connectivity", "4"},
-                                                                  {"upsampler", "linear"}}));
-  EXPECT_EQ(other.eyeMovement, EyeMovement::Literal);
-  EXPECT_EQ(other.peakModel, PeakModel::Halving);
-  EXPECT_EQ(other.adaptation, AdaptationSource::Mean);
-  EXPECT_EQ(other.collapse, Collapse::Magnitude);
-  EXPECT_EQ(other.connectivity, 4);
-  EXPECT_EQ(other.upsampler, Upsampler::Successive);
+  EXPECT_EQ(defaults.rating.scale, 0.375);
+  EXPECT_EQ(defaults.rating.base, 2.25);
+  EXPECT_EQ(defaults.regions.connectivity, 8);
+  EXPECT_EQ(defaults.eyeModel(), EyeMovement::Monotone);
+  EXPECT_EQ(defaults.bands.peakModel, PeakModel::WithUpsample);
+}
+
+TEST(Popping, SettingsAreReadAsWritten) {
+  PoppingSettings settings;
+  settings.eyeMovement = LiteralTracking{};
+  settings.bands.peakModel = PeakModel::Halving;
+  settings.bands.decomposition = PyramidBands{PyramidUpsampler::Linear};
+  settings.adaptation = FixedAdaptation{50.0};
+  settings.collapse = Collapse::Magnitude;
+  settings.regions.connectivity = 4;
+  settings.sensitivity.stimulusArea = FixedArea{100.0};
+  const PoppingSettings read = settingsFrom(PoppingSettings::table().write(settings));
+  EXPECT_EQ(read.eyeModel(), EyeMovement::Literal);
+  EXPECT_EQ(read.bands.peakModel, PeakModel::Halving);
+  EXPECT_EQ(read.bands.upsampler(), Upsampler::Successive);
+  EXPECT_EQ(std::get<FixedAdaptation>(read.adaptation).luminanceCdM2, 50.0);
+  EXPECT_EQ(read.collapse, Collapse::Magnitude);
+  EXPECT_EQ(read.regions.connectivity, 4);
+  EXPECT_EQ(std::get<FixedArea>(read.sensitivity.stimulusArea).deg2, 100.0);
+  EXPECT_EQ(PoppingSettings::table().write(read), PoppingSettings::table().write(settings));
+}
+
+TEST(Popping, WhatMeansNothingCannotBeWritten) {
+  EXPECT_THROW(settingsFrom({{"adaptation.luminance_cd_m2", 50.0}}), Error);
+  EXPECT_THROW(settingsFrom({{"eye_movement", "none"}, {"eye_movement.least_velocity_deg_s", 0.1}}), Error);
+  EXPECT_THROW(settingsFrom({{"flicker", "ignored"}, {"flicker.weight", 0.1}}), Error);
+  EXPECT_THROW(settingsFrom({{"sensitivity.red_green.csf", "martin92_rg"},
+                             {"sensitivity.red_green.csf.reference_cd_m2", 30.0}}),
+               Error);
+}
+
+TEST(Popping, NoLevelHasMoreThanSixteenParameters) {
+  const std::function<void(const std::vector<Parameter>&)> visit = [&](const std::vector<Parameter>& level) {
+    EXPECT_LE(level.size(), 16U);
+    for (const Parameter& parameter : level)
+      for (const Alternative& alternative : parameter.alternatives) visit(alternative.parameters);
+  };
+  visit(PoppingSettings::table().parameters());
 }
 
 TEST(Popping, EqualFramesGiveNothing) {
@@ -185,12 +214,12 @@ TEST(Popping, GratingAtThresholdGivesOneJnd) {
     };
     EXPECT_NEAR(amplitudeWith(settings), 1.0, 0.03) << level;
     // Without compensation only the band's gain is left of it.
-    settings.compensateGain = false;
+    settings.bands.compensateGain = false;
     const double gains[] = {1.0, 0.689, 0.646, 0.637};
     EXPECT_NEAR(amplitudeWith(settings), gains[level], 0.03) << level;
     // With masking, T(1) = 0.933 at the crests; the fundamental of a grating so flattened lies above that.
     settings = plainSettings();
-    settings.masking = "schwarz";
+    settings.masking = {"schwarz", {}};
     EXPECT_NEAR(amplitudeWith(settings), 0.9524, 0.03) << level;
   }
 }
@@ -200,7 +229,7 @@ TEST(Popping, GratingAtThresholdGivesOneJnd) {
 TEST(Popping, StackAgreesOnAGratingAtThreshold) {
   const DisplayProfile display = lightlessBlack();
   PoppingSettings settings = plainSettings();
-  settings.decomposition = Decomposition::Stack;
+  settings.bands.decomposition = StackBands{};
   const PoppingModel model = poppingModel(512, 64, display, settings);
   const double peaks[] = {0.5, 0.14050, 0.06683, 0.03303}, gains[] = {1.0, 0.55965, 0.50978, 0.49877};
   for (const int level : {1, 2, 3}) {
@@ -224,7 +253,7 @@ TEST(Popping, PyramidFollowsTheStack) {
   const PoppingInput in = linearPair(sceneImage(128, 96, 0.4), sceneImage(128, 96, 0.44));
   PoppingSettings settings;
   const PoppingResult pyramid = predictPopping(in, studyDisplay(), settings);
-  settings.decomposition = Decomposition::Stack;
+  settings.bands.decomposition = StackBands{};
   const PoppingResult stack = predictPopping(in, studyDisplay(), settings);
   EXPECT_NEAR(pyramid.summary.meanJnd, stack.summary.meanJnd, 0.2 * stack.summary.meanJnd);
   EXPECT_NEAR(pyramid.summary.largestRating, stack.summary.largestRating, 0.5);
@@ -243,8 +272,8 @@ TEST(Popping, HalvingPeaksMisjudgeAGrating) {
   options.stages = {"difference_1"};
   const auto run = [&] { return predictPopping(in, display, settings, options).stages.at("difference_1"); };
   const double right = amplitude(run(), 2.0 * cyclesPerPx);
-  settings.peakModel = PeakModel::Halving;
-  settings.compensateGain = false;
+  settings.bands.peakModel = PeakModel::Halving;
+  settings.bands.compensateGain = false;
   const double halving = amplitude(run(), 2.0 * cyclesPerPx);
   const double assumed = 0.25 * model.pixelsPerDegree;
   EXPECT_NEAR(halving / right, 0.689 * csfDaly98(assumed, 0.15) / csfDaly98(model.peakCpd[1], 0.15), 0.01);
@@ -303,14 +332,16 @@ TEST(Popping, TablesMatchDirectEvaluation) {
   PoppingOptions direct;
   direct.tables = false;
   std::vector<PoppingSettings> all(4);
-  all[1].csfAchromatic = "barten03", all[1].csfRedGreen = "martin92_rg", all[1].csfBlueYellow = "martin92_by";
-  all[2].csfAchromatic = "kelly79", all[2].eyeMovement = EyeMovement::None;
-  all[3].csfAchromatic = "burbeck_kelly80", all[3].eyeMovement = EyeMovement::Literal;
+  all[1].sensitivity.achromatic.csf.name = "barten03";
+  all[1].sensitivity.redGreen.csf.name = "martin92_rg";
+  all[1].sensitivity.blueYellow.csf.name = "martin92_by";
+  all[2].sensitivity.achromatic.csf.name = "kelly79", all[2].eyeMovement = NoTracking{};
+  all[3].sensitivity.achromatic.csf.name = "burbeck_kelly80", all[3].eyeMovement = LiteralTracking{};
   for (const PoppingSettings& settings : all) {
     const std::vector<double> table = predictPopping(in, studyDisplay(), settings).jndExact;
     const std::vector<double> exact = predictPopping(in, studyDisplay(), settings, direct).jndExact;
     for (size_t p = 0; p < table.size(); ++p)
-      ASSERT_NEAR(table[p], exact[p], 1e-6 * exact[p] + 1e-9) << settings.csfAchromatic;
+      ASSERT_NEAR(table[p], exact[p], 1e-6 * exact[p] + 1e-9) << settings.sensitivity.achromatic.csf.name;
   }
 }
 
@@ -334,7 +365,7 @@ TEST(Popping, WeightsScaleTheMap) {
   in.flicker = noiseImage(60, 50, 1, 2);
   const std::vector<double> weighted = predictPopping(in, studyDisplay()).jndExact;
   PoppingSettings settings;
-  settings.useFlicker = false;
+  settings.flicker = IgnoredWeight{};
   const std::vector<double> one = predictPopping(in, studyDisplay(), settings).jndExact;
   for (size_t p = 0; p < plain.size(); ++p) {
     const double w = in.disocclusion.data[p];
@@ -390,7 +421,7 @@ TEST(Popping, RegionsNeedADifferenceOfColour) {
   EXPECT_GT(seeded.summary.aboveThresholdPx, 0);
   EXPECT_EQ(seeded.summary.seedPx, 0);
   EXPECT_TRUE(seeded.regions.regions.empty());
-  settings.seedRule = SeedRule::None;
+  settings.regions.seeds = SeedRule::None;
   EXPECT_FALSE(predictPopping(in, studyDisplay(), settings).regions.regions.empty());
 }
 
@@ -416,7 +447,7 @@ TEST(Popping, RefusesWhatDoesNotFit) {
   options.stages = {"difrence_0"};
   EXPECT_THROW(predictPopping(in, studyDisplay(), {}, options), Error);
   PoppingSettings settings;
-  settings.csfAchromatic = "daly89";
+  settings.sensitivity.achromatic.csf.name = "daly89";
   EXPECT_THROW(predictPopping(in, studyDisplay(), settings), Error);
   EXPECT_THROW(predictPopping({}, studyDisplay()), Error);
 }

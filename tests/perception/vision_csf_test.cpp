@@ -389,11 +389,12 @@ TEST(Csf, ConstantsAreParameters) {
     const auto doubled = info.make(ParameterValues(info.parameters, {{"gain", 2.0}}));
     EXPECT_DOUBLE_EQ(doubled->sensitivity(point(2.0)), 2.0 * makeCsf(name)->sensitivity(point(2.0))) << name;
     // Each constant does something somewhere.
-    for (const Parameter& parameter : info.parameters) {
+    for (const DeclaredAt& declared : flatten(info.parameters)) {
+      const Parameter& parameter = *declared.parameter;
       if (parameter.type != ParameterType::Real) continue;
       const double value = std::get<double>(parameter.defaultValue);
       const double other = value == 0.0 ? 0.1 : 0.9 * value;
-      const auto changed = info.make(ParameterValues(info.parameters, {{parameter.name, other}}));
+      const auto changed = info.make(ParameterValues(info.parameters, {{declared.path, other}}));
       bool differs = false;
       for (const double cpd : {1e-4, 0.3, 2.0, 4.0, 12.0})
         for (const double v : {0.01, 0.15, 4.0})
@@ -402,7 +403,7 @@ TEST(Csf, ConstantsAreParameters) {
             at.orientationDeg = 30.0, at.eccentricityDeg = 3.0;
             differs = differs || changed->sensitivity(at) != makeCsf(name)->sensitivity(at);
           }
-      EXPECT_TRUE(differs) << name << " " << parameter.name;
+      EXPECT_TRUE(differs) << name << " " << declared.path;
     }
   }
 }

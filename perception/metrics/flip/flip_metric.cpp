@@ -25,13 +25,27 @@ gl::Texture upload(const Image& image) {
   return texture;
 }
 
-MetricResult measure(const ComparisonInput& input, const ParameterValues& values) {
+struct FlipMetricSettings {
+  double pixelsPerDegree = FlipGpu::kDefaultPixelsPerDegree;
+  static const SettingsTable<FlipMetricSettings>& table() {
+    static const SettingsTable<FlipMetricSettings> kTable = {
+        {&FlipMetricSettings::pixelsPerDegree,
+         "pixels_per_degree",
+         {FlipGpu::kLeastPixelsPerDegree, FlipGpu::kMostPixelsPerDegree},
+         "px/deg",
+         "pixels per degree of visual angle at the viewer's eye",
+         "Andersson et al. 2020"}};
+    return kTable;
+  }
+};
+
+MetricResult measure(const ComparisonInput& input, const FlipMetricSettings& settings) {
   const Comparison pair(input, "flip", Region::All);
   if (!input.gpu)
     throw Error("metric 'flip' needs an OpenGL context", {},
                 "run it where OpenGL 4.5 is found, or use ssim or de94");
   const glm::ivec2 sizePx(pair.width(), pair.height());
-  const double pixelsPerDegree = values.real("pixels_per_degree");
+  const double pixelsPerDegree = settings.pixelsPerDegree;
   std::shared_ptr<void>& kept = input.gpu->kept("flip");
   auto* flip = static_cast<FlipGpu*>(kept.get());
   if (!flip || flip->sizePx() != sizePx || flip->pixelsPerDegree() != pixelsPerDegree) {
@@ -53,21 +67,13 @@ MetricResult measure(const ComparisonInput& input, const ParameterValues& values
   return result;
 }
 
-MetricInfo flipMetric() {
-  MetricInfo info;
-  info.name = "flip";
-  info.summary = "mean LDR-FLIP error: how much a viewer notices when the images are shown in turn";
-  info.source = "Andersson et al. 2020";
-  info.needsGl = true;
-  info.parameters = {realParameter("pixels_per_degree", FlipGpu::kDefaultPixelsPerDegree,
-                                   FlipGpu::kLeastPixelsPerDegree, FlipGpu::kMostPixelsPerDegree, "px/deg",
-                                   "pixels per degree of visual angle at the viewer's eye",
-                                   "Andersson et al. 2020")};
-  info.compare = &measure;
-  return info;
-}
-
-const Registered<MetricInfo> kRegistered{flipMetric()};
+const RegisteredMetric<FlipMetricSettings> kRegistered{
+    {.name = "flip",
+     .summary = "mean LDR-FLIP error: how much a viewer notices when the images are shown in turn",
+     .source = "Andersson et al. 2020",
+     .title = "Mean FLIP error",
+     .needsGl = true},
+    &measure};
 
 }  // namespace
 }  // namespace limen::perception

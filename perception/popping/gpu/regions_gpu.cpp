@@ -51,11 +51,12 @@ RegionsGpu::RegionsGpu(gl::Context& context, glm::ivec2 sizePx, const PoppingSet
     : context_(context),
       sizePx_(sizePx),
       settings_(settings),
-      defines_{{"CONNECTIVITY", std::to_string(settings.connectivity)}},
+      defines_{{"CONNECTIVITY", std::to_string(settings.regions.connectivity)}},
       labels_(Format::R32UI, sizePx),
       parents_(pixelsOf(sizePx) * 4, nullptr),
       roots_(pixelsOf(sizePx) * 4, nullptr),
-      table_(kHeaderBytes + mostRegions(sizePx, settings.connectivity) * int64_t{sizeof(Record)}, nullptr),
+      table_(kHeaderBytes + mostRegions(sizePx, settings.regions.connectivity) * int64_t{sizeof(Record)},
+             nullptr),
       chunks_((pixelsOf(sizePx) + kChunk - 1) / kChunk * 4, nullptr) {
   for (const char* name : {"tile", "merge", "flatten", "count", "assign", "stats", "finish"})
     context_.programs().compute(std::string(kFolder) + name + ".comp.glsl", defines_);
@@ -68,7 +69,7 @@ void RegionsGpu::run(const gl::Texture& jnd, const gl::Texture& seeds, gl::PassL
   };
   const auto pixels = static_cast<uint32_t>(pixelsOf(sizePx_));
   const int chunks = static_cast<int>((int64_t{pixels} + kChunk - 1) / kChunk);
-  const auto threshold = static_cast<float>(settings_.regionThresholdJnd);
+  const auto threshold = static_cast<float>(settings_.regions.thresholdJnd);
   const auto exponent = static_cast<float>(settings_.minkowskiExponent);
 
   parents_.bindStorage(0);
@@ -122,8 +123,8 @@ void RegionsGpu::run(const gl::Texture& jnd, const gl::Texture& seeds, gl::PassL
     const gl::Program& finish = program("finish");
     finish.set("threshold", threshold);
     finish.set("exponent", exponent);
-    finish.set("ratingScale", static_cast<float>(settings_.ratingScale));
-    finish.set("ratingBase", static_cast<float>(settings_.ratingBase));
+    finish.set("ratingScale", static_cast<float>(settings_.rating.scale));
+    finish.set("ratingBase", static_cast<float>(settings_.rating.base));
     finish.dispatch({32, 1}, {1, 1});
   }
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
@@ -143,7 +144,8 @@ RegionMap RegionsGpu::read() const {
     region.sizePx = record.sizePx;
     double sum = 0.0;
     for (int word = 3; word >= 0; --word) sum = sum * 0x1p32 + record.sum[word];
-    region.sigma = settings_.regionThresholdJnd * std::pow(sum * 0x1p-16, 1.0 / settings_.minkowskiExponent);
+    region.sigma =
+        settings_.regions.thresholdJnd * std::pow(sum * 0x1p-16, 1.0 / settings_.minkowskiExponent);
     region.rating = poppingRating(region.sigma, settings_);
     region.least = glm::ivec2(record.leastX, record.leastY);
     region.most = glm::ivec2(record.mostX, record.mostY);

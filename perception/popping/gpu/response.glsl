@@ -55,17 +55,17 @@ void prepare() {
 
 float retinalVelocity(float screenDegS) {
   float eye = min(0.82 * screenDegS + 0.15, 80.0);
-  if (eyeMovement == 0) return abs(screenDegS - eye);
-  if (eyeMovement == 1) return max(abs(screenDegS - eye), leastVelocity);
-  if (eyeMovement == 2) return max(screenDegS - eye, leastVelocity);
+  if (eyeMovement == EYE_MOVEMENT_LITERAL) return abs(screenDegS - eye);
+  if (eyeMovement == EYE_MOVEMENT_FLOOR) return max(abs(screenDegS - eye), leastVelocity);
+  if (eyeMovement == EYE_MOVEMENT_MONOTONE) return max(screenDegS - eye, leastVelocity);
   return screenDegS;
 }
 
 float luminanceOf(ivec3 texel, int from) { return dot(luminanceOfCones, texelFetch(cones, texel, from).xyz); }
 
 float luminanceAt(int frame, ivec2 pixel) {
-  if (adaptationSource == 2) return fixedLuminance;
-  if (adaptationSource == 1) return meanLuminance[frame];
+  if (adaptationSource == ADAPTATION_FIXED) return fixedLuminance;
+  if (adaptationSource == ADAPTATION_MEAN) return meanLuminance[frame];
   int from = max(adaptationLevel, level), shift = from - level;
   ivec2 size = textureSize(cones, from).xy, first = pixel >> shift;
   vec2 weight = vec2(pixel - (first << shift)) / float(1 << shift);

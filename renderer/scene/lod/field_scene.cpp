@@ -16,13 +16,106 @@ namespace {
 
 constexpr double kRadius = 0.45;
 
-LodSet bumpySpheres(const ParameterValues& values) {
-  const Bumps bumps(kRadius, values.real("bumps"), values.integer("seed"));
+/// Where the objects stand.
+struct GridSettings {
+  int rows = 5, columns = 4;
+  double spacing = 1.8;
+  static const SettingsTable<GridSettings>& table() {
+    using S = GridSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::rows, "rows", Range{0, 32}, "", "Rows of objects, one behind another").formerly({"rows"}),
+        Binding(&S::columns, "columns", Range{0, 32}, "", "Objects in a row").formerly({"columns"}),
+        Binding(&S::spacing, "spacing", Range{0.5, 20.0}, "world units",
+                "Between objects, whose radius is about 0.45")
+            .formerly({"spacing"})};
+    return kTable;
+  }
+};
+
+struct SphereLevels {
+  int count = 6, tessellation = 32;
+  double ratio = 0.7;
+  static const SettingsTable<SphereLevels>& table() {
+    using S = SphereLevels;
+    static const SettingsTable<S> kTable = {
+        {&S::count,
+         "count",
+         {1, 8},
+         "",
+         "Levels of detail; fewer where the coarsest would have no triangles"},
+        Binding(&S::tessellation, "tessellation", Range{1, 96}, "segments",
+                "Segments in a quarter circle of the finest level; 8 times its square triangles")
+            .formerly({"tessellation"}),
+        Binding(&S::ratio, "ratio", Range{0.3, 0.9}, "",
+                "Segments of each level over those of the one before; its square is that of triangles")
+            .formerly({"level_ratio"})};
+    return kTable;
+  }
+};
+
+struct MaskerSettings {
+  double contrast = 0.6, size = 0.25;
+  static const SettingsTable<MaskerSettings>& table() {
+    using S = MaskerSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::contrast, "contrast", Range{0.0, 1.0}, "", "Contrast of the pattern on ground and wall")
+            .formerly({"masker_contrast"}),
+        Binding(&S::size, "size", Range{0.01, 10.0}, "world units", "Size of its coarsest features")
+            .formerly({"masker_size"})};
+    return kTable;
+  }
+};
+
+struct Fence {
+  static constexpr const char *kKind = "bars", *kSummary = "a fence before the left half";
+  double pitch = 0.3, share = 0.4;
+  static const SettingsTable<Fence>& table() {
+    static const SettingsTable<Fence> kTable = {
+        Binding(&Fence::pitch, "pitch", Range{0.01, 4.0}, "world units", "From bar to bar")
+            .formerly({"fence_pitch"}),
+        Binding(&Fence::share, "share", Range{0.05, 0.95}, "", "Share of the pitch that a bar fills")
+            .formerly({"fence_share"})};
+    return kTable;
+  }
+};
+
+struct NoFence {
+  static constexpr const char *kKind = "none", *kSummary = "no fence";
+};
+
+struct FieldSettings {
+  GridSettings grid;
+  SphereLevels levels;
+  double bumps = 0.25, objectContrast = 0.0;
+  MaskerSettings masker;
+  std::variant<Fence, NoFence> fence;
+  int64_t seed = 1;
+  SwitchSettings switching{.distance = 3.5};
+  double distance = 4.5;
+  CameraMotion motion = Approach{.speed = 0.5};
+  static const SettingsTable<FieldSettings>& table() {
+    using S = FieldSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::grid, "grid", "Where the objects stand"},
+        Binding(&S::levels, "levels", "Levels of detail").shorthand("count"),
+        {&S::bumps, "bumps", {0.0, 0.8}, "", "Height of the objects' bumps over their radius"},
+        {&S::objectContrast, "object_contrast", {0.0, 1.0}, "", "Contrast of the objects' solid texture"},
+        {&S::masker, "masker", "The pattern on ground and wall"},
+        {&S::fence, "fence", "What hides parts of the objects and shadows them"},
+        {&S::seed, "seed", {0, 1000000}, "", "Of bumps, places and turns"},
+        switchBinding(&S::switching),
+        distanceBinding(&S::distance, 50.0),
+        motionBinding(&S::motion)};
+    return kTable;
+  }
+};
+
+LodSet bumpySpheres(const FieldSettings& settings) {
+  const Bumps bumps(kRadius, settings.bumps, settings.seed);
   LodSet set{"bumpy_sphere", {}};
-  const int64_t levels = values.integer("levels");
-  for (int64_t i = 0; i < levels; ++i) {
-    const double finest = static_cast<double>(values.integer("tessellation"));
-    const double ratio = std::pow(values.real("level_ratio"), static_cast<double>(i));
+  for (int i = 0; i < settings.levels.count; ++i) {
+    const double finest = settings.levels.tessellation;
+    const double ratio = std::pow(settings.levels.ratio, static_cast<double>(i));
     const int cells = std::max(static_cast<int>(std::lround(finest * ratio)), 1);
     LodMesh level{sphere(glm::dvec3(0.0), 1.0, cells)};
     for (glm::dvec3& position : level.mesh.positions) position *= bumps.radius(glm::normalize(position));
@@ -42,11 +135,10 @@ Material textured(const std::string& name, glm::vec3 albedo, double contrast, do
   return out;
 }
 
-Scene buildField(const ParameterValues& values) {
-  const auto rows = static_cast<int>(values.integer("rows")),
-             columns = static_cast<int>(values.integer("columns"));
-  const double spacing = values.real("spacing"), contrast = values.real("masker_contrast");
-  const double size = values.real("masker_size");
+Scene buildField(const FieldSettings& settings) {
+  const int rows = settings.grid.rows, columns = settings.grid.columns;
+  const double spacing = settings.grid.spacing, contrast = settings.masker.contrast;
+  const double size = settings.masker.size;
   const double width = spacing * columns + 4.0, depth = spacing * rows + 4.0;
   Scene scene;
   addPart(scene, "ground", planeGrid({0.0, 0.0, -0.5 * depth + 4.0}, 3.0 * width, depth + 8.0, 16), {},
@@ -57,17 +149,16 @@ Scene buildField(const ParameterValues& values) {
           Role::ReceiverOnly);
   scene.materials.back() = textured("wall", {0.45F, 0.43F, 0.4F}, contrast, size);
   // Bars on the left half, before the nearest row: they hide parts of the objects and shadow them.
-  const double pitch = values.real("fence_pitch");
-  if (pitch > 0.0) {
+  if (const auto* fence = std::get_if<Fence>(&settings.fence)) {
     Mesh bars;
-    const double bar = values.real("fence_share") * pitch;
-    for (double x = -0.5 * width; x + bar <= 0.0; x += pitch)
+    const double bar = fence->share * fence->pitch;
+    for (double x = -0.5 * width; x + bar <= 0.0; x += fence->pitch)
       append(bars, box({x, 0.0, 0.9}, {x + bar, 1.3, 0.95}));
     addPart(scene, "fence", bars, {0.3F, 0.2F, 0.14F});
   }
   if (rows * columns > 0) {
-    const LodSet set = bumpySpheres(values);
-    Random random(values.integer("seed"));
+    const LodSet set = bumpySpheres(settings);
+    Random random(settings.seed);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
         Placement placement;
@@ -75,54 +166,28 @@ Scene buildField(const ParameterValues& values) {
                               kRadius + 0.1, -spacing * (row + random.uniform(-0.15, 0.15))};
         placement.yawDeg = random.uniform(0.0, 360.0);
         addLodObject(scene, set, placement,
-                     textured("bumpy_sphere", {0.62F, 0.6F, 0.56F}, values.real("object_contrast"), 0.1),
-                     switchDistances(values, set.levels.size()));
+                     textured("bumpy_sphere", {0.62F, 0.6F, 0.56F}, settings.objectContrast, 0.1),
+                     settings.switching.distances(set.levels.size()));
       }
   }
   const glm::dvec3 middle(0.0, 0.5, 0.0);
   scene.lights = {lightTowards({-12.0, 22.0, 25.0}, {0.0, 0.0, -0.4 * depth}, glm::dvec2(1.0))};
-  Ride ride = rideOf(values);
+  Ride ride;
+  ride.distance = settings.distance;
   ride.target = middle;
   ride.back = orbitCamera(glm::dvec3(0.0), 1.0, 0.0, 17.0).eye;
   ride.nearest = 1.5;
   ride.verticalFovDeg = 40.0;
-  setRide(scene, ride);
+  setRide(scene, ride, settings.motion);
   return scene;
 }
 
-std::vector<Parameter> fieldParameters() {
-  std::vector<Parameter> out = {
-      integerParameter("rows", 5, 0, 32, "", "Rows of objects, one behind another"),
-      integerParameter("columns", 4, 0, 32, "", "Objects in a row"),
-      realParameter("spacing", 1.8, 0.5, 20.0, "world units", "Between objects, whose radius is about 0.45"),
-      integerParameter("levels", 6, 1, 8, "",
-                       "Levels of detail; fewer where the coarsest would have no triangles"),
-      integerParameter("tessellation", 32, 1, 96, "segments",
-                       "Segments in a quarter circle of the finest level; 8 times its square triangles"),
-      realParameter("level_ratio", 0.7, 0.3, 0.9, "",
-                    "Segments of each level over those of the one before; its square is that of triangles"),
-      realParameter("bumps", 0.25, 0.0, 0.8, "", "Height of the objects' bumps over their radius"),
-      realParameter("object_contrast", 0.0, 0.0, 1.0, "", "Contrast of the objects' solid texture"),
-      realParameter("masker_contrast", 0.6, 0.0, 1.0, "", "Contrast of the pattern on ground and wall"),
-      realParameter("masker_size", 0.25, 0.01, 10.0, "world units",
-                    "Size of that pattern's coarsest features"),
-      realParameter("fence_pitch", 0.3, 0.0, 4.0, "world units",
-                    "From bar to bar of the fence before the left half; 0: no fence"),
-      realParameter("fence_share", 0.4, 0.05, 0.95, "", "Share of the pitch that a bar fills"),
-      integerParameter("seed", 1, 0, 1000000, "", "Of bumps, places and turns")};
-  const auto add = [&](std::vector<Parameter> more) { out.insert(out.end(), more.begin(), more.end()); };
-  add(switchParameters(3.5, 100.0));
-  add(rideParameters(4.5, 50.0, 0.5, 50.0));
-  return out;
-}
-
-const Registered<SceneInfo> kField{SceneInfo{
-    .name = "lod/field",
-    .version = 1,
-    .summary = "Rows of bumpy spheres with levels behind a fence, before a patterned wall: masked LODs",
-    .source = "stand-in for Schwarz 2009, Fig. 9.8",
-    .parameters = fieldParameters(),
-    .build = buildField}};
+const RegisteredScene<FieldSettings> kField{
+    {.name = "lod/field",
+     .version = 1,
+     .summary = "Rows of bumpy spheres with levels behind a fence, before a patterned wall: masked LODs",
+     .source = "stand-in for Schwarz 2009, Fig. 9.8"},
+    buildField};
 
 }  // namespace
 }  // namespace limen::scene

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/scene/lod_set.h"
 
 namespace limen::scene {
@@ -13,6 +14,9 @@ enum class ChainNormals {
   Kept,  ///< the finest level's, as progressive meshes carry attributes along
   Own    ///< worked out anew from the level's triangles
 };
+constexpr EnumNames<ChainNormals, 2> enumNames(ChainNormals) {
+  return {{{{ChainNormals::Kept, "kept"}, {ChainNormals::Own, "own"}}}};
+}
 
 /// Levels of a triangle mesh by collapsing edges, each level from the one before as in a progressive mesh
 /// (Schwarz 2009, section 10.3.5): level 0 is the mesh, level i keeps about `keptShares[i - 1]` of its

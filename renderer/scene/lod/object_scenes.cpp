@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 
 #include "experiments/base/error.h"
 #include "renderer/scene/import.h"
@@ -19,31 +20,114 @@
 namespace limen::scene {
 namespace {
 
+struct ChainSettings {
+  int count = 4;
+  double reduction = 0.88;
+  ChainNormals normals = ChainNormals::Kept;
+  static const SettingsTable<ChainSettings>& table() {
+    using S = ChainSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::count, "count", {2, 8}, "", "Levels of detail, the mesh itself included"},
+        Binding(&S::reduction, "reduction", Range{0.03, 0.99}, "",
+                "Share of the triangles that the coarsest level lacks; the others lie between, each smaller "
+                "by the same factor",
+                "Schwarz 2009, section 10.4.2 (3 % to 88 %)")
+            .formerly({"reduction"}),
+        Binding(&S::normals, "normals",
+                "Normals of coarser levels: those of the mesh's vertices, or from their own triangles")
+            .formerly({"level_normals"})};
+    return kTable;
+  }
+};
+
+struct RowSettings {
+  int64_t count = 3;
+  double spacing = 2.0;
+  static const SettingsTable<RowSettings>& table() {
+    using S = RowSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::count, "count", {1, 16}, "", "Objects with levels"},
+        Binding(&S::spacing, "spacing", Range{1.0, 10.0}, "world units", "Between objects")
+            .formerly({"spacing"})};
+    return kTable;
+  }
+};
+
+/// What lod/object and lod/mesh have in common.
+struct ShowSettings {
+  ChainSettings levels;
+  RowSettings objects;
+  double yawDeg = 0.0, azimuthDeg = 0.0;
+  double objectContrast = 0.0, groundContrast = 0.5;
+  int64_t seed = 1;
+  SwitchSettings switching{.distance = 4.0};
+  double distance = 6.0;
+  CameraMotion motion = Approach{.speed = 1.0};
+  static const SettingsTable<ShowSettings>& table() {
+    using S = ShowSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::levels, "levels", "Levels of detail by collapsing edges").shorthand("count"),
+        Binding(&S::objects, "objects", "How many objects, and how far apart").shorthand("count"),
+        {&S::yawDeg, "yaw_deg", {-180.0, 180.0}, "deg", "Turn of the first object"},
+        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Of the eye around the first object"},
+        {&S::objectContrast, "object_contrast", {0.0, 1.0}, "", "Contrast of the objects' solid texture"},
+        {&S::groundContrast, "ground_contrast", {0.0, 1.0}, "", "Contrast of the ground's solid texture"},
+        {&S::seed, "seed", {0, 1000000}, "", "Of places, turns and textures"},
+        switchBinding(&S::switching),
+        distanceBinding(&S::distance, 50.0),
+        motionBinding(&S::motion)};
+    return kTable;
+  }
+};
+
+enum class Model { Bunny, Horse };
+constexpr EnumNames<Model, 2> enumNames(Model) {
+  return {{{{Model::Bunny, "bunny"}, {Model::Horse, "horse"}}}};
+}
+
+struct ObjectSettings {
+  Model model = Model::Bunny;
+  ShowSettings show;
+  static const SettingsTable<ObjectSettings>& table() {
+    using S = ObjectSettings;
+    static const SettingsTable<S> kTable = {{&S::model, "model", "Mesh (package glmark2-data)"},
+                                            included(&S::show)};
+    return kTable;
+  }
+};
+
+struct LodMeshSettings {
+  FilePath file;
+  ShowSettings show;
+  static const SettingsTable<LodMeshSettings>& table() {
+    using S = LodMeshSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::file, "file", FileIs::Required, "OBJ, PLY, glTF or 3DS file, y up"}, included(&S::show)};
+    return kTable;
+  }
+};
+
 /// Chain of a mesh file, its finest level standing on y = 0 at the origin with height 1.
-std::shared_ptr<const LodSet> makeChain(const std::string& path, const ParameterValues& values) {
+std::shared_ptr<const LodSet> makeChain(const std::string& path, const ChainSettings& settings) {
   ImportedMesh imported = importMesh(path);
   standOnGround(imported.mesh, 1.0);
   std::vector<double> kept;
-  const int64_t levels = values.integer("levels");
-  for (int64_t i = 1; i < levels; ++i)
-    kept.push_back(
-        std::pow(1.0 - values.real("reduction"), static_cast<double>(i) / static_cast<double>(levels - 1)));
-  const ChainNormals normals = values.text("level_normals") == "own" ? ChainNormals::Own : ChainNormals::Kept;
+  for (int i = 1; i < settings.count; ++i)
+    kept.push_back(std::pow(1.0 - settings.reduction,
+                            static_cast<double>(i) / static_cast<double>(settings.count - 1)));
   return std::make_shared<const LodSet>(
-      simplifiedChain(std::filesystem::path(path).stem().string(), imported.mesh, kept, normals));
+      simplifiedChain(std::filesystem::path(path).stem().string(), imported.mesh, kept, settings.normals));
 }
 
 /// The installed models do not change while a program runs, and a chain takes seconds: each is made once.
-std::shared_ptr<const LodSet> installedChain(const std::string& model, const ParameterValues& values) {
-  const std::string path = installedModel(model + (model == "bunny" ? ".obj" : ".3ds"));
+std::shared_ptr<const LodSet> installedChain(Model model, const ChainSettings& settings) {
+  const std::string path = installedModel(model == Model::Bunny ? "bunny.obj" : "horse.3ds");
   static std::mutex guard;
-  static std::map<std::string, std::shared_ptr<const LodSet>> chains;
-  const std::string key = path + "|" + toText(ParameterValue(values.integer("levels"))) + "|" +
-                          toText(ParameterValue(values.real("reduction"))) + "|" +
-                          values.text("level_normals");
+  static std::map<std::tuple<Model, int, double, ChainNormals>, std::shared_ptr<const LodSet>> chains;
   const std::scoped_lock lock(guard);
-  std::shared_ptr<const LodSet>& chain = chains[key];
-  if (!chain) chain = makeChain(path, values);
+  std::shared_ptr<const LodSet>& chain =
+      chains[{model, settings.count, settings.reduction, settings.normals}];
+  if (!chain) chain = makeChain(path, settings);
   return chain;
 }
 
@@ -55,19 +139,19 @@ Material material(const std::string& name, glm::vec3 albedo, double contrast, do
 }
 
 /// Mean and largest extent of the objects are 1; they stand in rows that go away from the camera.
-Scene stage(const LodSet& set, const ParameterValues& values) {
+Scene stage(const LodSet& set, const ShowSettings& settings) {
   Scene scene;
-  Random random(values.integer("seed"));
+  Random random(settings.seed);
   const auto shift = [&] {
     return glm::dvec3(random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0));
   };
   constexpr double kGroundSize = 60.0;
   addGround(scene, kGroundSize);
   scene.materials[0] =
-      material("ground", scene.materials[0].albedo, values.real("ground_contrast"), 0.4, shift());
-  const int64_t objects = values.integer("objects");
+      material("ground", scene.materials[0].albedo, settings.groundContrast, 0.4, shift());
+  const int64_t objects = settings.objects.count;
   const auto columns = static_cast<int64_t>(std::ceil(std::sqrt(static_cast<double>(objects))));
-  const double spacing = values.real("spacing");
+  const double spacing = settings.objects.spacing;
   for (int64_t i = 0; i < objects; ++i) {
     const auto column = static_cast<double>(i % columns) - 0.5 * static_cast<double>(columns - 1);
     Placement placement;
@@ -75,63 +159,39 @@ Scene stage(const LodSet& set, const ParameterValues& values) {
     if (i > 0)
       placement.position +=
           0.2 * spacing * glm::dvec3(random.uniform(-1.0, 1.0), 0.0, random.uniform(-1.0, 1.0));
-    placement.yawDeg = i > 0 ? random.uniform(0.0, 360.0) : values.real("yaw_deg");
+    placement.yawDeg = i > 0 ? random.uniform(0.0, 360.0) : settings.yawDeg;
     addLodObject(scene, set, placement,
-                 material(set.name, {0.62F, 0.6F, 0.56F}, values.real("object_contrast"), 0.15, shift()),
-                 switchDistances(values, set.levels.size()));
+                 material(set.name, {0.62F, 0.6F, 0.56F}, settings.objectContrast, 0.15, shift()),
+                 settings.switching.distances(set.levels.size()));
   }
   const glm::dvec3 middle = scene.lodObjects[0].bounds.centre();
   scene.lights = {lightTowards(middle + glm::dvec3(-60.0, 70.0, 35.0), middle, glm::dvec2(4.0))};
-  Ride ride = rideOf(values);
+  Ride ride;
+  ride.distance = settings.distance;
   ride.target = middle;
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("azimuth_deg"), 8.0).eye;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, settings.azimuthDeg, 8.0).eye;
   ride.nearest = 0.75;
-  setRide(scene, ride);
+  setRide(scene, ride, settings.motion);
   return scene;
 }
 
-std::vector<Parameter> objectParameters(std::vector<Parameter> own) {
-  const auto add = [&](std::vector<Parameter> more) { own.insert(own.end(), more.begin(), more.end()); };
-  add({integerParameter("levels", 4, 2, 8, "", "Levels of detail, the mesh itself included"),
-       realParameter("reduction", 0.88, 0.03, 0.99, "",
-                     "Share of the triangles that the coarsest level lacks; the others lie between, each "
-                     "smaller by the same factor",
-                     "Schwarz 2009, section 10.4.2 (3 % to 88 %)"),
-       choiceParameter(
-           "level_normals", "kept", {"kept", "own"},
-           "Normals of coarser levels: those of the mesh's vertices, or from their own triangles"),
-       integerParameter("objects", 3, 1, 16, "", "Objects with levels"),
-       realParameter("spacing", 2.0, 1.0, 10.0, "world units", "Between objects"),
-       realParameter("yaw_deg", 0.0, -180.0, 180.0, "deg", "Turn of the first object"),
-       realParameter("azimuth_deg", 0.0, -180.0, 180.0, "deg", "Of the eye around the first object"),
-       realParameter("object_contrast", 0.0, 0.0, 1.0, "", "Contrast of the objects' solid texture"),
-       realParameter("ground_contrast", 0.5, 0.0, 1.0, "", "Contrast of the ground's solid texture"),
-       integerParameter("seed", 1, 0, 1000000, "", "Of places, turns and textures")});
-  add(switchParameters(4.0, 100.0));
-  add(rideParameters(6.0, 50.0, 1.0, 50.0));
-  return own;
-}
+const RegisteredScene<ObjectSettings> kObject{
+    {.name = "lod/object",
+     .version = 1,
+     .summary = "Bunny or horse of height 1 in simplified levels on a textured ground, approached or passed",
+     .source = "Schwarz 2009, sections 10.3.5 and 10.4.2"},
+    [](const ObjectSettings& settings) {
+      return stage(*installedChain(settings.model, settings.show.levels), settings.show);
+    }};
 
-const Registered<SceneInfo> kObject{SceneInfo{
-    .name = "lod/object",
-    .version = 1,
-    .summary = "Bunny or horse of height 1 in simplified levels on a textured ground, approached or passed",
-    .source = "Schwarz 2009, sections 10.3.5 and 10.4.2",
-    .parameters = objectParameters(
-        {choiceParameter("model", "bunny", {"bunny", "horse"}, "Mesh (package glmark2-data)")}),
-    .build = [](const ParameterValues& values) {
-      return stage(*installedChain(values.text("model"), values), values);
-    }}};
-
-const Registered<SceneInfo> kLodMeshRegistered{
-    SceneInfo{.name = "lod/mesh",
-              .version = 1,
-              .summary = "Like lod/object with a mesh from a file, scaled to height 1",
-              .source = "bench",
-              .parameters = objectParameters({fileParameter("file", "OBJ, PLY, glTF or 3DS file, y up")}),
-              .build = [](const ParameterValues& values) {
-                return stage(*makeChain(values.text("file"), values), values);
-              }}};
+const RegisteredScene<LodMeshSettings> kLodMeshRegistered{
+    {.name = "lod/mesh",
+     .version = 1,
+     .summary = "Like lod/object with a mesh from a file, scaled to height 1",
+     .source = "bench"},
+    [](const LodMeshSettings& settings) {
+      return stage(*makeChain(settings.file.path, settings.show.levels), settings.show);
+    }};
 
 }  // namespace
 }  // namespace limen::scene

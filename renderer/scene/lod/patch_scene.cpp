@@ -27,57 +27,88 @@ BicubicPatch tent(double tip, double pinch) {
   return patch;
 }
 
-Scene buildPatches(const ParameterValues& values) {
+const char* const kPatchExperiment = "Schwarz 2009, section 10.4.1";
+
+/// How many pieces a side each level is tessellated into.
+struct FactorSettings {
+  int fine = 9, middle = 3, coarse = 2;
+  static const SettingsTable<FactorSettings>& table() {
+    using S = FactorSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::fine, "fine", Range{1, 64}, "", "Of the finest level", kPatchExperiment)
+            .formerly({"factor_fine"}),
+        Binding(&S::middle, "middle", Range{1, 64}, "", "Of the second level", kPatchExperiment)
+            .formerly({"factor_middle"}),
+        Binding(&S::coarse, "coarse", Range{1, 64}, "", "Of the coarsest level", kPatchExperiment)
+            .formerly({"factor_coarse"})};
+    return kTable;
+  }
+};
+
+struct PatchSettings {
+  FactorSettings factors;
+  double tipHeight = 2.2, pinch = 0.35;
+  double elevationDeg = 18.0, azimuthDeg = 30.0;
+  double contrast = 0.0;
+  SwitchSettings switching{.distance = 3.0};
+  double distance = 5.0;
+  CameraMotion motion = Approach{.speed = 0.8};
+  static const SettingsTable<PatchSettings>& table() {
+    using S = PatchSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::factors, "factors", "Tessellation factors of the levels"},
+        {&S::tipHeight,
+         "tip_height",
+         {0.1, 4.0},
+         "world units",
+         "Height of the middle control points",
+         "reconstructed; the patch is 1 wide"},
+        {&S::pinch,
+         "pinch",
+         {0.05, 1.0},
+         "",
+         "Middle control points' distance from the middle, as a share of an even net's",
+         "reconstructed"},
+        {&S::elevationDeg, "elevation_deg", {0.0, 80.0}, "deg", "Of the eye above the patch's plane"},
+        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Of the eye around the patch"},
+        {&S::contrast, "contrast", {0.0, 1.0}, "", "Contrast of the solid texture; the thesis shows none"},
+        switchBinding(&S::switching),
+        distanceBinding(&S::distance, 50.0),
+        motionBinding(&S::motion)};
+    return kTable;
+  }
+};
+
+Scene buildPatches(const PatchSettings& settings) {
   Scene scene;
-  scene.patches = {tent(values.real("tip_height"), values.real("pinch"))};
-  const std::vector<int> factors = {static_cast<int>(values.integer("factor_fine")),
-                                    static_cast<int>(values.integer("factor_middle")),
-                                    static_cast<int>(values.integer("factor_coarse"))};
+  scene.patches = {tent(settings.tipHeight, settings.pinch)};
+  const std::vector<int> factors = {settings.factors.fine, settings.factors.middle,
+                                    settings.factors.coarse};
   Material material{"patch", {0.7F, 0.68F, 0.62F}};
   material.surface = SurfaceKind::BicubicPatch;
-  if (values.real("contrast") > 0.0) {
+  if (settings.contrast > 0.0) {
     material.pattern.kind = Pattern::Kind::ValueNoise;
-    material.pattern.contrast = values.real("contrast");
+    material.pattern.contrast = settings.contrast;
   }
   const LodSet set = patchLevels(scene.patches[0], factors);
-  addLodObject(scene, set, {}, material, switchDistances(values, set.levels.size()));
+  addLodObject(scene, set, {}, material, settings.switching.distances(set.levels.size()));
   const glm::dvec3 middle = scene.lodObjects[0].bounds.centre();
   scene.lights = {lightTowards(middle + glm::dvec3(-60.0, 70.0, 30.0), middle, glm::dvec2(4.0))};
-  Ride ride = rideOf(values);
+  Ride ride;
+  ride.distance = settings.distance;
   ride.target = middle;
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("azimuth_deg"), values.real("elevation_deg")).eye;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, settings.azimuthDeg, settings.elevationDeg).eye;
   ride.nearest = 0.8;
-  setRide(scene, ride);
+  setRide(scene, ride, settings.motion);
   return scene;
 }
 
-std::vector<Parameter> patchParameters() {
-  const char* const kSource = "Schwarz 2009, section 10.4.1";
-  std::vector<Parameter> out = {
-      integerParameter("factor_fine", 9, 1, 64, "", "Tessellation factor of the finest level", kSource),
-      integerParameter("factor_middle", 3, 1, 64, "", "Tessellation factor of the second level", kSource),
-      integerParameter("factor_coarse", 2, 1, 64, "", "Tessellation factor of the coarsest level", kSource),
-      realParameter("tip_height", 2.2, 0.1, 4.0, "world units", "Height of the middle control points",
-                    "reconstructed; the patch is 1 wide"),
-      realParameter("pinch", 0.35, 0.05, 1.0, "",
-                    "Middle control points' distance from the middle, as a share of an even net's",
-                    "reconstructed"),
-      realParameter("elevation_deg", 18.0, 0.0, 80.0, "deg", "Of the eye above the patch's plane"),
-      realParameter("azimuth_deg", 30.0, -180.0, 180.0, "deg", "Of the eye around the patch"),
-      realParameter("contrast", 0.0, 0.0, 1.0, "", "Contrast of the solid texture; the thesis shows none")};
-  for (const std::vector<Parameter>& more :
-       {switchParameters(3.0, 100.0), rideParameters(5.0, 50.0, 0.8, 20.0)})
-    out.insert(out.end(), more.begin(), more.end());
-  return out;
-}
-
-const Registered<SceneInfo> kPatchSceneRegistered{
-    SceneInfo{.name = "lod/patch",
-              .version = 1,
-              .summary = "Bicubic B-spline patch with a tip, tessellated 9, 3 or 2 times a side, approached",
-              .source = "Schwarz 2009, section 10.4.1",
-              .parameters = patchParameters(),
-              .build = buildPatches}};
+const RegisteredScene<PatchSettings> kPatchSceneRegistered{
+    {.name = "lod/patch",
+     .version = 1,
+     .summary = "Bicubic B-spline patch with a tip, tessellated 9, 3 or 2 times a side, approached",
+     .source = kPatchExperiment},
+    buildPatches};
 
 }  // namespace
 }  // namespace limen::scene

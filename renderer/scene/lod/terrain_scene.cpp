@@ -16,6 +16,124 @@
 namespace limen::scene {
 namespace {
 
+const char* const kFlyOver = "Schwarz 2009, section 10.3.5";
+constexpr double kTerrainSize = 16.0;  // world units along a side
+
+struct TileLevels {
+  int perSide = 8, cells = 16, levels = 4;
+  bool skirts = true;
+  static const SettingsTable<TileLevels>& table() {
+    using S = TileLevels;
+    static const SettingsTable<S> kTable = {
+        {&S::perSide,
+         "per_side",
+         {1, 16},
+         "",
+         "Tiles along a side of the terrain, which is 16 world units wide"},
+        Binding(&S::cells, "cells", oneOf({4, 8, 16, 32}), "", "Cells along a side of a tile's finest level")
+            .formerly({"cells"}),
+        Binding(&S::levels, "levels", Range{2, 6}, "",
+                "Levels of a tile, each with every second point of the one before; no fewer than two cells a "
+                "side are left",
+                kFlyOver)
+            .formerly({"levels"}),
+        Binding(&S::skirts, "skirts", "Hangs strips from the borders of tiles, which close cracks")
+            .formerly({"skirts"})};
+    return kTable;
+  }
+};
+
+struct MountainShape {
+  double relief = 2.5;
+  int octaves = 4, azimuths = 24;
+  int64_t seed = 1;
+  static const SettingsTable<MountainShape>& table() {
+    using S = MountainShape;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::relief, "relief", Range{0.1, 10.0}, "world units", "Heights lie between 0 and this")
+            .formerly({"relief"}),
+        Binding(&S::octaves, "octaves", Range{1, 10}, "", "Octaves of the noise that shapes the mountains")
+            .formerly({"octaves"}),
+        Binding(&S::azimuths, "azimuths", Range{4, 64}, "",
+                "Directions in which the horizon of a point is found", kFlyOver)
+            .formerly({"azimuths"}),
+        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Of the noise").formerly({"seed"})};
+    return kTable;
+  }
+};
+
+struct SunSettings {
+  double elevationDeg = 25.0, azimuthDeg = -60.0, radiusDeg = 1.5;
+  static const SettingsTable<SunSettings>& table() {
+    using S = SunSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::elevationDeg, "elevation_deg", Range{1.0, 90.0}, "deg", "Height: the time of day",
+                kFlyOver)
+            .formerly({"sun_elevation_deg"}),
+        Binding(&S::azimuthDeg, "azimuth_deg", Range{-180.0, 180.0}, "deg", "0 is +z, 90 is +x")
+            .formerly({"sun_azimuth_deg"}),
+        Binding(&S::radiusDeg, "radius_deg", Range{0.01, 20.0}, "deg",
+                "Angular radius, 0.27 in nature; larger ones make softer shadows")
+            .formerly({"sun_radius_deg"})};
+    return kTable;
+  }
+};
+
+struct LookAhead {
+  static constexpr const char *kKind = "ahead", *kSummary = "a point ahead, at an altitude over all mountains";
+  double altitude = 0.6;
+  static const SettingsTable<LookAhead>& table() {
+    static const SettingsTable<LookAhead> kTable = {
+        Binding(&LookAhead::altitude, "altitude", Range{0.01, 20.0}, "world units",
+                "Of the eye above the terrain's relief")
+            .formerly({"altitude"})};
+    return kTable;
+  }
+};
+
+struct LookAtTile {
+  static constexpr const char *kKind = "tile", *kSummary = "the middle of a tile";
+  size_t number = 0;
+  static const SettingsTable<LookAtTile>& table() {
+    static const SettingsTable<LookAtTile> kTable = {
+        Binding(&LookAtTile::number, "number", Range{0, 255}, "",
+                "In the order of objects; the last one if there are fewer")
+            .formerly({"tile"})};
+    return kTable;
+  }
+};
+
+struct TerrainSettings {
+  TileLevels tiles;
+  MountainShape mountains;
+  double contrast = 0.4;
+  SunSettings sun;
+  std::variant<LookAhead, LookAtTile> target;
+  double azimuthDeg = 0.0, pitchDeg = 14.0;
+  SwitchSettings switching{.distance = 5.0};
+  double distance = 8.0;
+  CameraMotion motion = Approach{.speed = 1.0};
+  static const SettingsTable<TerrainSettings>& table() {
+    using S = TerrainSettings;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::tiles, "tiles", "Tiles with levels of detail").shorthand("per_side"),
+        {&S::mountains, "mountains", "Shape of the terrain"},
+        {&S::contrast, "contrast", {0.0, 1.0}, "", "Contrast of the solid texture"},
+        {&S::sun, "sun", "The light"},
+        {&S::target, "target", "What the ride leads to"},
+        {&S::azimuthDeg,
+         "azimuth_deg",
+         {-180.0, 180.0},
+         "deg",
+         "Side of the terrain that the eye comes from"},
+        {&S::pitchDeg, "pitch_deg", {0.0, 80.0}, "deg", "Of the view below the horizontal"},
+        switchBinding(&S::switching),
+        distanceBinding(&S::distance, 30.0),
+        motionBinding(&S::motion)};
+    return kTable;
+  }
+};
+
 struct Ground {
   HeightField field;
   std::vector<Aperture> apertures;
@@ -42,50 +160,52 @@ std::shared_ptr<const Ground> groundOf(const MountainSetting& setting, int azimu
   return kept;
 }
 
-Scene buildTerrain(const ParameterValues& values) {
+Scene buildTerrain(const TerrainSettings& settings) {
   TileSetting tiling;
-  tiling.tiles = static_cast<int>(values.integer("tiles"));
-  tiling.cells = std::stoi(values.text("cells"));
+  tiling.tiles = settings.tiles.perSide;
+  tiling.cells = settings.tiles.cells;
   // A tile's coarsest level keeps two cells a side.
-  tiling.levels =
-      std::min(static_cast<int>(values.integer("levels")), static_cast<int>(std::log2(tiling.cells) + 0.5));
-  tiling.skirts = values.boolean("skirts");
+  tiling.levels = std::min(settings.tiles.levels, static_cast<int>(std::log2(tiling.cells) + 0.5));
+  tiling.skirts = settings.tiles.skirts;
   MountainSetting setting;
   setting.side = tiling.tiles * tiling.cells + 1;
-  setting.size = 16.0;
-  setting.relief = values.real("relief");
-  setting.octaves = static_cast<int>(values.integer("octaves"));
-  setting.seed = values.integer("seed");
-  const auto ground = groundOf(setting, static_cast<int>(values.integer("azimuths")));
+  setting.size = kTerrainSize;
+  setting.relief = settings.mountains.relief;
+  setting.octaves = settings.mountains.octaves;
+  setting.seed = settings.mountains.seed;
+  const auto ground = groundOf(setting, settings.mountains.azimuths);
 
   Scene scene;
   Material material{"terrain", {0.62F, 0.57F, 0.5F}};
   material.surface = SurfaceKind::Aperture;
-  if (const double contrast = values.real("contrast"); contrast > 0.0)
+  if (const double contrast = settings.contrast; contrast > 0.0)
     material.pattern = {Pattern::Kind::ValueNoise, 0.5, contrast, 4, {0.31, 0.17, 0.23}};
   for (const LodSet& set : terrainTiles(ground->field, ground->apertures, tiling))
-    addLodObject(scene, set, {}, material, switchDistances(values, set.levels.size()));
+    addLodObject(scene, set, {}, material, settings.switching.distances(set.levels.size()));
 
   // The sun, far enough to be in the same direction everywhere up to a thousandth of a degree.
-  const double elevation = glm::radians(values.real("sun_elevation_deg")),
-               azimuth = glm::radians(values.real("sun_azimuth_deg"));
+  const double elevation = glm::radians(settings.sun.elevationDeg),
+               azimuth = glm::radians(settings.sun.azimuthDeg);
   const glm::dvec3 toSun(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                          std::cos(elevation) * std::cos(azimuth));
   constexpr double kFar = 1e6;
-  const double radius = kFar * std::tan(glm::radians(values.real("sun_radius_deg")));
+  const double radius = kFar * std::tan(glm::radians(settings.sun.radiusDeg));
   AreaLight sun = lightTowards(kFar * toSun, glm::dvec3(0.0), glm::dvec2(2.0 * radius));
   sun.shape = LightShape::Disc;
   scene.lights = {sun};
 
-  Ride ride = rideOf(values);
-  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, values.real("azimuth_deg"), values.real("pitch_deg")).eye;
+  Ride ride;
+  ride.distance = settings.distance;
+  ride.back = orbitCamera(glm::dvec3(0.0), 1.0, settings.azimuthDeg, settings.pitchDeg).eye;
   ride.forward = -glm::normalize(glm::dvec3(ride.back.x, 0.0, ride.back.z));
-  // The eye starts at the given altitude above the highest point the terrain may have; the target follows.
-  const double height = setting.relief + values.real("altitude");
-  ride.target = glm::dvec3(0.0, height - ride.distance * ride.back.y, 0.0);
-  if (const int64_t tile = values.integer("tile"); tile >= 0) {
+  if (const auto* ahead = std::get_if<LookAhead>(&settings.target)) {
+    // The eye starts at the given altitude above the highest point the terrain may have; the target follows.
+    const double height = setting.relief + ahead->altitude;
+    ride.target = glm::dvec3(0.0, height - ride.distance * ride.back.y, 0.0);
+  } else {
     const size_t last = scene.lodObjects.size() - 1;
-    ride.target = scene.lodObjects[std::min(static_cast<size_t>(tile), last)].bounds.centre();
+    const size_t tile = std::get<LookAtTile>(settings.target).number;
+    ride.target = scene.lodObjects[std::min(tile, last)].bounds.centre();
     const glm::dvec3 eye = ride.target + ride.distance * ride.back;
     if (!(eye.y > ground->field.height(eye.x, eye.z)))
       throw Error("the eye lies within the mountains", "scene 'lod/terrain'",
@@ -93,52 +213,16 @@ Scene buildTerrain(const ParameterValues& values) {
   }
   ride.nearest = 0.1;
   ride.verticalFovDeg = 45.0;
-  setRide(scene, ride);
+  setRide(scene, ride, settings.motion);
   return scene;
 }
 
-std::vector<Parameter> terrainParameters() {
-  const char* const kThesis = "Schwarz 2009, section 10.3.5";
-  std::vector<Parameter> out = {
-      integerParameter("tiles", 8, 1, 16, "",
-                       "Tiles along a side of the terrain, which is 16 world units wide"),
-      choiceParameter("cells", "16", {"4", "8", "16", "32"}, "Cells along a side of a tile's finest level"),
-      integerParameter("levels", 4, 2, 6, "",
-                       "Levels of a tile, each with every second point of the one before; no fewer than two "
-                       "cells a side are left",
-                       kThesis),
-      booleanParameter("skirts", true, "Hangs strips from the borders of tiles, which close cracks"),
-      realParameter("relief", 2.5, 0.1, 10.0, "world units", "Heights lie between 0 and this"),
-      integerParameter("octaves", 4, 1, 10, "", "Octaves of the noise that shapes the mountains"),
-      integerParameter("azimuths", 24, 4, 64, "", "Directions in which the horizon of a point is found",
-                       kThesis),
-      realParameter("contrast", 0.4, 0.0, 1.0, "", "Contrast of the solid texture"),
-      realParameter("sun_elevation_deg", 25.0, 1.0, 90.0, "deg", "Height of the sun: the time of day",
-                    kThesis),
-      realParameter("sun_azimuth_deg", -60.0, -180.0, 180.0, "deg", "Of the sun: 0 is +z, 90 is +x"),
-      realParameter("sun_radius_deg", 1.5, 0.01, 20.0, "deg",
-                    "Angular radius of the sun, 0.27 in nature; larger ones make softer shadows"),
-      realParameter("altitude", 0.6, 0.01, 20.0, "world units", "Of the eye above the terrain's relief"),
-      realParameter("azimuth_deg", 0.0, -180.0, 180.0, "deg", "Side of the terrain that the eye comes from"),
-      integerParameter(
-          "tile", -1, -1, 255, "",
-          "Tile that `distance` leads to, in the order of objects, the last one if there are fewer; "
-          "`altitude` plays no part then. -1: none"),
-      realParameter("pitch_deg", 14.0, 0.0, 80.0, "deg", "Of the view below the horizontal"),
-      integerParameter("seed", 1, 0, 1000000, "", "Of the mountains")};
-  for (const std::vector<Parameter>& more :
-       {switchParameters(5.0, 100.0), rideParameters(8.0, 30.0, 1.0, 20.0)})
-    out.insert(out.end(), more.begin(), more.end());
-  return out;
-}
-
-const Registered<SceneInfo> kTerrainSceneRegistered{
-    SceneInfo{.name = "lod/terrain",
-              .version = 1,
-              .summary = "Mountains in tiles with levels of detail under a sun, flown over",
-              .source = "Schwarz 2009, section 10.3.5",
-              .parameters = terrainParameters(),
-              .build = buildTerrain}};
+const RegisteredScene<TerrainSettings> kTerrainSceneRegistered{
+    {.name = "lod/terrain",
+     .version = 1,
+     .summary = "Mountains in tiles with levels of detail under a sun, flown over",
+     .source = kFlyOver},
+    buildTerrain};
 
 }  // namespace
 }  // namespace limen::scene

@@ -7,10 +7,6 @@
 
 namespace limen::techniques {
 
-Parameter samplesParameter(int64_t samples) {
-  return integerParameter("samples", samples, 1, 16, "", "Samples a pixel along each axis, box filter");
-}
-
 BoxView::BoxView(frame::Frame& parent, const std::string& name, frame::ShadedSetting shaded, int samples)
     : parent_(parent), shaded_(std::move(shaded)), samples_(samples), pass_(name + "/resolve") {
   const glm::ivec2 sizePx = parent.sizePx() * samples;

@@ -37,7 +37,9 @@ class BoxView {
   const gl::Texture* texture_ = nullptr;
 };
 
-/// The parameter `samples` of techniques with a BoxView.
-Parameter samplesParameter(int64_t samples);
-
+/// The line `samples` in the table of a technique with a BoxView.
+template <class S>
+Binding<S> samplesBinding(int S::*member) {
+  return {member, "samples", Range{1, 16}, "", "Samples a pixel along each axis, box filter"};
+}
 }  // namespace limen::techniques

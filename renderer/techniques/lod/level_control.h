@@ -1,22 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <variant>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "renderer/scene/lod_control.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 
-/// How a technique chooses the levels of a frame: the conventional ways (SP-57), none of which looks at the
-/// picture.
+// What decides an object's level: the conventional ways (SP-57), none of which looks at the picture.
+
+struct ByDistance {
+  static constexpr const char *kKind = "distance", *kSummary = "by the scene's switch distances";
+  double factor = 1.0;  ///< multiplies the switch distances
+  static const SettingsTable<ByDistance>& table();
+};
+
+struct ByExtent {
+  static constexpr const char *kKind = "extent", *kSummary = "by the object's height on the screen";
+  double finestPx = 256.0;  ///< height from which the finest level is shown
+  double ratio = 0.5;       ///< of the heights from which a level and the one before it are shown
+  static const SettingsTable<ByExtent>& table();
+};
+
+struct ByError {
+  static constexpr const char *kKind = "error", *kSummary = "by the level's deviation on the screen";
+  double tolerancePx = 0.5;
+  static const SettingsTable<ByError>& table();
+};
+
+struct FixedLevel {
+  static constexpr const char *kKind = "fixed", *kSummary = "one level for all objects";
+  int level = 0;  ///< 0 the finest; past an object's last: its last
+  static const SettingsTable<FixedLevel>& table();
+};
+
+struct LevelControlSettings {
+  std::variant<ByDistance, ByExtent, ByError, FixedLevel> control;
+  double frameRateHz = 60.0;  ///< at which switches are counted
+  static const SettingsTable<LevelControlSettings>& table();
+};
+
+/// How a technique chooses the levels of a frame.
 class LevelControl {
  public:
-  explicit LevelControl(const ParameterValues& values);
-  /// control, level, distance_factor, extent_px, extent_ratio, tolerance_px, frame_rate.
-  static std::vector<Parameter> parameters();
+  explicit LevelControl(LevelControlSettings settings) : settings_(settings) {}
 
   scene::LodSelection choose(const scene::Scene& scene, const scene::LodView& view) const;
   /// Changes of level of any object on the scene's whole camera path, met at the frame rate.
@@ -25,13 +55,16 @@ class LevelControl {
   std::vector<Counter> counters(const scene::Scene& scene, const scene::LodView& view) const;
 
  private:
-  std::string control_;
-  int level_;
-  double distanceFactor_, extentPx_, extentRatio_, tolerancePx_, frameRateHz_;
+  LevelControlSettings settings_;
 };
 
 /// triangles_drawn, level_mean and screen_error_px of a selection.
 std::vector<Counter> selectionCounters(const scene::Scene& scene, const scene::LodSelection& selection,
                                        const scene::LodView& view);
+/// Their declarations.
+std::vector<Quantity> selectionQuantities();
+Quantity trianglesDrawn();
+Quantity screenErrorPx();
+Quantity levelSwitches();
 
 }  // namespace limen::techniques

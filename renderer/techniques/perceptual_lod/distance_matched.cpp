@@ -33,15 +33,44 @@ double factorForTriangles(const scene::Scene& scene, const scene::LodView& view,
 
 namespace {
 
+struct PerceptualBudget {
+  static constexpr const char *kKind = "perceptual",
+                              *kSummary = "as many as lod/perceptual draws with the same settings";
+};
+
+struct TriangleBudget {
+  static constexpr const char *kKind = "triangles", *kSummary = "a given number";
+  int64_t count = 100000;
+  static const SettingsTable<TriangleBudget>& table() {
+    static const SettingsTable<TriangleBudget> kTable = {Binding(&TriangleBudget::count, "count",
+                                                                 Range{1, 4'000'000'000.0}, "triangles",
+                                                                 "Background included")
+                                                             .formerly({"triangle_budget"})};
+    return kTable;
+  }
+};
+
+struct MatchedSettings {
+  std::variant<PerceptualBudget, TriangleBudget> budget;
+  PerceptualLodSettings perceptual;
+  static const SettingsTable<MatchedSettings>& table() {
+    using S = MatchedSettings;
+    static const SettingsTable<S> kTable = {{&S::budget, "budget", "Triangles to draw at least"},
+                                            included(&S::perceptual)};
+    return kTable;
+  }
+};
+
 class DistanceMatched : public Technique {
  public:
-  explicit DistanceMatched(const ParameterValues& values)
-      : settings_(PerceptualLodSettings::from(values)),
-        budget_(static_cast<uint64_t>(values.integer("triangle_budget"))) {}
+  using Settings = MatchedSettings;
+  explicit DistanceMatched(const MatchedSettings& settings)
+      : settings_(settings.perceptual), budget_(settings.budget) {}
 
   void prepare(frame::Frame& frame) override {
-    if (budget_ == 0) budget_ = perceptualTriangles(frame);
-    factor_ = factorForTriangles(frame.scene(), viewAt(frame, frame.timeS()), budget_);
+    const auto* given = std::get_if<TriangleBudget>(&budget_);
+    const uint64_t triangles = given ? static_cast<uint64_t>(given->count) : perceptualTriangles(frame);
+    factor_ = factorForTriangles(frame.scene(), viewAt(frame, frame.timeS()), triangles);
     view_.emplace(frame, "distance");
   }
 
@@ -55,8 +84,10 @@ class DistanceMatched : public Technique {
   const gl::Texture& product() const override { return *product_; }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> out = countLevels(frame, timeS_, settings_, levels_);
-    out.push_back({"distance_factor", factor_, "", false});
+    std::vector<Counter> out = countLevels(frame.scene(), levels_);
+    if (settings_.oracle)
+      countOracle(frame, timeS_, settings_.shading, settings_.model.seenOn(), settings_.rule, levels_, out);
+    out.push_back({"distance_factor", factor_});
     return out;
   }
 
@@ -75,7 +106,7 @@ class DistanceMatched : public Technique {
   }
 
   PerceptualLodSettings settings_;
-  uint64_t budget_;
+  decltype(MatchedSettings::budget) budget_;
   double factor_ = 1.0, timeS_ = 0.0;
   int64_t rendered_ = 0;
   std::optional<LevelView> view_;
@@ -83,33 +114,20 @@ class DistanceMatched : public Technique {
   const gl::Texture* product_ = nullptr;
 };
 
-std::vector<Parameter> matchedParameters() {
-  std::vector<Parameter> out = {integerParameter("triangle_budget", 0, 0, 4'000'000'000, "triangles",
-                                                 "Triangles to draw at least, background included; 0: as "
-                                                 "many as lod/perceptual draws with the same parameters")};
-  appendTo(out, PerceptualLodSettings::parameters());
+std::vector<Quantity> matchedQuantities() {
+  std::vector<Quantity> out = levelQuantities();
+  out.emplace_back("distance_factor", "Factor of the switch distances", "", Direction::Neither);
   return out;
 }
 
-std::vector<Quantity> matchedCounterNames() {
-  std::vector<Quantity> out = levelCounterNames();
-  out.emplace_back("distance_factor");
-  return out;
-}
-
-const Registered<TechniqueInfo> kDistanceMatchedRegistered{
+const RegisteredTechnique<DistanceMatched> kDistanceMatchedRegistered{
     {.name = "lod/distance_matched",
      .version = 1,
      .summary = "Levels by distance alone, scaled to draw no fewer triangles than lod/perceptual",
      .source = "Schwarz 2009, section 9.5, Fig. 9.8 (SP-38)",
      .product = ProductKind::Colour,
-     .parameters = matchedParameters(),
      .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<DistanceMatched>(values); },
-     .errorBound = {},
-     .counters = matchedCounterNames()}};
+     .counters = matchedQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

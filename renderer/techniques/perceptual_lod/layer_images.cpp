@@ -18,12 +18,17 @@ constexpr const char* kComposite = "perceptual_lod/composite";
 
 std::string contextPass(int layer) { return "perceptual_lod/context_" + std::to_string(layer); }
 
+double attenuationOf(const PerceptualLodSettings& settings) {
+  const auto* darkened = std::get_if<DarkenedShadows>(&settings.castShadows);
+  return darkened ? darkened->factor : 1.0;
+}
+
 }  // namespace
 
 LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings)
     : parent_(parent),
       shading_(settings.shading),
-      attenuation_(settings.shadowAttenuation),
+      attenuation_(attenuationOf(settings)),
       compositeProgram_(parent.context().programs().compute(std::string(kFolder) + "composite.comp.glsl")),
       contextProgram_(parent.context().programs().compute(std::string(kFolder) + "context.comp.glsl")),
       maskProgram_(parent.context().programs().compute(std::string(kFolder) + "shadow_mask.comp.glsl")),
@@ -36,7 +41,7 @@ LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& sett
       kComposite, frontColour_.bytes() + frontKey_.bytes() + secondColour_.bytes() + secondKey_.bytes());
   const bool shadows = shading_.shadow && !parent.scene().lights.empty();
   if (shadows) casters_ = std::make_unique<LevelView>(parent, "casters");
-  for (int i = 0; i <= settings.layers.count; ++i) {
+  for (int i = 0; i <= layerCount(settings.layers); ++i) {
     layers_.push_back(std::make_unique<Layer>(parent, i == 0 ? "background" : "layer_" + std::to_string(i)));
     Layer& layer = *layers_.back();
     layer.view.frame().setCasters(casters());
@@ -44,7 +49,7 @@ LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& sett
     layer.context.emplace(gl::Format::RGBA32F, parent.sizePx());
     layer.context->clear(glm::vec4(0.0F));
     int64_t bytes = layer.context->bytes();
-    if (shadows && settings.shadowMask) {
+    if (shadows && std::holds_alternative<DarkenedShadows>(settings.castShadows)) {
       layer.mask.emplace(gl::Format::R32F, parent.sizePx());
       layer.mask->clear(glm::vec4(0.0F));
       layer.others = std::make_unique<LevelView>(parent, "casters_but_" + std::to_string(i));
@@ -90,7 +95,7 @@ void LayerImages::compositeLayers(const std::vector<int>& drawn) {
   const auto scope = parent_.passes().open(kComposite);
   const gl::Program& program = compositeProgram_;
   program.set("sizePx", parent_.sizePx());
-  program.set("background", shading_.background);
+  program.set("background", glm::vec3(static_cast<float>(shading_.background)));
   frontColour_.bindImage(0, gl::Access::ReadWrite);
   frontKey_.bindImage(1, gl::Access::ReadWrite);
   secondColour_.bindImage(2, gl::Access::ReadWrite);

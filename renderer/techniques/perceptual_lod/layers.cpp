@@ -32,74 +32,81 @@ std::vector<double> readBorders(const std::string& text) {
     at = static_cast<size_t>(end - text.data());
   }
   if (out.empty() || out.size() >= kMostLayers)
-    throw Error("partition: explicit with " + std::to_string(out.size()) + " borders", "borders",
+    throw Error("explicit layers with " + std::to_string(out.size()) + " borders", "borders",
                 "give 1 to " + std::to_string(kMostLayers - 1));
   return out;
 }
 
 }  // namespace
 
-std::vector<Parameter> LayerSettings::parameters() {
-  Parameter borders;
-  borders.name = "borders";
-  borders.type = ParameterType::Text;
-  borders.defaultValue = std::string("5, 10");
-  borders.unit = "world units";
-  borders.description = "partition explicit: distances at which the next layer begins, ascending";
-  return {
-      integerParameter("layers", 4, 1, kMostLayers, "",
-                       "Layers of objects beside the background; partition explicit has its own number",
-                       kLayerSource),
-      choiceParameter("partition", "log", {"uniform", "log", "explicit"},
-                      "Where layers meet: at even distances, even ratios, or given distances", kLayerSource),
-      realParameter("nearest", 0.0, 0.0, 1e9, "world units",
-                    "Where the first layer begins; 0: at the nearest object of each frame", kLayerSource),
-      realParameter("farthest", 0.0, 0.0, 1e9, "world units",
-                    "Where the last layer ends; 0: at the farthest object of each frame", kLayerSource),
-      borders};
+const SettingsTable<LayerRange>& LayerRange::table() {
+  using S = LayerRange;
+  static const SettingsTable<S> kTable = {
+      {&S::count, "count", {1, kMostLayers}, "", "Layers of objects beside the background", kLayerSource},
+      Binding(&S::nearest, "nearest", Range{0.0, 1e9}, "world units",
+              "Where the first layer begins; 0: at the nearest object of each frame", kLayerSource)
+          .formerly({"nearest"}),
+      Binding(&S::farthest, "farthest", Range{0.0, 1e9}, "world units",
+              "Where the last layer ends; 0: at the farthest object of each frame", kLayerSource)
+          .formerly({"farthest"})};
+  return kTable;
 }
 
-LayerSettings LayerSettings::from(const ParameterValues& values) {
-  LayerSettings out;
-  out.count = static_cast<int>(values.integer("layers"));
-  const std::string& partition = values.text("partition");
-  out.partition = partition == "uniform"    ? Partition::Uniform
-                  : partition == "explicit" ? Partition::Explicit
-                                            : Partition::Log;
-  out.nearest = values.real("nearest");
-  out.farthest = values.real("farthest");
-  if (out.partition == Partition::Explicit) {
-    out.borders = readBorders(values.text("borders"));
-    out.count = static_cast<int>(out.borders.size()) + 1;
-  }
-  if (out.farthest > 0.0 && out.farthest <= out.nearest)
+void LayerRange::check() const {
+  if (farthest > 0.0 && farthest <= nearest)
     throw Error("the layers end before they begin", "farthest", "give a distance above nearest, or 0");
-  return out;
 }
 
-std::vector<double> layerBorders(const LayerSettings& settings, const std::vector<double>& distances) {
-  if (settings.partition == LayerSettings::Partition::Explicit) return settings.borders;
-  double low = settings.nearest, high = settings.farthest;
+const SettingsTable<LogLayers>& LogLayers::table() {
+  static const SettingsTable<LogLayers> kTable = {included(&LogLayers::range)};
+  return kTable;
+}
+
+const SettingsTable<UniformLayers>& UniformLayers::table() {
+  static const SettingsTable<UniformLayers> kTable = {included(&UniformLayers::range)};
+  return kTable;
+}
+
+const SettingsTable<ExplicitLayers>& ExplicitLayers::table() {
+  static const SettingsTable<ExplicitLayers> kTable = {
+      Binding(&ExplicitLayers::borders, "borders",
+              "Distances at which the next layer begins, ascending, in world units")
+          .formerly({"borders"})};
+  return kTable;
+}
+
+std::vector<double> ExplicitLayers::distances() const { return readBorders(borders); }
+
+int layerCount(const LayerPartition& partition) {
+  if (const auto* given = std::get_if<ExplicitLayers>(&partition))
+    return static_cast<int>(given->distances().size()) + 1;
+  const auto* log = std::get_if<LogLayers>(&partition);
+  return log ? log->range.count : std::get<UniformLayers>(partition).range.count;
+}
+
+std::vector<double> layerBorders(const LayerPartition& partition, const std::vector<double>& distances) {
+  if (const auto* given = std::get_if<ExplicitLayers>(&partition)) return given->distances();
+  const auto* log = std::get_if<LogLayers>(&partition);
+  const LayerRange& range = log ? log->range : std::get<UniformLayers>(partition).range;
+  double low = range.nearest, high = range.farthest;
   if (!distances.empty()) {
     const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
     if (low <= 0.0) low = *least;
     if (high <= 0.0) high = *most;
   }
   std::vector<double> out;
-  for (int i = 1; i < settings.count; ++i) {
-    const double share = static_cast<double>(i) / settings.count;
+  for (int i = 1; i < range.count; ++i) {
+    const double share = static_cast<double>(i) / range.count;
     double border = std::numeric_limits<double>::infinity();
     if (high > low)
-      border = settings.partition == LayerSettings::Partition::Log && low > 0.0
-                   ? low * std::pow(high / low, share)
-                   : low + (high - low) * share;
+      border = log && low > 0.0 ? low * std::pow(high / low, share) : low + (high - low) * share;
     out.push_back(border);
   }
   return out;
 }
 
-std::vector<int> assignLayers(const LayerSettings& settings, const std::vector<double>& distances) {
-  const std::vector<double> borders = layerBorders(settings, distances);
+std::vector<int> assignLayers(const LayerPartition& partition, const std::vector<double>& distances) {
+  const std::vector<double> borders = layerBorders(partition, distances);
   std::vector<int> out;
   for (const double distance : distances)
     out.push_back(

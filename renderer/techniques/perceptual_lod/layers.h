@@ -2,32 +2,54 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::techniques {
 
-/// How objects with levels of detail are shared among layers: by distance from the eye to the middle of their
-/// bounds. Source: Schwarz 2009, section 9.5, which names neither the number of layers nor the borders.
-struct LayerSettings {
-  enum class Partition { Uniform, Log, Explicit };
-  int count = 4;  ///< layers of objects; the background is one more
-  Partition partition = Partition::Log;
-  /// Ends of the range that is divided, world units; 0: distance of the nearest or farthest object.
-  double nearest = 0.0, farthest = 0.0;
-  std::vector<double> borders;  ///< Explicit: ascending; one fewer than layers
+// How objects with levels of detail are shared among layers: by distance from the eye to the middle of their
+// bounds. Source: Schwarz 2009, section 9.5, which names neither the number of layers nor the borders.
 
-  /// layers, partition, nearest, farthest, borders.
-  static std::vector<Parameter> parameters();
-  /// Throws Error on borders that are no ascending positive numbers.
-  static LayerSettings from(const ParameterValues& values);
+/// A range of distances that is divided.
+struct LayerRange {
+  int count = 4;  ///< layers of objects; the background is one more
+  /// Ends of the range, world units; 0: distance of the nearest or farthest object.
+  double nearest = 0.0, farthest = 0.0;
+  static const SettingsTable<LayerRange>& table();
+  void check() const;
 };
 
+struct LogLayers {
+  static constexpr const char *kKind = "log", *kSummary = "borders at even ratios of distance";
+  LayerRange range;
+  static const SettingsTable<LogLayers>& table();
+};
+
+struct UniformLayers {
+  static constexpr const char *kKind = "uniform", *kSummary = "borders at even distances";
+  LayerRange range;
+  static const SettingsTable<UniformLayers>& table();
+};
+
+struct ExplicitLayers {
+  static constexpr const char *kKind = "explicit", *kSummary = "given borders";
+  std::string borders = "5, 10";  ///< ascending distances at which the next layer begins
+  static const SettingsTable<ExplicitLayers>& table();
+  void check() const { distances(); }
+  /// Throws Error on borders that are no ascending positive numbers.
+  std::vector<double> distances() const;
+};
+
+using LayerPartition = std::variant<LogLayers, UniformLayers, ExplicitLayers>;
+
+/// Layers of objects; the background is one more.
+int layerCount(const LayerPartition& partition);
 /// Borders between layers, ascending, one fewer than layers. A distance on a border belongs to the farther
 /// layer. Empty input, or a range without extent, gives borders that put all into layer 0.
-std::vector<double> layerBorders(const LayerSettings& settings, const std::vector<double>& distances);
+std::vector<double> layerBorders(const LayerPartition& partition, const std::vector<double>& distances);
 /// Layer of each distance, 0 (nearest) to count - 1.
-std::vector<int> assignLayers(const LayerSettings& settings, const std::vector<double>& distances);
+std::vector<int> assignLayers(const LayerPartition& partition, const std::vector<double>& distances);
 
 }  // namespace limen::techniques

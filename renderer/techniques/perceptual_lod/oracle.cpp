@@ -30,7 +30,7 @@ Picture pictureOf(frame::Frame& frame, const scene::LodSelection& selection,
 
 bool OracleVerdict::isVisible(const LevelRule& rule, int level) const {
   const auto at = static_cast<size_t>(level);
-  return rule.measure(visiblePx.at(at), coveredPx.at(at)) > rule.upper;
+  return rule.measure(visiblePx.at(at), coveredPx.at(at)) > rule.upper();
 }
 
 int OracleVerdict::coarsestInvisible(const LevelRule& rule) const {
@@ -97,27 +97,30 @@ OracleComparison compareWithOracle(const std::vector<OracleVerdict>& verdicts, c
   return out;
 }
 
-std::vector<Counter> countLevels(frame::Frame& frame, double timeS, const PerceptualLodSettings& settings,
-                                 const std::vector<int>& levels) {
-  const scene::Scene& scene = frame.scene();
+std::vector<Counter> countLevels(const scene::Scene& scene, const std::vector<int>& levels) {
   double sum = 0.0;
   for (const int level : levels) sum += level;
-  std::vector<Counter> out = {
-      {"triangles_drawn", static_cast<double>(scene::triangleCount(scene, {levels, true})), "triangles"},
-      {"mean_level", levels.empty() ? 0.0 : sum / static_cast<double>(levels.size()), "levels", false}};
-  if (!settings.oracle) return out;
-  const OracleComparison compared =
-      compareWithOracle(searchLevels(frame, timeS, settings.shading, settings.seenOn), settings.rule, levels);
-  out.push_back({"wrong_invisible_share", compared.wrongInvisibleShare, "", false});
-  out.push_back({"levels_above_oracle", compared.levelsAbove, "levels", false});
-  out.push_back({"levels_below_oracle", compared.levelsBelow, "levels", false});
-  out.push_back({"objects_seen", static_cast<double>(compared.objectsSeen), "objects", false});
-  return out;
+  return {{"triangles_drawn", static_cast<double>(scene::triangleCount(scene, {levels, true}))},
+          {"mean_level", levels.empty() ? 0.0 : sum / static_cast<double>(levels.size())}};
 }
 
-std::vector<Quantity> levelCounterNames() {
-  return {"triangles_drawn",     "mean_level",          "wrong_invisible_share",
-          "levels_above_oracle", "levels_below_oracle", "objects_seen"};
+void countOracle(frame::Frame& frame, double timeS, const frame::ShadedSetting& shading, const SeenOn& seenOn,
+                 const LevelRule& rule, const std::vector<int>& levels, std::vector<Counter>& out) {
+  const OracleComparison compared =
+      compareWithOracle(searchLevels(frame, timeS, shading, seenOn), rule, levels);
+  out.push_back({"wrong_invisible_share", compared.wrongInvisibleShare});
+  out.push_back({"levels_above_oracle", compared.levelsAbove});
+  out.push_back({"levels_below_oracle", compared.levelsBelow});
+  out.push_back({"objects_seen", static_cast<double>(compared.objectsSeen)});
+}
+
+std::vector<Quantity> levelQuantities() {
+  return {{"triangles_drawn", "Triangles drawn", "triangles", Direction::LowerIsBetter},
+          {"mean_level", "Mean level", "levels", Direction::Neither},
+          {"wrong_invisible_share", "Share of objects shown too coarse", "", Direction::Neither},
+          {"levels_above_oracle", "Levels coarser than the search's", "levels", Direction::Neither},
+          {"levels_below_oracle", "Levels finer than the search's", "levels", Direction::Neither},
+          {"objects_seen", "Objects seen", "objects", Direction::Neither}};
 }
 
 }  // namespace limen::techniques

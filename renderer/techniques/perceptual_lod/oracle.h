@@ -36,10 +36,12 @@ struct OracleComparison {
 OracleComparison compareWithOracle(const std::vector<OracleVerdict>& verdicts, const LevelRule& rule,
                                    const std::vector<int>& levels);
 
-/// "triangles_drawn", "mean_level" and, if asked for, "wrong_invisible_share", "levels_above_oracle",
-/// "levels_below_oracle", "objects_seen" of a choice of levels.
-std::vector<Counter> countLevels(frame::Frame& frame, double timeS, const PerceptualLodSettings& settings,
-                                 const std::vector<int>& levels);
-std::vector<Quantity> levelCounterNames();
+/// "triangles_drawn" and "mean_level" of a choice of levels.
+std::vector<Counter> countLevels(const scene::Scene& scene, const std::vector<int>& levels);
+/// Adds "wrong_invisible_share", "levels_above_oracle", "levels_below_oracle" and "objects_seen".
+void countOracle(frame::Frame& frame, double timeS, const frame::ShadedSetting& shading, const SeenOn& seenOn,
+                 const LevelRule& rule, const std::vector<int>& levels, std::vector<Counter>& out);
+/// Declarations of all of these.
+std::vector<Quantity> levelQuantities();
 
 }  // namespace limen::techniques

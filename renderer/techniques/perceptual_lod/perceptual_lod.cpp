@@ -29,7 +29,8 @@ namespace {
 
 class PerceptualLod : public Technique {
  public:
-  explicit PerceptualLod(const ParameterValues& values) : settings_(PerceptualLodSettings::from(values)) {}
+  using Settings = PerceptualLodSettings;
+  explicit PerceptualLod(const PerceptualLodSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     pipeline_.emplace(frame, settings_);
@@ -42,21 +43,24 @@ class PerceptualLod : public Technique {
 
   void render(frame::Frame& frame) override {
     timeS_ = frame.timeS() + static_cast<double>(rendered_++) * settings_.frameStepS;
-    pipeline_->render(timeS_, settings_.wait);
+    pipeline_->render(timeS_, settings_.tests.wait);
   }
 
   const gl::Texture& product() const override { return pipeline_->picture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> out = countLevels(frame, timeS_, settings_, pipeline_->shown().levels);
+    const std::vector<int>& levels = pipeline_->shown().levels;
+    std::vector<Counter> out = countLevels(frame.scene(), levels);
+    if (settings_.oracle)
+      countOracle(frame, timeS_, settings_.shading, settings_.model.seenOn(), settings_.rule, levels, out);
     const TestedLevels& control = pipeline_->control();
-    out.push_back({"triangles_tested", static_cast<double>(pipeline_->trianglesTested()), "triangles"});
-    out.push_back({"objects_tested", static_cast<double>(control.tested()), "tests"});
-    out.push_back({"tests_dropped", static_cast<double>(control.dropped()), "tests"});
-    out.push_back({"level_switches", static_cast<double>(control.switches()), "switches", false});
-    out.push_back({"level_reversals", static_cast<double>(control.reversals()), "switches", false});
-    out.push_back({"layers_drawn", static_cast<double>(pipeline_->images().layersDrawn()), "layers"});
-    out.push_back({"threshold_maps", static_cast<double>(pipeline_->mapsMade()), "maps"});
+    out.push_back({"triangles_tested", static_cast<double>(pipeline_->trianglesTested())});
+    out.push_back({"objects_tested", static_cast<double>(control.tested())});
+    out.push_back({"tests_dropped", static_cast<double>(control.dropped())});
+    out.push_back({"level_switches", static_cast<double>(control.switches())});
+    out.push_back({"level_reversals", static_cast<double>(control.reversals())});
+    out.push_back({"layers_drawn", static_cast<double>(pipeline_->images().layersDrawn())});
+    out.push_back({"threshold_maps", static_cast<double>(pipeline_->mapsMade())});
     return out;
   }
 
@@ -69,28 +73,28 @@ class PerceptualLod : public Technique {
   double timeS_ = 0.0;
 };
 
-std::vector<Quantity> layeredCounterNames() {
-  std::vector<Quantity> out = levelCounterNames();
-  for (const char* name : {"triangles_tested", "objects_tested", "tests_dropped", "level_switches",
-                           "level_reversals", "layers_drawn", "threshold_maps"})
-    out.emplace_back(name);
+std::vector<Quantity> layeredQuantities() {
+  std::vector<Quantity> out = levelQuantities();
+  out.insert(out.end(),
+             {{"triangles_tested", "Triangles drawn for tests", "triangles", Direction::LowerIsBetter},
+              {"objects_tested", "Tests", "tests", Direction::LowerIsBetter},
+              {"tests_dropped", "Tests that came too late", "tests", Direction::LowerIsBetter},
+              {"level_switches", "Switches of level", "switches", Direction::Neither},
+              {"level_reversals", "Switches back to the level before", "switches", Direction::Neither},
+              {"layers_drawn", "Layers drawn", "layers", Direction::LowerIsBetter},
+              {"threshold_maps", "Threshold maps made", "maps", Direction::LowerIsBetter}});
   return out;
 }
 
-const Registered<TechniqueInfo> kPerceptualLodRegistered{
+const RegisteredTechnique<PerceptualLod> kPerceptualLodRegistered{
     {.name = "lod/perceptual",
      .version = 1,
      .summary =
          "Levels by visible difference: layers, a threshold map of each one's surroundings, tests in turn",
      .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",
      .product = ProductKind::Colour,
-     .parameters = PerceptualLodSettings::parameters(),
      .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<PerceptualLod>(values); },
-     .errorBound = {},
-     .counters = layeredCounterNames()}};
+     .counters = layeredQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "renderer/frame/g_buffer.h"
 
@@ -36,21 +37,24 @@ PerceptualPipeline::TestViews::TestViews(frame::Frame& parent, int number, bool 
 PerceptualPipeline::PerceptualPipeline(frame::Frame& parent, const PerceptualLodSettings& settings)
     : parent_(parent),
       settings_(settings),
+      seenOn_(settings.model.seenOn()),
       images_(parent, settings),
-      control_(settings.rule, levelCounts(parent.scene()), settings.startLevel),
-      thresholdMap_(parent.context(), parent.sizePx(), settings.seenOn.display, settings.seenOn.map),
+      control_(settings.rule, levelCounts(parent.scene()),
+               settings.startLevel == StartLevel::Finest ? 0 : std::numeric_limits<int>::max()),
+      thresholdMap_(parent.context(), parent.sizePx(), seenOn_.display, seenOn_.map, settings.gpu),
       visible_(gl::Format::R32F, parent.sizePx()),
-      counts_(parent.context(), settings.count, settings.objectsPerFrame, settings.rule.lookAhead, visible_) {
+      counts_(parent.context(), settings.tests.count, settings.tests.objectsPerFrame,
+              settings.rule.lookAhead(), visible_) {
   int64_t bytes = visible_.bytes() + counts_.bytes();
   visible_.clear(glm::vec4(0.0F));
-  for (int i = 0; i < settings.layers.count; ++i) {
+  for (int i = 0; i < layerCount(settings.layers); ++i) {
     maps_.emplace_back(gl::Format::R32F, parent.sizePx());
     maps_.back().clear(glm::vec4(0.0F));
     bytes += maps_.back().bytes();
   }
-  for (int i = 0; i < settings.objectsPerFrame; ++i)
+  for (int i = 0; i < settings.tests.objectsPerFrame; ++i)
     testViews_.push_back(
-        std::make_unique<TestViews>(parent, i, images_.hasShadows(), settings.rule.lookAhead));
+        std::make_unique<TestViews>(parent, i, images_.hasShadows(), settings.rule.lookAhead()));
   parent.passes().setBytesHeld(kVisible, bytes);
   parent.passes().setBytesHeld("perceptual_lod/threshold_map", thresholdMap_.bytesHeld());
 }
@@ -60,14 +64,14 @@ void PerceptualPipeline::prime(double timeS) {
   images_.prime(timeS);
   for (int layer = 1; layer < images_.layers(); ++layer) makeMap(layer);
   { const auto scope = parent_.passes().open(kVisible); }
-  for (int i = 0; i < settings_.objectsPerFrame; ++i) test(i, -1, true);
+  for (int i = 0; i < settings_.tests.objectsPerFrame; ++i) test(i, -1, true);
   mapsMade_ = 0;
   trianglesTested_ = 0;
 }
 
 void PerceptualPipeline::takeResults(bool wait) {
   taken_.clear();
-  while (const auto batch = counts_.take(frameNumber_ - settings_.latencyFrames, wait))
+  while (const auto batch = counts_.take(frameNumber_ - settings_.tests.latencyFrames, wait))
     for (const LevelTest& test : *batch) {
       control_.apply(test);
       taken_.push_back(test);
@@ -157,15 +161,15 @@ void PerceptualPipeline::render(double timeS, bool wait) {
 
   std::vector<int> objects;
   // With all batches under way the GPU is far behind: this frame tests nothing rather than wait.
-  if (counts_.ready()) objects = control_.nextTests(settings_.objectsPerFrame, testable());
+  if (counts_.ready()) objects = control_.nextTests(settings_.tests.objectsPerFrame, testable());
   std::vector<char> needed(static_cast<size_t>(images_.layers()), 0);
   for (const int layer : layerOf_)
-    if (settings_.allMaps) needed[static_cast<size_t>(layer)] = 1;
+    if (settings_.tests.thresholdMaps == MappedLayers::All) needed[static_cast<size_t>(layer)] = 1;
   for (const int object : objects) needed[static_cast<size_t>(layerOf_[static_cast<size_t>(object)])] = 1;
   for (int layer = 1; layer < images_.layers(); ++layer)
     if (needed[static_cast<size_t>(layer)]) makeMap(layer);
   if (!objects.empty()) {
-    const perception::DisplayProfile& display = settings_.seenOn.display;
+    const perception::DisplayProfile& display = seenOn_.display;
     {
       const auto scope = parent_.passes().open(kVisible);
       counts_.begin(frameNumber_, static_cast<float>(display.blackLevelCdM2()),

@@ -54,6 +54,7 @@ class PerceptualPipeline {
 
   frame::Frame& parent_;
   const PerceptualLodSettings settings_;
+  const SeenOn seenOn_;
   LayerImages images_;
   TestedLevels control_;
   perception::ThresholdMapGpu thresholdMap_;

@@ -1,109 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/perceptual_lod/settings.h"
 
-#include <limits>
-
 namespace limen::techniques {
 namespace {
 
 constexpr const char* kOpen = "Schwarz 2009, section 9.5 (not given there)";
-constexpr const char* kPrefix = "map_";
-
-std::vector<Parameter> mapParameters(bool gpu) {
-  std::vector<Parameter> out = perception::thresholdMapParameters();
-  if (gpu) appendTo(out, perception::thresholdMapGpuParameters());
-  return out;
-}
 
 }  // namespace
 
-void appendTo(std::vector<Parameter>& to, std::vector<Parameter> more) {
-  to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+const SettingsTable<ModelSettings>& ModelSettings::table() {
+  using S = ModelSettings;
+  static const SettingsTable<S> kTable = {{&S::map, "map", "The threshold map"}, included(&S::viewing)};
+  return kTable;
 }
 
-std::vector<Parameter> SeenOn::parameters(bool gpu) {
-  std::vector<Parameter> out = {choiceParameter("display", "schwarz_2009", perception::displayPresets(),
-                                                "Display and viewing distance",
-                                                "Schwarz 2009, section 10.4")};
-  for (Parameter& parameter : mapParameters(gpu)) {
-    parameter.name = kPrefix + parameter.name;
-    parameter.description = "Threshold map: " + parameter.description;
-    out.push_back(std::move(parameter));
-  }
-  return out;
+const SettingsTable<TestSettings>& TestSettings::table() {
+  using S = TestSettings;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::objectsPerFrame, "objects_per_frame", Range{1, 16}, "",
+              "Objects that are tested in a frame, in turn", kOpen)
+          .formerly({"objects_per_frame"}),
+      Binding(&S::latencyFrames, "latency_frames", Range{1, 6}, "",
+              "Frames after which a test's result is used at the earliest", kOpen)
+          .formerly({"latency_frames"}),
+      Binding(
+          &S::wait, "wait_for_results",
+          "Wait for results that are due, so that the same frames always give the same bytes; otherwise a "
+          "late result is used later and no frame waits")
+          .formerly({"wait_for_results"}),
+      Binding(&S::count, "count",
+              "How pixels above threshold are counted: in a compute shader, or by occlusion queries",
+              "Schwarz 2009, section 9.5 (query)")
+          .formerly({"count"}),
+      Binding(&S::thresholdMaps, "threshold_maps",
+              "Layers whose threshold map is made in a frame: those with an object under test, or all",
+              "Schwarz 2009, section 9.5 (all)")
+          .formerly({"threshold_maps"})};
+  return kTable;
 }
 
-SeenOn SeenOn::from(const ParameterValues& values) {
-  SeenOn out;
-  out.display = perception::displayPreset(values.text("display"));
-  std::map<std::string, ParameterValue> given;
-  const std::vector<Parameter> declared = mapParameters(true);
-  for (const Parameter& parameter : declared)
-    if (values.has(kPrefix + parameter.name))
-      given[parameter.name] = values.all().at(kPrefix + parameter.name);
-  out.map = perception::thresholdMapSettings(ParameterValues(declared, given));
-  return out;
+const SettingsTable<DarkenedShadows>& DarkenedShadows::table() {
+  static const SettingsTable<DarkenedShadows> kTable = {
+      Binding(&DarkenedShadows::factor, "factor", Range{0.0, 1.0}, "",
+              "Factor of the pattern where a shadow falls; 0.2: ambient light alone", kOpen)
+          .formerly({"shadow_attenuation"})};
+  return kTable;
 }
 
-std::vector<Parameter> PerceptualLodSettings::parameters() {
-  std::vector<Parameter> out = LayerSettings::parameters();
-  appendTo(out, LevelRule::parameters());
-  appendTo(
-      out,
-      {integerParameter("objects_per_frame", 2, 1, 16, "", "Objects that are tested in a frame, in turn",
-                        kOpen),
-       choiceParameter("start_level", "finest", {"finest", "coarsest"},
-                       "Of all objects, before the first test", kOpen),
-       integerParameter(
-           "settle_frames", 32, 0, 4096, "",
-           "Frames that run before the first that is shown or timed, as part of the preparation; "
-           "they end where it begins"),
-       integerParameter("latency_frames", 1, 1, 6, "",
-                        "Frames after which a test's result is used at the earliest", kOpen),
-       booleanParameter("wait_for_results", false,
-                        "Wait for results that are due, so that the same frames always give the same bytes; "
-                        "otherwise a late result is used later and no frame waits"),
-       realParameter(
-           "frame_step_s", 0.0, 0.0, 10.0, "s",
-           "Time on the camera path from one frame to the next; 0: whoever asks for frames moves the camera"),
-       booleanParameter("shadow_mask", true,
-                        "With shadow: shadows that other layers cast on a layer count as a pattern", kOpen),
-       realParameter("shadow_attenuation", 0.2, 0.0, 1.0, "",
-                     "Factor of that pattern where a shadow falls; 0.2: ambient light alone", kOpen),
-       choiceParameter("count", "compute", {"compute", "query"},
-                       "How pixels above threshold are counted: in a compute shader, or by occlusion queries",
-                       "Schwarz 2009, section 9.5 (query)"),
-       choiceParameter(
-           "threshold_maps", "tested", {"tested", "all"},
-           "Layers whose threshold map is made in a frame: those with an object under test, or all",
-           "Schwarz 2009, section 9.5 (all)"),
-       booleanParameter(
-           "oracle", true,
-           "Compare the levels with an exhaustive search in double precision when costs are counted "
-           "(slow for large images and many objects)")});
-  appendTo(out, frame::ShadedSetting::parameters());
-  appendTo(out, SeenOn::parameters(true));
-  return out;
-}
-
-PerceptualLodSettings PerceptualLodSettings::from(const ParameterValues& values) {
-  PerceptualLodSettings out;
-  out.layers = LayerSettings::from(values);
-  out.rule = LevelRule::from(values);
-  out.objectsPerFrame = static_cast<int>(values.integer("objects_per_frame"));
-  out.startLevel = values.text("start_level") == "finest" ? 0 : std::numeric_limits<int>::max();
-  out.settleFrames = static_cast<int>(values.integer("settle_frames"));
-  out.latencyFrames = static_cast<int>(values.integer("latency_frames"));
-  out.wait = values.boolean("wait_for_results");
-  out.frameStepS = values.real("frame_step_s");
-  out.shadowMask = values.boolean("shadow_mask");
-  out.shadowAttenuation = values.real("shadow_attenuation");
-  out.count = values.text("count") == "query" ? Count::Query : Count::Compute;
-  out.allMaps = values.text("threshold_maps") == "all";
-  out.oracle = values.boolean("oracle");
-  out.shading = frame::ShadedSetting::from(values);
-  out.seenOn = SeenOn::from(values);
-  return out;
+const SettingsTable<PerceptualLodSettings>& PerceptualLodSettings::table() {
+  using S = PerceptualLodSettings;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::layers, "layers", "How objects are shared among layers", kOpen)
+          .shorthand("count")
+          .formerly({"partition"}),
+      {&S::rule, "rule", "When a test changes a level"},
+      {&S::tests, "tests", "What a frame tests"},
+      {&S::startLevel, "start_level", "Of all objects, before the first test", kOpen},
+      {&S::settleFrames,
+       "settle_frames",
+       {0, 4096},
+       "",
+       "Frames that run before the first that is shown or timed, as part of the preparation; they end where "
+       "it "
+       "begins"},
+      {&S::frameStepS,
+       "frame_step_s",
+       {0.0, 10.0},
+       "s",
+       "Time on the camera path from one frame to the next; 0: whoever asks for frames moves the camera"},
+      Binding(&S::castShadows, "cast_shadows", "Shadows that other layers cast on a layer", kOpen)
+          .formerly({"shadow_mask"}),
+      {&S::oracle, "oracle",
+       "Compare the levels with an exhaustive search in double precision when costs are counted (slow for "
+       "large images and many objects)"},
+      frame::shadingBinding(&S::shading),
+      included(&S::model),
+      {&S::gpu, "gpu", "How the GPU computes the threshold map"}};
+  return kTable;
 }
 
 }  // namespace limen::techniques

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <variant>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "perception/threshold_maps/settings.h"
-#include "perception/vision/display.h"
+#include "perception/threshold_maps/viewing.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/perceptual_lod/layers.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
@@ -13,37 +13,80 @@
 namespace limen::techniques {
 
 /// What turns a picture into thresholds: the display it is seen on and the model of Schwarz 2009, section
-/// 9.4. Parameters of the map carry the prefix "map_".
+/// 9.4.
 struct SeenOn {
   perception::DisplayProfile display;
   perception::ThresholdMapSettings map;
-  static std::vector<Parameter> parameters(bool gpu);
-  static SeenOn from(const ParameterValues& values);
+};
+
+/// Settings of the display and of the model.
+struct ModelSettings {
+  perception::ThresholdMapSettings map;
+  perception::ViewingSettings viewing;
+  static const SettingsTable<ModelSettings>& table();
+  /// Throws Error on an unreadable display.
+  SeenOn seenOn() const { return {viewing.profile(), map}; }
+};
+
+/// How pixels above threshold are counted.
+enum class CountMethod {
+  Compute,  ///< in a compute shader
+  Query     ///< by occlusion queries
+};
+constexpr EnumNames<CountMethod, 2> enumNames(CountMethod) {
+  return {{{{CountMethod::Compute, "compute"}, {CountMethod::Query, "query"}}}};
+}
+
+/// Layers whose threshold map is made in a frame.
+enum class MappedLayers {
+  Tested,  ///< those with an object under test
+  All
+};
+constexpr EnumNames<MappedLayers, 2> enumNames(MappedLayers) {
+  return {{{{MappedLayers::Tested, "tested"}, {MappedLayers::All, "all"}}}};
+}
+
+enum class StartLevel { Finest, Coarsest };
+constexpr EnumNames<StartLevel, 2> enumNames(StartLevel) {
+  return {{{{StartLevel::Finest, "finest"}, {StartLevel::Coarsest, "coarsest"}}}};
+}
+
+/// What a frame tests.
+struct TestSettings {
+  int objectsPerFrame = 2;
+  int latencyFrames = 1;
+  bool wait = false;
+  CountMethod count = CountMethod::Compute;
+  MappedLayers thresholdMaps = MappedLayers::Tested;
+  static const SettingsTable<TestSettings>& table();
+};
+
+/// Shadows that other layers cast on a layer, as a pattern that masks.
+struct DarkenedShadows {
+  static constexpr const char *kKind = "darkened",
+                              *kSummary = "count as a pattern, where shading has shadows";
+  double factor = 0.2;  ///< of what lies in the shadow
+  static const SettingsTable<DarkenedShadows>& table();
+};
+
+struct IgnoredShadows {
+  static constexpr const char *kKind = "ignored", *kSummary = "do not mask";
 };
 
 /// All of the interactive perceptual pipeline (Schwarz 2009, section 9.5).
 struct PerceptualLodSettings {
-  enum class Count { Compute, Query };
-  LayerSettings layers;
+  LayerPartition layers;
   LevelRule rule;
-  int objectsPerFrame = 2;
-  int startLevel = 0;
+  TestSettings tests;
+  StartLevel startLevel = StartLevel::Finest;
   int settleFrames = 32;
-  int latencyFrames = 1;
-  bool wait = false;
   double frameStepS = 0.0;
-  bool shadowMask = true;
-  double shadowAttenuation = 0.2;
-  Count count = Count::Compute;
-  bool allMaps = false;
+  std::variant<DarkenedShadows, IgnoredShadows> castShadows;
   bool oracle = true;
   frame::ShadedSetting shading;
-  SeenOn seenOn;
-
-  static std::vector<Parameter> parameters();
-  static PerceptualLodSettings from(const ParameterValues& values);
+  ModelSettings model;
+  perception::ThresholdMapGpuSettings gpu;
+  static const SettingsTable<PerceptualLodSettings>& table();
 };
-
-void appendTo(std::vector<Parameter>& to, std::vector<Parameter> more);
 
 }  // namespace limen::techniques

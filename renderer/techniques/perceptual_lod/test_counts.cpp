@@ -8,13 +8,12 @@
 namespace limen::techniques {
 namespace {
 
-using Count = PerceptualLodSettings::Count;
 constexpr int64_t kWordsPerTest = 4;
 
-const gl::Program& programOf(gl::Context& context, Count method, bool withNext) {
+const gl::Program& programOf(gl::Context& context, CountMethod method, bool withNext) {
   const std::string folder = "renderer/techniques/perceptual_lod/";
   const gl::ShaderDefines defines = withNext ? gl::ShaderDefines{{"NEXT", "1"}} : gl::ShaderDefines{};
-  if (method == Count::Compute)
+  if (method == CountMethod::Compute)
     return context.programs().compute(folder + "count_visible.comp.glsl", defines);
   return context.programs().get({folder + "full_screen.vert.glsl", folder + "count_visible.frag.glsl"},
                                 defines);
@@ -22,7 +21,7 @@ const gl::Program& programOf(gl::Context& context, Count method, bool withNext) 
 
 }  // namespace
 
-TestCounts::TestCounts(gl::Context& context, Count method, int testsPerFrame, bool withNext,
+TestCounts::TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
                        const gl::Texture& visible)
     : method_(method),
       testsPerFrame_(static_cast<size_t>(testsPerFrame)),
@@ -32,7 +31,7 @@ TestCounts::TestCounts(gl::Context& context, Count method, int testsPerFrame, bo
       counts_(kWordsPerTest * 4 * testsPerFrame, nullptr),
       batches_(kBatches) {
   for (Batch& batch : batches_) batch.tests.reserve(testsPerFrame_);
-  if (method == Count::Query) {
+  if (method == CountMethod::Query) {
     queries_.resize(kBatches * testsPerFrame_ * kQueries);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
     glCreateVertexArrays(1, &vertexArray_);
@@ -60,7 +59,7 @@ void TestCounts::begin(int64_t frame, float blackCdM2, float rangeCdM2) {
   visible_.clear(glm::vec4(0.0F));
   program_.set("blackCdM2", blackCdM2);
   program_.set("rangeCdM2", rangeCdM2);
-  if (method_ == Count::Compute) counts_.clearUint(0);
+  if (method_ == CountMethod::Compute) counts_.clearUint(0);
 }
 
 void TestCounts::count(const CountRequest& request) {
@@ -71,7 +70,7 @@ void TestCounts::count(const CountRequest& request) {
   program_.set("firstTriangle", request.triangles.first);
   program_.set("triangleCount", request.triangles.count);
   const glm::ivec2 size = request.pixels.high - request.pixels.low;
-  if (method_ == Count::Compute) {
+  if (method_ == CountMethod::Compute) {
     program_.set("lowPx", request.pixels.low);
     program_.set("highPx", request.pixels.high);
     program_.set("test", static_cast<int>(test));
@@ -102,7 +101,7 @@ void TestCounts::end() {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                   GL_TEXTURE_UPDATE_BARRIER_BIT);
   if (batch.tests.empty()) return;
-  if (method_ == Count::Compute) {
+  if (method_ == CountMethod::Compute) {
     glCopyNamedBufferSubData(counts_.id(), readBack_, 0, static_cast<GLintptr>(next_) * counts_.bytes(),
                              counts_.bytes());
     batch.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -111,7 +110,7 @@ void TestCounts::end() {
 }
 
 bool TestCounts::arrived(const Batch& batch, bool wait) const {
-  if (method_ == Count::Compute) {
+  if (method_ == CountMethod::Compute) {
     constexpr GLuint64 kSecond = 1'000'000'000;
     GLenum result = GL_TIMEOUT_EXPIRED;
     do {
@@ -144,7 +143,7 @@ void TestCounts::read(size_t number) {
   std::vector<LevelTest>& tests = batches_[number].tests;
   for (size_t i = 0; i < tests.size(); ++i) {
     uint32_t counts[kQueries] = {0, 0, 0};
-    if (method_ == Count::Compute) {
+    if (method_ == CountMethod::Compute) {
       const uint32_t* at = mapped_ + static_cast<int64_t>(number) * counts_.bytes() / 4 +
                            static_cast<int64_t>(i) * kWordsPerTest;
       std::copy(at, at + kQueries, counts);

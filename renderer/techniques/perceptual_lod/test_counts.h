@@ -28,7 +28,7 @@ class TestCounts {
  public:
   /// `visible` is R32F, cleared each frame and set to 1 where a test found a visible difference. `withNext`:
   /// the next coarser level is looked at too.
-  TestCounts(gl::Context& context, PerceptualLodSettings::Count method, int testsPerFrame, bool withNext,
+  TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
              const gl::Texture& visible);
   ~TestCounts();
   TestCounts(const TestCounts&) = delete;
@@ -57,7 +57,7 @@ class TestCounts {
     return queries_[(batch * testsPerFrame_ + test) * kQueries + kind];
   }
 
-  PerceptualLodSettings::Count method_;
+  CountMethod method_;
   size_t testsPerFrame_;
   bool withNext_;
   const gl::Program& program_;

@@ -11,42 +11,67 @@ namespace {
 
 constexpr const char* kRuleSource = "Schwarz 2009, section 9.5 (values not given there)";
 
-}  // namespace
-
-std::vector<Parameter> LevelRule::parameters() {
-  return {
-      realParameter("delta_l", 4.0, 0.0, 1e8, "delta_unit", "Fewer visible pixels: to the next coarser level",
-                    kRuleSource),
-      realParameter("delta_u", 16.0, 0.0, 1e8, "delta_unit", "More visible pixels: to the next finer level",
-                    kRuleSource),
-      choiceParameter("delta_unit", "px", {"px", "share"},
-                      "Of delta_l and delta_u: pixels, or shares (0..1) of the pixels that the object covers",
-                      "Schwarz 2009, section 9.5 (px)"),
-      choiceParameter(
-          "coarsen", "at_once", {"at_once", "if_invisible"},
-          "Below delta_l go coarser at once, or only if the next coarser level has at most delta_u "
-          "visible pixels (a second rendering for each test)",
-          "Schwarz 2009, section 9.5 (at_once)")};
+/// Throws Error if every object between the limits would change its level for ever.
+void checkOrder(double lower, double upper) {
+  if (lower > upper)
+    throw Error(
+        "the lower limit is above the upper one: every object between them would change its level for "
+        "ever",
+        "lower", "give lower <= upper");
 }
 
-LevelRule LevelRule::from(const ParameterValues& values) {
-  LevelRule out;
-  out.lower = values.real("delta_l");
-  out.upper = values.real("delta_u");
-  out.unit = values.text("delta_unit") == "share" ? Unit::Share : Unit::Px;
-  out.lookAhead = values.text("coarsen") == "if_invisible";
-  if (out.lower > out.upper)
-    throw Error("delta_l is above delta_u: every object between them would change its level for ever",
-                "delta_l", "give delta_l <= delta_u");
-  return out;
+const char* const kLowerHelp = "With fewer visible pixels: to the next coarser level";
+const char* const kUpperHelp = "With more visible pixels: to the next finer level";
+
+}  // namespace
+
+const SettingsTable<PixelLimits>& PixelLimits::table() {
+  using S = PixelLimits;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::lower, "lower", Range{0.0, 1e8}, "px", kLowerHelp, kRuleSource).formerly({"delta_l"}),
+      Binding(&S::upper, "upper", Range{0.0, 1e8}, "px", kUpperHelp, kRuleSource).formerly({"delta_u"})};
+  return kTable;
+}
+
+const SettingsTable<ShareLimits>& ShareLimits::table() {
+  using S = ShareLimits;
+  static const SettingsTable<S> kTable = {{&S::lower, "lower", {0.0, 1.0}, "", kLowerHelp, kRuleSource},
+                                          {&S::upper, "upper", {0.0, 1.0}, "", kUpperHelp, kRuleSource}};
+  return kTable;
+}
+
+void PixelLimits::check() const { checkOrder(lower, upper); }
+void ShareLimits::check() const { checkOrder(lower, upper); }
+
+const SettingsTable<LevelRule>& LevelRule::table() {
+  using S = LevelRule;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::limits, "limits",
+              "Visible pixels that change a level, counted or as a share of the object's",
+              "Schwarz 2009, section 9.5 (counted)")
+          .formerly({"delta_unit"}),
+      Binding(&S::coarsen, "coarsen",
+              "Below the lower limit go coarser at once, or only if the next coarser level is not above the "
+              "upper one (a second rendering for each test)",
+              "Schwarz 2009, section 9.5 (at_once)")
+          .formerly({"coarsen"})};
+  return kTable;
+}
+
+double LevelRule::lower() const {
+  return std::visit([](const auto& in) { return in.lower; }, limits);
+}
+
+double LevelRule::upper() const {
+  return std::visit([](const auto& in) { return in.upper; }, limits);
 }
 
 int LevelRule::step(const LevelTest& test) const {
   if (test.coveredPx == 0) return 0;
   const double visible = measure(test.visiblePx, test.coveredPx);
-  if (visible > upper) return -1;
-  if (!(visible < lower)) return 0;
-  return lookAhead && measure(test.nextVisiblePx, test.coveredPx) > upper ? 0 : 1;
+  if (visible > upper()) return -1;
+  if (!(visible < lower())) return 0;
+  return lookAhead() && measure(test.nextVisiblePx, test.coveredPx) > upper() ? 0 : 1;
 }
 
 TestedLevels::TestedLevels(LevelRule rule, std::vector<int> levelCounts, int startLevel)

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 #include <vector>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 
 namespace limen::techniques {
 
@@ -16,26 +17,48 @@ struct LevelTest {
   uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, where that was looked at
 };
 
+/// Limits in pixels: the thesis's, counts that grow with resolution and with the object.
+struct PixelLimits {
+  static constexpr const char *kKind = "px", *kSummary = "pixels";
+  double lower = 4.0, upper = 16.0;  ///< delta_l and delta_u
+  static const SettingsTable<PixelLimits>& table();
+  /// Throws Error if the lower one is above the upper one.
+  void check() const;
+};
+
+/// Limits as shares of the pixels that the object covers.
+struct ShareLimits {
+  static constexpr const char *kKind = "share", *kSummary = "shares of the pixels that the object covers";
+  double lower = 0.01, upper = 0.04;
+  static const SettingsTable<ShareLimits>& table();
+  void check() const;
+};
+
+/// What happens to an object whose visible pixels are below the lower limit.
+enum class Coarsen {
+  AtOnce,  ///< the thesis's rule, which looks at the current level alone
+  /// Coarser only if the next coarser level would not be sent back at once (n_vis <= upper limit). Without,
+  /// an object goes to and fro between its last invisible and its first visible level unless n_vis of the
+  /// latter lies between the limits.
+  IfInvisible
+};
+constexpr EnumNames<Coarsen, 2> enumNames(Coarsen) {
+  return {{{{Coarsen::AtOnce, "at_once"}, {Coarsen::IfInvisible, "if_invisible"}}}};
+}
+
 /// When a test changes a level. Source: Schwarz 2009, section 9.5, which gives no figures.
 struct LevelRule {
-  enum class Unit {
-    Px,    ///< the thesis's: counts, which grow with resolution and with the object
-    Share  ///< of the pixels that the object covers
-  };
-  double lower = 4.0, upper = 16.0;  ///< delta_l and delta_u
-  Unit unit = Unit::Px;
-  /// Go coarser only if the next coarser level would not be sent back at once (n_vis <= delta_u). The
-  /// thesis's rule looks at the current level alone, so that an object goes to and fro between its last
-  /// invisible and its first visible level unless n_vis of the latter lies between delta_l and delta_u.
-  bool lookAhead = false;
+  std::variant<PixelLimits, ShareLimits> limits;
+  Coarsen coarsen = Coarsen::AtOnce;
+  static const SettingsTable<LevelRule>& table();
 
-  /// delta_l, delta_u, delta_unit, coarsen.
-  static std::vector<Parameter> parameters();
-  /// Throws Error if delta_l is above delta_u.
-  static LevelRule from(const ParameterValues& values);
-
+  double lower() const;
+  double upper() const;
+  bool lookAhead() const { return coarsen == Coarsen::IfInvisible; }
+  /// A count in the unit of the limits.
   double measure(uint32_t count, uint32_t coveredPx) const {
-    return unit == Unit::Px ? count : coveredPx > 0 ? double(count) / coveredPx : 0.0;
+    if (std::holds_alternative<PixelLimits>(limits)) return count;
+    return coveredPx > 0 ? double(count) / coveredPx : 0.0;
   }
   /// +1: coarser, -1: finer, 0: keep; the caller clamps. An object of which nothing is seen keeps its level.
   int step(const LevelTest& test) const;

@@ -54,7 +54,7 @@ Image objectMask(frame::Frame& frame, const SwitchSetting& setting) {
 }
 
 double ratingWithoutRegion(const perception::PoppingSettings& settings) {
-  return perception::poppingRating(settings.regionThresholdJnd, settings) - 1.0;
+  return perception::poppingRating(settings.regions.thresholdJnd, settings) - 1.0;
 }
 
 std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& setting,
@@ -73,60 +73,55 @@ std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& set
   const scene::LodObject& object = scene.lodObjects[setting.object];
   const scene::LodView view{frame.camera(), frame.sizePx().y};
   const double ppd = setting.display.pixelsPerDegree();
-  const auto fact = [](const char* name, double value, const char* unit = "") {
-    return Counter{name, value, unit, false};
-  };
   const auto triangles = [&](int level) { return double(object.levels[size_t(level)].triangleCount); };
-  return {fact("rating", any ? highest->rating : ratingWithoutRegion(setting.popping)),
-          fact("detection_probability", any ? setting.popping.detection.probability(highest->rating)
-                                            : setting.popping.detection.guessRate),
-          fact("has_region", any ? 1.0 : 0.0),
-          fact("sigma_jnd", any ? highest->sigma : 0.0, "JND"),
-          fact("regions", static_cast<double>(regions.size())),
-          fact("largest_region_px", static_cast<double>(largestPx), "px"),
-          fact("popping_px", static_cast<double>(poppingPx), "px"),
-          fact("coverage_of_object", finding.regions.coverageOf(mask)),
-          fact("largest_jnd", finding.largestJnd, "JND"),
-          fact("max_de94", perception::largestColourDifference(images.input, setting.display).value, "dE94"),
-          fact("flushed_inputs", static_cast<double>(finding.flushedInputs)),
-          fact("guarded_contrasts", static_cast<double>(finding.guardedContrasts)),
-          fact("object_px", static_cast<double>(std::count(mask.data.begin(), mask.data.end(), 1.0F)), "px"),
-          fact("object_distance", scene::viewDistance(object, frame.camera()), "world units"),
-          fact("object_extent_px", bounded(scene::screenExtentPx(object, view)), "px"),
-          fact("screen_error_px",
-               bounded(std::max(scene::screenErrorPx(object, setting.fromLevel, view),
-                                scene::screenErrorPx(object, setting.toLevel, view))),
-               "px"),
-          fact("screen_velocity_deg_s",
-               perception::screenVelocityDegS(meanDisplacementPx(images.input.actualDisplacement, mask),
-                                              setting.display.refreshHz, ppd),
-               "deg/s"),
-          fact("pixels_per_degree", ppd, "px/deg"),
-          fact("triangles_before", triangles(setting.fromLevel)),
-          fact("triangles_after", triangles(setting.toLevel))};
+  return {{"rating", any ? highest->rating : ratingWithoutRegion(setting.popping)},
+          {"detection_probability", any ? setting.popping.detection.probability(highest->rating)
+                                        : setting.popping.detection.guessRate},
+          {"has_region", any ? 1.0 : 0.0},
+          {"sigma_jnd", any ? highest->sigma : 0.0},
+          {"regions", static_cast<double>(regions.size())},
+          {"largest_region_px", static_cast<double>(largestPx)},
+          {"popping_px", static_cast<double>(poppingPx)},
+          {"coverage_of_object", finding.regions.coverageOf(mask)},
+          {"largest_jnd", finding.largestJnd},
+          {"max_de94", perception::largestColourDifference(images.input, setting.display).value},
+          {"flushed_inputs", static_cast<double>(finding.flushedInputs)},
+          {"guarded_contrasts", static_cast<double>(finding.guardedContrasts)},
+          {"object_px", static_cast<double>(std::count(mask.data.begin(), mask.data.end(), 1.0F))},
+          {"object_distance", scene::viewDistance(object, frame.camera())},
+          {"object_extent_px", bounded(scene::screenExtentPx(object, view))},
+          {"screen_error_px", bounded(std::max(scene::screenErrorPx(object, setting.fromLevel, view),
+                                               scene::screenErrorPx(object, setting.toLevel, view)))},
+          {"screen_velocity_deg_s",
+           perception::screenVelocityDegS(meanDisplacementPx(images.input.actualDisplacement, mask),
+                                          setting.display.refreshHz, ppd)},
+          {"pixels_per_degree", ppd},
+          {"triangles_before", triangles(setting.fromLevel)},
+          {"triangles_after", triangles(setting.toLevel)}};
 }
 
-std::vector<Quantity> switchFigureNames() {
-  return {"rating",
-          "detection_probability",
-          "has_region",
-          "sigma_jnd",
-          "regions",
-          "largest_region_px",
-          "popping_px",
-          "coverage_of_object",
-          "largest_jnd",
-          "max_de94",
-          "flushed_inputs",
-          "guarded_contrasts",
-          "object_px",
-          "object_distance",
-          "object_extent_px",
-          "screen_error_px",
-          "screen_velocity_deg_s",
-          "pixels_per_degree",
-          "triangles_before",
-          "triangles_after"};
+std::vector<Quantity> switchFigureQuantities() {
+  const Direction none = Direction::Neither;
+  return {{"rating", "Rating", "", none, "Schwarz 2009, section 10.3.4"},
+          {"detection_probability", "Probability of detection", "", none},
+          {"has_region", "Has a popping region", "", none},
+          {"sigma_jnd", "Sigma of the region with the highest rating", "JND", none},
+          {"regions", "Popping regions", "", none},
+          {"largest_region_px", "Largest popping region", "px", none},
+          {"popping_px", "Pixels in popping regions", "px", none},
+          {"coverage_of_object", "Share of the object in popping regions", "", none},
+          {"largest_jnd", "Largest difference", "JND", none},
+          {"max_de94", "Largest colour difference", "dE94", none},
+          {"flushed_inputs", "Inputs taken for 0", "", none},
+          {"guarded_contrasts", "Contrasts with a bounded denominator", "", none},
+          {"object_px", "Pixels of the object", "px", none},
+          {"object_distance", "Distance of the object", "world units", none},
+          {"object_extent_px", "Height of the object on the screen", "px", none},
+          {"screen_error_px", "Largest deviation on the screen", "px", none},
+          {"screen_velocity_deg_s", "Velocity on the screen", "deg/s", none},
+          {"pixels_per_degree", "Pixels per degree", "px/deg", none},
+          {"triangles_before", "Triangles before the change", "", none},
+          {"triangles_after", "Triangles after the change", "", none}};
 }
 
 Image regionPicture(const SwitchImages& images, const perception::RegionMap& regions) {

@@ -24,8 +24,8 @@ Image objectMask(frame::Frame& frame, const SwitchSetting& setting);
 /// The figures of a change: of its regions, its object, its camera. All are finite.
 std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& setting,
                                    const SwitchImages& images, const SwitchFinding& finding);
-/// Their names.
-std::vector<Quantity> switchFigureNames();
+/// Their declarations.
+std::vector<Quantity> switchFigureQuantities();
 
 /// The frame after the change in grey with its popping regions in colour (SP-50).
 Image regionPicture(const SwitchImages& images, const perception::RegionMap& regions);

@@ -11,51 +11,59 @@
 
 namespace limen::techniques {
 
-std::vector<Parameter> SwitchSetting::parameters() {
-  const std::string kThesis = "Schwarz 2009, section 10.3.1";
-  std::vector<Parameter> all = {
-      integerParameter("object", 0, 0, 65535, "", "Number of the object that changes its level"),
-      integerParameter("from_level", 1, 0, 15, "", "Level before the change; 0 is the finest", kThesis),
-      integerParameter("to_level", 0, 0, 15, "", "Level after the change", kThesis),
-      choiceParameter(
-          "others", "finest", {"finest", "distance", "omitted"},
-          "Levels of all other objects: the finest, by the scene's switch distances, or not drawn"),
-      choiceParameter(
-          "presentation", "dynamic", {"dynamic", "static"},
-          "dynamic: the camera moves as the scene says; static: the same two pictures shown at rest",
-          "Schwarz 2009, section 10.4.1"),
-      realParameter(
-          "dt_s", 0.0, 0.0, 1.0, "s",
-          "Time from the last frame before the change to the first after it; 0: one of the display's "
-          "frames")};
-  all.push_back(choiceParameter(
-      "flicker_level", "before", {"before", "after"},
-      "Level whose shading is compared with the previous frame; after: the change itself counts as flicker",
-      "choice; Schwarz 2009, section 10.3.5, does not say"));
-  // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
-  all.push_back(samplesParameter(2));
-  for (const std::vector<Parameter>& more :
-       {perception::viewingParameters(), frame::ShadedSetting::parameters(), perception::poppingParameters()})
-    all.insert(all.end(), more.begin(), more.end());
-  return all;
+const SettingsTable<DynamicPresentation>& DynamicPresentation::table() {
+  using S = DynamicPresentation;
+  static const SettingsTable<S> kTable = {
+      Binding(
+          &S::dtS, "dt_s", Range{0.0, 1.0}, "s",
+          "Time from the last frame before the change to the first after it; 0: one of the display's frames")
+          .formerly({"dt_s"}),
+      Binding(&S::flickerLevel, "flicker_level",
+              "Level whose shading is compared with the previous frame; after: the change itself counts as "
+              "flicker",
+              "choice; Schwarz 2009, section 10.3.5, does not say")
+          .formerly({"flicker_level"})};
+  return kTable;
 }
 
-SwitchSetting SwitchSetting::from(const ParameterValues& values) {
-  SwitchSetting s;
-  s.object = static_cast<size_t>(values.integer("object"));
-  s.fromLevel = static_cast<int>(values.integer("from_level"));
-  s.toLevel = static_cast<int>(values.integer("to_level"));
-  s.others = values.text("others");
-  s.dynamic = values.text("presentation") == "dynamic";
-  s.flickerOfBefore = values.text("flicker_level") == "before";
-  s.samples = static_cast<int>(values.integer("samples"));
-  s.shaded = frame::ShadedSetting::from(values);
-  s.display = perception::viewingDisplay(values);
-  s.popping = perception::PoppingSettings::from(values);
-  const double dt = values.real("dt_s");
-  s.dtS = std::max(dt > 0.0 ? dt : 1.0 / s.display.refreshHz, 1e-4);
-  s.display.refreshHz = 1.0 / s.dtS;
-  return s;
+const SettingsTable<SwitchSettings>& SwitchSettings::table() {
+  using S = SwitchSettings;
+  const std::string kThesis = "Schwarz 2009, section 10.3.1";
+  static const SettingsTable<S> kTable = {
+      {&S::object, "object", {0, 65535}, "", "Number of the object that changes its level"},
+      {&S::fromLevel, "from_level", {0, 15}, "", "Level before the change; 0 is the finest", kThesis},
+      {&S::toLevel, "to_level", {0, 15}, "", "Level after the change", kThesis},
+      {&S::others, "others",
+       "Levels of all other objects: the finest, by the scene's switch distances, or not drawn"},
+      {&S::presentation, "presentation", "How the change is shown", "Schwarz 2009, section 10.4.1"},
+      // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
+      samplesBinding(&S::samples),
+      included(&S::viewing),
+      frame::shadingBinding(&S::shading),
+      {&S::predictor, "predictor", "The popping predictor"}};
+  return kTable;
+}
+
+void SwitchSettings::check() const { SwitchSetting{*this}; }
+
+SwitchSetting::SwitchSetting(const SwitchSettings& settings)
+    : object(settings.object),
+      fromLevel(settings.fromLevel),
+      toLevel(settings.toLevel),
+      others(settings.others),
+      samples(settings.samples),
+      shaded(settings.shading),
+      display(settings.viewing.profile()),
+      popping(settings.predictor) {
+  double dt = 0.0;
+  if (const auto* moving = std::get_if<DynamicPresentation>(&settings.presentation)) {
+    flickerOfBefore = moving->flickerLevel == FlickerLevel::Before;
+    dt = moving->dtS;
+  } else {
+    dynamic = false;
+  }
+  dtS = std::max(dt > 0.0 ? dt : 1.0 / display.refreshHz, 1e-4);
+  display.refreshHz = 1.0 / dtS;
 }
 
 std::pair<scene::LodSelection, scene::LodSelection> SwitchSetting::levels(const frame::Frame& frame) const {
@@ -71,8 +79,10 @@ std::pair<scene::LodSelection, scene::LodSelection> SwitchSetting::levels(const 
                       std::to_string(count) + " levels",
                   where, "choose 0 to " + std::to_string(count - 1));
   scene::LodSelection base = scene::finestLevels(scene);
-  if (others == "distance") base = scene::levelsByDistance(scene, {frame.camera(), frame.sizePx().y});
-  if (others == "omitted") std::fill(base.levels.begin(), base.levels.end(), scene::LodSelection::kOmitted);
+  if (others == OtherLevels::Distance)
+    base = scene::levelsByDistance(scene, {frame.camera(), frame.sizePx().y});
+  if (others == OtherLevels::Omitted)
+    std::fill(base.levels.begin(), base.levels.end(), scene::LodSelection::kOmitted);
   return frame::objectChange(base, object, fromLevel, toLevel);
 }
 

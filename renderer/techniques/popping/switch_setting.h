@@ -3,10 +3,11 @@
 
 #include <string>
 #include <utility>
-#include <vector>
+#include <variant>
 
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "perception/popping/settings.h"
+#include "perception/threshold_maps/viewing.h"
 #include "perception/vision/display.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/shaded.h"
@@ -14,12 +15,58 @@
 
 namespace limen::techniques {
 
-/// One object's change from a level of detail to another, and who watches it. Parameters of
-/// popping/lod_switch and its reference.
+/// Level whose shading is compared with the previous frame.
+enum class FlickerLevel {
+  Before,  ///< what the level before the change shows over time
+  After    ///< what the level after it shows against the frame before, which has the change in it
+};
+constexpr EnumNames<FlickerLevel, 2> enumNames(FlickerLevel) {
+  return {{{{FlickerLevel::Before, "before"}, {FlickerLevel::After, "after"}}}};
+}
+
+/// Levels of the objects that do not change.
+enum class OtherLevels {
+  Finest,
+  Distance,  ///< by the scene's switch distances
+  Omitted    ///< not drawn
+};
+constexpr EnumNames<OtherLevels, 3> enumNames(OtherLevels) {
+  return {{{{OtherLevels::Finest, "finest"},
+            {OtherLevels::Distance, "distance"},
+            {OtherLevels::Omitted, "omitted"}}}};
+}
+
+struct DynamicPresentation {
+  static constexpr const char *kKind = "dynamic", *kSummary = "the camera moves as the scene says";
+  double dtS = 0.0;  ///< from the last frame before the change to the first after it; 0: a display's frame
+  FlickerLevel flickerLevel = FlickerLevel::Before;
+  static const SettingsTable<DynamicPresentation>& table();
+};
+
+struct StaticPresentation {
+  static constexpr const char *kKind = "static", *kSummary = "the same two pictures shown at rest";
+};
+
+/// Settings of popping/lod_switch and its reference.
+struct SwitchSettings {
+  size_t object = 0;
+  int fromLevel = 1, toLevel = 0;
+  OtherLevels others = OtherLevels::Finest;
+  std::variant<DynamicPresentation, StaticPresentation> presentation;
+  int samples = 2;
+  perception::ViewingSettings viewing;
+  frame::ShadedSetting shading;
+  perception::PoppingSettings predictor;
+  static const SettingsTable<SwitchSettings>& table();
+  /// Throws Error on an unreadable display.
+  void check() const;
+};
+
+/// One object's change from a level of detail to another, and who watches it.
 struct SwitchSetting {
   size_t object = 0;  ///< of Scene::lodObjects
   int fromLevel = 1, toLevel = 0;
-  std::string others;       ///< levels of all other objects: "finest", "distance", "omitted"
+  OtherLevels others = OtherLevels::Finest;
   bool dynamic = true;      ///< the camera moves as the scene says; false: both frames of it at rest
   double dtS = 1.0 / 60.0;  ///< between the frame before the change and the first one after
   /// Flicker is what the level before the change shows over time; false: what the level after it shows
@@ -31,15 +78,15 @@ struct SwitchSetting {
   perception::DisplayProfile display;
   perception::PoppingSettings popping;
 
-  static std::vector<Parameter> parameters();
+  SwitchSetting() = default;
   /// Throws Error on an unreadable display.
-  static SwitchSetting from(const ParameterValues& values);
+  explicit SwitchSetting(const SwitchSettings& settings);
 
   /// Levels of all objects after and before the change: {actual, predicted}. Throws Error if the scene has no
   /// such object or the object no such level.
   std::pair<scene::LodSelection, scene::LodSelection> levels(const frame::Frame& frame) const;
-  bool usesDisocclusion() const { return dynamic && popping.useDisocclusion; }
-  bool usesFlicker() const { return dynamic && popping.useFlicker; }
+  bool usesDisocclusion() const { return dynamic && popping.usesDisocclusion(); }
+  bool usesFlicker() const { return dynamic && popping.usesFlicker(); }
 };
 
 }  // namespace limen::techniques

@@ -20,7 +20,7 @@ frame::LodPairSetting pairSetting(const SwitchSetting& setting) {
 /// Albedos are at most 1, so only these can bring a pixel above the display's white.
 bool mayPassWhite(const frame::ShadedSetting& shaded) {
   return shaded.specular > 0.0 || shaded.ambient + shaded.diffuse > 1.0 ||
-         std::max({shaded.background.x, shaded.background.y, shaded.background.z}) > 1.0F;
+         shaded.background > 1.0;
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/chosen_entry.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/techniques/soft_shadows/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -17,23 +19,27 @@ enum class InnerKind {
   OrRayTraced,     ///< these, and soft_shadows/ray_traced
   OrExact          ///< these, and soft_shadows/exact_union
 };
+/// Their names as registered; the first is the default.
+std::vector<std::string> innerEntries(InnerKind kind);
 
-/// `inner`, and those parameters of the inner techniques that matter for speed and error, as these declare
-/// them: resolution, budget, structure, fixed_level, occluders, bias, slope_bias, max_slope; `rays` where one
-/// may be ray traced. All others keep their defaults.
-std::vector<Parameter> innerParameters(InnerKind kind);
-
-/// Throws Error where a value is about another technique than the inner one, or the inner one refuses it.
-void checkInner(const ParameterValues& values);
+/// Binds the member that holds a wrapper's inner technique with all settings of its own:
+/// `inner: {kind: bitmask, budget: 64}`.
+template <class S>
+Binding<S> innerBinding(ChosenEntry S::*member, InnerKind kind) {
+  return registeredChoice<TechniqueInfo>(member, "inner", innerEntries(kind),
+                                         "Technique that finds the visibility, with its settings");
+}
 
 /// The inner technique; its frame decides which points it sees.
-std::unique_ptr<Technique> makeInner(const ParameterValues& values);
-
-/// The map that a backprojecting inner technique reads.
-frame::ShadowMapSettings innerMap(const ParameterValues& values);
-
-/// What count() of the inner technique returns, as far as innerCounterNames() holds it.
+std::unique_ptr<Technique> makeInner(const ChosenEntry& inner);
+/// The map that a backprojecting inner technique reads: the one from the light's centre.
+frame::ShadowMapSettings innerMap(const ChosenEntry& inner);
+/// The bias that a backprojecting inner technique adds for the receiver's slope; no slope where its bias is
+/// of another form.
+SlopeBias innerBias(const ChosenEntry& inner);
+/// What count() of the inner technique returns, as far as innerCounters() holds it.
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame);
-std::vector<Quantity> innerCounterNames();
+/// What inner techniques of any kind count.
+std::vector<Quantity> innerCounters();
 
 }  // namespace limen::techniques

@@ -24,7 +24,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   for (int y = low.y; y <= high.y; ++y) {
     const vec2 edgesY = scale.y * vec2(float(y), float(y + 1)) + shift.y;
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
     float left = low.x > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y), level).x : kEmptyDepth;
     float lowerLeft = low.x > 0 && y > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y - 1), level).x : kEmptyDepth;
 #endif
@@ -32,7 +32,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       const float z = texelFetch(minimumMap, ivec2(x, y), level).x;
       ++fetchCount;
       ++examinedCount;
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
       const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
       ++fetchCount;
 #endif
@@ -41,13 +41,13 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const float k = throwOf(z, p.z);
         vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
         const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
         if (blocks(left, ivec2(x - 1, y), level, depth))
           start.x = min(start.x, throwOf(left, p.z) * edgesX.x + eyeOnLight.x);
         if (blocks(below, ivec2(x, y - 1), level, depth))
           start.y = min(start.y, throwOf(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
-#if GAP_FILL > 1
+#if GAP_FILL == GAP_FILL_DIAGONAL
         if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, depth)) {
           const float corner = throwOf(lowerLeft, p.z);
           start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
@@ -55,7 +55,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #endif
         accumulateOnLight(start, end);
       }
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
       left = z;
       lowerLeft = below;
 #endif

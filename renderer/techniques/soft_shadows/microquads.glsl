@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Texel centres of a level of the minimum pyramid as vertices of a mesh, backprojected onto the light. A cell of which all
-// four vertices block is a microquad (Schwarz 2009, section 4.4.1); with OCCLUDERS == 2, one of which three block is a
+// four vertices block is a microquad (Schwarz 2009, section 4.4.1); with microtris, one of which three block is a
 // microtri (section 4.4.3). The including shader gathers: accumulateQuad(a, b, c, d) takes corners in unit light
 // coordinates, counter-clockwise in the map, not clipped to the light; a microtri comes with one of them twice.
 //
@@ -59,7 +59,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       if (x < cells.low.x) continue;
       ++examinedCount;
       const int blocking = int(corners[0].blocks) + int(corners[1].blocks) + int(corners[2].blocks) + int(corners[3].blocks);
-#if OCCLUDERS == 2
+#if OCCLUDERS == OCCLUDERS_MICROQUADS_MICROTRIS
       if (blocking < 3) continue;
 #else
       if (blocking < 4) continue;

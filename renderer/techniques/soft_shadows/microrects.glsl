@@ -44,7 +44,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   int visited = 0;
   for (int y = low.y; y <= high.y; ++y) {
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
     float left = low.x > 0 ? rectDepth(ivec2(low.x - 1, y), level) : kEmptyDepth;
     float lowerLeft = low.x > 0 && y > 0 ? rectDepth(ivec2(low.x - 1, y - 1), level) : kEmptyDepth;
 #endif
@@ -52,7 +52,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       ++visited;
       const float z = rectDepth(ivec2(x, y), level);
       ++examinedCount;
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
       const float below = y > 0 ? rectDepth(ivec2(x, y - 1), level) : kEmptyDepth;
 #endif
       if (z < depth) {
@@ -61,16 +61,16 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const float k = throwOf(z, p.z);
         vec2 start = k * lowEdge + eyeOnLight;
         const vec2 end = k * highEdge + eyeOnLight;
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
         if (left < depth) start.x = min(start.x, throwOf(left, p.z) * lowEdge.x + eyeOnLight.x);
         if (below < depth) start.y = min(start.y, throwOf(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
-#if GAP_FILL > 1
+#if GAP_FILL == GAP_FILL_DIAGONAL
         if (lowerLeft < depth) start = min(start, throwOf(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
         accumulateOnLight(start, end);
       }
-#if GAP_FILL > 0
+#if GAP_FILL != GAP_FILL_NONE
       left = z;
       lowerLeft = below;
 #endif

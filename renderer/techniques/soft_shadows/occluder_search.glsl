@@ -2,7 +2,7 @@
 // Finds the texels of the shadow map that can matter for a receiver, and has them gathered. Schwarz 2009, sections 4.1 and
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
-// OCCLUDERS: 0 micropatches, 1 microquads, 2 microquads and microtris, 3 contours, 4 microrects, 5 morphing microquads.
+// OCCLUDERS: see occluder_kinds.h.
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements;
 uniform int fixedLevel;  // of all micro-occluders; below 0: by the budget
@@ -15,7 +15,7 @@ bool isSaturated();
 float gatheredVisibility();
 
 // Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
-#if OCCLUDERS == 0 || OCCLUDERS == 4
+#if OCCLUDERS == OCCLUDERS_MICROPATCHES || OCCLUDERS == OCCLUDERS_MICRORECTS
 const float kAreaBorder = 0.0;
 #else
 const float kAreaBorder = 0.5;
@@ -46,7 +46,7 @@ float gatherOccluders(vec4 p, Area area, int level);
 
 #include "renderer/techniques/soft_shadows/quality/level_of_quality.glsl"
 
-#if OCCLUDERS == 4 || OCCLUDERS == 5
+#if OCCLUDERS == OCCLUDERS_MICRORECTS || OCCLUDERS == OCCLUDERS_MORPHING_MICROQUADS
 // Texels that micro-occluders in range may be made of; these may lie anywhere about their own one.
 Area areaOfRange(Range range, int level);
 #endif
@@ -56,7 +56,7 @@ Area areaOfRange(Range range, int level);
 // shadowed by all of it. Schwarz 2009, section 4.3.1 ("over-precision"). Tiles of the HSM are whole ones at any level that a
 // budget of 4 or more leads to.
 Area queriedArea(Area area) {
-#if OCCLUDERS == 4 || OCCLUDERS == 5
+#if OCCLUDERS == OCCLUDERS_MICRORECTS || OCCLUDERS == OCCLUDERS_MORPHING_MICROQUADS
   const int level = int(ceil(levelOfArea(area)));
   return areaOfRange(occluderRange(area, level), level);
 #elif defined(GROW)
@@ -121,16 +121,16 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 }
 
 // Here and not in both: a file is taken in once, also where what asks for it first is left out.
-#if OCCLUDERS == 0 || OCCLUDERS == 4
+#if OCCLUDERS == OCCLUDERS_MICROPATCHES || OCCLUDERS == OCCLUDERS_MICRORECTS
 #include "renderer/techniques/soft_shadows/light_rectangle.glsl"
 #endif
-#if OCCLUDERS == 0
+#if OCCLUDERS == OCCLUDERS_MICROPATCHES
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
-#elif OCCLUDERS == 3
+#elif OCCLUDERS == OCCLUDERS_CONTOURS
 #include "renderer/techniques/soft_shadows/contours.glsl"
-#elif OCCLUDERS == 4
+#elif OCCLUDERS == OCCLUDERS_MICRORECTS
 #include "renderer/techniques/soft_shadows/microrects.glsl"
-#elif OCCLUDERS == 5
+#elif OCCLUDERS == OCCLUDERS_MORPHING_MICROQUADS
 #include "renderer/techniques/soft_shadows/morphing_quads.glsl"
 #else
 #include "renderer/techniques/soft_shadows/microquads.glsl"

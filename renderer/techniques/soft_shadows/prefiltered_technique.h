@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "renderer/frame/prefiltered_map.h"
+#include "renderer/techniques/soft_shadows/prefiltered_settings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
 
-/// What averages are taken from, the first of `prefilters` being the default.
-Parameter prefilterParameter(std::vector<std::string> prefilters);
-frame::Prefilter prefilterOf(const ParameterValues& values);
+/// Binding of a technique's windows, a variant of some of AnyWindow's alternatives.
+template <class S, class... W>
+Binding<S> windowBinding(std::variant<W...> S::*member) {
+  return {member, "window", "What is averaged", "Schwarz 2009, section 3.2.1"};
+}
 
 /// Base of the techniques that average a shadow map before they compare with it (SS-03): one look-up of a
 /// window instead of many comparisons. The window is fixed, or as wide as percentage-closer soft shadows have
@@ -20,31 +22,25 @@ frame::Prefilter prefilterOf(const ParameterValues& values);
 class PrefilteredTechnique : public VisibilityTechnique {
  public:
   std::vector<Counter> count(frame::Frame& frame) override;
-  static std::vector<Quantity> counterNames();
-  /// Common parameters and those of window and averages. `windows` are the kinds of window that the technique
-  /// has, the first being the default; `prefilters` likewise.
-  static std::vector<Parameter> prefilterParameters(std::vector<std::string> windows,
-                                                    std::vector<std::string> prefilters);
-  /// What they all declare, with a name, a version, a summary and parameters of its own. `check` holds
-  /// checkPrefilter().
-  static TechniqueInfo declare(std::string name, int version, std::string summary,
-                               std::vector<Parameter> parameters, decltype(TechniqueInfo::make) make,
-                               decltype(TechniqueInfo::check) check = checkPrefilter);
-  /// Refuses parameters of what is not there, and values too long for their sums.
-  static void checkPrefilter(const ParameterValues& values);
-  /// Map, way of averaging, form of the sums, as `values` has them.
-  static frame::PrefilterSettings settingsOf(const ParameterValues& values);
+  /// Registration of a technique with that name and summary.
+  static TechniqueInfo info(std::string name, std::string summary);
 
  protected:
-  PrefilteredTechnique(const ParameterValues& values, const std::string& name,
-                       const frame::PrefilterSettings& settings);
+  /// `prefilter` is common.prefilterSettings() with what the technique stores of depths.
+  template <class... W>
+  PrefilteredTechnique(const std::string& name, const PrefilteredSettings& common,
+                       const std::variant<W...>& window, const frame::PrefilterSettings& prefilter)
+      : PrefilteredTechnique(name, common,
+                             std::visit([](const auto& chosen) { return AnyWindow(chosen); }, window),
+                             prefilter) {}
+  PrefilteredTechnique(const std::string& name, const PrefilteredSettings& common, const AnyWindow& window,
+                       const frame::PrefilterSettings& prefilter);
   const frame::LightFrustum& bindMap(frame::Frame& frame) override;
   void configure(const gl::Program& program) const override;
 
  private:
-  frame::PrefilterSettings settings_;
-  double searchScale_, filterRadius_;
-  int searchTaps_;
+  frame::PrefilterSettings prefilter_;
+  AnyWindow window_;
   const frame::PrefilteredMap* map_ = nullptr;
 };
 

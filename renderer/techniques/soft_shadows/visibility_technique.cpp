@@ -1,223 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
-#include <epoxy/gl.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-
-#include "experiments/base/error.h"
-#include "experiments/base/text.h"
-#include "renderer/frame/g_buffer.h"
-#include "renderer/frame/receivers_from.h"
-
 namespace limen::techniques {
-namespace {
-
-/// `counts` and `search` as store() in shadow_lookup.glsl writes them.
-std::vector<Counter> summarise(const std::vector<uint32_t>& counts, const std::vector<uint32_t>& search) {
-  std::array<double, ClassCount> pixels{};
-  double occluders = 0.0, occludersSquared = 0.0, fetches = 0.0, allFetches = 0.0, levels = 0.0;
-  double areaTexels = 0.0, examined = 0.0, used = 0.0;
-  for (size_t i = 0; i < counts.size(); i += 4) {
-    pixels.at(counts[i]) += 1.0;
-    allFetches += counts[i + 2];
-    if (counts[i] != Processed) continue;
-    occluders += counts[i + 1];
-    occludersSquared += double(counts[i + 1]) * counts[i + 1];
-    fetches += counts[i + 2];
-    levels += std::bit_cast<float>(search[i + 3]);
-    areaTexels += search[i];
-    examined += search[i + 1];
-    used += search[i + 2];
-  }
-  const double all = static_cast<double>(counts.size()) / 4.0;
-  if (pixels[CutShort] > 0.0)
-    throw Error(shortestNumber(pixels[CutShort]) +
-                    " pixels need more loop iterations than this software renderer grants",
-                {}, "set 'budget', lower 'resolution', or run on a GPU");
-  const double processed = pixels[Processed], receivers = all - pixels[NotReceiver];
-  const auto share = [&](double part) { return all > 0.0 ? part / all : 0.0; };
-  const auto perProcessed = [&](double sum) { return processed > 0.0 ? sum / processed : 0.0; };
-  const double mean = perProcessed(occluders);
-  const double variance = perProcessed(occludersSquared) - mean * mean;
-  return {{"fetches_per_receiver", receivers > 0.0 ? allFetches / receivers : 0.0, "", true},
-          {"fetches_per_px", perProcessed(fetches), "", true},
-          {"micro_occluders_per_px", mean, "", true},
-          {"micro_occluders_sd", std::sqrt(std::max(variance, 0.0)), "", false},
-          {"search_area_texels", perProcessed(areaTexels), "", true},
-          {"wasted_share", examined > 0.0 ? 1.0 - used / examined : 0.0, "", false},
-          {"level_mean", perProcessed(levels), "", false},
-          {"receivers_share", share(receivers), "", false},
-          {"lit_share", share(pixels[Lit]), "", false},
-          {"umbra_share", share(pixels[Umbra]), "", false},
-          {"processed_share", share(processed), "", false},
-          {"outside_map_share", share(pixels[Outside]), "", false}};
-}
-
-frame::Raster rasterOf(const std::string& name) {
-  return name == "auto"      ? frame::Raster::Auto
-         : name == "compute" ? frame::Raster::Compute
-                             : frame::Raster::Hardware;
-}
-
-const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
-  return eye == glm::dvec2(0.5) ? frame.get<frame::Receivers>().texture()
-                                : frame.get<frame::ReceiversFrom>(frame::EyeSetting{eye}).texture();
-}
-
-}  // namespace
 
 VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader,
                                          std::string pass, gl::ShaderDefines defines)
-    : maps_{{map.resolution, map.raster}},
-      bias_(bias.constant),
-      slopeBias_(bias.slope),
-      maxSlope_(bias.maxSlope),
-      shader_(std::move(shader)),
-      pass_(std::move(pass)),
-      defines_(std::move(defines)) {}
-
-VisibilityTechnique::VisibilityTechnique(const ParameterValues& values, std::string shader, std::string pass,
-                                         gl::ShaderDefines defines)
-    : maps_{{std::stoi(values.text("resolution")), rasterOf(values.text("raster"))}},
-      bias_(values.real("bias")),
-      slopeBias_(values.real("slope_bias")),
-      maxSlope_(values.real("max_slope")),
-      shader_(std::move(shader)),
-      pass_(std::move(pass)),
-      defines_(std::move(defines)) {}
-
-std::vector<Parameter> VisibilityTechnique::commonParameters(double defaultSlopeBias) {
-  return {choiceParameter("resolution", "1024", {"1", "2", "64", "128", "256", "512", "1024", "2048", "4096"},
-                          "Texels along a side of the shadow map", "Schwarz 2009, section 4.5"),
-          realParameter("bias", 1e-4, 0.0, 0.1, "",
-                        "Constant depth bias as a share of the receiver's distance from the light's plane",
-                        "Schwarz 2009, section 4.4.5 (value not given there)"),
-          realParameter("slope_bias", defaultSlopeBias, 0.0, 16.0, "texel",
-                        "Depth bias by the receiver's slope, in texels of the level that is read",
-                        "Schwarz 2009, section 4.4.5 (reconstructed)"),
-          realParameter(
-              "max_slope", 10.0, 0.1, 1e6, "",
-              "Slope of depth, relative to distance and light-space tangent, up to which the bias grows"),
-          choiceParameter("raster", "auto", {"auto", "compute", "hardware"},
-                          "How the shadow map is rasterised: in compute shaders or by the driver; auto: what "
-                          "was measured to be faster")};
-}
+    : map_{map.resolution, map.raster},
+      bias_(bias),
+      pass_(std::move(shader), std::move(pass), std::move(defines)) {}
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
-  visibility_.emplace(gl::Format::R32F, frame.sizePx());
-  preparePasses(frame);
-}
-
-void VisibilityTechnique::preparePasses(frame::Frame& frame) {
-  program_ = &program(frame, false);
-  frame.passes().setBytesHeld(pass_, visibility_->bytes());
-}
-
-const gl::Program& VisibilityTechnique::program(frame::Frame& frame, bool counting,
-                                                const gl::ShaderDefines& more) const {
-  gl::ShaderDefines defines = defines_;
-  defines.insert(more.begin(), more.end());
-  if (counting) defines["COUNT"] = "1";
-  return frame.context().programs().compute(shader_, defines);
+  pass_.prepare(frame);
+  pass_.compile(frame);
+  frame.passes().setBytesHeld(pass_.name(), pass_.visibility().bytes());
 }
 
 const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
-  const auto& map = frame.get<frame::ShadowMap>(mapSettings());
+  const auto& map = frame.get<frame::ShadowMap>(map_);
   map.texture().bindTexture(1);
   return map.frustum();
 }
 
 const frame::LightFrustum& VisibilityTechnique::bindPyramid(frame::Frame& frame) {
-  const auto& pyramid = frame.get<frame::MinMaxPyramid>(mapSettings());
-  pyramid.minimum().bindTexture(1);
-  pyramid.maximum().bindTexture(2);
-  pyramidLevels_ = pyramid.levels();
-  return pyramid.frustum();
+  const BoundPyramid pyramid = techniques::bindPyramid(frame, map_);
+  pyramidLevels_ = pyramid.levels;
+  return pyramid.frustum;
 }
 
-int VisibilityTechnique::maxIterations(frame::Frame& frame) {
-  return frame.context().device().software ? 60000 : 0x7fffffff;
+const frame::LightFrustum& VisibilityTechnique::bindInputs(frame::Frame& frame,
+                                                           const frame::ShadowMapSettings&) {
+  return bindMap(frame);
 }
 
-void VisibilityTechnique::bindPass(frame::Frame& frame, const gl::Program& program,
-                                   const CountImages* counts) {
-  const frame::LightFrustum& frustum = bindMap(frame);
-  const glm::dvec2 lightSize = frame.scene().lights[0].size, eye = mapSettings().eye;
-  program.set("sizePx", frame.sizePx());
-  program.set("tangentLow", glm::vec2(frustum.low));
-  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-  program.set("near", static_cast<float>(frustum.near));
-  program.set("lightSize", glm::vec2(lightSize));
-  program.set("eyeOnLight", glm::vec2(eye));
-  program.set("resolution", mapSettings().resolution);
-  program.set("bias", static_cast<float>(bias_));
-  program.set("slopeBias", static_cast<float>(slopeBias_));
-  program.set("maxSlope", static_cast<float>(maxSlope_));
+void VisibilityTechnique::setUniforms(const gl::Program& program) const {
+  program.set("bias", static_cast<float>(bias_.constant));
+  program.set("slopeBias", static_cast<float>(bias_.slope));
+  program.set("maxSlope", static_cast<float>(bias_.maxSlope));
   configure(program);
-  receiversOf(frame, eye).bindTexture(0);
-  visibility_->bindImage(0, gl::Access::Write);
-  if (!counts) return;
-  counts->work.bindImage(1, gl::Access::ReadWrite);
-  counts->search.bindImage(2, gl::Access::Write);
-}
-
-void VisibilityTechnique::runPasses(frame::Frame& frame, const CountImages* counts) {
-  const auto scope = frame.passes().open(pass_);
-  const gl::Program& chosen = counts ? program(frame, true) : *program_;
-  for (current_ = 0; current_ < maps_.size(); ++current_) {
-    if (!readsMap(frame, current_)) continue;
-    bindPass(frame, chosen, counts);
-    chosen.dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    if (counts) addCounts(*counts);
-  }
-  current_ = 0;
 }
 
 void VisibilityTechnique::run(frame::Frame& frame, const CountImages* counts) {
-  makeInputs(frame);
-  for (current_ = 0; current_ < maps_.size(); ++current_)
-    if (readsMap(frame, current_)) {
-      bindMap(frame);
-      receiversOf(frame, mapSettings().eye);
-    }
-  current_ = 0;
-  runPasses(frame, counts);
-  finish(frame);
-}
-
-std::vector<Quantity> VisibilityTechnique::counterNames() {
-  std::vector<Quantity> out;
-  for (const Counter& counter : summarise({}, {})) out.push_back(counter.name);
-  return out;
+  VisibilityPass::makeInputs(frame, *this, map_);
+  const auto scope = frame.passes().open(pass_.name());
+  pass_.run(frame, *this, map_, counts);
 }
 
 void VisibilityTechnique::render(frame::Frame& frame) { run(frame, nullptr); }
-
-void VisibilityTechnique::addCounts(const CountImages& counts) {
-  std::vector<uint32_t> work = counts.work.readUint(), search = counts.search.readUint();
-  if (counted_.work.empty()) {
-    counted_.work = std::move(work);
-    counted_.search = std::move(search);
-    return;
-  }
-  // A pixel is what the map that had the most to do made of it; later maps need not see everything.
-  const auto rank = [](uint32_t kind) {
-    constexpr std::array<int, ClassCount> kRank = {0, 1, 3, 4, 2, 5};
-    return kRank.at(kind);
-  };
-  for (size_t i = 0; i < work.size(); i += 4) {
-    const uint32_t kind = work[i] == Outside ? uint32_t{Lit} : work[i];
-    if (rank(kind) > rank(counted_.work[i])) counted_.work[i] = kind;
-    for (size_t channel = 1; channel < 3; ++channel) counted_.work[i + channel] += work[i + channel];
-    counted_.work[i + 3] = std::max(counted_.work[i + 3], work[i + 3]);
-    for (size_t channel = 0; channel < 3; ++channel) counted_.search[i + channel] += search[i + channel];
-  }
-}
 
 std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
@@ -226,7 +54,8 @@ std::vector<Counter> VisibilityTechnique::count(frame::Frame& frame) {
   frame.begin();
   run(frame, &counts);
   frame.end();
-  return summarise(counted_.work, counted_.search);
+  counted_.add(counts);
+  return visibilityCounters(counted_);
 }
 
 }  // namespace limen::techniques

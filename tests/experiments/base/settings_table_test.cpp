@@ -7,7 +7,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/parameter_list.h"
 
-namespace limen {
+namespace limen::settings_table_test {
 namespace {
 
 using testing::ElementsAre;
@@ -159,9 +159,13 @@ struct ToolInfo {
   static constexpr const char* kKind = "tool";
   std::string name;
   ParameterList parameters;
+  std::function<void(const ParameterValues&)> check = {};
 };
+void refuseFive(const ParameterValues& values) {
+  if (*values.find("weight") == ParameterValue(int64_t{5})) throw Error("not five", "weight", "give another");
+}
 const Registered<ToolInfo> kHammer{
-    {"tools/hammer", {integerParameter("weight", 2, 1, 9, "kg", "How heavy")}}};
+    {"tools/hammer", {integerParameter("weight", 2, 1, 9, "kg", "How heavy")}, &refuseFive}};
 const Registered<ToolInfo> kSaw{{"tools/saw", {integerParameter("teeth", 40, 1, 99, "", "How many")}}};
 
 struct WrapSettings {
@@ -184,5 +188,15 @@ TEST(ChosenEntry, BringsTheSettingsOfTheEntry) {
   EXPECT_EQ(WrapSettings::table().write(WrapSettings{}).at("inner.weight"), ParameterValue(int64_t{2}));
 }
 
+TEST(ChosenEntry, IsCheckedAsItsRegistrationSays) {
+  try {
+    WrapSettings::table().read({WrapSettings::table().parameters(), {{"inner.weight", int64_t{5}}}});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "inner.weight");
+    EXPECT_EQ(error.message(), "not five");
+  }
+}
+
 }  // namespace
-}  // namespace limen
+}  // namespace limen::settings_table_test

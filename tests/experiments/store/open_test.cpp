@@ -89,10 +89,10 @@ TEST_F(StoreTest, ConstraintsOfTheSchemaAreInForce) {
   EXPECT_TRUE(store.allRuns().empty());
 }
 
-TEST_F(StoreTest, TheFileIsAWriteAheadLogStoreOfVersionTwo) {
+TEST_F(StoreTest, TheFileIsAWriteAheadLogStoreOfVersionThree) {
   { Store store(path("s.sqlite"), Access::ReadWrite); }
   EXPECT_EQ(rawSql(path("s.sqlite"), "PRAGMA journal_mode"), "wal");
-  EXPECT_EQ(rawSql(path("s.sqlite"), "PRAGMA user_version"), "2");
+  EXPECT_EQ(rawSql(path("s.sqlite"), "PRAGMA user_version"), "3");
 }
 
 }  // namespace

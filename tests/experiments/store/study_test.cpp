@@ -144,7 +144,7 @@ TEST_F(StoreTest, AStoreOfVersionOneIsMigratedWithItsRuns) {
     SessionLog log(old);
     startSession(log, "p01");
   }
-  EXPECT_EQ(rawSql(old, "PRAGMA user_version"), "2");
+  EXPECT_EQ(rawSql(old, "PRAGMA user_version"), "3");
   EXPECT_EQ(rawSql(old, "PRAGMA integrity_check"), "ok");
   const std::vector<store::Run> runs = Store(old, Access::ReadOnly).allRuns();
   ASSERT_EQ(runs.size(), 1U);

@@ -20,7 +20,7 @@ bool looksAt(size_t index, const std::string& name) {
   int part = 0, parts = 0;
   if (value && std::sscanf(value, "%d/%d", &part, &parts) == 2 && parts > 0)
     return static_cast<int>(index % static_cast<size_t>(parts)) == part - 1;
-  return name == "soft_shadows/hard" || name == "lod/blend";
+  return name == "soft_shadows/hard" || name == "lod/blend" || name == "test/alternatives";
 }
 
 /// One that has what the technique needs.
@@ -39,7 +39,7 @@ class EveryControl : public ViewerTest {
  protected:
   /// Fails where the picture is wrong; a refusal with a way out is none.
   void expectSound(const std::string& what) {
-    const RenderResult& shown = *viewer_->shown();
+    const RenderResult& shown = *viewer_->state().shown;
     EXPECT_EQ(shown.error, "") << what;
     for (const Rendered& one : shown.rendered) {
       EXPECT_EQ(one.failure, "") << what;
@@ -48,54 +48,86 @@ class EveryControl : public ViewerTest {
     }
   }
 
+  /// Chooses the alternatives under which a parameter exists; false if they conflict with defaults.
+  bool chooseAlternatives(const DeclaredAt& at) {
+    ViewSetup setup = viewer_->state().setup;
+    for (const auto& [path, kind] : at.when)
+      setParameter(setup.technique, techniqueParameters(setup.technique.name), path, kind);
+    try {
+      viewer_->show(setup);
+    } catch (const Error&) {
+      return false;
+    }
+    rest();
+    return true;
+  }
+  ParameterValue now(const DeclaredAt& at) {
+    return valueAt(viewer_->state().setup.technique, at.path, *at.parameter);
+  }
+
+  void dragToEnds(const DeclaredAt& at, const std::string& what) {
+    const Parameter& parameter = *at.parameter;
+    const std::string control = "technique." + at.path;
+    for (const float end : {0.0F, 1.0F}) {
+      if (end > 0.5F && costly(parameter)) continue;
+      // From one end to the other, and past it.
+      drag(along(control, 0.5F), along(control, end) + glm::vec2(end > 0.5F ? 40.0F : -40.0F, 0.0F));
+      const double expected = end > 0.5F ? *parameter.maximum : *parameter.minimum;
+      const ParameterValue value = now(at);
+      const double is = parameter.type == ParameterType::Integer
+                            ? static_cast<double>(std::get<int64_t>(value))
+                            : std::get<double>(value);
+      EXPECT_EQ(is, expected) << what;
+      rest();
+      expectSound(what + " = " + toText(value));
+    }
+  }
+
+  void choose(const DeclaredAt& at, const ParameterValue& value, const std::string& what) {
+    ViewSetup setup = viewer_->state().setup;
+    setParameter(setup.technique, techniqueParameters(setup.technique.name), at.path, value);
+    try {
+      viewer_->show(setup);
+    } catch (const Error&) {
+      return;  // conflicts with the others at their default
+    }
+    rest();
+    expectSound(what + " = " + toText(value));
+  }
+
   void throughItsEnds(const techniques::TechniqueInfo& info) {
-    for (size_t i = 0; i < info.parameters.size(); ++i) {
-      const Parameter& parameter = info.parameters[i];
-      const std::string control = "technique." + parameter.name, what = info.name + ", " + parameter.name;
+    for (const DeclaredAt& at : flatten(info.parameters)) {
+      const Parameter& parameter = *at.parameter;
+      const std::string what = info.name + ", " + at.path;
       if (std::getenv("LIMEN_EVERY_CONTROL")) std::printf("%s\n", what.c_str()), std::fflush(stdout);
-      const auto now = [&] { return toText(viewer::shown(viewer_->choices().technique, parameter)); };
+      if (!chooseAlternatives(at)) continue;
       switch (parameter.type) {
         case ParameterType::Boolean:
-          click(control);
-          EXPECT_EQ(now(), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
+          click("technique." + at.path);
+          EXPECT_EQ(toText(now(at)), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
           rest();
           expectSound(what);
           break;
         case ParameterType::Integer:
-        case ParameterType::Real:
-          for (const float end : {0.0F, 1.0F}) {
-            if (end > 0.5F && costly(parameter)) continue;
-            // From one end to the other as a hand does, past the end.
-            drag(along(control, 0.5F), along(control, end) + glm::vec2(end > 0.5F ? 40.0F : -40.0F, 0.0F));
-            const double expected = end > 0.5F ? *parameter.maximum : *parameter.minimum;
-            const ParameterValue value = viewer::shown(viewer_->choices().technique, parameter);
-            const double is = parameter.type == ParameterType::Integer
-                                  ? static_cast<double>(std::get<int64_t>(value))
-                                  : std::get<double>(value);
-            EXPECT_EQ(is, expected) << what;
-            rest();
-            expectSound(what + " = " + toText(value));
+          if (!parameter.allowed.empty()) {
+            for (const int64_t number : {parameter.allowed.front(), parameter.allowed.back()})
+              choose(at, number, what);
+            break;
           }
+          [[fallthrough]];
+        case ParameterType::Real:
+          dragToEnds(at, what);
           break;
         case ParameterType::Choice:
-          for (const std::string& choice : {parameter.choices.front(), parameter.choices.back()}) {
-            Choices choices = viewer_->choices();
-            give(choices.technique, parameter, choice);
-            try {
-              viewer_->choose(choices);
-            } catch (const Error&) {
-              continue;  // does not go with the others at their default
-            }
-            rest();
-            expectSound(what + " = " + choice);
-          }
+          for (const std::string& choice : {parameter.choices.front(), parameter.choices.back()})
+            choose(at, choice, what);
           break;
         default:
           break;
       }
-      Choices choices = viewer_->choices();
-      choices.technique.given.clear();
-      viewer_->choose(choices);
+      ViewSetup setup = viewer_->state().setup;
+      setup.technique.given.clear();
+      viewer_->show(setup);
     }
   }
 
@@ -107,22 +139,22 @@ class EveryControl : public ViewerTest {
 };
 
 TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
-  Choices choices = smallChoices("soft_shadows/pcf", "sphere_grid");
-  choices.sizePx = {24, 18};
-  open(choices, {}, {900, 2600});
+  ViewSetup setup = smallSetup("soft_shadows/pcf", "sphere_grid");
+  setup.sizePx = {24, 18};
+  open(setup, {}, {900, 2600});
   rest();
   size_t index = 0;
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
-    if (name.rfind("test/", 0) == 0) continue;
+    if (name == "test/slow_reference") continue;
     if (!looksAt(index++, name)) continue;
     SCOPED_TRACE(name);
     const std::string scene = sceneFor(info);
     ASSERT_NE(scene, "") << "no scene here has what " << name << " needs";
-    Choices fitting = viewer_->choices();
+    ViewSetup fitting = viewer_->state().setup;
     fitting.scene = {scene, {}};
     fitting.reference.reset();
-    fitting.other.reset();
-    viewer_->choose(fitting);
+    fitting.second.reset();
+    viewer_->show(fitting);
     rest();
     click("technique");
     draw();
@@ -132,13 +164,13 @@ TEST_F(EveryControl, TechniquesAreChosenByHandAndTheirParametersGoToBothEnds) {
     draw();
     draw();
     click("technique/" + name);
-    ASSERT_EQ(viewer_->choices().technique.name, name);
-    fitting = viewer_->choices();
+    ASSERT_EQ(viewer_->state().setup.technique.name, name);
+    fitting = viewer_->state().setup;
     fitting.reference.reset();
-    viewer_->choose(fitting);
+    viewer_->show(fitting);
     rest();
     expectSound(name);
-    EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "") << name;
+    EXPECT_EQ(viewer_->state().shown->rendered.at(0).error, "") << name;
     throughItsEnds(info);
   }
 }

@@ -55,13 +55,13 @@ class ShaderReload : public ViewerTest {
   }
   std::optional<std::string> rootBefore_;
 
-  std::string hash() const { return viewer_->shown()->rendered.at(0).productHash; }
+  std::string hash() const { return viewer_->state().shown->rendered.at(0).productHash; }
 };
 
 TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   const fs::path root = copyShaders();
   gl::setShaderRoot(root.string());
-  open(smallChoices("soft_shadows/hard"), root.string());
+  open(smallSetup("soft_shadows/hard"), root.string());
   rest();
   const std::string own = hash();
 
@@ -69,30 +69,30 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   const std::string text = read(file);
   ASSERT_THAT(text, HasSubstr("float visibilityOf"));
   std::ofstream(file) << text << "\nthis is no GLSL\n";
-  ASSERT_TRUE(until([&] { return !viewer_->shaderFailure().empty(); }));
-  EXPECT_THAT(viewer_->shaderFailure(), HasSubstr("hard.comp.glsl:"));
+  ASSERT_TRUE(until([&] { return !viewer_->state().shaderFailure.empty(); }));
+  EXPECT_THAT(viewer_->state().shaderFailure, HasSubstr("hard.comp.glsl:"));
   EXPECT_EQ(hash(), own);
-  Choices choices = viewer_->choices();
-  choices.sizePx = {32, 24};  // the old program goes on
-  viewer_->choose(choices);
+  ViewSetup setup = viewer_->state().setup;
+  setup.sizePx = {32, 24};  // the old program goes on
+  viewer_->show(setup);
   rest();
-  EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "");
-  choices.sizePx = {40, 30};
-  viewer_->choose(choices);
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).error, "");
+  setup.sizePx = {40, 30};
+  viewer_->show(setup);
   rest();
   EXPECT_EQ(hash(), own);
 
-  // Mended and changed: light where there was shadow, and the other way round, wherever the map is looked at.
-  const std::shared_ptr<const Image> was = viewer_->shown()->rendered.at(0).product;
+  // Fixed and changed: light where there was shadow, and the other way round, wherever the map is looked at.
+  const std::shared_ptr<const Image> was = viewer_->state().shown->rendered.at(0).product;
   std::string turned = text;
   const std::string answer = "? 0.0 : 1.0";
   ASSERT_NE(turned.find(answer), std::string::npos);
   turned.replace(turned.find(answer), answer.size(), "? 1.0 : 0.0");
   std::ofstream(file) << turned;
   ASSERT_TRUE(until([&] { return hash() != own; }));
-  EXPECT_EQ(viewer_->shaderFailure(), "");
+  EXPECT_EQ(viewer_->state().shaderFailure, "");
   rest();
-  const Image& is = *viewer_->shown()->rendered.at(0).product;
+  const Image& is = *viewer_->state().shown->rendered.at(0).product;
   int changed = 0;
   for (size_t i = 0; i < is.data.size(); ++i) {
     if (is.data[i] == was->data[i]) continue;

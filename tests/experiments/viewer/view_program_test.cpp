@@ -81,7 +81,9 @@ TEST_F(ViewProgram, BadInputIsOneLineAndOpensNothing) {
   refused("--scene bunyn", "bunny");
   refused("--technique soft_shadows/bitmsk", "soft_shadows/bitmask");
   refused("--set technique.budgt=3", "budget");
-  refused("--set technique.budget=none", "whole number");
+  refused("--set technique.budget=none", "uniform");
+  refused("--set technique.budget.limit=none", "whole number");
+  refused("--set technique.budget.rim=3", "budget: radial");
   refused("--set colour=3", "scene.NAME=VALUE");
   refused("--size 0x9", "WIDTHxHEIGHT");
   refused("--arrangement splitt", "split");
@@ -99,7 +101,7 @@ class ViewWindow : public ViewProgram {
       setenv("DISPLAY", server_.display().c_str(), 1);
       unsetenv("WAYLAND_DISPLAY");
       const std::string line = std::string("exec " LIMEN_BIN_DIR "/limen-view ") + kSmall + " --results " +
-                               path("kept") + " >" + path("out.txt") + " 2>&1";
+                               path("exported") + " >" + path("out.txt") + " 2>&1";
       execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       _exit(127);
     }
@@ -123,9 +125,9 @@ class ViewWindow : public ViewProgram {
   bool windowIsThere() const {
     return until([&] { return xdotool("search --name '^Limen$'") == 0; });
   }
-  std::string kept(int number) const {
-    char name[32];
-    std::snprintf(name, sizeof name, "kept/kept_%03d.yaml", number);
+  std::string exported(int number) const {
+    char name[64];
+    std::snprintf(name, sizeof name, "exported/exported_%03d.yaml", number);
     return path(name);
   }
   static std::string read(const std::string& file) {
@@ -156,20 +158,21 @@ class ViewWindow : public ViewProgram {
 
 TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
   ASSERT_TRUE(windowIsThere()) << read(path("out.txt"));
-  ASSERT_TRUE(pressUntil("k", kept(1))) << read(path("out.txt"));
-  EXPECT_THAT(read(kept(1)), testing::Not(HasSubstr("camera:")));
+  ASSERT_TRUE(pressUntil("k", exported(1))) << read(path("out.txt"));
+  EXPECT_THAT(read(exported(1)), testing::Not(HasSubstr("camera:")));
   // A drag in the middle of the picture turns the camera.
   int number = 1;
-  while (fs::exists(kept(number))) ++number;
+  while (fs::exists(exported(number))) ++number;
   ASSERT_TRUE(until([&] {
-    // With pauses in which the window draws a frame, however slow the machine: a hand leaves them too.
+    // With pauses in which the window draws a frame, however slow the machine: people leave them too.
     xdotool(
         "mousemove 500 400 sleep 0.4 mousedown 1 sleep 0.4 mousemove 520 405 sleep 0.4 "
         "mousemove 590 420 sleep 0.4 mouseup 1 sleep 0.4");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    return fs::exists(kept(number)) && read(kept(number++)).find("camera: \"eye ") != std::string::npos;
+    return fs::exists(exported(number)) &&
+           read(exported(number++)).find("text: \"eye ") != std::string::npos;
   })) << read(path("out.txt"));
   kill(process_, SIGTERM);
   EXPECT_EQ(finish(), 0) << read(path("out.txt"));

@@ -16,7 +16,7 @@
 
 namespace limen::viewer {
 
-/// A viewer on a surface in memory, with a hand that says where the mouse is and what is pressed.
+/// A viewer on a surface in memory, with functions that move its mouse and press its keys.
 class ViewerTest : public testing::Test {
  protected:
   ViewerTest()
@@ -31,20 +31,20 @@ class ViewerTest : public testing::Test {
   }
 
   /// Small pictures: a software renderer makes them.
-  static Choices smallChoices(const std::string& technique = "soft_shadows/pcss",
+  static ViewSetup smallSetup(const std::string& technique = "soft_shadows/pcss",
                               const std::string& scene = "sphere_grid") {
-    Choices choices;
-    choices.scene.name = scene;
-    choices.technique.name = technique;
-    choices.sizePx = {40, 30};
-    return choices;
+    ViewSetup setup;
+    setup.scene.name = scene;
+    setup.technique.name = technique;
+    setup.sizePx = {40, 30};
+    return setup;
   }
 
   /// Small letters on a high surface: all controls are in sight, and a software renderer draws few pixels.
-  void open(const Choices& choices, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {800, 1900}) {
+  void open(const ViewSetup& setup, const std::string& shaderRoot = {}, glm::ivec2 windowPx = {800, 1900}) {
     ViewerOptions options;
-    options.choices = choices;
-    options.resultsFolder = (folder_ / "kept").string();
+    options.setup = setup;
+    options.resultsFolder = (folder_ / "exported").string();
     options.shaderRoot = shaderRoot;
     options.display = perception::displayPreset("schwarz_2009");
     ui_ = std::make_unique<window::OffscreenUi>(windowPx, 0.6F);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The viewer as a hand uses it, without a window.
+// The viewer used by mouse and keys, without a window.
 #include <GLFW/glfw3.h>
 
 #include <chrono>
@@ -49,23 +49,24 @@ techniques::TechniqueInfo slowReference() {
 }
 const Registered<techniques::TechniqueInfo> kSlowReference{slowReference()};
 
-class ViewerHand : public ViewerTest {};
+class ViewerUse : public ViewerTest {};
 
-TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
-  Choices choices = smallChoices();
-  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
-  open(choices);
+TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
+  ViewSetup setup = smallSetup();
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
+  open(setup);
   rest();
-  const RenderResult& shown = *viewer_->shown();
+  const RenderResult& shown = *viewer_->state().shown;
   ASSERT_EQ(shown.rendered.size(), 1U);
   EXPECT_EQ(shown.rendered[0].error, "");
   EXPECT_EQ(shown.rendered[0].nonFinite, 0);
   EXPECT_GE(shown.rendered[0].frameMs, 0.0);
-  ASSERT_TRUE(viewer_->judged());
-  const JudgeResult& judged = *viewer_->judged();
-  EXPECT_EQ(judged.error, "");
+  ASSERT_TRUE(viewer_->state().evaluated);
+  const EvaluationResult& evaluated = *viewer_->state().evaluated;
+  EXPECT_EQ(evaluated.error, "");
   // The root of the mean square over receivers, worked out here from the two products.
-  const Image &product = *shown.rendered[0].product, &reference = *judged.reference, &mask = shown.view->mask;
+  const Image &product = *shown.rendered[0].product, &reference = *evaluated.reference,
+              &mask = shown.view->mask;
   double sum = 0.0, pixels = 0.0;
   for (size_t i = 0; i < product.pixels(); ++i) {
     if (mask.data[i] == 0.0F) continue;
@@ -74,7 +75,7 @@ TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   }
   ASSERT_GT(pixels, 100.0);
   bool found = false;
-  for (const ErrorFigure& figure : judged.figures)
+  for (const ErrorFigure& figure : evaluated.figures)
     if (figure.metric == "rmse") {
       found = true;
       EXPECT_NEAR(figure.value, std::sqrt(sum / pixels), 1e-6);
@@ -82,16 +83,16 @@ TEST_F(ViewerHand, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(ViewerHand, ThePictureOnScreenIsTheOneThatASweepWrites) {
+TEST_F(ViewerUse, ThePictureOnScreenIsTheOneThatASweepWrites) {
   for (const char* technique : {"soft_shadows/pcf", "soft_shadows/bitmask_coloured", "lod/finest"}) {
-    Choices choices =
-        smallChoices(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
-    open(choices);
+    ViewSetup setup =
+        smallSetup(technique, std::string(technique) == "lod/finest" ? "lod/terrain" : "sphere_grid");
+    open(setup);
     rest();
-    const Rendered& one = viewer_->shown()->rendered.at(0);
+    const Rendered& one = viewer_->state().shown->rendered.at(0);
     ASSERT_EQ(one.error, "") << technique;
-    const ScreenPicture expected =
-        screenPicture(experiments::productPicture(one.kind, *one.product, viewer_->shown()->view->shading));
+    const ScreenPicture expected = screenPicture(
+        experiments::productPicture(one.kind, *one.product, viewer_->state().shown->view->shading));
     ASSERT_EQ(one.picture->rgba.size(), expected.rgba.size());
     // The shader rounds in single precision: a step of a byte either way.
     for (size_t i = 0; i < expected.rgba.size(); ++i)
@@ -99,8 +100,8 @@ TEST_F(ViewerHand, ThePictureOnScreenIsTheOneThatASweepWrites) {
   }
 }
 
-TEST_F(ViewerHand, RendersNothingAtRest) {
-  open(smallChoices());
+TEST_F(ViewerUse, RendersNothingAtRest) {
+  open(smallSetup());
   rest();
   // Times may still be on their way; after them nothing is.
   for (int i = 0; i < 5; ++i) draw();
@@ -115,13 +116,13 @@ TEST_F(ViewerHand, RendersNothingAtRest) {
   EXPECT_GT(viewer_->framesRendered(), before);
 }
 
-TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
-  open(smallChoices());
+TEST_F(ViewerUse, ASlowReferenceHoldsUpNothing) {
+  open(smallSetup());
   rest();
   gate.closed = true;
-  Choices choices = viewer_->choices();
-  choices.reference = Chosen{"test/slow_reference", {}};
-  viewer_->choose(choices);
+  ViewSetup setup = viewer_->state().setup;
+  setup.reference = Entry{"test/slow_reference", {}};
+  viewer_->show(setup);
   const auto until = [&](const std::function<bool()>& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!holds() && std::chrono::steady_clock::now() < end) {
@@ -133,69 +134,69 @@ TEST_F(ViewerHand, ASlowReferenceHoldsUpNothing) {
     return holds();
   };
   ASSERT_TRUE(until([] { return gate.waiting > 0; }))
-      << viewer_->shown()->error << viewer_->shown()->rendered.at(0).error
-      << (viewer_->judged() ? viewer_->judged()->error : "nothing judged");
-  // While the reference keeps its thread waiting, hands change things and pictures follow.
-  const std::string hash = viewer_->shown()->rendered.at(0).productHash;
+      << viewer_->state().shown->error << viewer_->state().shown->rendered.at(0).error
+      << (viewer_->state().evaluated ? viewer_->state().evaluated->error : "nothing evaluated");
+  // While the reference keeps its thread waiting, settings change and pictures follow.
+  const std::string hash = viewer_->state().shown->rendered.at(0).productHash;
   click(along("scene.light_size", 0.95F));
-  const uint64_t asked = viewer_->shown()->number;
+  const uint64_t asked = viewer_->state().shown->number;
   EXPECT_TRUE(until([&] {
-    const auto& shown = viewer_->shown();
+    const auto& shown = viewer_->state().shown;
     return shown && shown->settled && shown->number > asked && shown->rendered.at(0).productHash != hash;
   }));
   EXPECT_GT(gate.waiting, 0);
   EXPECT_FALSE(viewer_->atRest());
   gate.closed = false;
   rest();
-  EXPECT_TRUE(viewer_->judged() && viewer_->judged()->error.empty());
+  EXPECT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->error.empty());
 }
 
-TEST_F(ViewerHand, AReferenceGetsBetterAndBetter) {
-  Choices choices = smallChoices();
-  choices.sizePx = {16, 12};
-  choices.reference = Chosen{"soft_shadows/ray_traced", {}};  // 1,024 rays: after 16, 64 and 256
-  open(choices);
+TEST_F(ViewerUse, AReferenceGetsBetterAndBetter) {
+  ViewSetup setup = smallSetup();
+  setup.sizePx = {16, 12};
+  setup.reference = Entry{"soft_shadows/ray_traced", {}};  // 1,024 rays: after 16, 64 and 256
+  open(setup);
   rest();
-  EXPECT_EQ(viewer_->judge().referencesMade(), 4);
-  EXPECT_EQ(viewer_->judged()->step, "");
+  EXPECT_EQ(viewer_->evaluation().referencesMade(), 4);
+  EXPECT_EQ(viewer_->state().evaluated->step, "");
   // Another technique needs no other reference.
-  Choices other = viewer_->choices();
+  ViewSetup other = viewer_->state().setup;
   other.technique.name = "soft_shadows/pcf";
-  viewer_->choose(other);
+  viewer_->show(other);
   rest();
-  EXPECT_EQ(viewer_->judge().referencesMade(), 4);
+  EXPECT_EQ(viewer_->evaluation().referencesMade(), 4);
 }
 
-TEST_F(ViewerHand, DragsOrbitAndTheSceneIsNotBuiltAgain) {
-  open(smallChoices());
+TEST_F(ViewerUse, DragsOrbitAndTheSceneIsNotBuiltAgain) {
+  open(smallSetup());
   rest();
-  const scene::Camera before = viewer_->shown()->camera;
+  const scene::Camera before = viewer_->state().shown->camera;
   const ControlMap::Place* picture = viewer_->controls().find("picture");
   ASSERT_TRUE(picture);
   const glm::vec2 centre = picture->centre();
   drag(centre, centre + glm::vec2(80.0F, 20.0F));
   rest();
-  const scene::Camera after = viewer_->shown()->camera;
+  const scene::Camera after = viewer_->state().shown->camera;
   EXPECT_NEAR(glm::length(after.eye - after.target), glm::length(before.eye - before.target), 1e-9);
   EXPECT_EQ(after.target, before.target);
   EXPECT_GT(glm::length(after.eye - before.eye), 0.1);
-  ASSERT_TRUE(viewer_->choices().scene.given.count("camera"));
+  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera.text"));
   // What is asked for is what is shown, to the last bit.
-  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->choices().scene.given.at("camera")));
+  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->state().setup.scene.given.at("camera.text")));
   key('R');
   rest();
-  EXPECT_EQ(viewer_->shown()->camera.eye, before.eye);
+  EXPECT_EQ(viewer_->state().shown->camera.eye, before.eye);
 }
 
-TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
-  open(smallChoices());
+TEST_F(ViewerUse, APickedPixelTellsAllProducts) {
+  open(smallSetup());
   rest();
   const ControlMap::Place place = *viewer_->controls().find("picture");
   const glm::vec2 texel = (place.mostPx - place.leastPx) / glm::vec2(40.0F, 30.0F);
   const glm::ivec2 pixel(22, 19);
   click(place.leastPx + (glm::vec2(pixel) + 0.5F) * texel);
   rest();
-  const Rendered& one = viewer_->shown()->rendered.at(0);
+  const Rendered& one = viewer_->state().shown->rendered.at(0);
   ASSERT_FALSE(one.picked.empty());
   EXPECT_EQ(one.picked[0].name, "product");
   ASSERT_EQ(one.picked[0].values.size(), 1U);
@@ -206,19 +207,19 @@ TEST_F(ViewerHand, APickedPixelTellsAllProducts) {
   EXPECT_EQ(albedo->values.size(), 4U);
 }
 
-TEST_F(ViewerHand, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
-  Choices choices = smallChoices("lod/blend");
-  open(choices);
+TEST_F(ViewerUse, WhatATechniqueRefusesIsSaidAndTheNextChoiceWorks) {
+  ViewSetup setup = smallSetup("lod/blend");
+  open(setup);
   rest();
-  EXPECT_THAT(viewer_->shown()->rendered.at(0).error, HasSubstr("needs a scene with"));
-  choices.technique = {"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
-  viewer_->choose(choices);
+  EXPECT_THAT(viewer_->state().shown->rendered.at(0).error, HasSubstr("needs a scene with"));
+  setup.technique = {"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  viewer_->show(setup);
   rest();
-  EXPECT_EQ(viewer_->shown()->rendered.at(0).error, "");
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).error, "");
 }
 
-TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
-  open(smallChoices());
+TEST_F(ViewerUse, PanesFollowTheWindowsSize) {
+  open(smallSetup());
   rest();
   for (const glm::ivec2 size :
        {glm::ivec2(320, 200), glm::ivec2(1600, 300), glm::ivec2(200, 900), glm::ivec2(1, 1)}) {
@@ -242,73 +243,132 @@ TEST_F(ViewerHand, PanesFollowTheWindowsSize) {
     EXPECT_TRUE(message.performance) << message.text;
 }
 
-TEST_F(ViewerHand, ARecordedPathPlaysAndASavedViewComesBack) {
-  open(smallChoices());
+TEST_F(ViewerUse, ARecordedPathPlaysAndASavedViewComesBack) {
+  open(smallSetup());
   rest();
   click("camera.view_name");
   ui_->type("from the front");
   draw();
   click("camera.save_view");
-  const scene::Camera front = viewer_->shown()->camera;
+  const scene::Camera front = viewer_->state().shown->camera;
   const glm::vec2 centre = centreOf("picture");
   click("camera.record");
   drag(centre, centre + glm::vec2(60.0F, 0.0F));
   drag(centre, centre + glm::vec2(0.0F, 30.0F));
   click("camera.record");
   rest();
-  ASSERT_TRUE(viewer_->choices().scene.given.count("camera_path")) << viewer_->messages().back();
-  EXPECT_GT(viewer_->shown()->path.durationS(), 0.05);
-  EXPECT_NEAR(glm::length(viewer_->shown()->camera.eye - front.eye), 0.0, 0.01 * glm::length(front.eye));
+  ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera.file")) << viewer_->state().messages.back();
+  EXPECT_GT(viewer_->state().shown->path.durationS(), 0.05);
+  EXPECT_NEAR(glm::length(viewer_->state().shown->camera.eye - front.eye), 0.0,
+              0.01 * glm::length(front.eye));
   click("camera.play");
   EXPECT_TRUE(viewer_->animated());
   for (int i = 0; i < 3; ++i) draw();
-  EXPECT_TRUE(viewer_->choices().scene.given.count("time_s"));
+  EXPECT_TRUE(viewer_->state().setup.scene.given.count("camera.time_s"));
   click("camera.play");
   EXPECT_FALSE(viewer_->animated());
   click("camera.view.from the front");
   rest();
-  EXPECT_EQ(viewer_->shown()->camera.eye, front.eye);
+  EXPECT_EQ(viewer_->state().shown->camera.eye, front.eye);
 }
 
-TEST_F(ViewerHand, PicturesAreSavedOfAllProducts) {
-  Choices choices = smallChoices();
-  choices.other = Chosen{"soft_shadows/hard", {}};
-  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
-  open(choices);
+TEST_F(ViewerUse, PicturesAreSavedOfAllProducts) {
+  ViewSetup setup = smallSetup();
+  setup.second = Entry{"soft_shadows/hard", {}};
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  open(setup);
   rest();
   const std::string folder = viewer_->savePictures();
-  ASSERT_NE(folder, "") << viewer_->messages().back();
+  ASSERT_NE(folder, "") << viewer_->state().messages.back();
   for (const char* name : {"product", "second_product", "reference", "absolute_error"}) {
     EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".png")) << name;
     EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".exr")) << name;
   }
   EXPECT_EQ(experiments::productHash(readImage(folder + "/product.exr")),
-            viewer_->shown()->rendered.at(0).productHash);
+            viewer_->state().shown->rendered.at(0).productHash);
 }
 
-TEST_F(ViewerHand, WhatCannotBeWrittenIsSaid) {
-  open(smallChoices());
+TEST_F(ViewerUse, WhatCannotBeWrittenIsSaid) {
+  open(smallSetup());
   rest();
-  std::ofstream(folder_ / "kept") << "a file where the folder should be";
-  EXPECT_EQ(viewer_->keepDescriptor(), "");
-  EXPECT_THAT(viewer_->messages().back(), HasSubstr("--results"));
+  std::ofstream(folder_ / "exported") << "a file where the folder should be";
+  EXPECT_EQ(viewer_->exportDescriptor(), "");
+  EXPECT_THAT(viewer_->state().messages.back(), HasSubstr("--results"));
 }
 
-TEST_F(ViewerHand, PredictionsArePaintedOver) {
-  Choices choices = smallChoices("soft_shadows/hard");
-  choices.sizePx = {96, 72};
-  choices.reference = Chosen{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
-  open(choices);
+TEST_F(ViewerUse, AChoiceShowsTheControlsOfItsAlternativeAlone) {
+  open(smallSetup("test/alternatives"));
+  rest();
+  const auto has = [&](const std::string& control) {
+    return viewer_->controls().find("technique." + control) != nullptr;
+  };
+  EXPECT_TRUE(has("source.level"));
+  EXPECT_FALSE(has("source.steps"));
+  // Below its choice.
+  EXPECT_GT(centreOf("technique.source.level").y, centreOf("technique.source").y);
+  EXPECT_LT(centreOf("technique.source.level").y, centreOf("technique.gain").y);
+  click(along("technique.source.level", 0.25F));
+  rest();
+  const ParameterValue level = viewer_->state().setup.technique.given.at("source.level");
+  EXPECT_NEAR(viewer_->state().shown->rendered.at(0).product->at(3, 3), std::get<double>(level), 1e-6);
+
+  click("technique.source");
+  click("technique.source/stepped");
+  rest();
+  EXPECT_FALSE(has("source.level"));
+  EXPECT_TRUE(has("source.steps"));
+  EXPECT_FALSE(viewer_->state().setup.technique.given.count("source.level"));
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).product->at(3, 3), 0.25F);  // step 1 of 4
+
+  // Back to the default alternative by the button beside the choice: its earlier value is there again.
+  click("technique.source.default");
+  rest();
+  EXPECT_EQ(viewer_->state().setup.technique.given.at("source.level"), level);
+
+  viewer_->execute(command::SetParameter{Slot::Technique, "source", "dark"});
+  rest();
+  EXPECT_FALSE(has("source.level") || has("source.steps"));
+}
+
+TEST_F(ViewerUse, GroupsFold) {
+  open(smallSetup("test/alternatives"));
+  rest();
+  ASSERT_TRUE(viewer_->controls().find("technique.gain.factor"));
+  click("technique.gain");
+  draw();
+  EXPECT_FALSE(viewer_->controls().find("technique.gain.factor"));
+  click("technique.gain");
+  draw();
+  EXPECT_TRUE(viewer_->controls().find("technique.gain.factor"));
+}
+
+TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {
+  ViewSetup setup = smallSetup("test/alternatives");
+  setup.technique.given = {{"source", "stepped"}};
+  open(setup);
+  rest();
+  click("technique.source.steps");
+  click("technique.source.steps/8");
+  rest();
+  EXPECT_EQ(viewer_->state().setup.technique.given.at("source.steps"), ParameterValue(int64_t{8}));
+  EXPECT_EQ(viewer_->state().shown->rendered.at(0).product->at(0, 0), 0.125F);
+}
+
+TEST_F(ViewerUse, PredictionsArePaintedOver) {
+  ViewSetup setup = smallSetup("soft_shadows/hard");
+  setup.sizePx = {96, 72};
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
+  open(setup);
   rest();
   for (const Overlay overlay : {Overlay::Thresholds, Overlay::Popping}) {
-    viewer_->predict(overlay);
+    viewer_->execute(command::Predict{overlay});
     rest();
-    ASSERT_TRUE(viewer_->judged() && viewer_->judged()->overlay);
-    EXPECT_EQ(viewer_->judged()->overlay->sizePx, choices.sizePx);
-    EXPECT_THAT(viewer_->judged()->overlayNote, HasSubstr("schwarz_2009"));
+    ASSERT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->overlay);
+    EXPECT_EQ(viewer_->state().evaluated->overlay->sizePx, setup.sizePx);
+    EXPECT_THAT(viewer_->state().evaluated->overlayNote, HasSubstr("schwarz_2009"));
   }
   // Hard edges in place of soft ones are seen.
-  EXPECT_THAT(viewer_->judged()->overlayNote, HasSubstr("popping region"));
+  EXPECT_THAT(viewer_->state().evaluated->overlayNote, HasSubstr("popping region"));
 }
 
 }  // namespace

@@ -87,9 +87,9 @@ TEST_F(PopCli, RegionsAreThoseOfTheWrittenMaps) {
   EXPECT_NEAR(figure(found, "rating"), highest, 1e-5);
   // The logistic of the declared detection model.
   const nlohmann::json& set = found.at("settings");
-  const double guess = set.at("guess_rate"), lapse = set.at("lapse_rate");
-  const double odds =
-      std::exp(-(highest - set.at("rating_midpoint").get<double>()) / set.at("rating_scale_r").get<double>());
+  const double guess = set.at("detection.guess_rate"), lapse = set.at("detection.lapse_rate");
+  const double odds = std::exp(-(highest - set.at("detection.midpoint").get<double>()) /
+                               set.at("detection.scale").get<double>());
   EXPECT_NEAR(figure(found, "detection_probability"), guess + (1.0 - guess - lapse) / (1.0 + odds), 1e-5);
   std::vector<float> values = jnd.data;
   std::sort(values.begin(), values.end());
@@ -197,6 +197,27 @@ TEST_F(PopCli, ResultsStateModelDisplayAndVersion) {
   EXPECT_EQ(found.at("settings").at("minkowski_exponent"), 3.0);
   EXPECT_GE(found.at("model").at("peak_cpd").size(), 1U);
   EXPECT_THAT(call({"pop", "--help"}).out, HasSubstr("minkowski_exponent=2.4"));
+}
+
+TEST_F(PopCli, AlternativesAreSetByPath) {
+  savePair("old.png", "new.png");
+  const auto with = [](const std::vector<std::string>& settings) {
+    std::vector<std::string> words = {"pop", "old.png", "new.png"};
+    for (const std::string& setting : settings) {
+      words.emplace_back("--set");
+      words.push_back(setting);
+    }
+    return words;
+  };
+  const nlohmann::json found = result(with({"adaptation.kind=fixed", "adaptation.luminance_cd_m2=50"}));
+  EXPECT_EQ(found.at("settings").at("adaptation"), "fixed");
+  EXPECT_EQ(found.at("settings").at("adaptation.luminance_cd_m2"), 50.0);
+  EXPECT_EQ(result(with({"adaptation=fixed", "adaptation.luminance_cd_m2=50"})).at("figures"),
+            found.at("figures"));
+  expectRefused(with({"adaptation.luminance_cd_m2=50"}), {"adaptation: fixed"});
+  expectRefused(with({"fixed_luminance_cd_m2=50"}), {"adaptation.luminance_cd_m2"});
+  expectRefused(with({"adaptation=fixd"}), {"'fixed'"});
+  EXPECT_THAT(call({"pop", "--help"}).out, HasSubstr("adaptation.luminance_cd_m2=100"));
 }
 
 TEST_F(PopCli, ASequenceAloneIsEachFrameAgainstTheNext) {

@@ -17,7 +17,7 @@ namespace {
 std::string textValue(const char* value) { return value; }
 
 TEST(ThresholdSettings, NameModelsThatExist) {
-  for (const Parameter& parameter : thresholdMapParameters()) {
+  for (const Parameter& parameter : ThresholdMapSettings::table().parameters()) {
     if (parameter.name == "csf") {
       for (const std::string& name : parameter.choices) EXPECT_NO_THROW(makeCsf(name)) << name;
     }
@@ -31,21 +31,24 @@ TEST(ThresholdSettings, NameModelsThatExist) {
 TEST(ThresholdSettings, DefaultsOfTheDeclarationsAreThoseOfTheStructure) {
   const ThresholdMapSettings declared = settingsOf(), plain;
   EXPECT_EQ(declared.levels, plain.levels);
-  EXPECT_EQ(declared.decomposition, plain.decomposition);
-  EXPECT_EQ(declared.adaptation, plain.adaptation);
-  EXPECT_EQ(declared.frequencyRule, plain.frequencyRule);
-  EXPECT_EQ(declared.peakModel, plain.peakModel);
-  EXPECT_EQ(declared.flatEpsilon, plain.flatEpsilon);
-  EXPECT_EQ(declared.largestCdM2, plain.largestCdM2);
-  EXPECT_EQ(declared.tviFactor, plain.tviFactor);
-  EXPECT_EQ(declared.half, plain.half);
-  EXPECT_THROW(settingsOf({{"downsample", textValue("nine_fetch")}, {"kernel", textValue("burt")}}), Error);
+  EXPECT_EQ(ThresholdMapSettings::table().write(declared), ThresholdMapSettings::table().write(plain));
+  EXPECT_TRUE(std::holds_alternative<UpsampledStack>(declared.decomposition));
+  EXPECT_TRUE(std::holds_alternative<OneDegreeAdaptation>(declared.adaptation));
+}
+
+TEST(ThresholdSettings, WhatMeansNothingCannotBeWritten) {
+  EXPECT_THROW(settingsOf({{"downsample", textValue("nine_fetch")}, {"downsample.centre", 0.4}}), Error);
+  EXPECT_THROW(settingsOf({{"adaptation.level", int64_t{3}}}), Error);
+  EXPECT_THROW(settingsOf({{"frequency_elevation.luminance_cd_m2", 50.0}}), Error);
+  EXPECT_THROW(
+      settingsOf({{"decomposition", textValue("pyramid")}, {"decomposition.upsampler", textValue("expand")}}),
+      Error);
 }
 
 TEST(ThresholdModel, FrequencyElevationsAreThePublishedOnes) {
   // F of Barten 1989 at given frequencies: ppd = frequency / 0.5 puts band 0, whose peak is Nyquist, there.
   const auto f = [](double cpd, double luminance, const char* rule) {
-    const ThresholdModel model(settingsOf({{"f_rule", textValue(rule)}}), 2.0 * cpd, 64, 64);
+    const ThresholdModel model(settingsOf({{"frequency_elevation", textValue(rule)}}), 2.0 * cpd, 64, 64);
     return model.frequencyElevation(0, luminance);
   };
   EXPECT_NEAR(f(5, 100, "actual"), 1.1002899108504425, 1e-6);
@@ -68,8 +71,9 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
     std::vector<std::string> cells;
     std::stringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    const ThresholdModel model(settingsOf({{"f_rule", textValue(original ? "original" : "actual")}}),
-                               2.0 * std::stod(cells[1]), 64, 64);
+    const ThresholdModel model(
+        settingsOf({{"frequency_elevation", textValue(original ? "original" : "actual")}}),
+        2.0 * std::stod(cells[1]), 64, 64);
     const double expected = std::stod(cells[7]);
     EXPECT_NEAR(model.frequencyElevation(0, original ? 7.0 : std::stod(cells[2])) / expected, 1.0, 1e-9)
         << line;
@@ -80,10 +84,10 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
 
 TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
   // Band 2 of the six-tap pyramid at 41.07 ppd peaks at 2.459 cpd.
-  const ThresholdModel one(settingsOf({{"f_low", textValue("one")}}), kStudyPpd, 256, 256);
-  const ThresholdModel computed(
-      settingsOf({{"f_low", textValue("as_computed")}, {"f_rule", textValue("original")}}), kStudyPpd, 256,
-      256);
+  const ThresholdModel one(settingsOf({{"frequency_elevation.low", textValue("one")}}), kStudyPpd, 256, 256);
+  const ThresholdModel computed(settingsOf({{"frequency_elevation", textValue("original")},
+                                            {"frequency_elevation.low", textValue("as_computed")}}),
+                                kStudyPpd, 256, 256);
   EXPECT_NEAR(one.peaks()[2].frequencyCpd(kStudyPpd), 2.459, 0.001);
   EXPECT_EQ(one.frequencyElevation(2, 30.0), 1.0);
   EXPECT_GT(one.frequencyElevation(1, 30.0), 1.0);
@@ -103,18 +107,17 @@ TEST(ThresholdModel, PeakSensitivityIsThatOfTheSearch) {
 
 TEST(ThresholdModel, AdaptationLevelsFollowTheViewingDistance) {
   ThresholdMapSettings settings;
-  settings.adaptation = ThresholdMapSettings::Adaptation::NearestLevel;
+  settings.adaptation = NearestLevelAdaptation{};
   EXPECT_EQ(adaptationBlend(settings, 41.07, 7).level, 5);  // lg2 41.07 = 5.36
   EXPECT_EQ(adaptationBlend(settings, 46.0, 7).level, 6);   // 5.52
   EXPECT_EQ(adaptationBlend(settings, 0.1, 7).level, 0);
   EXPECT_EQ(adaptationBlend(settings, 4096.0, 7).level, 6);
   EXPECT_EQ(adaptationBlend(settings, 41.07, 1).level, 0);
-  settings.adaptation = ThresholdMapSettings::Adaptation::FractionalLevel;
+  settings.adaptation = FractionalLevelAdaptation{};
   EXPECT_EQ(adaptationBlend(settings, 48.0, 7).level, 5);
   EXPECT_NEAR(adaptationBlend(settings, 48.0, 7).next, std::log2(48.0) - 5.0, 1e-12);
   EXPECT_EQ(adaptationBlend(settings, 0.5, 7).next, 0.0);
-  settings.adaptation = ThresholdMapSettings::Adaptation::Level;
-  settings.adaptationLevel = 3;
+  settings.adaptation = GivenLevelAdaptation{3};
   EXPECT_EQ(adaptationBlend(settings, 41.07, 7).level, 3);
 }
 

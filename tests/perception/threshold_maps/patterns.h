@@ -61,9 +61,8 @@ inline std::map<std::string, Plane> adversarialPatterns() {
 }
 
 inline ThresholdMapSettings settingsOf(const std::map<std::string, ParameterValue>& given = {}) {
-  std::vector<Parameter> declared = thresholdMapParameters();
-  for (const Parameter& parameter : thresholdMapGpuParameters()) declared.push_back(parameter);
-  return thresholdMapSettings(ParameterValues(declared, given));
+  return ThresholdMapSettings::table().read(
+      ParameterValues(ThresholdMapSettings::table().parameters(), given));
 }
 
 /// Pixels per degree of the thesis's study: pitch 0.255 mm at 60 cm.

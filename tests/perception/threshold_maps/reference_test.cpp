@@ -21,10 +21,10 @@ TEST(ThresholdMap, OfAFlatFieldIsAFifthOfTheTvi) {
   for (const char* decomposition : {"stack", "pyramid", "true_stack"})
     for (const char* rule : {"original", "actual", "none"})
       for (const char* flat : {"smooth", "exact"}) {
-        const ThresholdMap map = computeThresholdMap(
-            Plane(97, 64, 100.0), kStudyPpd,
-            settingsOf(
-                {{"decomposition", text(decomposition)}, {"f_rule", text(rule)}, {"flat_rule", text(flat)}}));
+        const ThresholdMap map = computeThresholdMap(Plane(97, 64, 100.0), kStudyPpd,
+                                                     settingsOf({{"decomposition", text(decomposition)},
+                                                                 {"frequency_elevation", text(rule)},
+                                                                 {"flat", text(flat)}}));
         // exact: what rounding leaves of the contrasts decides the elevation
         if (text(flat) == "exact") continue;
         for (const double value : map.thresholdCdM2.data)
@@ -39,8 +39,8 @@ TEST(ThresholdMap, EqualsThePlainFormulaWorkedPixelByPixel) {
   const int size = 64;
   const Plane image = picture(size, size);
   const ThresholdMapSettings settings = settingsOf({{"decomposition", text("pyramid")},
-                                                    {"f_rule", text("original")},
-                                                    {"flat_rule", text("exact")},
+                                                    {"frequency_elevation", text("original")},
+                                                    {"flat", text("exact")},
                                                     {"adaptation", text("nearest_level")}});
   const ThresholdMap map = computeThresholdMap(image, kStudyPpd, settings);
   std::vector<std::vector<double>> levels = {image.data};
@@ -97,11 +97,11 @@ TEST(ThresholdMap, IsFiniteForEveryImageAndSetting) {
       {},
       {{"decomposition", text("pyramid")}, {"downsample", text("nine_fetch")}, {"levels", int64_t{9}}},
       {{"decomposition", text("true_stack")}, {"levels", int64_t{5}}},
-      {{"upsampler", text("expand")}, {"kernel", text("burt")}, {"border", text("mirror")}},
-      {{"flat_rule", text("exact")},
-       {"f_rule", text("original")},
+      {{"decomposition.upsampler", text("expand")}, {"downsample", text("burt")}, {"border", text("mirror")}},
+      {{"flat", text("exact")},
+       {"frequency_elevation", text("original")},
        {"adaptation", text("level")},
-       {"adaptation_level", int64_t{0}}},
+       {"adaptation.level", int64_t{0}}},
       {{"masking", text("lubin")}, {"tvi", text("from_csf")}, {"csf", text("barten03")}},
       {{"masking", text("self")}, {"tvi", text("ward_smoothed")}, {"csf", text("daly98")}},
       {{"masking", text("none")}, {"csf", text("martin92")}, {"gain_compensation", true}},
@@ -173,8 +173,9 @@ TEST(ThresholdMap, OfAnImageAtTwiceTheDistanceIsThatOfTheImageShrunk) {
   // Without F, which at 41 cpd magnifies what little of the grating the finest band holds.
   const auto ratio = [&](const char* decomposition) {
     const auto settings = [&](int64_t levels) {
-      return settingsOf(
-          {{"decomposition", text(decomposition)}, {"levels", levels}, {"f_rule", text("none")}});
+      return settingsOf({{"decomposition", text(decomposition)},
+                         {"levels", levels},
+                         {"frequency_elevation", text("none")}});
     };
     return mean(computeThresholdMap(grating(512, 64.0), 2 * kStudyPpd, settings(8))) /
            mean(computeThresholdMap(grating(256, 32.0), kStudyPpd, settings(7)));
@@ -241,11 +242,11 @@ TEST(ThresholdMap, EveryComponentCanBeSwitchedOffAndMatters) {
   const Plane whole = computeThresholdMap(image, kStudyPpd, {}).thresholdCdM2;
   const std::vector<std::map<std::string, ParameterValue>> ablations = {
       {{"masking", text("none")}},
-      {{"f_rule", text("none")}},
-      {{"f_rule", text("original")}},
+      {{"frequency_elevation", text("none")}},
+      {{"frequency_elevation", text("original")}},
       {{"peak_model", text("halving")}},
       {{"gain_compensation", true}},
-      {{"adaptation", text("level")}, {"adaptation_level", int64_t{0}}},
+      {{"adaptation", text("level")}, {"adaptation.level", int64_t{0}}},
       {{"tvi", text("from_csf")}},
       {{"decomposition", text("pyramid")}},
       {{"decomposition", text("true_stack")}},

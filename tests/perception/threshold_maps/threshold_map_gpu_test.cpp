@@ -23,10 +23,11 @@ class ThresholdMapGpuTest : public gl::GlTest {
  protected:
   static DisplayProfile display() { return displayPreset("schwarz_2009"); }
 
-  static Image gpuMap(const Plane& luminance, const ThresholdMapSettings& settings, Image* stages = nullptr) {
+  static Image gpuMap(const Plane& luminance, const ThresholdMapSettings& settings, Image* stages = nullptr,
+                      const ThresholdMapGpuSettings& form = {}) {
     gl::Texture input(gl::Format::R32F, {luminance.width, luminance.height});
     input.write(toImage(luminance));
-    ThresholdMapGpu gpu(context(), input.sizePx(), display(), settings, false);
+    ThresholdMapGpu gpu(context(), input.sizePx(), display(), settings, form, false);
     if (stages) gpu.keepStages();
     gpu.run(input);
     if (stages) *stages = gpu.debugViews().at("stages")->read();
@@ -35,8 +36,8 @@ class ThresholdMapGpuTest : public gl::GlTest {
 
   /// Largest relative error of a pixel's threshold against the double-precision map of the same settings.
   static double largestError(const Plane& luminance, const ThresholdMapSettings& settings,
-                             const std::string& name) {
-    const Image map = gpuMap(luminance, settings);
+                             const std::string& name, const ThresholdMapGpuSettings& form = {}) {
+    const Image map = gpuMap(luminance, settings, nullptr, form);
     const ThresholdMap exact = computeThresholdMap(luminance, display().pixelsPerDegree(), settings);
     double largest = 0.0;
     for (size_t i = 0; i < map.data.size(); ++i) {
@@ -56,11 +57,11 @@ TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
   const std::set<std::string> both = {"faint ramp", "spike in the dark", "prime sizes", "single pixel"};
   for (const auto& [name, image] : adversarialPatterns())
     for (const char* decomposition : {"stack", "pyramid"})
-      for (const char* precision : {"32", "16"}) {
+      for (const int precision : {32, 16}) {
         if (text(decomposition) == "pyramid" && !both.count(name)) continue;
-        const ThresholdMapSettings settings =
-            settingsOf({{"decomposition", text(decomposition)}, {"precision", text(precision)}});
-        EXPECT_LT(largestError(image, settings, name), settings.half ? 0.02 : 0.005)
+        const ThresholdMapSettings settings = settingsOf({{"decomposition", text(decomposition)}});
+        EXPECT_LT(largestError(image, settings, name, {.precision = precision}),
+                  precision == 16 ? 0.02 : 0.005)
             << name << ' ' << decomposition << ' ' << precision;
       }
 }
@@ -71,46 +72,49 @@ TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceForEverySetting) {
   const std::vector<Given> variants = {
       {{"levels", int64_t{3}},
        {"adaptation", text("level")},
-       {"adaptation_level", int64_t{0}},
-       {"f_low", text("one")}},
+       {"adaptation.level", int64_t{0}},
+       {"frequency_elevation.low", text("one")}},
       {{"levels", int64_t{8}}, {"border", text("mirror")}},
-      {{"kernel", text("burt")}, {"burt_a", 0.5}, {"peak_model", text("with_upsample")}},
-      {{"adaptation", text("nearest_level")}, {"f_rule", text("original")}},
-      {{"adaptation", text("fractional_level")}, {"f_rule", text("none")}, {"gain_compensation", true}},
+      {{"downsample", text("burt")}, {"downsample.centre", 0.5}, {"peak_model", text("with_upsample")}},
+      {{"adaptation", text("nearest_level")}, {"frequency_elevation", text("original")}},
+      {{"adaptation", text("fractional_level")},
+       {"frequency_elevation", text("none")},
+       {"gain_compensation", true}},
       {{"masking", text("none")}, {"csf", text("barten03")}, {"tvi", text("from_csf")}},
       {{"masking", text("self")}, {"tvi", text("ward_smoothed")}},
-      {{"masking", text("schwarz")}, {"tvi_factor", 1.0}},
-      {{"lookup", text("direct")}},
-      {{"lookup", text("direct")}, {"f_rule", text("original")}},
-      {{"lookup", text("direct")}, {"f_low", text("one")}}};
+      {{"masking", text("schwarz")}, {"tvi_factor", 1.0}}};
+  const std::vector<Given> direct = {
+      {}, {{"frequency_elevation", text("original")}}, {{"frequency_elevation.low", text("one")}}};
   const Plane image = picture(150, 101);
-  for (const Given& given : variants) {
-    std::string name;
-    for (const auto& [key, value] : given) name += key + " " + toText(value) + " ";
-    EXPECT_LT(largestError(image, settingsOf(given), name), 0.005) << name;
-  }
+  const auto compare = [&](const Given& given, ThresholdLookup lookup) {
+    std::string name = toText(lookup);
+    for (const auto& [key, value] : given) name += " " + key + " " + toText(value);
+    EXPECT_LT(largestError(image, settingsOf(given), name, {.lookup = lookup}), 0.005) << name;
+  };
+  for (const Given& given : variants) compare(given, ThresholdLookup::Tables);
+  for (const Given& given : direct) compare(given, ThresholdLookup::Direct);
 }
 
 TEST_F(ThresholdMapGpuTest, AFlatFieldHasItsExactThreshold) {
   // Every size, every precision: 0.2 10^(2 - 1.255).
   for (const glm::ivec2 size : {glm::ivec2(1, 1), {64, 64}, {101, 67}, {1, 40}})
-    for (const char* precision : {"32", "16"}) {
-      const Image map = gpuMap(Plane(size.x, size.y, 100.0), settingsOf({{"precision", text(precision)}}));
+    for (const int precision : {32, 16}) {
+      const Image map = gpuMap(Plane(size.x, size.y, 100.0), settingsOf(), nullptr, {.precision = precision});
       for (const float value : map.data) ASSERT_NEAR(value, 1.111809, 2e-5);
     }
 }
 
 TEST_F(ThresholdMapGpuTest, LevelsEqualTheDoublePyramid) {
   // However many levels a pass makes; sizes that halve evenly, and sizes that do not.
-  for (const int64_t perPass : {1, 2, 3})
+  for (const int perPass : {1, 2, 3})
     for (const char* border : {"clamp", "mirror"})
       for (const auto& [width, height] : {std::pair(256, 128), {263, 67}, {211, 90}}) {
         const Plane image = noisePattern(width, height);
         gl::Texture input(gl::Format::R32F, {width, height});
         input.write(toImage(image));
-        const ThresholdMapSettings settings =
-            settingsOf({{"levels_per_pass", perPass}, {"border", text(border)}});
-        ThresholdMapGpu gpu(context(), {width, height}, display(), settings, false);
+        const ThresholdMapSettings settings = settingsOf({{"border", text(border)}});
+        ThresholdMapGpu gpu(context(), {width, height}, display(), settings,
+                            {.levelsPerPass = GivenLevels{perPass}}, false);
         gpu.run(input);
         const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
         for (int level = 1; level < gpu.levels(); ++level) {
@@ -127,9 +131,9 @@ TEST_F(ThresholdMapGpuTest, NineFetchesEqualThirtySixTapsWhereSizesAreEven) {
   gl::Texture input(gl::Format::R32F, {128, 64});
   input.write(toImage(image));
   ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
-  ThresholdMapGpu gpu(context(), {128, 64}, display(), settings, false);
+  ThresholdMapGpu gpu(context(), {128, 64}, display(), settings, {}, false);
   gpu.run(input);
-  settings.nineFetch = false;
+  settings.downsample = BinomialKernel{};
   const std::vector<Plane> pyramid = gaussianPyramid(image, settings.pyramid());
   for (int level = 1; level < 5; ++level) {
     const Image read = gpu.debugViews().at("gaussian")->read(level - 1);
@@ -155,7 +159,7 @@ TEST_F(ThresholdMapGpuTest, ColourIsTurnedIntoTheDisplaysLuminance) {
   colour.data[10] = HUGE_VALF;
   gl::Texture input(gl::Format::RGBA32F, {70, 40});
   input.write(colour);
-  ThresholdMapGpu gpu(context(), {70, 40}, display(), settingsOf(), true);
+  ThresholdMapGpu gpu(context(), {70, 40}, display(), settingsOf(), {}, true);
   const Image map = gpu.run(input).read();
   const ThresholdMap exact =
       computeThresholdMap(luminancePlane(colour, display()), display().pixelsPerDegree(), settingsOf());
@@ -191,14 +195,14 @@ TEST_F(ThresholdMapGpuTest, GivesTheSameBytesTwice) {
 }
 
 TEST_F(ThresholdMapGpuTest, RefusesWhatOnlyTheReferenceKnows) {
-  const auto make = [&](const Given& given) {
-    ThresholdMapGpu(context(), {32, 32}, display(), settingsOf(given), false);
+  const auto make = [&](const Given& given, const ThresholdMapGpuSettings& form = {}) {
+    ThresholdMapGpu(context(), {32, 32}, display(), settingsOf(given), form, false);
   };
   EXPECT_THROW(make({{"decomposition", text("true_stack")}}), Error);
   EXPECT_THROW(make({{"decomposition", text("repeated")}}), Error);
   EXPECT_THROW(make({{"adaptation", text("mistaken_degree")}}), Error);
-  EXPECT_THROW(make({{"upsampler", text("expand")}}), Error);
-  EXPECT_THROW(make({{"lookup", text("direct")}, {"csf", text("barten03")}}), Error);
+  EXPECT_THROW(make({{"decomposition.upsampler", text("expand")}}), Error);
+  EXPECT_THROW(make({{"csf", text("barten03")}}, {.lookup = ThresholdLookup::Direct}), Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "renderer/scene/camera_path_file.h"
 #include "renderer/scene/camera_text.h"
+#include "renderer/scene/placement.h"
 #include "tests/renderer/scene/scene_fixtures.h"
 
 namespace limen::scene {
@@ -40,7 +41,7 @@ TEST(CameraParameters, AGivenViewIsTheScenesAndNothingElseChanges) {
   // In place of a still view and of a path alike.
   for (const char* motion : {"still", "walk"}) {
     const Scene own = build("columns_hall", {{"motion", std::string(motion)}});
-    const Scene given = build("columns_hall", {{"motion", std::string(motion)}, {"camera", kView}});
+    const Scene given = build("columns_hall", {{"motion", std::string(motion)}, {"camera", "view"}, {"camera.text", kView}});
     expectSamePath(given.camera, {{{0.0, parseCamera(kView)}}});
     EXPECT_FALSE(given.traits().count("moving_camera"));
     EXPECT_EQ(given.mesh.positions, own.mesh.positions);
@@ -50,7 +51,7 @@ TEST(CameraParameters, AGivenViewIsTheScenesAndNothingElseChanges) {
 }
 
 TEST(CameraParameters, AGivenViewIsInUnitsOfTheBuiltWorld) {
-  const Scene moved = build("columns_hall", {{"camera", kView}, {"scale", 3.0}, {"offset", 10.0}});
+  const Scene moved = build("columns_hall", {{"camera", "view"}, {"camera.text", kView}, {"scale", 3.0}, {"offset", 10.0}});
   expectSamePath(moved.camera, {{{0.0, parseCamera(kView)}}});
 }
 
@@ -59,7 +60,7 @@ TEST(CameraParameters, WhatABuiltScenesCameraSaysGivesTheSameScene) {
   const Given far = {{"offset", 1e6}, {"scale", 1.0 / 3.0}};
   const Scene own = build("columns_hall", far);
   Given given = far;
-  given["camera"] = toText(own.camera.at(0.0));
+  setCamera(given, StillView{toText(own.camera.at(0.0))});
   EXPECT_EQ(build("columns_hall", given).contentHash(), own.contentHash());
 }
 
@@ -68,10 +69,10 @@ TEST(CameraParameters, APathFromAFileReplacesTheScenesAndTimeMovesAlongIt) {
   const std::string file = folder.path() + "/walk.yaml";
   const Scene walk = build("columns_hall", {{"motion", std::string("walk")}});
   writeCameraPath(file, walk.camera);
-  expectSamePath(build("columns_hall", {{"camera_path", file}}).camera, walk.camera);
-  const Scene later = build("columns_hall", {{"camera_path", file}, {"time_s", 2.7}});
+  expectSamePath(build("columns_hall", {{"camera", "path"}, {"camera.file", file}}).camera, walk.camera);
+  const Scene later = build("columns_hall", {{"camera", "path"}, {"camera.file", file}, {"camera.time_s", 2.7}});
   expectSamePath(later.camera,
-                 build("columns_hall", {{"motion", std::string("walk")}, {"time_s", 2.7}}).camera);
+                 build("columns_hall", {{"motion", std::string("walk")}, {"camera.time_s", 2.7}}).camera);
   EXPECT_TRUE(later.traits().count("moving_camera"));
 }
 
@@ -81,27 +82,47 @@ TEST(CameraParameters, CameraForGivesTheVeryPathOfABuiltScene) {
   writeCameraPath(file, build("columns_hall", {{"motion", std::string("walk")}, {"scale", 0.7}}).camera);
   const Given world = {{"motion", std::string("walk")}, {"scale", 1.1}, {"offset", 1e3}};
   const CameraPath built = build("columns_hall", world).camera;
-  for (const Given& chosen : {Given{}, Given{{"time_s", 1.0 / 3.0}}, Given{{"time_s", 3600.0}},
-                              Given{{"camera", kView}}, Given{{"camera", kView}, {"time_s", 1.0}},
-                              Given{{"camera_path", file}}, Given{{"camera_path", file}, {"time_s", 0.1}}}) {
+  for (const Given& chosen : {Given{}, Given{{"camera.time_s", 1.0 / 3.0}}, Given{{"camera.time_s", 3600.0}},
+                              Given{{"camera", "view"}, {"camera.text", kView}},
+                              Given{{"camera", "path"}, {"camera.file", file}}, Given{{"camera", "path"}, {"camera.file", file}, {"camera.time_s", 0.1}}}) {
     Given all = world;
     all.insert(chosen.begin(), chosen.end());
-    expectSamePath(cameraFor(built, complete("columns_hall", all)), build("columns_hall", all).camera);
+    const CameraChoice camera = PlacementSettings::table().read(complete("columns_hall", all)).camera;
+    expectSamePath(cameraFor(built, camera), build("columns_hall", all).camera);
   }
 }
 
-TEST(CameraParameters, RefuseBadOnesAndBothTogether) {
-  EXPECT_THAT(sceneRefusal({{"camera", std::string("walk")}}),
+TEST(CameraParameters, RefuseBadOnes) {
+  EXPECT_THAT(sceneRefusal({{"camera", "view"}, {"camera.text", std::string("walk")}}),
               HasSubstr("camera 'walk': 'walk' stands where"));
-  EXPECT_THAT(sceneRefusal({{"camera", std::string("eye 0 0 1 target 0 0 1")}}), HasSubstr("same point"));
-  EXPECT_THAT(sceneRefusal({{"camera_path", std::string("/nowhere/p.yaml")}}),
-              HasSubstr("'camera_path': /nowhere/p.yaml: no such file"));
+  EXPECT_THAT(sceneRefusal({{"camera", "view"}, {"camera.text", std::string("eye 0 0 1 target 0 0 1")}}), HasSubstr("same point"));
+  EXPECT_THAT(sceneRefusal({{"camera", "path"}, {"camera.file", std::string("/nowhere/p.yaml")}}),
+              HasSubstr("camera.file: /nowhere/p.yaml: no such file"));
   const fixtures::TemporaryFolder folder;
   const std::string file = folder.write("bad.yaml", "camera_path:\n  - {time_s: 0}\n");
-  EXPECT_THAT(sceneRefusal({{"camera_path", file}}), HasSubstr("bad.yaml:2:5: 'eye'"));
-  EXPECT_THAT(sceneRefusal({{"camera", kView}, {"camera_path", file}}), HasSubstr("both given"));
-  EXPECT_THROW(checkCameraParameters(complete("columns_hall", {{"camera", std::string("walk")}})), Error);
-  EXPECT_NO_THROW(checkCameraParameters(complete("columns_hall", {{"camera", kView}})));
+  EXPECT_THAT(sceneRefusal({{"camera", "path"}, {"camera.file", file}}), HasSubstr("bad.yaml:2:5: 'eye'"));
+  const SceneInfo& info = SceneRegistry::instance().get("columns_hall");
+  const auto check = [&](const std::string& view) {
+    info.checkValues(complete("columns_hall", {{"camera", "view"}, {"camera.text", view}}));
+  };
+  EXPECT_THROW(check("walk"), Error);
+  EXPECT_NO_THROW(check(kView));
+}
+
+TEST(CameraParameters, AViewHasNeitherAFileNorATime) {
+  EXPECT_THAT(sceneRefusal({{"camera", "view"}, {"camera.text", kView}, {"camera.file", std::string("a.yaml")}}),
+              HasSubstr("'camera.file' belongs to another choice"));
+  EXPECT_THAT(sceneRefusal({{"camera", "view"}, {"camera.text", kView}, {"camera.time_s", 1.0}}),
+              HasSubstr("'camera.time_s' belongs to another choice"));
+  EXPECT_THAT(sceneRefusal({{"camera.text", kView}}), HasSubstr("it exists with camera: view"));
+}
+
+TEST(CameraParameters, SetCameraReplacesAnyOther) {
+  Given given = {{"camera", "path"}, {"camera.file", std::string("a.yaml")}, {"camera.time_s", 3.0}, {"scale", 2.0}};
+  setCamera(given, StillView{kView});
+  EXPECT_EQ(given, (Given{{"camera", "view"}, {"camera.text", kView}, {"scale", 2.0}}));
+  clearCamera(given);
+  EXPECT_EQ(given, (Given{{"scale", 2.0}}));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using fixtures::build;
 TEST(CommonParameters, AreDeclaredAfterTheScenesOwn) {
   const SceneInfo& info = SceneRegistry::instance().get("card_stack");
   const std::vector<Parameter> all = info.allParameters();
-  ASSERT_EQ(all.size(), info.parameters.size() + 7);
+  ASSERT_EQ(all.size(), info.parameters.size() + 5);
   EXPECT_EQ(all.front().name, "cards");
   EXPECT_EQ(all[info.parameters.size()].name, "scale");
 }
@@ -100,13 +100,13 @@ TEST(CommonParameters, TimeMovesAlongTheCameraPath) {
   EXPECT_TRUE(path.traits().count("moving_camera"));
   EXPECT_EQ(path.camera.keys.front().timeS, 0.0);
   for (const double time : {0.7, 3.5, 7.9, 60.0}) {
-    const Scene later = build("columns_hall", {{"motion", walk}, {"time_s", time}});
+    const Scene later = build("columns_hall", {{"motion", walk}, {"camera.time_s", time}});
     for (const double t : {0.0, 0.4, 2.0})
       EXPECT_NEAR(glm::length(later.camera.at(t).eye - path.camera.at(time + t).eye), 0.0, 1e-12);
     EXPECT_NE(later.contentHash(), path.contentHash());
   }
   // A still camera knows no time.
-  EXPECT_EQ(build("columns_hall", {{"time_s", 3.0}}).contentHash(), build("columns_hall").contentHash());
+  EXPECT_EQ(build("columns_hall", {{"camera.time_s", 3.0}}).contentHash(), build("columns_hall").contentHash());
 }
 
 }  // namespace

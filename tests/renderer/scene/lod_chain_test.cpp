@@ -113,7 +113,7 @@ TEST(SimplifiedChain, MorphTargetsLieOnTheNextLevel) {
 TEST(SimplifiedChain, OfInstalledModelsReachesWhatTheStudyUsed) {
   if (!fixtures::installed("bunny")) GTEST_SKIP() << "the package glmark2-data is not installed";
   for (const double reduction : {0.03, 0.88}) {
-    const Scene scene = build("lod/object", {{"levels", int64_t{2}}, {"reduction", reduction}});
+    const Scene scene = build("lod/object", {{"levels.count", int64_t{2}}, {"levels.reduction", reduction}});
     const LodObject& object = scene.lodObjects[0];
     ASSERT_EQ(object.levels.size(), 2U);
     EXPECT_NEAR(1.0 - double(object.levels[1].triangleCount) / object.levels[0].triangleCount, reduction,
@@ -131,7 +131,7 @@ TEST(SimplifiedChain, LeavesOutWhatCannotBeSimplified) {
 }
 
 TEST(LodScenes, CarryObjectsApartFromTheirBackground) {
-  const Scene scene = build("lod/mesh", {{"objects", int64_t{5}}, {"scale", 3.0}, {"offset", 2.0}});
+  const Scene scene = build("lod/mesh", {{"objects.count", int64_t{5}}, {"scale", 3.0}, {"offset", 2.0}});
   EXPECT_TRUE(scene.traits().count("lod_sets"));
   ASSERT_EQ(scene.lodObjects.size(), 5U);
   for (const LodObject& object : scene.lodObjects) {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
+#include "renderer/techniques/soft_shadows/search_settings.h"
 #include "tests/renderer/frame/depth_pyramid.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -18,7 +19,7 @@ struct Searched {
   Image visibility, receivers, map;
   frame::LightFrustum frustum;
   glm::dvec2 lightSize;
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::map<std::string, double> counters;
 
   PixelClass kind(size_t pixel) const { return static_cast<PixelClass>(counted.work[4 * pixel]); }
@@ -40,8 +41,8 @@ class AccelerationStructures : public TechniqueTest {
     made->prepare(frame);
     frame.begin();
     made->render(frame);
-    const auto& pyramid =
-        frame.get<frame::MinMaxPyramid>(frame::ShadowMapSettings{std::stoi(values.text("resolution"))});
+    const auto& pyramid = frame.get<frame::MinMaxPyramid>(
+        frame::ShadowMapSettings{SearchSettings::table().read(values).map.resolution});
     Searched out{made->product().read(),
                  frame.get<frame::Receivers>().texture().read(),
                  pyramid.minimum().read(),
@@ -51,17 +52,16 @@ class AccelerationStructures : public TechniqueTest {
                  {}};
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
-    out.counted = dynamic_cast<const VisibilityTechnique&>(*made).counted();
+    out.counted = dynamic_cast<const CountsPixels&>(*made).counted();
     return out;
   }
 
   /// A texel blocks a point if its depth is smaller, in float as in double: no biases. The hybrid's layers
   /// have a quarter of the map's resolution.
   static Given unbiased(const std::string& structure, const std::string& gapFill = "none") {
-    Given given = {{"structure", structure}, {"resolution", std::string("256")},
-                   {"budget", int64_t{0}},   {"bias", 0.0},
-                   {"slope_bias", 0.0},      {"gap_fill", gapFill}};
-    if (structure == "ysm") given["ysm_base"] = std::string("64");
+    Given given = {{"structure", structure}, {"resolution", int64_t{256}}, {"budget.limit", int64_t{0}},
+                   {"bias.constant", 0.0},   {"bias.slope", 0.0},          {"occluders.gap_fill", gapFill}};
+    if (structure == "ysm") given["structure.base"] = int64_t{64};
     return given;
   }
 
@@ -137,12 +137,12 @@ TEST_F(AccelerationStructures, CallOnlyThoseLitOrInUmbraThatAre) {
 // visibility is taken as 0: true where their patches leave no gap, that is when they are stretched in all
 // three directions.
 TEST_F(AccelerationStructures, LeaveVisibilityAsItIsWithoutThem) {
-  struct Judged {
+  struct Tried {
     const char* technique;
     double step;  // the least amount by which rounding can change visibility
   };
-  for (const Judged& tried :
-       {Judged{"soft_shadows/backprojection", 1e-5}, Judged{"soft_shadows/bitmask", 1.0 / 256.0}})
+  for (const Tried& tried :
+       {Tried{"soft_shadows/backprojection", 1e-5}, Tried{"soft_shadows/bitmask", 1.0 / 256.0}})
     for (const char* name : {"sphere_grid", "comb", "two_boxes"}) {
       const scene::Scene scene = makeScene(name);
       for (const char* fill : {"none", "left_bottom", "diagonal"}) {
@@ -152,7 +152,7 @@ TEST_F(AccelerationStructures, LeaveVisibilityAsItIsWithoutThem) {
           const Searched searched = search(scene, tried.technique, unbiased(structure, fill), {64, 48});
           int umbra = 0, processed = 0;
           for (size_t i = 0; i < searched.visibility.pixels(); ++i) {
-            // With gaps the umbra is left out, without them it alone is judged.
+            // With gaps the umbra is left out, without them it alone is compared.
             if (hasGaps == (searched.kind(i) == Umbra)) continue;
             ASSERT_NEAR(searched.visibility.data[i], without.visibility.data[i], tried.step + 1e-6)
                 << tried.technique << ' ' << name << ' ' << fill << ' ' << structure << " pixel " << i;
@@ -203,9 +203,9 @@ TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels
       // level 3.
       const Searched searched = search(scene, "soft_shadows/backprojection",
                                        {{"structure", std::string(structure)},
-                                        {"resolution", std::string("1024")},
-                                        {"budget", int64_t{16}},
-                                        {"growth", growth}},
+                                        {"resolution", int64_t{1024}},
+                                        {"budget.limit", int64_t{16}},
+                                        {"structure.growth", growth}},
                                        {192, 144});
       const auto worldOf = [&](size_t i) {
         const float* p = &searched.receivers.data[4 * i];

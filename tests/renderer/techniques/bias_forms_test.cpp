@@ -12,7 +12,7 @@ namespace {
 class BiasForms : public TechniqueTest {
  protected:
   static Image product(const scene::Scene& scene, Given given, glm::ivec2 sizePx = {48, 36}) {
-    given.emplace("resolution", std::string("64"));
+    given.emplace("resolution", int64_t{64});
     return render(scene, "soft_shadows/bitmask", given, sizePx).product;
   }
 
@@ -28,16 +28,16 @@ class BiasForms : public TechniqueTest {
   /// centre misses the plane know nothing of its slope: receivers within the outer 30 % of its extents, more
   /// than a texel of level 4, are left out.
   static double acne(const scene::Scene& scene, int level, double scale, const std::string& occluders) {
-    const Rendered rendered =
-        render(scene, "soft_shadows/bitmask",
-               {{"resolution", std::string("128")},
-                {"gap_fill", std::string(occluders == "micropatches" ? "none" : "left_bottom")},
-                {"occluders", occluders},
-                {"fixed_level", int64_t{level}},
-                {"bias", 1e-5},
-                {"bias_form", std::string("stored")},
-                {"stored_scale", scale}},
-               {96, 72});
+    const Rendered rendered = render(scene, "soft_shadows/bitmask",
+                                     {{"resolution", int64_t{128}},
+                                      {"occluders", occluders},
+                                      {"occluders.gap_fill", std::string("none")},
+                                      {"levels", std::string("fixed")},
+                                      {"levels.level", int64_t{level}},
+                                      {"bias.constant", 1e-5},
+                                      {"bias", std::string("stored")},
+                                      {"bias.scale", scale}},
+                                     {96, 72});
     glm::dvec2 extents(0.0);
     const glm::dmat4 toLight = scene.lights[0].toLightSpace();
     for (const glm::uvec3& triangle : scene.mesh.triangles)
@@ -61,20 +61,26 @@ class BiasForms : public TechniqueTest {
 TEST_F(BiasForms, AConstantIsTheReceiversSlopeWithoutSlope) {
   const scene::Scene scene = makeScene("sphere_grid");
   for (const int64_t level : {0, 2})
-    EXPECT_EQ(product(scene, {{"bias_form", std::string("constant")}, {"fixed_level", level}}).data,
-              product(scene, {{"slope_bias", 0.0}, {"fixed_level", level}}).data);
+    EXPECT_EQ(product(scene, {{"bias", std::string("constant")},
+                              {"levels", std::string("fixed")},
+                              {"levels.level", level}})
+                  .data,
+              product(scene, {{"bias.slope", 0.0}, {"levels", std::string("fixed")}, {"levels.level", level}})
+                  .data);
 }
 
 TEST_F(BiasForms, AConstantForALevelIsThatConstant) {
   // Powers of two, so that products are exact. What is in umbra is told before a level is known.
   const scene::Scene scene = makeScene("two_boxes");
-  const Image grown = product(scene, {{"bias_form", std::string("per_level")},
-                                      {"bias", std::ldexp(1.0, -9)},
-                                      {"bias_growth", 2.0},
-                                      {"fixed_level", int64_t{3}}});
-  const Image plain = product(
-      scene,
-      {{"bias_form", std::string("constant")}, {"bias", std::ldexp(1.0, -6)}, {"fixed_level", int64_t{3}}});
+  const Image grown = product(scene, {{"bias", std::string("per_level")},
+                                      {"bias.constant", std::ldexp(1.0, -9)},
+                                      {"bias.growth", 2.0},
+                                      {"levels", std::string("fixed")},
+                                      {"levels.level", int64_t{3}}});
+  const Image plain = product(scene, {{"bias", std::string("constant")},
+                                      {"bias.constant", std::ldexp(1.0, -6)},
+                                      {"levels", std::string("fixed")},
+                                      {"levels.level", int64_t{3}}});
   int partly = 0;
   for (size_t i = 0; i < grown.pixels(); ++i) {
     if (grown.data[i] == 0.0F) continue;
@@ -125,16 +131,18 @@ TEST_F(BiasForms, StoredOnesSufficeAsTheyAreForALightWithoutExtent) {
 TEST_F(BiasForms, AStoredBiasChangesWhatIsTestedAndNotWhereItLies) {
   // Nothing of a flat card parallel to the light slopes: its biases are zero, its shadow is that of no bias.
   const scene::Scene scene = makeScene("parallel_rectangle");
-  EXPECT_EQ(product(scene, {{"bias_form", std::string("stored")}, {"stored_scale", 16.0}}).data,
-            product(scene, {{"bias_form", std::string("constant")}}).data);
+  EXPECT_EQ(product(scene, {{"bias", std::string("stored")}, {"bias.scale", 16.0}}).data,
+            product(scene, {{"bias", std::string("constant")}}).data);
   // One that leans by a slope of 2 and is tested with its own bias shadows the ground far below it just as
   // well.
   scene::Scene leaning = scene;
   for (glm::dvec3& position : leaning.mesh.positions)
     if (position.y > 0.1) position.y += 0.8 * position.x + 0.5 * position.z;
   EXPECT_EQ(
-      product(leaning, {{"bias_form", std::string("stored")}, {"gap_fill", std::string("diagonal")}}).data,
-      product(leaning, {{"bias_form", std::string("constant")}, {"gap_fill", std::string("diagonal")}}).data);
+      product(leaning, {{"bias", std::string("stored")}, {"occluders.gap_fill", std::string("diagonal")}})
+          .data,
+      product(leaning, {{"bias", std::string("constant")}, {"occluders.gap_fill", std::string("diagonal")}})
+          .data);
 }
 
 }  // namespace

@@ -69,9 +69,9 @@ class AgainstTwin : public TechniqueTest, public testing::WithParamInterface<con
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {48, 36});
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
-    given["resolution"] = std::string("64");
-    given["budget"] = int64_t{0};
-    given["gap_fill"] = std::string(GetParam());
+    given["resolution"] = int64_t{64};
+    given["budget.limit"] = int64_t{0};
+    given["occluders.gap_fill"] = std::string(GetParam());
     const auto made = info.make(ParameterValues(info.parameters, given));
     made->prepare(frame);
     frame.begin();

@@ -30,11 +30,19 @@ class BudgetDrivers : public TechniqueTest {
     return given;
   }
 
+  /// The parameter of a driver that is the most any pixel may take.
+  static std::string most(const std::string& name) {
+    static const std::map<std::string, std::string> kMost = {
+        {"uniform", "limit"}, {"radial", "centre"},   {"masking", "plain"},
+        {"painted", "white"}, {"perceptual", "most"}, {"frame_time", "base.limit"}};
+    return kMost.at(name);
+  }
+
   static Given driver(const std::string& name, const Given& more = {}) {
-    return with({{"resolution", named("128")},
+    return with({{"resolution", int64_t{128}},
                  {"structure", named("mssm")},
-                 {"budget", int64_t{144}},
-                 {"budget_map", named(name)}},
+                 {"budget", named(name)},
+                 {"budget." + most(name), int64_t{144}}},
                 more);
   }
 
@@ -59,7 +67,7 @@ class BudgetDrivers : public TechniqueTest {
     setting.ambient = ambient;
     out.picture = frame.get<frame::Shaded>(setting).texture().read();
     setting.ambient = 0.0;
-    setting.background = glm::vec3(0.0F);
+    setting.background = 0.0;
     out.direct = frame.get<frame::Shaded>(setting).texture().read();
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
@@ -116,9 +124,9 @@ TEST_F(BudgetDrivers, MaskingFollowsTheContrastOfTheWindow) {
   const int radius = 4;
   for (const glm::ivec2 size : {glm::ivec2(80, 60), glm::ivec2(13, 7), glm::ivec2(1, 1)}) {
     const Steered steered = steer(scene,
-                                  driver("masking", {{"masking_radius", int64_t{radius}},
-                                                     {"masking_low_contrast", low},
-                                                     {"masking_high_contrast", high}}),
+                                  driver("masking", {{"budget.radius", int64_t{radius}},
+                                                     {"budget.low_contrast", low},
+                                                     {"budget.high_contrast", high}}),
                                   size);
     int least = 0, most = 0, between = 0;
     for (int y = 0; y < size.y; ++y)
@@ -185,22 +193,22 @@ TEST_F(BudgetDrivers, PaintedIsTheImagesRoots) {
   for (size_t i = 0; i < weights.pixels(); ++i) weights.data[i] = static_cast<float>(i % 25) / 24.0F;
   writeExr(path, weights);
   const scene::Scene scene = hall(0.0);
-  const Steered steered = steer(scene, driver("painted", {{"painted_file", named(path)}}), {24, 18});
+  const Steered steered = steer(scene, driver("painted", {{"budget.file", named(path)}}), {24, 18});
   for (size_t i = 0; i < weights.pixels(); ++i) {
     const double root = 5.0 + 7.0 * weights.data[i];
     ASSERT_NEAR(steered.budgets.data[i], root * root, 1e-4) << i;
   }
   // Other proportions, and no image at all.
-  EXPECT_THROW(steer(scene, driver("painted", {{"painted_file", named(path)}}), {24, 24}), Error);
+  EXPECT_THROW(steer(scene, driver("painted", {{"budget.file", named(path)}}), {24, 24}), Error);
   EXPECT_NO_THROW(steer(
-      scene, driver("painted", {{"painted_file", named(path)}, {"painted_fit", named("cover")}}), {24, 24}));
+      scene, driver("painted", {{"budget.file", named(path)}, {"budget.fit", named("cover")}}), {24, 24}));
   try {
-    steer(scene, driver("painted", {{"painted_file", named(folder() + "/none.png")}}), {24, 18});
+    steer(scene, driver("painted", {{"budget.file", named(folder() + "/none.png")}}), {24, 18});
     FAIL() << "an image that is not there was read";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("none.png"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(refused(driver("painted")), "painted_file");
+  EXPECT_EQ(refused(driver("painted")), "budget.file");
 }
 
 // The map on the GPU keeps its thresholds to 0.5 % and a step of 0.72 % (threshold_map_test.cpp); the budget
@@ -210,7 +218,7 @@ TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
   const double error = 2.0;
   for (const double contrast : {0.0, 0.6}) {
     const scene::Scene scene = hall(contrast);
-    const Given given = driver("perceptual", {{"budget", int64_t{400}}, {"perceptual_error", error}});
+    const Given given = driver("perceptual", {{"budget.most", int64_t{400}}, {"budget.error", error}});
     const Steered steered = steer(scene, given, {90, 61});
     const perception::ThresholdMap reference = perception::computeThresholdMap(
         perception::luminancePlane(steered.picture, display), display.pixelsPerDegree(), {});
@@ -229,7 +237,7 @@ TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
 
 TEST_F(BudgetDrivers, PerceptualSpendsLessWhereMoreIsMasked) {
   const glm::ivec2 size(96, 72);
-  const Given given = driver("perceptual", {{"budget", int64_t{10000}}, {"perceptual_budget", int64_t{1}}});
+  const Given given = driver("perceptual", {{"budget.most", int64_t{10000}}, {"budget.least", int64_t{1}}});
   const Steered plain = steer(hall(0.0), given, size), textured = steer(hall(0.6), given, size);
   // Of ground whose light is the same: what the texture's luminance itself does is not masking.
   double plainSum = 0.0, texturedSum = 0.0;
@@ -245,7 +253,7 @@ TEST_F(BudgetDrivers, PerceptualSpendsLessWhereMoreIsMasked) {
   EXPECT_GT(compared, 500);
   EXPECT_LT(texturedSum, 0.8 * plainSum);
   // A larger error that may be made, or a smaller one that is, never costs more.
-  for (const Given& more : {Given{{"perceptual_thresholds", 2.0}}, Given{{"perceptual_error", 1.0}}}) {
+  for (const Given& more : {Given{{"budget.thresholds", 2.0}}, Given{{"budget.error", 1.0}}}) {
     const Steered fewer = steer(hall(0.0), with(given, more), size);
     int smaller = 0;
     for (size_t i = 0; i < fewer.budgets.pixels(); ++i) {
@@ -267,12 +275,12 @@ TEST_F(BudgetDrivers, FrameTimeEndsAtTheLeastAndAtTheWholeBudget) {
   const scene::Scene scene = hall(0.0);
   const glm::ivec2 size(48, 36);
   const Steered none =
-      steer(scene, driver("frame_time", {{"frame_time_ms", 1e-9}, {"frame_time_budget", int64_t{9}}}), size);
-  EXPECT_TRUE(sameVisibility(none, steer(scene, driver("uniform", {{"budget", int64_t{9}}}), size)));
+      steer(scene, driver("frame_time", {{"budget.target_ms", 1e-9}, {"budget.least", int64_t{9}}}), size);
+  EXPECT_TRUE(sameVisibility(none, steer(scene, driver("uniform", {{"budget.limit", int64_t{9}}}), size)));
   EXPECT_NEAR(none.counters.at("budget_scale"), 9.0 / 144.0, 1e-12);
   EXPECT_GT(none.counters.at("frame_time_error_share"), 1.0);
   EXPECT_EQ(none.counters.at("frame_time_oscillations"), 0.0);
-  const Steered all = steer(scene, driver("frame_time", {{"frame_time_ms", 1e9}}), size);
+  const Steered all = steer(scene, driver("frame_time", {{"budget.target_ms", 1e9}}), size);
   EXPECT_TRUE(sameVisibility(all, steer(scene, driver("uniform"), size)));
   EXPECT_EQ(all.counters.at("budget_scale"), 1.0);
   EXPECT_LT(all.counters.at("frame_time_error_share"), 0.0);
@@ -281,28 +289,29 @@ TEST_F(BudgetDrivers, FrameTimeEndsAtTheLeastAndAtTheWholeBudget) {
 TEST_F(BudgetDrivers, FrameTimeScalesAnotherMap) {
   const scene::Scene scene = hall(0.0);
   const glm::ivec2 size(48, 36);
-  const Given radial = {{"radial_budget", int64_t{16}}};
-  const Steered base = steer(scene, driver("radial", radial), size);
-  const Given least = {{"frame_time_ms", 1e-9}, {"frame_time_budget", int64_t{36}}};
-  const Given scaled =
-      driver("frame_time", with(with(radial, least), {{"frame_time_base", named("radial")}}));
+  const Steered base = steer(scene, driver("radial", {{"budget.rim", int64_t{16}}}), size);
+  Given scaled = driver("frame_time", {{"budget.target_ms", 1e-9},
+                                       {"budget.least", int64_t{36}},
+                                       {"budget.base", named("radial")},
+                                       {"budget.base.centre", int64_t{144}},
+                                       {"budget.base.rim", int64_t{16}}});
+  scaled.erase("budget.base.limit");
   Given whole = scaled;
-  whole["frame_time_dither"] = false;
+  whole["budget.dither"] = false;
   const Steered held = steer(scene, whole, size);
   // A quarter, but no less than 36, and what is below is left alone.
   for (size_t i = 0; i < base.budgets.pixels(); ++i)
     ASSERT_NEAR(held.budgets.data[i],
                 std::max(0.25 * base.budgets.data[i], std::min(36.0, double{base.budgets.data[i]})), 1e-3);
-  EXPECT_EQ(refused(driver("frame_time", radial)), "radial_budget");
+  EXPECT_EQ(refused(driver("frame_time", {{"budget.base.rim", int64_t{16}}})), "budget.base.rim");
   EXPECT_EQ(refused(scaled), "");
 }
 
 // Roots of 30 are 5 or 6, and 5.477 on the mean; the sequence is spread so evenly that 1728 pixels are off by
 // less than some ten of them.
 TEST_F(BudgetDrivers, FrameTimeDithersBetweenWholeRoots) {
-  const Steered steered =
-      steer(hall(0.0), driver("frame_time", {{"frame_time_ms", 1e-9}, {"frame_time_budget", int64_t{30}}}),
-            {48, 36});
+  const Steered steered = steer(
+      hall(0.0), driver("frame_time", {{"budget.target_ms", 1e-9}, {"budget.least", int64_t{30}}}), {48, 36});
   double sum = 0.0;
   for (const float budget : steered.budgets.data) {
     ASSERT_TRUE(budget == 25.0F || budget == 36.0F) << budget;
@@ -325,8 +334,8 @@ TEST_F(BudgetDrivers, MapsStayWithinTheirBoundsWhateverTheScene) {
       SCOPED_TRACE(testing::Message() << tried.scene << ' ' << tried.sizePx.x << ' ' << name);
       Given given = driver(name, {{"passes", named("split")}, {"levels", named("blend")}});
       if (name == "painted")
-        given = with(given, {{"painted_file", named(path)}, {"painted_fit", named("stretch")}});
-      if (name == "frame_time") given["frame_time_settle_frames"] = int64_t{3};
+        given = with(given, {{"budget.file", named(path)}, {"budget.fit", named("stretch")}});
+      if (name == "frame_time") given["budget.settle_frames"] = int64_t{3};
       const Steered steered = steer(scene, given, tried.sizePx);
       for (const float budget : steered.budgets.data) {
         ASSERT_GE(budget, 25.0F - 1e-4F);
@@ -341,15 +350,17 @@ TEST_F(BudgetDrivers, MapsStayWithinTheirBoundsWhateverTheScene) {
 }
 
 TEST_F(BudgetDrivers, RefuseWhatDoesNotGoTogether) {
-  EXPECT_EQ(refused(driver("masking", {{"masking_budget", int64_t{400}}})), "masking_budget");
-  EXPECT_EQ(refused(driver("masking", {{"masking_high_contrast", 0.01}})), "masking_high_contrast");
-  EXPECT_EQ(refused(driver("perceptual", {{"budget", int64_t{0}}})), "budget");
-  EXPECT_EQ(refused(driver("uniform", {{"perceptual_error", 0.1}})), "perceptual_error");
-  EXPECT_EQ(refused(driver("frame_time", {{"frame_time_base", named("painted")}})), "painted_file");
-  EXPECT_EQ(refused(driver("frame_time", {{"budget", int64_t{9}}})), "frame_time_budget");
-  EXPECT_EQ(refused(driver("masking", {{"budget", int64_t{256}}, {"fixed_level", int64_t{2}}})),
-            "budget_map");
+  EXPECT_EQ(refused(driver("masking", {{"budget.masked", int64_t{400}}})), "budget.masked");
+  EXPECT_EQ(refused(driver("masking", {{"budget.high_contrast", 0.01}})), "budget.high_contrast");
+  EXPECT_EQ(refused(driver("frame_time", {{"budget.base.limit", int64_t{9}}})), "budget.least");
+  EXPECT_EQ(refused(driver("masking", {{"levels", named("fixed")}, {"levels.level", int64_t{2}}})), "budget");
   EXPECT_EQ(refused(driver("frame_time")), "");
+  // Cannot be written: no limit at all, what belongs to another driver, no picture.
+  EXPECT_EQ(refused(driver("perceptual", {{"budget.most", int64_t{0}}})), "budget.most");
+  EXPECT_EQ(refused(driver("uniform", {{"budget.error", 0.1}})), "budget.error");
+  Given painted = driver("frame_time", {{"budget.base", named("painted")}});
+  painted.erase("budget.base.limit");
+  EXPECT_EQ(refused(painted), "budget.base.file");
 }
 
 }  // namespace

@@ -37,13 +37,13 @@ class Contours : public TechniqueTest {
   }
 
   static Rendered shadows(const scene::Scene& scene, Given given) {
-    given["resolution"] = std::to_string(kContourMapSize);
-    given["budget"] = int64_t{0};
+    given["resolution"] = int64_t{kContourMapSize};
+    given["budget.limit"] = int64_t{0};
     return render(scene, "soft_shadows/backprojection", given, {64, 48});
   }
 
   static Rendered contours(const scene::Scene& scene, double inset) {
-    return shadows(scene, {{"occluders", std::string("contours")}, {"contour_inset", inset}});
+    return shadows(scene, {{"occluders", std::string("contours")}, {"occluders.inset", inset}});
   }
 
   /// Calls `found(x, z, visibility)` for each pixel that shows the ground.

@@ -101,9 +101,9 @@ class HsmWalk : public TechniqueTest {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {36, 27});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/hsm_traversal");
-    given["resolution"] = std::string("64");
+    given["resolution"] = int64_t{64};
     const bool bitmask = given.contains("accumulation");
-    if (bitmask) given["pattern"] = std::string("regular_16");
+    if (bitmask) given["accumulation.pattern"] = std::string("regular_16");
     const ParameterValues values(info.parameters, given);
     const auto made = info.make(values);
     made->prepare(frame);
@@ -114,8 +114,8 @@ class HsmWalk : public TechniqueTest {
                   {},
                   pyramid.frustum(),
                   scene.lights[0].size,
-                  values.boolean("blocks"),
-                  static_cast<int>(values.integer("finest_level"))};
+                  *values.find("blocks") != ParameterValue("none"),
+                  static_cast<int>(std::get<int64_t>(*values.find("finest_level")))};
     for (int level = 0; level < pyramid.levels(); ++level) {
       twin.minima.push_back(pyramid.minimum().read(level));
       if (level > 0) twin.maxima.push_back(pyramid.maximum().read(level - 1));
@@ -152,7 +152,8 @@ TEST_F(HsmWalk, TakesTheTilesOfTheRecursion) {
   const scene::Scene boxes = makeScene("two_boxes"),
                      spheres = makeScene("sphere_grid", {{"tessellation", int64_t{5}}});
   for (const scene::Scene* scene : {&boxes, &spheres})
-    for (const Given& given : {Given{}, Given{{"finest_level", int64_t{2}}}, Given{{"blocks", false}}}) {
+    for (const Given& given :
+         {Given{}, Given{{"finest_level", int64_t{2}}}, Given{{"blocks", std::string("none")}}}) {
       const Compared area = compare(*scene, given, true);
       EXPECT_GT(area.partly, 50) << scene->name;
       // A tile within float rounding of the shaft's side may be one block or four tiles.
@@ -167,7 +168,7 @@ TEST_F(HsmWalk, WithoutBlocksIsTheSumOverAllTexels) {
   const scene::Scene boxes = makeScene("two_boxes"), big = makeScene("box_under_light");
   for (const scene::Scene* scene : {&boxes, &big})
     for (const char* accumulation : {"area", "bitmask"}) {
-      Given given = {{"blocks", false}};
+      Given given = {{"blocks", std::string("none")}};
       if (accumulation == std::string("bitmask")) given["accumulation"] = std::string("bitmask");
       const Compared result = compare(*scene, given, false);
       EXPECT_GT(result.partly, 50) << scene->name;
@@ -180,9 +181,9 @@ TEST_F(HsmWalk, BlocksSaveNodesAndCostNothingOnAFlatCaster) {
   // All texels of the rectangle are at one depth, so a block is what its texels are, up to the rounding of
   // the sum of 62 x 62 areas.
   const scene::Scene scene = makeScene("parallel_rectangle");
-  Given given = {{"resolution", std::string("64")}};
+  Given given = {{"resolution", int64_t{64}}};
   const Rendered blocks = render(scene, "soft_shadows/hsm_traversal", given, {40, 30}, true);
-  given["blocks"] = false;
+  given["blocks"] = std::string("none");
   const Rendered texels = render(scene, "soft_shadows/hsm_traversal", given, {40, 30}, true);
   for (size_t i = 0; i < blocks.product.pixels(); ++i)
     ASSERT_NEAR(blocks.product.data[i], texels.product.data[i], 62.0 * 62.0 * 0x1p-24) << i;

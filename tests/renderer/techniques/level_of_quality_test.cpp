@@ -7,7 +7,8 @@
 #include <cstring>
 
 #include "experiments/base/error.h"
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
+#include "renderer/techniques/soft_shadows/search_settings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -20,7 +21,7 @@ struct Graded {
   Image visibility, receivers, depth;
   Image levels;                 // of the split form: first channel
   std::vector<uint32_t> areas;  // of the split form
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::map<std::string, double> counters;
   std::vector<std::string> passes;
   std::vector<Image> pyramid;
@@ -59,14 +60,14 @@ class LevelsOfQuality : public TechniqueTest {
       if (pass.ran) out.passes.push_back(pass.name);
     out.depth =
         frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture().read();
-    const auto& pyramid =
-        frame.get<frame::MinMaxPyramid>(frame::ShadowMapSettings{std::stoi(values.text("resolution"))});
+    const auto& pyramid = frame.get<frame::MinMaxPyramid>(
+        frame::ShadowMapSettings{SearchSettings::table().read(values).map.resolution});
     for (int level = 0; level < pyramid.levels(); ++level)
       out.pyramid.push_back(pyramid.minimum().read(level));
     out.frustum = pyramid.frustum();
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
-    out.counted = dynamic_cast<const VisibilityTechnique&>(*made).counted();
+    out.counted = dynamic_cast<const CountsPixels&>(*made).counted();
     return out;
   }
 
@@ -77,9 +78,11 @@ class LevelsOfQuality : public TechniqueTest {
 
   static ParameterValue text(const char* value) { return std::string(value); }
 
+  static Given unsmoothed() { return {{"passes", text("split")}, {"passes.smoothing", text("none")}}; }
+
   /// Some pixels of all classes, several levels among the processed ones.
   static Given common() {
-    return {{"resolution", text("256")}, {"budget", int64_t{36}}, {"structure", text("mssm")}};
+    return {{"resolution", int64_t{256}}, {"budget.limit", int64_t{36}}, {"structure", text("mssm")}};
   }
 };
 
@@ -93,32 +96,34 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     Given given;
     glm::ivec2 sizePx;
   };
-  const Given blended = {{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}};
+  const Given blended = {{"levels", text("blend")}};
   const std::vector<Tried> all = {
       {kArea, {}, {64, 48}},
       {kArea, blended, {61, 45}},
       {kArea,
-       with(blended, {{"levels", text("dither")}, {"level_source", text("filtered_depth")}}),
+       with(blended, {{"levels", text("dither")}, {"levels.source", text("filtered_depth")}}),
        {64, 48}},
       {kArea, {{"structure", text("hsm")}, {"occluders", text("microquads")}}, {64, 48}},
-      {kArea, {{"budget_map", text("radial")}, {"radial_budget", int64_t{4}}}, {64, 48}},
+      {kArea,
+       {{"budget", text("radial")}, {"budget.centre", int64_t{36}}, {"budget.rim", int64_t{4}}},
+       {64, 48}},
       {"soft_shadows/bitmask", blended, {64, 48}},
       {kArea, {}, {13, 7}},
       {kArea, {}, {1, 1}}};
   const scene::Scene scene = makeScene("sphere_grid");
   for (const Tried& tried : all) {
     SCOPED_TRACE(testing::Message() << tried.technique << ' ' << tried.sizePx.x);
-    const Given given = with(common(), tried.given);
+    Given given = with(common(), tried.given);
+    if (given.count("budget")) given.erase("budget.limit");
     const Graded single = grade(scene, tried.technique, given, tried.sizePx);
-    const Graded split =
-        grade(scene, tried.technique, with(given, {{"passes", text("split")}}), tried.sizePx);
+    const Graded split = grade(scene, tried.technique, with(given, unsmoothed()), tried.sizePx);
     EXPECT_TRUE(sameBits(single.visibility.data, split.visibility.data));
     EXPECT_EQ(single.counted.work, split.counted.work);
     EXPECT_EQ(single.counted.search, split.counted.search);
     if (tried.given.empty()) {
-      const Graded ordered =
-          grade(scene, tried.technique,
-                with(given, {{"passes", text("split")}, {"work_order", text("loop_length")}}), tried.sizePx);
+      const Graded ordered = grade(
+          scene, tried.technique,
+          with(given, {{"passes", text("split")}, {"passes.order", text("loop_length")}}), tried.sizePx);
       EXPECT_TRUE(sameBits(single.visibility.data, ordered.visibility.data));
       EXPECT_EQ(single.counted.work, ordered.counted.work);
     }
@@ -136,7 +141,7 @@ TEST_F(LevelsOfQuality, EachPassHasItsName) {
   const auto ran = [&](const Graded& graded, const std::string& name) {
     return std::count(graded.passes.begin(), graded.passes.end(), std::string(kArea) + name);
   };
-  const Given split = {{"passes", text("split")}, {"resolution", text("64")}};
+  const Given split = {{"passes", text("split")}, {"resolution", int64_t{64}}};
   const Graded hard = grade(scene, kArea, split, {16, 16});
   EXPECT_EQ(ran(hard, "/classify"), 1);
   EXPECT_EQ(ran(hard, "/smooth"), 0);
@@ -145,7 +150,7 @@ TEST_F(LevelsOfQuality, EachPassHasItsName) {
   EXPECT_EQ(ran(grade(scene, kArea, with(split, {{"levels", text("blend")}}), {16, 16}), "/smooth"), 1);
   // All levels are 0 without a limit: nothing to smooth.
   const Graded unlimited =
-      grade(scene, kArea, with(split, {{"levels", text("blend")}, {"budget", int64_t{0}}}), {16, 16});
+      grade(scene, kArea, with(split, {{"levels", text("blend")}, {"budget.limit", int64_t{0}}}), {16, 16});
   EXPECT_EQ(ran(unlimited, "/smooth"), 0);
 }
 
@@ -184,15 +189,17 @@ bool occludedArea(const Graded& graded, glm::dvec2 lightSize, size_t pixel, int 
 TEST_F(LevelsOfQuality, BlendsWhatBothLevelsGiveOnTheirOwn) {
   const scene::Scene scene = makeScene("sphere_grid");
   const double bias = 0.002;
-  const Given given = with(
-      common(), {{"passes", text("split")}, {"gap_fill", text("none")}, {"bias", bias}, {"slope_bias", 0.0}});
+  const Given given = with(common(), {{"passes", text("split")},
+                                      {"occluders.gap_fill", text("none")},
+                                      {"bias.constant", bias},
+                                      {"bias.slope", 0.0}});
   struct Tried {
     const char* levels;
     double width;  // of the zone in which levels are blended
   };
   for (const Tried& tried : {Tried{"blend", 1.0}, Tried{"narrow_blend", 0.5}}) {
     Given chosen = with(given, {{"levels", text(tried.levels)}});
-    if (tried.width < 1.0) chosen["blend_width"] = tried.width;
+    if (tried.width < 1.0) chosen["levels.width"] = tried.width;
     const Graded graded = grade(scene, kArea, chosen, {64, 48});
     int blended = 0, single = 0;
     for (size_t i = 0; i < graded.visibility.pixels(); ++i) {
@@ -270,16 +277,16 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
   const scene::Scene scene = makeScene("sphere_grid");
   const Given given = with(common(), {{"passes", text("split")}, {"levels", text("blend")}});
   for (const glm::ivec2 size : {glm::ivec2(64, 48), glm::ivec2(13, 7)}) {
-    const Graded before = grade(scene, kArea, with(given, {{"smoothing_radius", int64_t{0}}}), size);
+    const Graded before = grade(scene, kArea, with(given, unsmoothed()), size);
     std::vector<double> levels;
     for (size_t i = 0; i < before.visibility.pixels(); ++i)
       levels.push_back(before.kind(i) == Processed ? double{before.level(i)} : -1.0);
     for (const int radius : {1, 10}) {
       const double sigma = 0.6 * radius, threshold = 0.0203;
       const Graded after = grade(scene, kArea,
-                                 with(given, {{"smoothing_radius", int64_t{radius}},
-                                              {"smoothing_sigma", sigma},
-                                              {"depth_threshold", threshold}}),
+                                 with(given, {{"passes.smoothing.radius", int64_t{radius}},
+                                              {"passes.smoothing.sigma", sigma},
+                                              {"passes.smoothing.depth_threshold", threshold}}),
                                  size);
       const std::vector<double> expected = smoothed(before, levels, radius, sigma, threshold);
       double most = 0.0;
@@ -302,8 +309,8 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
 TEST_F(LevelsOfQuality, KeepsToFiveBudgetsOfOccluders) {
   const scene::Scene scene = makeScene("sphere_grid");
   for (const int64_t root : {3, 5, 12}) {
-    const Given given = with(common(), {{"budget", root * root}, {"levels", text("blend")}});
-    const Graded graded = grade(scene, kArea, with(given, {{"smoothing_radius", int64_t{0}}}), {64, 48});
+    const Given given = with(common(), {{"budget.limit", root * root}, {"levels", text("blend")}});
+    const Graded graded = grade(scene, kArea, given, {64, 48});
     const auto bound = static_cast<uint32_t>((root + 2) * (root + 2) + (2 * root + 2) * (2 * root + 2));
     uint32_t most = 0;
     for (size_t i = 0; i < graded.visibility.pixels(); ++i) {
@@ -329,10 +336,10 @@ TEST_F(LevelsOfQuality, HardChoicesEncloseTheRealLevel) {
   const scene::Scene scene = makeScene("sphere_grid");
   const auto render = [&](const Given& more) { return grade(scene, kArea, with(common(), more), {64, 48}); };
   // Without growth, search areas do not depend on levels.
-  const Given fixed = {{"growth", false}};
+  const Given fixed = {{"structure.growth", false}};
   const Graded within = render(with(fixed, {{"levels", text("finest_within")}}));
   const Graded over = render(with(fixed, {{"levels", text("coarsest_over")}}));
-  const Graded real = render(with(fixed, {{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}}));
+  const Graded real = render(with(fixed, {{"levels", text("blend")}}));
   int between = 0;
   for (size_t i = 0; i < real.visibility.pixels(); ++i) {
     ASSERT_EQ(real.kind(i), within.kind(i));
@@ -355,19 +362,20 @@ TEST_F(LevelsOfQuality, BudgetMapsGiveEachPixelWhatItsBudgetGives) {
   const scene::Scene scene = makeScene("sphere_grid");
   const glm::ivec2 size(64, 48);
   for (const char* levels : {"finest_within", "blend"}) {
-    Given given = with(common(), {{"levels", text(levels)}, {"passes", text("split")}});
-    if (std::string(levels) == "blend") given["smoothing_radius"] = int64_t{0};
+    Given given = with(with(common(), unsmoothed()), {{"levels", text(levels)}});
+    given.erase("budget.limit");
     const auto render = [&](const Given& more) { return grade(scene, kArea, with(given, more), size); };
-    const Graded centre = render({{"budget", int64_t{49}}}), rim = render({{"budget", int64_t{9}}});
+    const Graded centre = render({{"budget.limit", int64_t{49}}}),
+                 rim = render({{"budget.limit", int64_t{9}}});
     const Graded same =
-        render({{"budget", int64_t{49}}, {"budget_map", text("radial")}, {"radial_budget", int64_t{49}}});
+        render({{"budget", text("radial")}, {"budget.centre", int64_t{49}}, {"budget.rim", int64_t{49}}});
     EXPECT_TRUE(sameBits(same.visibility.data, centre.visibility.data)) << levels;
     const double inner = 0.3, outer = 0.5;
-    const Graded map = render({{"budget", int64_t{49}},
-                               {"budget_map", text("radial")},
-                               {"radial_budget", int64_t{9}},
-                               {"radial_inner", inner},
-                               {"radial_outer", outer}});
+    const Graded map = render({{"budget", text("radial")},
+                               {"budget.centre", int64_t{49}},
+                               {"budget.rim", int64_t{9}},
+                               {"budget.inner", inner},
+                               {"budget.outer", outer}});
     int inside = 0, outside = 0;
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
@@ -393,7 +401,7 @@ TEST_F(LevelsOfQuality, SmallerBudgetsProcessMorePixels) {
   double last = 1.0;
   for (const int64_t budget : {25, 144, 0}) {
     const Given given =
-        with(common(), {{"budget", budget}, {"passes", text("split")}, {"levels", text("blend")}});
+        with(common(), {{"budget.limit", budget}, {"passes", text("split")}, {"levels", text("blend")}});
     const double share = grade(scene, kArea, given, {96, 72}).counters.at("processed_share");
     EXPECT_LT(share, last) << budget;
     last = share;
@@ -403,21 +411,23 @@ TEST_F(LevelsOfQuality, SmallerBudgetsProcessMorePixels) {
 
 TEST_F(LevelsOfQuality, StayFiniteWhereThereIsLittleOrAllToDo) {
   struct Tried {
-    const char *scene, *resolution, *structure;
+    const char* scene;
+    int64_t resolution;
+    const char* structure;
     glm::ivec2 sizePx;
   };
   for (const Tried& tried :
-       {Tried{"two_boxes", "1", "hsm", {13, 7}}, Tried{"two_boxes", "2", "mssm", {1, 1}},
-        Tried{"two_boxes", "64", "none", {17, 9}}, Tried{"degenerate_soup", "64", "ysm", {33, 9}},
-        Tried{"half_plane", "64", "mssm", {1, 40}}}) {
+       {Tried{"two_boxes", 1, "hsm", {13, 7}}, Tried{"two_boxes", 2, "mssm", {1, 1}},
+        Tried{"two_boxes", 64, "none", {17, 9}}, Tried{"degenerate_soup", 64, "ysm", {33, 9}},
+        Tried{"half_plane", 64, "mssm", {1, 40}}}) {
     const scene::Scene scene = makeScene(tried.scene);
     for (const int64_t budget : {0, 1, 25}) {
       Given given = {{"passes", text("split")},
                      {"levels", text("blend")},
-                     {"budget", budget},
-                     {"resolution", text(tried.resolution)},
+                     {"budget.limit", budget},
+                     {"resolution", tried.resolution},
                      {"structure", text(tried.structure)}};
-      if (std::string(tried.structure) == "ysm") given["ysm_base"] = text("64");
+      if (std::string(tried.structure) == "ysm") given["structure.base"] = int64_t{64};
       const Graded graded = grade(scene, kArea, given, tried.sizePx);
       for (const float value : graded.visibility.data) {
         ASSERT_GE(value, 0.0F) << tried.scene;
@@ -443,30 +453,36 @@ TEST_F(LevelsOfQuality, NothingToProcessLeavesAllLit) {
       for (uint32_t i = 0; i < part.triangleCount; ++i)
         empty.mesh.triangles[part.firstTriangle + i] = glm::uvec3(empty.mesh.triangles[part.firstTriangle].x);
   const Graded graded =
-      grade(empty, kArea, {{"passes", text("split")}, {"levels", text("blend")}, {"resolution", text("64")}},
+      grade(empty, kArea, {{"passes", text("split")}, {"levels", text("blend")}, {"resolution", int64_t{64}}},
             {20, 20});
   for (const float value : graded.visibility.data) ASSERT_EQ(value, 1.0F);
   EXPECT_EQ(graded.counters.at("processed_share"), 0.0);
   EXPECT_EQ(graded.counters.at("examined_per_px"), 0.0);
 }
 
-TEST_F(LevelsOfQuality, RefusesWhatDoesNotGoTogether) {
-  const auto refused = [](const Given& given) {
-    const std::optional<Error> error = refusal(kArea, given);
-    return error ? error->where() : std::string();
+TEST_F(LevelsOfQuality, WhatBelongsToAnotherChoiceCannotBeWritten) {
+  const auto known = [](const Given& given) {
+    try {
+      const ParameterValues values(TechniqueRegistry::instance().get(kArea).parameters, given);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
   };
-  EXPECT_EQ(refused({{"levels", text("blend")}}), "smoothing_radius");
-  EXPECT_EQ(refused({{"levels", text("blend")}, {"passes", text("split")}}), "");
-  EXPECT_EQ(refused({{"levels", text("blend")}, {"smoothing_radius", int64_t{0}}}), "");
-  EXPECT_EQ(refused({{"smoothing_radius", int64_t{3}}}), "smoothing_radius");
-  EXPECT_EQ(refused({{"blend_width", 0.2}}), "blend_width");
-  EXPECT_EQ(refused({{"work_order", text("loop_length")}}), "work_order");
-  EXPECT_EQ(refused({{"smoothing_sigma", 1.0}}), "smoothing_sigma");
-  EXPECT_EQ(refused({{"depth_threshold", 0.5}}), "depth_threshold");
-  EXPECT_EQ(refused({{"level_source", text("filtered_depth")}}), "level_source");
-  EXPECT_EQ(refused({{"radial_inner", 0.5}}), "radial_inner");
-  EXPECT_EQ(refused({{"budget_map", text("radial")}, {"radial_inner", 2.0}}), "radial_outer");
-  EXPECT_EQ(refused({{"budget_map", text("radial")}, {"budget", int64_t{0}}}), "budget");
+  EXPECT_TRUE(known({{"levels", text("blend")}}));
+  EXPECT_TRUE(known({{"levels", text("blend")}, {"passes", text("split")}}));
+  EXPECT_TRUE(known({{"passes", text("split")}, {"passes.smoothing.radius", int64_t{3}}}));
+  // Levels are smoothed between passes, and only real ones follow from a source.
+  EXPECT_FALSE(known({{"passes.smoothing.radius", int64_t{3}}}));
+  EXPECT_FALSE(known({{"passes.order", text("loop_length")}}));
+  EXPECT_FALSE(known({{"levels", text("blend")}, {"levels.width", 0.2}}));
+  EXPECT_FALSE(known({{"levels.source", text("filtered_depth")}}));
+  EXPECT_FALSE(known({{"budget.inner", 0.5}}));
+  // A rim needs a budget to fall from.
+  EXPECT_FALSE(known({{"budget", text("radial")}, {"budget.centre", int64_t{0}}}));
+  const std::optional<Error> error = refusal(kArea, {{"budget", text("radial")}, {"budget.inner", 2.0}});
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->where(), "budget.outer");
 }
 
 }  // namespace

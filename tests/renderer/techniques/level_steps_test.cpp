@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -22,7 +22,7 @@ constexpr glm::ivec2 kStepSize(48, 36);
 struct Stepped {
   Image visibility, afterwards;  // the product before and after counting
   Image positions, normals;
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::optional<LevelSteps> steps;
   std::map<std::string, double> counters;
 
@@ -43,7 +43,7 @@ class LevelStep : public TechniqueTest {
   /// Without a structure a pixel's search area is the same whatever its level, and all pixels that see the
   /// map are processed: a render of one level for all says what any pixel has of it.
   static Given common() {
-    return {{"resolution", text("128")}, {"structure", text("none")}, {"refinements", int64_t{0}}};
+    return {{"resolution", int64_t{128}}, {"structure", text("none")}, {"refinements", int64_t{0}}};
   }
   static Given with(Given given, const Given& more) {
     for (const auto& [name, value] : more) given[name] = value;
@@ -76,7 +76,7 @@ class LevelStep : public TechniqueTest {
       }
     }
     out.afterwards = made->product().read();
-    const auto& search = dynamic_cast<const OccluderSearch&>(*made);
+    const auto& search = dynamic_cast<const SearchTechnique&>(*made);
     out.counted = search.counted();
     out.steps = search.levelSteps();
     return out;
@@ -87,7 +87,8 @@ class LevelStep : public TechniqueTest {
     static std::map<std::pair<std::string, int>, Image> known;
     Image& image = known[{technique, level}];
     if (image.data.empty())
-      image = render(makeScene("sphere_grid"), technique, with(common(), {{"fixed_level", int64_t{level}}}),
+      image = render(makeScene("sphere_grid"), technique,
+                     with(common(), {{"levels", std::string("fixed")}, {"levels.level", int64_t{level}}}),
                      kStepSize)
                   .product;
     return image;
@@ -126,19 +127,18 @@ TEST_F(LevelStep, IsWhatUniformLevelsDifferBy) {
     const char *technique, *levels;
     Given given;
   };
-  const Given alone = {{"smoothing_radius", int64_t{0}}};
   const std::vector<Tried> all = {{kByArea, "finest_within", {}},
-                                  {kByArea, "narrow_blend", alone},
-                                  {kByArea, "dither", alone},
+                                  {kByArea, "narrow_blend", {}},
+                                  {kByArea, "dither", {}},
                                   {kByArea, "blend", {{"passes", text("split")}}},
-                                  {kByMask, "blend", alone}};
+                                  {kByMask, "blend", {}}};
   const scene::Scene scene = makeScene("sphere_grid");
   const glm::ivec2 size = kStepSize;
   for (const Tried& tried : all) {
     SCOPED_TRACE(testing::Message() << tried.technique << ' ' << tried.levels << ' ' << tried.given.size());
     const std::string levels = tried.levels;
     const Given given =
-        with(with(common(), tried.given), {{"levels", text(levels)}, {"budget", int64_t{25}}});
+        with(with(common(), tried.given), {{"levels", text(levels)}, {"budget.limit", int64_t{25}}});
     const Stepped found = count(scene, tried.technique, given, size);
     ASSERT_TRUE(found.steps);
     EXPECT_EQ(found.visibility.data, found.afterwards.data);
@@ -233,18 +233,18 @@ TEST_F(LevelStep, FactsAreThoseOfAFewKnownSteps) {
   unknown.right.at(1, 0, 0) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_TRUE(levelStepCounters(unknown).empty());
   for (const Counter& counter : levelStepCounters({})) EXPECT_EQ(counter.value, 0.0) << counter.name;
-  EXPECT_EQ(levelStepCounters({}).size(), levelStepCounterNames().size());
+  EXPECT_EQ(levelStepCounters({}).size(), levelStepQuantities().size());
 }
 
 // Between two whole levels a full blend's visibility is linear in the level: a change d steps by d times what
 // the two differ by, at most the most that any two do. A hard choice steps by all of that.
 TEST_F(LevelStep, OfAFullBlendShrinksWithTheChangeOfLevel) {
   const scene::Scene scene = makeScene("sphere_grid");
-  const Stepped blend =
-      count(scene, kByArea,
-            with(common(), {{"budget", int64_t{25}}, {"levels", text("blend")}, {"passes", text("split")}}),
-            kStepSize);
-  const Stepped hard = count(scene, kByArea, with(common(), {{"budget", int64_t{25}}}), kStepSize);
+  const Stepped blend = count(
+      scene, kByArea,
+      with(common(), {{"budget.limit", int64_t{25}}, {"levels", text("blend")}, {"passes", text("split")}}),
+      kStepSize);
+  const Stepped hard = count(scene, kByArea, with(common(), {{"budget.limit", int64_t{25}}}), kStepSize);
   double finest = 100.0, coarsest = 0.0, most = 0.0;
   for (size_t i = 0; i < blend.visibility.pixels(); ++i) {
     if (!blend.processed(i)) continue;
@@ -280,7 +280,8 @@ TEST_F(LevelStep, OfAFullBlendShrinksWithTheChangeOfLevel) {
 // Levels change by far less than 1 from a pixel to the next on most surfaces, a tenth of which narrow blends
 // make the whole of, and hard choices jump by 1.
 TEST_F(LevelStep, OfAFullBlendIsBelowItsControlsAtTheSameBudget) {
-  const Given given = {{"resolution", text("256")}, {"budget", int64_t{16}}, {"passes", text("split")}};
+  const Given given = {
+      {"resolution", int64_t{256}}, {"budget.limit", int64_t{16}}, {"passes", text("split")}};
   const scene::Scene scene = makeScene("sphere_grid");
   const auto usual = [&](const char* levels) {
     return count(scene, kByArea, with(given, {{"levels", text(levels)}}), {96, 72})
@@ -293,13 +294,13 @@ TEST_F(LevelStep, OfAFullBlendIsBelowItsControlsAtTheSameBudget) {
 
 TEST_F(LevelStep, IsNotThereWithoutChangesNorOfSeveralMaps) {
   const scene::Scene scene = makeScene("two_boxes");
-  const Given small = {{"resolution", text("64")}};
-  const Stepped unlimited = count(scene, kByArea, with(small, {{"budget", int64_t{0}}}), {32, 24});
+  const Given small = {{"resolution", int64_t{64}}};
+  const Stepped unlimited = count(scene, kByArea, with(small, {{"budget.limit", int64_t{0}}}), {32, 24});
   EXPECT_FALSE(unlimited.steps);
   EXPECT_EQ(unlimited.counters.at("level_step_max"), 0.0);
   EXPECT_EQ(unlimited.counters.at("level_changes_per_px"), 0.0);
-  const Stepped several =
-      count(scene, kByMask, with(small, {{"maps", text("light_points")}, {"budget", int64_t{4}}}), {32, 24});
+  const Stepped several = count(
+      scene, kByMask, with(small, {{"maps", text("light_points")}, {"budget.limit", int64_t{4}}}), {32, 24});
   EXPECT_FALSE(several.steps);
   EXPECT_FALSE(several.counters.count("level_step_max"));
 }
@@ -307,12 +308,12 @@ TEST_F(LevelStep, IsNotThereWithoutChangesNorOfSeveralMaps) {
 // Masks that are kept for what comes after make no other visibility.
 TEST_F(LevelStep, OfKeptMasksIsThatOfPlainOnes) {
   const scene::Scene scene = makeScene("sphere_grid");
-  const Given given = {{"resolution", text("128")}, {"budget", int64_t{9}}};
+  const Given given = {{"resolution", int64_t{128}}, {"budget.limit", int64_t{9}}};
   const Stepped plain = count(scene, kByMask, given, {48, 36});
   const Stepped kept = count(scene, "soft_shadows/bitmask_coloured", given, {48, 36});
   EXPECT_GT(plain.counters.at("level_step_max"), 0.0);
-  for (const std::string& name : levelStepCounterNames())
-    EXPECT_EQ(plain.counters.at(name), kept.counters.at(name)) << name;
+  for (const Quantity& quantity : levelStepQuantities())
+    EXPECT_EQ(plain.counters.at(quantity.name), kept.counters.at(quantity.name)) << quantity.name;
 }
 
 }  // namespace

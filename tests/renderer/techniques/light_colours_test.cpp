@@ -65,8 +65,8 @@ TEST(LightColours, MasksDivideTheSamples) {
       ParameterValues(scene::SceneRegistry::instance().get("two_colour_light").allParameters(), {}));
   for (const char* pattern : {"regular_8", "jittered_16", "regular_32", "halton_256"})
     for (const bool cells : {false, true}) {
-      if (cells && !isGridPattern(pattern)) continue;
-      const std::vector<glm::dvec2> samples = lightSamples(pattern);
+      if (cells && !isGridPattern(fromText<LightPattern>(pattern))) continue;
+      const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(pattern));
       const int side = static_cast<int>(std::lround(std::sqrt(double(samples.size()))));
       const std::vector<glm::dvec3> shares = emissionShares(scene.lights[0], samples, cells ? side : 0);
       const std::vector<ColourMask> masks = colourMasks(shares);
@@ -86,7 +86,7 @@ TEST(LightColours, CellsTakeTheMeanOfWhatTheyHold) {
   scene::AreaLight light;
   // A triangle over half of the light: left of the diagonal from the lower left to the upper right corner.
   light.parts = {{{{0.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, {1.0F, 0.0F, 2.0F}}};
-  const std::vector<glm::dvec2> samples = lightSamples("regular_8");
+  const std::vector<glm::dvec2> samples = lightSamples(LightPattern::Regular8);
   const std::vector<glm::dvec3> shares = emissionShares(light, samples, 8);
   for (size_t i = 0; i < samples.size(); ++i) {
     const size_t column = i % 8, row = i / 8;
@@ -112,20 +112,22 @@ class ColouredLight : public TechniqueTest {
 /// no symmetry, so that a flip or a turn of it would show.
 TEST_F(ColouredLight, SumsWhatTheSamplesInSightEmit) {
   const std::vector<scene::LightPart> picture = makeScene("textured_light").lights[0].parts;
-  for (const auto& [colours, group] :
-       {std::pair("masks", "8"), {"table", "4"}, {"table", "8"}, {"table", "16"}, {"samples", "8"}}) {
-    const std::string what = std::string(colours) + " " + group;
+  for (const auto& [colours, group] : {std::pair<const char*, int64_t>("masks", 0),
+                                       {"table", 4},
+                                       {"table", 8},
+                                       {"table", 16},
+                                       {"samples", 0}}) {
+    const std::string what = std::string(colours) + " " + std::to_string(group);
     scene::Scene scene = halfPlaneUnder(picture);
     scene::AreaLight& light = scene.lights[0];
-    const Rendered result = render(scene, kColoured,
-                                   {{"resolution", std::string("64")},
-                                    {"budget", int64_t{0}},
-                                    {"prefilter", false},
-                                    {"pattern", std::string("jittered_16")},
-                                    {"colours", std::string(colours)},
-                                    {"group_bits", std::string(group)}},
-                                   {32, 24});
-    const std::vector<glm::dvec2> samples = lightSamples("jittered_16");
+    Given given = {{"resolution", int64_t{64}},
+                   {"budget.limit", int64_t{0}},
+                   {"pattern.prefilter", false},
+                   {"pattern", std::string("jittered_16")},
+                   {"colours", std::string(colours)}};
+    if (group > 0) given["colours.group_bits"] = group;
+    const Rendered result = render(scene, kColoured, given, {32, 24});
+    const std::vector<glm::dvec2> samples = lightSamples(LightPattern::Jittered16);
     std::vector<glm::dvec3> emitted;
     glm::dvec3 whole(0.0);
     for (const glm::dvec2 sample : samples) {
@@ -174,7 +176,7 @@ TEST_F(ColouredLight, WeightsOfTheColoursSumToTheVisibility) {
   const std::vector<glm::dvec2> left = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}},
                                 right = {{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.5, 1.0}};
   scene::Scene scene = makeScene("two_boxes", {{"light_size", 3.0}});
-  const Given settings = {{"resolution", std::string("128")}};
+  const Given settings = {{"resolution", int64_t{128}}};
   const Image plain = render(scene, "soft_shadows/bitmask", settings, {48, 36}).product;
   scene.lights[0].parts = {{left, {1.0F, 0.0F, 0.0F}}, {right, {0.0F, 0.0F, 1.0F}}};
   for (const char* colours : {"masks", "table", "samples"}) {
@@ -197,9 +199,8 @@ TEST_F(ColouredLight, ALightOfOneColourIsItsVisibility) {
   for (const char* shape : {"rectangle", "disc"}) {
     const scene::Scene scene =
         makeScene("two_boxes", {{"light_size", 3.0}, {"light_shape", std::string(shape)}});
-    const Given settings = {{"resolution", std::string("128")},
-                            {"maps", std::string("peeled")},
-                            {"pattern", std::string("regular_8")}};
+    const Given settings = {
+        {"resolution", int64_t{128}}, {"maps", std::string("peeled")}, {"pattern", std::string("regular_8")}};
     const Image plain = render(scene, "soft_shadows/bitmask", settings, {48, 36}).product;
     const Image product = render(scene, kColoured, settings, {48, 36}).product;
     for (size_t i = 0; i < plain.pixels(); ++i)
@@ -231,13 +232,13 @@ TEST_F(ColouredLight, RaysSeeEachPartAsALightOfItsOwn) {
 }
 
 TEST_F(ColouredLight, WhatDoesNotGoTogetherIsRefused) {
-  const TechniqueInfo& info = TechniqueRegistry::instance().get(kColoured);
-  EXPECT_THROW(info.check(ParameterValues(
-                   info.parameters, {{"colours", std::string("masks")}, {"group_bits", std::string("4")}})),
-               Error);
-  EXPECT_THROW(info.check(ParameterValues(info.parameters,
-                                          {{"pattern", std::string("halton_256")}, {"prefilter", false}})),
-               Error);
+  const std::vector<Parameter>& declared = TechniqueRegistry::instance().get(kColoured).parameters;
+  for (const Given& given :
+       {Given{{"colours", std::string("masks")}, {"colours.group_bits", int64_t{4}}},
+        Given{{"pattern", std::string("halton_256")}, {"pattern.prefilter", false}},
+        // Colours follow from masks, of one level each, that one pass makes.
+        Given{{"levels", std::string("blend")}}, Given{{"passes", std::string("split")}}})
+    EXPECT_THROW(ParameterValues(declared, given), Error) << given.rbegin()->first;
   // A picture of 32 x 32 cells has more colours than masks are for.
   EXPECT_THROW(render(makeScene("textured_light", {{"cells", int64_t{32}}}), kColoured,
                       {{"colours", std::string("masks")}}, {8, 8}),

@@ -5,7 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/receivers_from.h"
-#include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "tests/renderer/techniques/mask_twin.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -42,9 +42,9 @@ class LightMapsTest : public TechniqueTest {
   /// patch's edge may fall on either side and take a row along. What the search calls umbra without looking
   /// is dark here, while patches leave gaps: left out where brute force says nearly dark, too.
   static void expectTwin(const scene::Scene& scene, Given given, const std::string& what) {
-    given.insert({{"resolution", std::string("64")},
-                  {"budget", int64_t{0}},
-                  {"gap_fill", std::string("none")},
+    given.insert({{"resolution", int64_t{64}},
+                  {"budget.limit", int64_t{0}},
+                  {"occluders.gap_fill", std::string("none")},
                   {"pattern", std::string("regular_16")}});
     const ParameterValues values = valuesOf(given);
     const frame::GpuScene gpuScene(scene);
@@ -54,7 +54,8 @@ class LightMapsTest : public TechniqueTest {
     frame.begin();
     made->render(frame);
     std::vector<MaskTwin> twins;
-    for (const frame::ShadowMapSettings& map : LightMaps(values).of(scene, {.resolution = 64})) {
+    for (const frame::ShadowMapSettings& map :
+         lightMaps(BitmaskSettings::table().read(values).maps, scene, {.resolution = 64})) {
       const auto& depth = frame.get<frame::ShadowMap>(map);
       twins.push_back({depth.texture().read(), frame.get<frame::Receivers>().texture().read(),
                        depth.frustum(), scene.lights[0].size});
@@ -63,7 +64,7 @@ class LightMapsTest : public TechniqueTest {
     }
     frame.end();
     const Image product = made->product().read();
-    const std::vector<glm::dvec2> samples = lightSamples("regular_16");
+    const std::vector<glm::dvec2> samples = lightSamples(LightPattern::Regular16);
     int compared = 0, differing = 0, shadowed = 0;
     for (int y = 0; y < product.height; ++y)
       for (int x = 0; x < product.width; ++x) {
@@ -93,10 +94,11 @@ TEST_F(LightMapsTest, AllMicropatchesOfAllMapsAreJoined) {
   const auto text = [](const char* value) { return std::string(value); };
   for (const auto& [scene, name] : {std::pair(&boxes, "two_boxes"), std::pair(&box, "box_under_light")}) {
     const std::string what = name;
-    expectTwin(*scene, {{"maps", text("peeled")}, {"layers", int64_t{3}}}, what + ", peeled");
-    expectTwin(*scene, {{"maps", text("peeled")}, {"later_extent", 0.6}}, what + ", later layers smaller");
-    expectTwin(*scene, {{"maps", text("light_points")}, {"light_points", text("5")}}, what + ", points");
-    expectTwin(*scene, {{"maps", text("light_points")}, {"light_points", text("2")}, {"point_spread", 0.4}},
+    expectTwin(*scene, {{"maps", text("peeled")}, {"maps.layers", int64_t{3}}}, what + ", peeled");
+    expectTwin(*scene, {{"maps", text("peeled")}, {"maps.later_extent", 0.6}},
+               what + ", later layers smaller");
+    expectTwin(*scene, {{"maps", text("light_points")}, {"maps.points", int64_t{5}}}, what + ", points");
+    expectTwin(*scene, {{"maps", text("light_points")}, {"maps.points", int64_t{2}}, {"maps.spread", 0.4}},
                what + ", points without the centre");
     expectTwin(*scene, {{"maps", text("per_object")}}, what + ", per object");
   }
@@ -112,10 +114,10 @@ TEST_F(LightMapsTest, ASecondLayerBringsTheShadowOfTheSidesBack) {
   const Rendered truth = render(scene, "soft_shadows/exact_union", {}, kSize);
   const auto withLayers = [&](int64_t layers) {
     return errorsOf(render(scene, kBitmask,
-                           {{"resolution", std::string("64")},
-                            {"budget", int64_t{0}},
+                           {{"resolution", int64_t{64}},
+                            {"budget.limit", int64_t{0}},
                             {"maps", std::string("peeled")},
-                            {"layers", layers}},
+                            {"maps.layers", layers}},
                            kSize)
                         .product,
                     truth);
@@ -128,13 +130,13 @@ TEST_F(LightMapsTest, ASecondLayerBringsTheShadowOfTheSidesBack) {
 
 TEST_F(LightMapsTest, OneLayerIsTheUsualMap) {
   const scene::Scene scene = makeScene("two_boxes");
-  const Given usual = {{"resolution", std::string("64")}};
+  const Given usual = {{"resolution", int64_t{64}}};
   Given one = usual;
   one["maps"] = std::string("peeled");
-  one["layers"] = int64_t{1};
+  one["maps.layers"] = int64_t{1};
   Given spread = usual;
   spread["maps"] = std::string("light_points");
-  spread["point_spread"] = 0.0;
+  spread["maps.spread"] = 0.0;
   const Image expected = render(scene, kBitmask, usual, {32, 24}).product;
   EXPECT_EQ(render(scene, kBitmask, one, {32, 24}).product.data, expected.data);
   EXPECT_EQ(render(scene, kBitmask, spread, {32, 24}).product.data, expected.data);
@@ -147,9 +149,9 @@ TEST_F(LightMapsTest, MasksOfObjectsAreKeptUntilTheCameraMoves) {
   scene::Camera end = scene.camera.at(0.0);
   end.eye += glm::dvec3(0.6, 0.1, 0.0);
   scene.camera.keys.push_back({1.0, end});
-  const Given all = {{"resolution", std::string("64")}, {"maps", std::string("per_object")}};
+  const Given all = {{"resolution", int64_t{64}}, {"maps", std::string("per_object")}};
   Given turns = all;
-  turns["updates"] = int64_t{1};
+  turns["maps.updates"] = int64_t{1};
   const frame::GpuScene gpuScene(scene);
   const TechniqueInfo& info = TechniqueRegistry::instance().get(kBitmask);
   frame::Frame frame(context(), scene, gpuScene, {32, 24}), whole(context(), scene, gpuScene, {32, 24});
@@ -180,21 +182,26 @@ TEST_F(LightMapsTest, MasksOfObjectsAreKeptUntilTheCameraMoves) {
   }
 }
 
-TEST_F(LightMapsTest, ParametersOfOtherMapsAreRefused) {
-  const auto refuses = [](const Given& given, const std::string& parameter) {
-    try {
-      TechniqueRegistry::instance().get(kBitmask).check(valuesOf(given));
-      ADD_FAILURE() << "took " << parameter;
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("'" + parameter + "'"), std::string::npos) << error.what();
-    }
-  };
-  refuses({{"layers", int64_t{3}}}, "layers");
-  refuses({{"peel_bias", 0.01}}, "peel_bias");
-  refuses({{"maps", std::string("light_points")}, {"later_extent", 0.5}}, "later_extent");
-  refuses({{"maps", std::string("peeled")}, {"light_points", std::string("9")}}, "light_points");
-  refuses({{"maps", std::string("peeled")}, {"point_spread", 0.5}}, "point_spread");
-  refuses({{"maps", std::string("peeled")}, {"updates", int64_t{1}}}, "updates");
+TEST_F(LightMapsTest, ParametersOfOtherMapsCannotBeWritten) {
+  const std::string points = "light_points", peeled = "peeled";
+  for (const Given& given :
+       {Given{{"maps.layers", int64_t{3}}}, Given{{"maps.bias", 0.01}},
+        Given{{"maps", points}, {"maps.later_extent", 0.5}},
+        Given{{"maps", peeled}, {"maps.points", int64_t{9}}}, Given{{"maps", peeled}, {"maps.spread", 0.5}},
+        Given{{"maps", peeled}, {"maps.updates", int64_t{1}}}})
+    EXPECT_THROW(valuesOf(given), Error) << given.rbegin()->first;
+}
+
+TEST_F(LightMapsTest, SeveralMapsAreNeitherBlendedNorSplitNorBiasedByTexels) {
+  const std::string points = "light_points";
+  for (const auto& [given, where] :
+       {std::pair<Given, std::string>{{{"maps", points}, {"passes", std::string("split")}}, "passes"},
+        {{{"maps", points}, {"levels", std::string("blend")}}, "levels"},
+        {{{"maps", points}, {"bias", std::string("stored")}}, "bias"}}) {
+    const std::optional<Error> error = refusal(kBitmask, given);
+    ASSERT_TRUE(error) << where;
+    EXPECT_EQ(error->where(), where);
+  }
 }
 
 /// Areas cannot be joined: what two maps both see would count twice.
@@ -208,7 +215,7 @@ TEST_F(LightMapsTest, CountsMapsAndMasks) {
   const scene::Scene scene = makeScene("half_plane");  // two surfaces along a ray at most
   const Rendered result =
       render(scene, kBitmask,
-             {{"resolution", std::string("64")}, {"maps", std::string("peeled")}, {"layers", int64_t{8}}},
+             {{"resolution", int64_t{64}}, {"maps", std::string("peeled")}, {"maps.layers", int64_t{8}}},
              {16, 12}, true);
   EXPECT_EQ(result.counter("maps_read"), 8.0);
   EXPECT_EQ(result.counter("maps_with_casters"), 2.0);

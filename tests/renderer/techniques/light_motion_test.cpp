@@ -91,10 +91,11 @@ TEST_F(LightMotionTest, ChangesAreThoseOfTheClosedForm) {
   for (const auto& [inner, bound] : std::vector<std::pair<std::string, double>>{
            {"exact_union", 1e-5}, {"backprojection", 0.004}, {"bitmask", 1.0 / 16.0 + 0.004}}) {
     Given given = {{"inner", inner}, {"light_step", kShare}, {"direction_deg", alongWorldX(light)}};
-    if (inner != "exact_union") given["resolution"] = std::string("64"), given["budget"] = int64_t{0};
+    if (inner != "exact_union") given["inner.budget"] = int64_t{0};
+    given = withMaps("soft_shadows/change", 64, given);
     const Rendered change = render(scene, "soft_shadows/change", given, kMotionPx);
     given["quantity"] = std::string("mean_absolute");
-    given["steps"] = int64_t{3};
+    given["quantity.steps"] = int64_t{3};
     const Rendered mean = render(scene, "soft_shadows/change", given, kMotionPx);
     int changing = 0;
     for (const GroundPoint& point : groundPoints(light, change.receivers)) {
@@ -125,12 +126,12 @@ TEST_F(LightMotionTest, OccludersSwimAsTheEdgeOfTheirLevelsBlocksDoes) {
       const glm::dvec2 way(std::cos(angle), std::sin(angle));
       const scene::Scene after = withMovedLight(built, start * way),
                          before = withMovedLight(built, (start - kShare) * way);
-      const Rendered change = render(after, "soft_shadows/change",
-                                     {{"light_step", kShare},
-                                      {"direction_deg", direction},
-                                      {"resolution", std::to_string(kMap)},
-                                      {"fixed_level", int64_t{level}}},
-                                     kMotionPx);
+      const Rendered change = render(
+          after, "soft_shadows/change",
+          withMaps(
+              "soft_shadows/change", kMap,
+              {{"light_step", kShare}, {"direction_deg", direction}, {"inner.fixed_level", int64_t{level}}}),
+          kMotionPx);
       const double edgeBefore = edgeOfBlocks(before, kMap, level),
                    edgeAfter = edgeOfBlocks(after, kMap, level);
       for (const GroundPoint& point : groundPoints(after.lights[0], change.receivers)) {
@@ -163,9 +164,12 @@ TEST_F(LightMotionTest, LightThatStandsStillChangesNothing) {
         Given given = {{"inner", std::string(inner)},
                        {"quantity", std::string(quantity)},
                        {"smoothing", std::string(smoothing)},
-                       {"light_step", 0.0},
-                       {"steps", int64_t{2}}};
-        if (std::string(inner) == "ray_traced") given["rays"] = std::string("16");
+                       {"light_step", 0.0}};
+        if (std::string(inner) == "ray_traced") given["inner.samples"] = int64_t{16};
+        if (std::string(quantity) == "mean_absolute")
+          given["quantity.steps"] = int64_t{2};
+        else if (std::string(smoothing) == "history")
+          given["smoothing.lead_in"] = int64_t{1};
         for (const float value : render(scene, "soft_shadows/change", given, {24, 18}).product.data)
           ASSERT_EQ(value, 0.0F) << inner << ", " << quantity << ", " << smoothing;
       }
@@ -174,15 +178,20 @@ TEST_F(LightMotionTest, LightThatStandsStillChangesNothing) {
 TEST_F(LightMotionTest, MotionEndsWhereTheSceneHasItsLight) {
   const scene::Scene scene = makeScene("sphere_grid", {{"tessellation", int64_t{6}}});
   for (const char* inner : {"backprojection", "bitmask"}) {
-    const Rendered moved = render(scene, "soft_shadows/in_motion",
-                                  {{"inner", std::string(inner)},
-                                   {"resolution", std::string("128")},
-                                   {"light_step", 0.3},
-                                   {"steps", int64_t{3}}},
-                                  kMotionPx);
-    const Rendered still =
-        render(scene, std::string("soft_shadows/") + inner, {{"resolution", std::string("128")}}, kMotionPx);
-    EXPECT_EQ(moved.product.data, still.product.data) << inner;
+    const std::string stillName = std::string("soft_shadows/") + inner;
+    const Rendered still = render(scene, stillName, withMaps(stillName, 128), kMotionPx);
+    const auto moved = [&](Given given) {
+      given["inner"] = std::string(inner);
+      return render(scene, "soft_shadows/in_motion", withMaps("soft_shadows/in_motion", 128, given),
+                    kMotionPx);
+    };
+    EXPECT_EQ(moved({}).product.data, still.product.data) << inner;
+    // A history with all weight on the last frame shows that frame.
+    const Given history = {{"smoothing", std::string("history")},
+                           {"smoothing.light_step", 0.3},
+                           {"smoothing.steps", int64_t{3}},
+                           {"smoothing.alpha", 1.0}};
+    EXPECT_EQ(moved(history).product.data, still.product.data) << inner;
   }
 }
 
@@ -193,35 +202,70 @@ TEST_F(LightMotionTest, NothingLeavesItsRangeHoweverFarTheLightGoes) {
         for (const char* technique : {"soft_shadows/change", "soft_shadows/in_motion"}) {
           const bool isChange = std::string(technique) == "soft_shadows/change";
           for (const char* inner : {"backprojection", "bitmask"}) {
-            const Rendered rendered = render(makeScene(name), technique,
-                                             {{"inner", std::string(inner)},
-                                              {"resolution", std::string("64")},
-                                              {"light_step", step},
-                                              {"direction_deg", 30.0},
-                                              {"steps", int64_t{2}},
-                                              {"smoothing", std::string("history")}},
-                                             sizePx);
+            const std::string way = isChange ? "" : "smoothing.";
+            const Given given = {
+                {"inner", std::string(inner)},
+                {way + "light_step", step},
+                {way + "direction_deg", 30.0},
+                {"smoothing", std::string("history")},
+                {isChange ? "smoothing.lead_in" : "smoothing.steps", int64_t{isChange ? 1 : 2}}};
+            const Rendered rendered =
+                render(makeScene(name), technique, withMaps(technique, 64, given), sizePx);
             for (const float value : rendered.product.data)
               ASSERT_TRUE(value >= (isChange ? -1.0F : 0.0F) && value <= 1.0F) << name << ": " << value;
           }
         }
 }
 
-TEST_F(LightMotionTest, ValuesThatDoNotGoTogetherAreRefusedByName) {
-  const auto refused = [](const Given& given) {
-    const std::optional<Error> error = refusal("soft_shadows/change", given);
-    return error ? error->message() : std::string();
+TEST_F(LightMotionTest, LeadInStepsAreSeenByTheHistoryAlone) {
+  // Two steps of which the last is measured: the change of the averages, as a history of both steps has them.
+  const scene::Scene scene = makeScene("two_boxes");
+  constexpr double kAlpha = 0.3, kShare = 0.2;
+  const auto averaged = [&](int stepsBack) {
+    const scene::Scene then = withMovedLight(scene, {-kShare * stepsBack, 0.0});
+    return render(then, "soft_shadows/in_motion",
+                  withMaps("soft_shadows/in_motion", 128,
+                           {{"smoothing", std::string("history")},
+                            {"smoothing.light_step", kShare},
+                            {"smoothing.steps", int64_t{2 - stepsBack}},
+                            {"smoothing.alpha", kAlpha}}),
+                  kMotionPx);
   };
-  EXPECT_EQ(refused({}), "");
-  EXPECT_EQ(refused({{"smoothing", std::string("history")}, {"alpha", 0.5}}), "");
-  const auto names = [&](const std::string& parameter, const Given& given) {
-    return refused(given).find("'" + parameter + "'") != std::string::npos;
+  const Rendered before = averaged(1), after = averaged(0);
+  const Rendered change = render(scene, "soft_shadows/change",
+                                 withMaps("soft_shadows/change", 128,
+                                          {{"light_step", kShare},
+                                           {"smoothing", std::string("history")},
+                                           {"smoothing.alpha", kAlpha},
+                                           {"smoothing.lead_in", int64_t{1}}}),
+                                 kMotionPx);
+  int changing = 0;
+  for (size_t i = 0; i < change.product.pixels(); ++i) {
+    if (before.receivers.data[4 * i + 3] < 0.0F || after.receivers.data[4 * i + 3] < 0.0F) continue;
+    ASSERT_EQ(change.product.data[i], after.product.data[i] - before.product.data[i]) << "pixel " << i;
+    changing += change.product.data[i] != 0.0F;
+  }
+  EXPECT_GT(changing, 50);
+}
+
+TEST_F(LightMotionTest, WhatMeansNothingCannotBeWritten) {
+  const auto accepted = [](const char* technique, const Given& given) {
+    return !refusal(technique, given).has_value();
   };
-  EXPECT_TRUE(names("alpha", {{"alpha", 0.5}}));
-  EXPECT_TRUE(names("clamp_radius", {{"smoothing", std::string("history")}, {"clamp_radius", int64_t{2}}}));
-  EXPECT_TRUE(names("rays", {{"rays", std::string("64")}}));
-  EXPECT_TRUE(names("budget", {{"inner", std::string("ray_traced")}, {"budget", int64_t{64}}}));
-  EXPECT_TRUE(names("fixed_level", {{"resolution", std::string("64")}, {"fixed_level", int64_t{9}}}));
+  EXPECT_TRUE(accepted("soft_shadows/change", {}));
+  EXPECT_TRUE(
+      accepted("soft_shadows/change", {{"smoothing", std::string("history")}, {"smoothing.alpha", 0.5}}));
+  EXPECT_FALSE(accepted("soft_shadows/change", {{"smoothing.alpha", 0.5}}));
+  EXPECT_FALSE(accepted("soft_shadows/change", {{"quantity.steps", int64_t{2}}}));
+  EXPECT_FALSE(accepted("soft_shadows/change",
+                        {{"smoothing", std::string("history")}, {"smoothing.clamp.radius", int64_t{2}}}));
+  EXPECT_FALSE(accepted("soft_shadows/change", {{"inner.samples", int64_t{64}}}));
+  EXPECT_FALSE(
+      accepted("soft_shadows/change", {{"inner", std::string("ray_traced")}, {"inner.budget", int64_t{64}}}));
+  EXPECT_FALSE(accepted("soft_shadows/in_motion", {{"smoothing.light_step", 0.1}}));
+  // The inner technique refuses what it would refuse by itself.
+  EXPECT_FALSE(accepted("soft_shadows/change",
+                        withMaps("soft_shadows/change", 64, {{"inner.fixed_level", int64_t{9}}})));
 }
 
 }  // namespace

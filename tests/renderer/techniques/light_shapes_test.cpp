@@ -50,10 +50,10 @@ TEST_F(LightShapes, OnlySamplesOnTheLightCount) {
       const scene::AreaLight& light = scene.lights[0];
       const Rendered result = render(
           scene, "soft_shadows/bitmask",
-          {{"resolution", std::string("64")}, {"budget", int64_t{0}}, {"pattern", std::string(pattern)}},
+          {{"resolution", int64_t{64}}, {"budget.limit", int64_t{0}}, {"pattern", std::string(pattern)}},
           {40, 30});
-      const double margin = isGridPattern(pattern) ? 2e-3 : 2e-3 + 0.5 / 128.0;
-      const std::vector<glm::dvec2> samples = lightSamples(pattern);
+      const double margin = isGridPattern(fromText<LightPattern>(pattern)) ? 2e-3 : 2e-3 + 0.5 / 128.0;
+      const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(pattern));
       int penumbra = 0;
       for (int y = 0; y < result.product.height; ++y)
         for (int x = 0; x < result.product.width; ++x) {
@@ -90,7 +90,7 @@ TEST_F(LightShapes, OnlySamplesOnTheLightCount) {
 TEST_F(LightShapes, VisibilityIsTheShapesOwn) {
   constexpr glm::ivec2 kSize{64, 48};
   const Given big = {{"light_size", 3.0}};
-  const Given settings = {{"resolution", std::string("256")}};
+  const Given settings = {{"resolution", int64_t{256}}};
   const Rendered rectangle = render(makeScene("two_boxes", big), "soft_shadows/bitmask", settings, kSize);
   const double rectangleError =
       rmse(rectangle.product, render(makeScene("two_boxes", big), "soft_shadows/exact_union", {}, kSize));

@@ -36,10 +36,10 @@ class LodTest : public TechniqueTest {
   }
 
   static scene::Scene terrain(Given given = {}) {
-    given.merge(Given{{"tiles", int64_t{4}},
-                      {"cells", std::string("8")},
-                      {"levels", int64_t{3}},
-                      {"azimuths", int64_t{8}}});
+    given.merge(Given{{"tiles.per_side", int64_t{4}},
+                      {"tiles.cells", int64_t{8}},
+                      {"tiles.levels", int64_t{3}},
+                      {"mountains.azimuths", int64_t{8}}});
     return makeScene("lod/terrain", given);
   }
 
@@ -60,7 +60,7 @@ class LodTest : public TechniqueTest {
   }
 };
 
-const std::string kFixed = "fixed_level";
+const std::string kFixed = "fixed";
 
 TEST_F(LodTest, FinestIsTheMeanOfItsSamples) {
   const scene::Scene scene = makeScene("lod/patch");
@@ -81,7 +81,7 @@ TEST_F(LodTest, DiscreteShowsTheFinestAsTheReferenceDoesAndErrsMoreTheCoarser) {
   double before = 0.0;
   double triangles = 1e9;
   for (int64_t level = 0; level < 3; ++level) {
-    const Rendered made = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"level", level}});
+    const Rendered made = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"control.level", level}});
     const double error = mean(made.product, reference);
     if (level == 0) {
       EXPECT_EQ(made.product.data, reference.data);
@@ -99,10 +99,10 @@ TEST_F(LodTest, DiscreteShowsTheFinestAsTheReferenceDoesAndErrsMoreTheCoarser) {
 TEST_F(LodTest, DistanceSwitchesWhereTheSceneSaysAndCountsItsSwitches) {
   // From 5 to 2 in 3 s at 1 unit a second; switches at 4.25 and 2.125 * 1.25...: 3 and 4.25.
   const scene::Scene scene = makeScene("lod/patch", {{"distance", 5.0},
-                                                     {"speed", 1.0},
-                                                     {"duration_s", 3.0},
-                                                     {"switch_distance", 3.0},
-                                                     {"switch_growth", 1.5}});
+                                                     {"motion.speed", 1.0},
+                                                     {"motion.duration_s", 3.0},
+                                                     {"switching.distance", 3.0},
+                                                     {"switching.growth", 1.5}});
   const auto level = [&](double timeS) {
     return renderAt(scene, "lod/discrete", {}, timeS).counter("level_mean");
   };
@@ -112,14 +112,14 @@ TEST_F(LodTest, DistanceSwitchesWhereTheSceneSaysAndCountsItsSwitches) {
   EXPECT_EQ(level(2.01), 0.0);
   EXPECT_EQ(renderAt(scene, "lod/discrete", {}).counter("level_switches"), 2.0);
   EXPECT_EQ(renderAt(scene, "lod/discrete", {{"control", kFixed}}).counter("level_switches"), 0.0);
-  EXPECT_EQ(renderAt(scene, "lod/discrete", {{"distance_factor", 100.0}}).counter("level_mean"), 0.0);
+  EXPECT_EQ(renderAt(scene, "lod/discrete", {{"control.factor", 100.0}}).counter("level_mean"), 0.0);
 }
 
 TEST_F(LodTest, ScreenErrorControlKeepsItsTolerance) {
   const scene::Scene scene = terrain();
   for (const double tolerance : {0.0, 0.5, 4.0}) {
     const Rendered made = renderAt(scene, "lod/discrete",
-                                   {{"control", std::string("screen_error")}, {"tolerance_px", tolerance}});
+                                   {{"control", std::string("error")}, {"control.tolerance_px", tolerance}});
     EXPECT_LE(made.counter("screen_error_px"), tolerance);
     if (tolerance == 0.0) {
       EXPECT_EQ(made.counter("level_mean"), 0.0);
@@ -131,8 +131,8 @@ TEST_F(LodTest, ScreenErrorControlKeepsItsTolerance) {
 
 TEST_F(LodTest, ImageSpaceBlendIsTheMixOfBothLevels) {
   const scene::Scene scene = makeScene("lod/patch", {{"distance", 2.0}});
-  const Image a = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"level", int64_t{0}}}).product,
-              b = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"level", int64_t{2}}}).product;
+  const Image a = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"control.level", int64_t{0}}}).product,
+              b = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"control.level", int64_t{2}}}).product;
   for (const int64_t number : {0, 3, 8, 16, 20}) {
     const Rendered made = renderAt(scene, "lod/blend", {{"to_level", int64_t{2}}, {"frame", number}});
     const double weight = std::min(static_cast<double>(number) / 16.0, 1.0);
@@ -145,14 +145,14 @@ TEST_F(LodTest, ImageSpaceBlendIsTheMixOfBothLevels) {
 
 TEST_F(LodTest, AlternatingBlendCopiesTheRightShareFromTheRightFrame) {
   const scene::Scene scene =
-      makeScene("lod/patch", {{"distance", 2.0}, {"speed", 5.0}, {"motion", std::string("horizontal")}});
+      makeScene("lod/patch", {{"distance", 2.0}, {"motion.speed", 5.0}, {"motion", std::string("horizontal")}});
   const double time = 0.2, before = time - 1.0 / 60.0;
   for (const int64_t number : {0, 5, 8, 13, 16}) {
     const bool newIsNow = number % 2 == 1;
-    const Image old = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"level", int64_t{0}}},
+    const Image old = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"control.level", int64_t{0}}},
                                newIsNow ? before : time)
                           .product;
-    const Image fresh = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"level", int64_t{2}}},
+    const Image fresh = renderAt(scene, "lod/discrete", {{"control", kFixed}, {"control.level", int64_t{2}}},
                                  newIsNow ? time : before)
                             .product;
     const Rendered made =
@@ -182,12 +182,12 @@ TEST_F(LodTest, ReprojectionMakesAStillWorldStill) {
   // outside.
   const scene::Scene scene = makeScene(
       "lod/patch",
-      {{"contrast", 1.0}, {"distance", 3.0}, {"speed", 6.0}, {"motion", std::string("horizontal")}});
+      {{"contrast", 1.0}, {"distance", 3.0}, {"motion.speed", 6.0}, {"motion", std::string("horizontal")}});
   const Image now = renderAt(scene, "lod/discrete", {{"control", kFixed}}, 0.1).product;
   const auto error = [&](bool reproject) {
     return mean(
         renderAt(scene, "lod/blend",
-                 {{"mode", std::string("alternating")}, {"to_level", int64_t{0}}, {"reproject", reproject}},
+                 {{"mode", std::string("alternating")}, {"to_level", int64_t{0}}, {"mode.reproject", reproject}},
                  0.1)
             .product,
         now);
@@ -198,17 +198,17 @@ TEST_F(LodTest, ReprojectionMakesAStillWorldStill) {
 TEST_F(LodTest, GeomorphBeginsAsItsLevelAndEndsAsTheNext) {
   for (const scene::Scene& scene :
        {terrain({{"contrast", 0.0}}), makeScene("lod/patch", {{"distance", 2.0}})}) {
-    const Given flat{{"smooth_normals", false}, {"control", kFixed}};
+    const Given flat{{"shading.smooth_normals", false}, {"control", kFixed}};
     const auto with = [&](Given given) {
       given.insert(flat.begin(), flat.end());
       return given;
     };
-    const Image fine = renderAt(scene, "lod/discrete", with({{"level", int64_t{0}}})).product,
-                coarse = renderAt(scene, "lod/discrete", with({{"level", int64_t{1}}})).product,
+    const Image fine = renderAt(scene, "lod/discrete", with({{"control.level", int64_t{0}}})).product,
+                coarse = renderAt(scene, "lod/discrete", with({{"control.level", int64_t{1}}})).product,
                 start =
-                    renderAt(scene, "lod/geomorph", with({{"level", int64_t{0}}, {"morph", 0.0}})).product,
-                half = renderAt(scene, "lod/geomorph", with({{"level", int64_t{0}}, {"morph", 0.5}})).product,
-                end = renderAt(scene, "lod/geomorph", with({{"level", int64_t{0}}, {"morph", 1.0}})).product;
+                    renderAt(scene, "lod/geomorph", with({{"control.level", int64_t{0}}, {"control.morph", 0.0}})).product,
+                half = renderAt(scene, "lod/geomorph", with({{"control.level", int64_t{0}}, {"control.morph", 0.5}})).product,
+                end = renderAt(scene, "lod/geomorph", with({{"control.level", int64_t{0}}, {"control.morph", 1.0}})).product;
     EXPECT_EQ(start.data, fine.data);
     EXPECT_GT(mean(fine, coarse), 1e-3);
     if (scene.name == "lod/patch") {
@@ -228,12 +228,12 @@ TEST_F(LodTest, GeomorphBeginsAsItsLevelAndEndsAsTheNext) {
 
 TEST_F(LodTest, GeomorphFollowsDistance) {
   const scene::Scene scene = makeScene("lod/patch", {{"distance", 5.0},
-                                                     {"speed", 1.0},
-                                                     {"duration_s", 4.0},
-                                                     {"switch_distance", 4.0},
-                                                     {"switch_growth", 10.0}});
+                                                     {"motion.speed", 1.0},
+                                                     {"motion.duration_s", 4.0},
+                                                     {"switching.distance", 4.0},
+                                                     {"switching.growth", 10.0}});
   const auto morph = [&](double timeS) {
-    return renderAt(scene, "lod/geomorph", {{"morph_range", 0.25}}, timeS).counter("morph_mean");
+    return renderAt(scene, "lod/geomorph", {{"control.range", 0.25}}, timeS).counter("morph_mean");
   };
   EXPECT_EQ(morph(0.0), 0.0);            // 5: level 1, whose switch at 40 is far
   EXPECT_NEAR(morph(1.25), 0.75, 1e-9);  // 3.75, three quarters of the way from 3 to 4
@@ -258,7 +258,7 @@ class TerrainTest : public LodTest {
   /// down, the whole picture is terrain. Looking level, a picture's columns are upright planes, in which
   /// nothing may show below the silhouette of a surface without holes.
   static size_t cracks(bool skirts) {
-    scene::Scene scene = terrain({{"skirts", skirts}});
+    scene::Scene scene = terrain({{"tiles.skirts", skirts}});
     scene::Random random(7);
     size_t found = 0;
     for (int view = 0; view < 40; ++view) {
@@ -296,7 +296,7 @@ TEST_F(TerrainTest, WithoutSkirtsTheSameViewsShowCracks) { EXPECT_GT(cracks(fals
 TEST_F(TerrainTest, IsLitAsApertureLightSaysInDoublePrecision) {
   for (const double elevation : {8.0, 30.0}) {
     const scene::Scene scene =
-        terrain({{"contrast", 0.0}, {"sun_elevation_deg", elevation}, {"sun_radius_deg", 3.0}});
+        terrain({{"contrast", 0.0}, {"sun.elevation_deg", elevation}, {"sun.radius_deg", 3.0}});
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, kView);
     frame.begin();

@@ -153,10 +153,10 @@ class Microquads : public TechniqueTest {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {40, 30});
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
-    given["resolution"] = std::string("64");
+    given["resolution"] = int64_t{64};
     if (given.count("occluders") == 0) given["occluders"] = std::string("microquads");
-    const bool coarse = given.count("budget") != 0;
-    if (!coarse) given["budget"] = int64_t{0};
+    const bool coarse = given.count("budget.limit") != 0;
+    if (!coarse) given["budget.limit"] = int64_t{0};
     const auto made = info.make(ParameterValues(info.parameters, given));
     made->prepare(frame);
     frame.begin();
@@ -215,7 +215,7 @@ TEST_F(Microquads, AreaIsTheSumOfTheQuadsAreas) {
         const Compared result = compare(
             scene, "soft_shadows/backprojection",
             {{"occluders", std::string(occluders)},
-             {"quad_area", std::string(isSigned ? "signed" : "absolute")}},
+             {"occluders.area", std::string(isSigned ? "signed" : "absolute")}},
             [&](const MeshTwin& twin, const Image& receivers, int x, int y) {
               return areaVisibility(twin, receivers, x, y, isSigned);
             },
@@ -234,7 +234,7 @@ TEST_F(Microquads, ExactMaskSetsTheSamplesWithinTheHulls) {
         const Compared result = compare(
             scene, "soft_shadows/bitmask",
             {{"occluders", std::string(occluders)},
-             {"quad_mask", std::string("arithmetic")},
+             {"occluders.mask", std::string("arithmetic")},
              {"pattern", std::string(jittered ? "jittered_16" : "regular_16")}},
             [&](const MeshTwin& twin, const Image& receivers, int x, int y) {
               return hullVisibility(twin, receivers, x, y, jittered);
@@ -268,8 +268,8 @@ TEST_F(Microquads, TableTendsToTheExactMask) {
       const Compared result = compare(
           scene, "soft_shadows/bitmask",
           {{"occluders", std::string("microquads_microtris")},
-           {"quad_mask", std::string("half_space_table")},
-           {"table_size", std::string(size)},
+           {"occluders.mask", std::string("half_space_table")},
+           {"occluders.mask.size", std::string(size)},
            {"pattern", std::string("jittered_16")}},
           [&](const MeshTwin& twin, const Image& receivers, int x, int y) {
             return hullVisibility(twin, receivers, x, y, true);
@@ -287,7 +287,7 @@ TEST_F(Microquads, TableTendsToTheExactMask) {
 TEST_F(Microquads, CoarseLevelsMakeQuadsOfTheirOwnTexels) {
   for (const auto& [name, scene] : scenes()) {
     const Compared result = compare(
-        scene, "soft_shadows/backprojection", {{"budget", int64_t{25}}},
+        scene, "soft_shadows/backprojection", {{"budget.limit", int64_t{25}}},
         [](const MeshTwin& twin, const Image& receivers, int x, int y) {
           return areaVisibility(twin, receivers, x, y, false);
         },
@@ -311,10 +311,10 @@ TEST_F(Microquads, FlatRectangleIsTheClosedFormOfOneHalfATexelSmaller) {
   for (const char* mask : {"area", "approximate", "arithmetic"}) {
     const std::string technique =
         mask == std::string("area") ? "soft_shadows/backprojection" : "soft_shadows/bitmask";
-    Given given = {{"resolution", std::to_string(kResolution)},
-                   {"budget", int64_t{0}},
+    Given given = {{"resolution", int64_t{kResolution}},
+                   {"budget.limit", int64_t{0}},
                    {"occluders", std::string("microquads")}};
-    if (mask != std::string("area")) given["quad_mask"] = std::string(mask);
+    if (mask != std::string("area")) given["occluders.mask"] = std::string(mask);
     const Rendered rendered = render(scene, technique, given, {64, 48});
     const glm::dmat4 fromLight = glm::inverse(scene.lights[0].toLightSpace());
     const glm::dvec2 w = scene.lights[0].size;

@@ -91,11 +91,12 @@ class Microrects : public TechniqueTest {
     frame::Frame frame(context(), scene, gpuScene, {40, 30});
     const TechniqueInfo& info =
         TechniqueRegistry::instance().get(masks ? "soft_shadows/bitmask" : "soft_shadows/backprojection");
-    Given given = {{"resolution", std::to_string(kRectMap)},
+    Given given = {{"resolution", int64_t{kRectMap}},
                    {"occluders", std::string("microrects")},
-                   {"fixed_level", int64_t{level}},
+                   {"levels", std::string("fixed")},
+                   {"levels.level", int64_t{level}},
                    {"structure", structure},
-                   {"gap_fill", std::string(fills ? "left_bottom" : "none")}};
+                   {"occluders.gap_fill", std::string(fills ? "left_bottom" : "none")}};
     if (masks) given["pattern"] = std::string("regular_16");
     const auto made = info.make(ParameterValues(info.parameters, given));
     made->prepare(frame);
@@ -169,9 +170,10 @@ TEST_F(Microrects, AtTheFinestLevelTheyAreMicropatches) {
       std::array<Image, 2> products;
       for (const bool rects : {false, true})
         products[rects] = render(scene, technique,
-                                 {{"resolution", std::string("64")},
-                                  {"fixed_level", int64_t{0}},
-                                  {"gap_fill", std::string(fill)},
+                                 {{"resolution", int64_t{64}},
+                                  {"levels", std::string("fixed")},
+                                  {"levels.level", int64_t{0}},
+                                  {"occluders.gap_fill", std::string(fill)},
                                   {"occluders", std::string(rects ? "microrects" : "micropatches")}},
                                  {48, 36})
                               .product;
@@ -186,10 +188,12 @@ TEST_F(Microrects, AMapOfOneTexelAndOneWithoutCastersHaveThem) {
   empty.parts.resize(1);
   empty.mesh.triangles.resize(ground.triangleCount);
   for (const char* technique : {"soft_shadows/backprojection", "soft_shadows/bitmask"}) {
-    const Given rects = {{"occluders", std::string("microrects")}, {"fixed_level", int64_t{0}}};
+    const Given rects = {{"occluders", std::string("microrects")},
+                         {"levels", std::string("fixed")},
+                         {"levels.level", int64_t{0}}};
     Given single = rects, coarse = rects;
-    single["resolution"] = std::string("1");
-    coarse["resolution"] = std::string("64");
+    single["resolution"] = int64_t{1};
+    coarse["resolution"] = int64_t{64};
     coarse["fixed_level"] = int64_t{6};
     for (const float value : render(makeScene("two_boxes"), technique, single, {16, 12}).product.data)
       ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;

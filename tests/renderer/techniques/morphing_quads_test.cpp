@@ -21,10 +21,10 @@ struct Morphed {
 class MorphingQuads : public TechniqueTest {
  protected:
   static Given atLevel(double level) {
-    return {{"resolution", std::to_string(kMorphMap)},
-            {"slope_bias", kMorphSlopeBias},
+    return {{"resolution", int64_t{kMorphMap}},
+            {"bias.slope", kMorphSlopeBias},
             {"occluders", std::string("morphing_microquads")},
-            {"morph_level", level}};
+            {"occluders.level", level}};
   }
 
   struct Pyramid {
@@ -106,10 +106,11 @@ TEST_F(MorphingQuads, AtAWholeLevelTheyAreMicroquads) {
   for (const int level : {0, 2}) {
     const Image moved = render(scene, "soft_shadows/backprojection", atLevel(level), {40, 30}).product;
     const Image still = render(scene, "soft_shadows/backprojection",
-                               {{"resolution", std::to_string(kMorphMap)},
-                                {"slope_bias", kMorphSlopeBias},
+                               {{"resolution", int64_t{kMorphMap}},
+                                {"bias.slope", kMorphSlopeBias},
                                 {"occluders", std::string("microquads")},
-                                {"fixed_level", int64_t{level}}},
+                                {"levels", std::string("fixed")},
+                                {"levels.level", int64_t{level}}},
                                {40, 30})
                             .product;
     int differing = 0;

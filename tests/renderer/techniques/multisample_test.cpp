@@ -229,18 +229,18 @@ TEST_F(MultisampleShadows, SamplesSeeWhatRaysThroughTheirPlacesSee) {
 TEST_F(MultisampleShadows, OneSampleIsTheInnerTechniqueBitForBit) {
   const scene::Scene scene = makeScene("two_boxes");
   const glm::ivec2 sizePx(41, 30);
-  const Given map = {{"resolution", std::string("256")}};
   for (const char* inner : {"backprojection", "bitmask"}) {
-    const Rendered full = render(scene, std::string("soft_shadows/") + inner, map, sizePx);
+    const std::string plain = std::string("soft_shadows/") + inner;
+    const Rendered full = render(scene, plain, withMaps(plain, 256), sizePx);
     for (const char* method : {"interpolate", "centre", "per_sample"}) {
-      Given given = {
-          {"inner", std::string(inner)}, {"samples", std::string("1")}, {"method", std::string(method)}};
-      given.insert(map.begin(), map.end());
+      const Given given =
+          withMaps("soft_shadows/multisample", 256,
+                   {{"inner", std::string(inner)}, {"samples", int64_t{1}}, {"method", std::string(method)}});
       const Rendered multisample = render(scene, "soft_shadows/multisample", given, sizePx, true);
       EXPECT_EQ(multisample.product.data, full.product.data) << method << " " << inner;
     }
-    Given given = {{"inner", std::string(inner)}, {"samples", int64_t{1}}};
-    given.insert(map.begin(), map.end());
+    const Given given =
+        withMaps("soft_shadows/supersampled", 256, {{"inner", std::string(inner)}, {"samples", int64_t{1}}});
     EXPECT_EQ(render(scene, "soft_shadows/supersampled", given, sizePx).product.data, full.product.data)
         << inner;
   }
@@ -248,9 +248,8 @@ TEST_F(MultisampleShadows, OneSampleIsTheInnerTechniqueBitForBit) {
 
 TEST_F(MultisampleShadows, SupersamplingIsTheMeanOfALargerPicture) {
   const scene::Scene scene = makeScene("pole");
-  const Given map = {{"resolution", std::string("256")}};
-  Given given = {{"samples", int64_t{3}}};
-  given.insert(map.begin(), map.end());
+  const Given map = withMaps("soft_shadows/backprojection", 256);
+  const Given given = withMaps("soft_shadows/supersampled", 256, {{"samples", int64_t{3}}});
   const Image mean = render(scene, "soft_shadows/supersampled", given, {20, 15}).product;
   const Image large = render(scene, "soft_shadows/backprojection", map, {60, 45}).product;
   for (int y = 0; y < 15; ++y)
@@ -267,10 +266,9 @@ TEST_F(MultisampleShadows, SupersamplingIsTheMeanOfALargerPicture) {
 TEST_F(MultisampleShadows, InterpolationErrsLessThanTheCentreOnTwigsAndPoles) {
   const scene::Scene scene = makeScene("street_light", {{"branching", int64_t{3}}});
   const glm::ivec2 sizePx(128, 96);
-  const Given map = {{"resolution", std::string("512")}};
-  const auto made = [&](Given given, bool counting = false) {
-    given.insert(map.begin(), map.end());
-    return render(scene, "soft_shadows/multisample", given, sizePx, counting);
+  const auto made = [&](const Given& given, bool counting = false) {
+    return render(scene, "soft_shadows/multisample", withMaps("soft_shadows/multisample", 512, given), sizePx,
+                  counting);
   };
   const Rendered all = made({{"method", std::string("per_sample")}}, true);
   const Rendered interpolated = made({}, true), centre = made({{"method", std::string("centre")}}, true);
@@ -297,25 +295,26 @@ TEST_F(MultisampleShadows, RendersOnePixelAndEveryRepresentative) {
   for (const char* representative : {"first", "nearest", "farthest", "median"})
     for (const glm::ivec2 sizePx : {glm::ivec2(1, 1), glm::ivec2(13, 7)}) {
       const Rendered out = render(scene, "soft_shadows/multisample",
-                                  {{"representative", std::string(representative)},
-                                   {"depth_at", std::string("sample")},
-                                   {"neighbours", std::string("8")},
-                                   {"resolution", std::string("128")}},
+                                  withMaps("soft_shadows/multisample", 128,
+                                           {{"method.representative", std::string(representative)},
+                                            {"method.depth_at", std::string("sample")},
+                                            {"method.neighbours", int64_t{8}}}),
                                   sizePx);
       for (const float value : out.product.data)
         EXPECT_TRUE(value >= 0.0F && value <= 1.0F) << representative;
     }
 }
 
-TEST_F(MultisampleShadows, RefusesWhatMeansNothingBesideTheMethod) {
-  const auto refused = [](const Given& given) {
-    return refusal("soft_shadows/multisample", given).has_value();
-  };
-  EXPECT_FALSE(refused({}));
-  EXPECT_TRUE(refused({{"method", std::string("centre")}, {"tolerance", 0.05}}));
-  EXPECT_TRUE(refused({{"method", std::string("per_sample")}, {"representative", std::string("median")}}));
-  EXPECT_TRUE(refused({{"rays", std::string("64")}}));
-  EXPECT_TRUE(refused({{"inner", std::string("ray_traced")}, {"budget", int64_t{25}}}));
+TEST_F(MultisampleShadows, WhatMeansNothingBesideTheMethodCannotBeWritten) {
+  const auto accepted = [](const Given& given) { return !refusal("soft_shadows/multisample", given); };
+  EXPECT_TRUE(accepted({}));
+  EXPECT_TRUE(
+      accepted({{"method", std::string("centre")}, {"method.representative", std::string("median")}}));
+  EXPECT_FALSE(accepted({{"method", std::string("centre")}, {"method.tolerance", 0.05}}));
+  EXPECT_FALSE(
+      accepted({{"method", std::string("per_sample")}, {"method.representative", std::string("median")}}));
+  EXPECT_FALSE(accepted({{"inner.samples", int64_t{64}}}));
+  EXPECT_FALSE(accepted({{"inner", std::string("ray_traced")}, {"inner.budget", int64_t{25}}}));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST_F(OcclusionTexturesTest, OnePlaneIsExact) {
   const Rendered exact = render(scene, "soft_shadows/exact_union", {}, {64, 48});
   for (const int64_t slices : {1, 4, 32}) {
     const Rendered rendered = render(scene, "soft_shadows/occlusion_textures",
-                                     {{"resolution", std::string("128")}, {"slices", slices}}, {64, 48});
+                                     {{"resolution", int64_t{128}}, {"slices", slices}}, {64, 48});
     int penumbra = 0;
     for (size_t i = 0; i < rendered.product.pixels(); ++i) {
       ASSERT_NEAR(rendered.product.data[i], exact.product.data[i], 1e-3) << i;

@@ -44,8 +44,8 @@ TEST_F(PeeledTest, TakesTheFarthestLayerBeforeTheReceiver) {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {40, 30});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/peeled");
-    const auto made = info.make(ParameterValues(
-        info.parameters, {{"resolution", std::to_string(kSide)}, {"layers", int64_t{layerCount}}}));
+    const auto made = info.make(
+        ParameterValues(info.parameters, {{"resolution", int64_t{kSide}}, {"layers", int64_t{layerCount}}}));
     made->prepare(frame);
     frame.begin();
     made->render(frame);
@@ -86,8 +86,8 @@ TEST_F(PeeledTest, SecondLayerRestoresTheUmbraBelowAHoveringBox) {
   const scene::Scene scene = makeScene("box_under_light", {{"clearance", 0.8}, {"box_height", 1.2}});
   const glm::dmat4 fromLight = glm::inverse(scene.lights[0].toLightSpace());
   for (const int64_t layers : {1, 2}) {
-    const Rendered rendered = render(scene, "soft_shadows/peeled",
-                                     {{"resolution", std::to_string(kSide)}, {"layers", layers}}, {64, 48});
+    const Rendered rendered =
+        render(scene, "soft_shadows/peeled", {{"resolution", int64_t{kSide}}, {"layers", layers}}, {64, 48});
     int umbra = 0;
     for (size_t i = 0; i < rendered.product.pixels(); ++i) {
       const float* receiver = rendered.receivers.data.data() + 4 * i;

@@ -73,12 +73,13 @@ class PerceptualLodTest : public TechniqueTest {
   }
 
   static PerceptualLodSettings settings(Given given = {}) {
-    return PerceptualLodSettings::from(ParameterValues(PerceptualLodSettings::parameters(), given));
+    const SettingsTable<PerceptualLodSettings>& table = PerceptualLodSettings::table();
+    return table.read(ParameterValues(table.parameters(), given));
   }
   /// Surfaces show their albedo.
   static Given unlit(Given given = {}) {
-    given["ambient"] = 1.0;
-    given["diffuse"] = 0.0;
+    given["shading.ambient"] = 1.0;
+    given["shading.diffuse"] = 0.0;
     return given;
   }
 

@@ -9,65 +9,57 @@
 namespace limen::techniques {
 namespace {
 
-LayerSettings layersOf(LayerSettings::Partition partition, int count) {
-  LayerSettings out;
-  out.partition = partition;
-  out.count = count;
-  return out;
-}
+LayerPartition uniform(int count) { return UniformLayers{{.count = count}}; }
+LayerPartition logarithmic(int count) { return LogLayers{{.count = count}}; }
 
 TEST(PerceptualLodLayers, DivideTheRangeOfDistances) {
-  using Partition = LayerSettings::Partition;
   const std::vector<double> distances = {1.0, 3.0, 5.0, 9.0};
   // (9 - 1) / 4 = 2, and (9 / 1)^(1/2) = 3; a distance on a border belongs to the farther layer.
-  EXPECT_EQ(layerBorders(layersOf(Partition::Uniform, 4), distances), (std::vector<double>{3.0, 5.0, 7.0}));
-  EXPECT_EQ(assignLayers(layersOf(Partition::Uniform, 4), distances), (std::vector<int>{0, 1, 2, 3}));
-  EXPECT_EQ(layerBorders(layersOf(Partition::Log, 2), distances), (std::vector<double>{3.0}));
-  EXPECT_EQ(assignLayers(layersOf(Partition::Log, 2), distances), (std::vector<int>{0, 1, 1, 1}));
-  LayerSettings given = layersOf(Partition::Explicit, 3);
-  given.borders = {2.0, 6.0};
-  EXPECT_EQ(assignLayers(given, distances), (std::vector<int>{0, 1, 1, 2}));
+  EXPECT_EQ(layerBorders(uniform(4), distances), (std::vector<double>{3.0, 5.0, 7.0}));
+  EXPECT_EQ(assignLayers(uniform(4), distances), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(layerBorders(logarithmic(2), distances), (std::vector<double>{3.0}));
+  EXPECT_EQ(assignLayers(logarithmic(2), distances), (std::vector<int>{0, 1, 1, 1}));
+  EXPECT_EQ(assignLayers(ExplicitLayers{"2, 6"}, distances), (std::vector<int>{0, 1, 1, 2}));
   // A range that is given does not move with the objects.
-  LayerSettings fixed = layersOf(Partition::Uniform, 2);
-  fixed.farthest = 21.0;
-  fixed.nearest = 1.0;
+  const LayerPartition fixed = UniformLayers{{.count = 2, .nearest = 1.0, .farthest = 21.0}};
   EXPECT_EQ(assignLayers(fixed, distances), (std::vector<int>{0, 0, 0, 0}));
 }
 
 TEST(PerceptualLodLayers, SurviveRangesWithoutExtent) {
-  using Partition = LayerSettings::Partition;
-  for (const Partition partition : {Partition::Uniform, Partition::Log}) {
-    EXPECT_TRUE(assignLayers(layersOf(partition, 8), {}).empty());
-    EXPECT_EQ(assignLayers(layersOf(partition, 8), {2.0, 2.0}), (std::vector<int>{0, 0}));
-    EXPECT_EQ(assignLayers(layersOf(partition, 1), {0.0, 5.0}), (std::vector<int>{0, 0}));
+  for (const auto layersOf : {uniform, logarithmic}) {
+    EXPECT_TRUE(assignLayers(layersOf(8), {}).empty());
+    EXPECT_EQ(assignLayers(layersOf(8), {2.0, 2.0}), (std::vector<int>{0, 0}));
+    EXPECT_EQ(assignLayers(layersOf(1), {0.0, 5.0}), (std::vector<int>{0, 0}));
     // The eye in the middle of an object: no logarithm.
-    EXPECT_EQ(assignLayers(layersOf(partition, 2), {0.0, 5.0}), (std::vector<int>{0, 1}));
+    EXPECT_EQ(assignLayers(layersOf(2), {0.0, 5.0}), (std::vector<int>{0, 1}));
   }
 }
 
 TEST(PerceptualLodLayers, BordersAreCheckedBeforeAnythingRuns) {
   const auto read = [](const std::string& borders) {
-    return LayerSettings::from(ParameterValues(
-        LayerSettings::parameters(), {{"partition", std::string("explicit")}, {"borders", borders}}));
+    const SettingsTable<ExplicitLayers>& table = ExplicitLayers::table();
+    return table.read({table.parameters(), {{"borders", borders}}});
   };
-  EXPECT_EQ(read("2.5, 5,10").borders, (std::vector<double>{2.5, 5.0, 10.0}));
-  EXPECT_EQ(read("2.5, 5,10").count, 4);
+  EXPECT_EQ(read("2.5, 5,10").distances(), (std::vector<double>{2.5, 5.0, 10.0}));
+  EXPECT_EQ(layerCount(read("2.5, 5,10")), 4);
   for (const char* wrong : {"", "5, 2", "1 x", "-1", "0", "nan", "inf", "1,2,3,4,5,6,7,8"})
     EXPECT_THROW(read(wrong), Error) << wrong;
 }
 
 TEST(PerceptualLodRule, ThresholdsAreCheckedAndHiddenObjectsKept) {
-  EXPECT_THROW(
-      LevelRule::from(ParameterValues(LevelRule::parameters(), {{"delta_l", 9.0}, {"delta_u", 8.0}})), Error);
-  LevelRule rule;
-  rule.lower = 4.0;
-  rule.upper = 8.0;
+  const SettingsTable<LevelRule>& table = LevelRule::table();
+  const auto read = [&](const char* kind) {
+    table.read({table.parameters(), {{"limits", kind}, {"limits.lower", 0.9}, {"limits.upper", 0.8}}});
+  };
+  EXPECT_THROW(read("px"), Error);
+  EXPECT_THROW(read("share"), Error);
+  LevelRule rule{PixelLimits{4.0, 8.0}};
   EXPECT_EQ(rule.step({0, 1, 100, 3, 0}), 1);
   EXPECT_EQ(rule.step({0, 1, 100, 4, 0}), 0);
   EXPECT_EQ(rule.step({0, 1, 100, 8, 0}), 0);
   EXPECT_EQ(rule.step({0, 1, 100, 9, 0}), -1);
   EXPECT_EQ(rule.step({0, 1, 0, 0, 0}), 0);
-  rule.lookAhead = true;
+  rule.coarsen = Coarsen::IfInvisible;
   EXPECT_EQ(rule.step({0, 1, 100, 3, 9}), 0);
   EXPECT_EQ(rule.step({0, 1, 100, 3, 8}), 1);
 }
@@ -75,21 +67,21 @@ TEST(PerceptualLodRule, ThresholdsAreCheckedAndHiddenObjectsKept) {
 class PerceptualLodPicture : public PerceptualLodTest {
  protected:
   static scene::Scene field() {
-    return makeScene("lod/field", {{"rows", int64_t{4}},
-                                   {"columns", int64_t{3}},
-                                   {"tessellation", int64_t{8}},
+    return makeScene("lod/field", {{"grid.rows", int64_t{4}},
+                                   {"grid.columns", int64_t{3}},
+                                   {"levels.tessellation", int64_t{8}},
                                    {"motion", std::string("approach")},
-                                   {"speed", 1.5}});
+                                   {"motion.speed", 1.5}});
   }
 };
 
 TEST_F(PerceptualLodPicture, CompositeOfAllLayersIsTheOrdinaryPictureBitForBit) {
   const scene::Scene scene = field();
   const std::vector<Given> cases = {
-      {{"layers", int64_t{1}}},
-      {{"layers", int64_t{4}}, {"shadow", true}},
-      {{"layers", int64_t{8}}, {"partition", std::string("uniform")}, {"shadow", true}, {"specular", 0.5}},
-      {{"partition", std::string("explicit")}, {"borders", std::string("4, 5.2")}}};
+      {{"layers.count", int64_t{1}}},
+      {{"layers.count", int64_t{4}}, {"shading.shadow", true}},
+      {{"layers.count", int64_t{8}}, {"layers", std::string("uniform")}, {"shading.shadow", true}, {"shading.specular", 0.5}},
+      {{"layers", std::string("explicit")}, {"layers.borders", std::string("4, 5.2")}}};
   for (const Given& given : cases) {
     const PerceptualLodSettings chosen = settings(given);
     Bench bench(scene, chosen, {97, 61});
@@ -103,7 +95,7 @@ TEST_F(PerceptualLodPicture, CompositeOfAllLayersIsTheOrdinaryPictureBitForBit) 
                 picture(bench, bench.pipeline.shown(), chosen.shading, timeS).data)
           << "frame " << i;
     }
-    EXPECT_EQ(assignments.size() > 1, chosen.layers.count > 1);
+    EXPECT_EQ(assignments.size() > 1, layerCount(chosen.layers) > 1);
     EXPECT_GT(bench.pipeline.control().switches(), 0);
   }
 }
@@ -118,7 +110,7 @@ TEST_F(PerceptualLodPicture, IntersectingSurfacesOfTwoLayersMeetWhereTheRasterSa
   addSquares(scene, squares({0.4}), {1.2, 1.2, 0.0}, 0.5F);
   addSquares(scene, squares({0.4}), {1.2, 1.2, 0.0}, 0.7F);
   const PerceptualLodSettings chosen =
-      settings(unlit({{"partition", std::string("explicit")}, {"borders", std::string("4.995, 5.1")}}));
+      settings(unlit({{"layers", std::string("explicit")}, {"layers.borders", std::string("4.995, 5.1")}}));
   Bench bench(scene, chosen, {101, 99});
   bench.run(1);
   EXPECT_EQ(bench.pipeline.picture().read().data,
@@ -128,8 +120,8 @@ TEST_F(PerceptualLodPicture, IntersectingSurfacesOfTwoLayersMeetWhereTheRasterSa
 TEST_F(PerceptualLodPicture, ContextOfALayerIsThePictureWithoutItsObjects) {
   const scene::Scene scene = field();
   for (const int64_t layers : {1, 3}) {
-    const PerceptualLodSettings chosen = settings({{"layers", layers},
-                                                   {"threshold_maps", std::string("all")},
+    const PerceptualLodSettings chosen = settings({{"layers.count", layers},
+                                                   {"tests.threshold_maps", std::string("all")},
                                                    {"start_level", std::string("coarsest")}});
     Bench bench(scene, chosen, {80, 60});
     bench.run(1);
@@ -152,10 +144,10 @@ TEST_F(PerceptualLodPicture, ShadowMaskMarksShadowsOfOtherLayersOnly) {
     scene.lights = {scene::lightTowards({-20.0, 20.0, 40.0}, glm::dvec3(0.0), glm::dvec2(0.1))};
     addSquares(scene, squares({2.0}), glm::dvec3(0.0), 0.6F);
     addSquares(scene, squares({0.6}), {-0.5, 0.5, 1.0}, 0.6F);
-    const Given given = {{"shadow", true},
-                         {"partition", std::string("explicit")},
-                         {"borders", std::string(borders)},
-                         {"threshold_maps", std::string("all")}};
+    const Given given = {{"shading.shadow", true},
+                         {"layers", std::string("explicit")},
+                         {"layers.borders", std::string(borders)},
+                         {"tests.threshold_maps", std::string("all")}};
     return std::pair(std::move(scene), settings(given));
   };
   {
@@ -234,15 +226,16 @@ TEST_F(PerceptualLodPicture, RectanglesHoldAllPixelsOfTheirObjects) {
 TEST_F(PerceptualLodPicture, MapsAreThoseOfTheReferenceModelForTheContext) {
   const scene::Scene scene = field();
   const PerceptualLodSettings chosen =
-      settings({{"layers", int64_t{2}}, {"threshold_maps", std::string("all")}});
+      settings({{"layers.count", int64_t{2}}, {"tests.threshold_maps", std::string("all")}});
+  const SeenOn seenOn = chosen.model.seenOn();
   Bench bench(scene, chosen, {80, 60});
   bench.run(1);
   for (int layer = 1; layer <= 2; ++layer) {
     const Image map = bench.pipeline.debugViews().at("threshold_map_" + std::to_string(layer))->read();
     const perception::Plane wanted =
         perception::computeThresholdMap(
-            perception::luminancePlane(bench.pipeline.images().context(layer).read(), chosen.seenOn.display),
-            chosen.seenOn.display.pixelsPerDegree(), chosen.seenOn.map)
+            perception::luminancePlane(bench.pipeline.images().context(layer).read(), seenOn.display),
+            seenOn.display.pixelsPerDegree(), seenOn.map)
             .thresholdCdM2;
     for (size_t i = 0; i < map.pixels(); ++i)
       ASSERT_NEAR(map.data[i], wanted.data[i], 0.005 * wanted.data[i]) << i;  // as the map promises

@@ -12,14 +12,9 @@ class PerceptualLodOracle : public PerceptualLodTest {
                                            glm::ivec2 sizePx) {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
-    return searchLevels(frame, 0.0, chosen.shading, chosen.seenOn);
+    return searchLevels(frame, 0.0, chosen.shading, chosen.model.seenOn());
   }
-  static LevelRule upTo(double upper, LevelRule::Unit unit = LevelRule::Unit::Px) {
-    LevelRule rule;
-    rule.upper = upper;
-    rule.unit = unit;
-    return rule;
-  }
+  static LevelRule upTo(double upperPx) { return {PixelLimits{0.0, upperPx}}; }
 };
 
 TEST_F(PerceptualLodOracle, FindsTheCoarsestLevelThatIsNotVisible) {
@@ -34,7 +29,7 @@ TEST_F(PerceptualLodOracle, FindsTheCoarsestLevelThatIsNotVisible) {
   EXPECT_EQ(found[0].coarsestInvisible(upTo(144)), 1);
   EXPECT_EQ(found[0].coarsestInvisible(upTo(320)), 2);
   // 144 / 400 = 0.36, 320 / 576 = 0.56.
-  EXPECT_EQ(found[0].coarsestInvisible(upTo(0.4, LevelRule::Unit::Share)), 1);
+  EXPECT_EQ(found[0].coarsestInvisible(LevelRule{ShareLimits{0.0, 0.4}}), 1);
   EXPECT_FALSE(found[1].seen());
 
   // Chosen level 2 for oracle's 1: visible, one level too coarse; the unseen object does not count.
@@ -55,7 +50,7 @@ TEST_F(PerceptualLodOracle, AgreesWithThePipelineWhereLeavingTheObjectOutChanges
   for (const double x : {-1.0, 1.0})
     addSquares(scene, shades({0.0, 0.5, 1.0, 1.25, 30.0}), {x, 0.3 * x, 0.0}, static_cast<float>(kAlbedo100));
   const PerceptualLodSettings chosen =
-      settings({{"coarsen", std::string("if_invisible")}, {"delta_l", 1.0}, {"delta_u", 1.0}});
+      settings({{"rule.coarsen", std::string("if_invisible")}, {"rule.limits.lower", 1.0}, {"rule.limits.upper", 1.0}});
   const std::vector<OracleVerdict> found = search(scene, chosen, {64, 64});
   EXPECT_EQ(found.at(0).coarsestInvisible(chosen.rule), 2);
   EXPECT_EQ(found.at(1).coarsestInvisible(chosen.rule), 2);
@@ -68,7 +63,7 @@ TEST_F(PerceptualLodOracle, TechniqueShowsWhatItFound) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, squares({1.0, 1.25, 1.5}), glm::dvec3(0.0), 0.8F);
   const Rendered shown =
-      render(scene, "lod/oracle", {{"limit", 150.0}, {"ambient", 1.0}, {"diffuse", 0.0}}, {64, 64}, true);
+      render(scene, "lod/oracle", {{"limit.most", 150.0}, {"shading.ambient", 1.0}, {"shading.diffuse", 0.0}}, {64, 64}, true);
   int bright = 0;
   for (size_t i = 0; i < shown.product.pixels(); ++i) bright += shown.product.data[4 * i] > 0.5F;
   EXPECT_EQ(bright, 400);  // level 1
@@ -78,7 +73,7 @@ TEST_F(PerceptualLodOracle, TechniqueShowsWhatItFound) {
 }
 
 TEST_F(PerceptualLodOracle, BaselineTakesTheSmallestFactorWithEnoughTriangles) {
-  const scene::Scene scene = makeScene("lod/field", {{"rows", int64_t{3}}, {"columns", int64_t{2}}});
+  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}});
   const scene::LodView view{scene.camera.at(0.0), 72};
   const auto drawn = [&](double factor) {
     return scene::triangleCount(scene, scene::levelsByDistance(scene, view, factor));
@@ -95,10 +90,10 @@ TEST_F(PerceptualLodOracle, BaselineTakesTheSmallestFactorWithEnoughTriangles) {
 }
 
 TEST_F(PerceptualLodOracle, BaselineDrawsNoFewerTrianglesThanThePipeline) {
-  const scene::Scene scene = makeScene("lod/field", {{"rows", int64_t{3}}, {"columns", int64_t{3}}});
+  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
   const Given given = {{"settle_frames", int64_t{16}},
-                       {"objects_per_frame", int64_t{3}},
-                       {"coarsen", std::string("if_invisible")}};
+                       {"tests.objects_per_frame", int64_t{3}},
+                       {"rule.coarsen", std::string("if_invisible")}};
   const Rendered perceptual = render(scene, "lod/perceptual", given, {80, 60}, true);
   const Rendered distance = render(scene, "lod/distance_matched", given, {80, 60}, true);
   EXPECT_GE(distance.counter("triangles_drawn"), perceptual.counter("triangles_drawn"));

@@ -22,7 +22,7 @@ scene::LodSet growingSquares() {
 class Counting : public PerceptualLodTest, public testing::WithParamInterface<const char*> {
  protected:
   Given counting(Given given = {}) const {
-    given["count"] = std::string(GetParam());
+    given["tests.count"] = std::string(GetParam());
     return unlit(std::move(given));
   }
 };
@@ -35,7 +35,7 @@ TEST_P(Counting, FindsEveryPixelThatALevelAddsOrLacks) {
   addSquares(shrinking, squares({1.5, 1.25, 1.0}), glm::dvec3(0.0), 0.8F);
   for (const bool grows : {true, false}) {
     Bench bench(grows ? scene : shrinking, settings(counting({{"start_level", std::string("coarsest")},
-                                                              {"coarsen", std::string("if_invisible")}})));
+                                                              {"rule.coarsen", std::string("if_invisible")}})));
     bench.run(2);
     ASSERT_EQ(bench.pipeline.taken().size(), 1U);
     const LevelTest first = bench.pipeline.taken()[0];
@@ -71,14 +71,14 @@ INSTANTIATE_TEST_SUITE_P(Forms, Counting, testing::Values("compute", "query"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_F(PerceptualLodTest, QueriesCountWhatTheComputeShaderCounts) {
-  const scene::Scene scene = makeScene("lod/field", {{"rows", int64_t{3}}, {"columns", int64_t{3}}});
+  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
   std::vector<std::vector<LevelTest>> found;
   for (const char* form : {"compute", "query"}) {
     Bench bench(scene,
-                settings({{"count", std::string(form)},
-                          {"coarsen", std::string("if_invisible")},
+                settings({{"tests.count", std::string(form)},
+                          {"rule.coarsen", std::string("if_invisible")},
                           {"start_level", std::string("coarsest")},
-                          {"objects_per_frame", int64_t{3}}}),
+                          {"tests.objects_per_frame", int64_t{3}}}),
                 {96, 72});
     std::vector<LevelTest> all;
     for (int i = 0; i < 10; ++i) {
@@ -113,7 +113,7 @@ TEST_F(PerceptualLodTest, WhatCannotBeSeenGoesToItsCoarsestLevel) {
 TEST_F(PerceptualLodTest, WhatWouldBeSeenStaysFinestIfTheNextLevelIsLookedAt) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.8F);
-  Bench bench(scene, settings(unlit({{"coarsen", std::string("if_invisible")}})));
+  Bench bench(scene, settings(unlit({{"rule.coarsen", std::string("if_invisible")}})));
   bench.run(8);
   EXPECT_EQ(bench.pipeline.shown().levels, Levels{0});
   EXPECT_EQ(bench.pipeline.control().switches(), 0);
@@ -125,23 +125,23 @@ TEST_F(PerceptualLodTest, OneThresholdOscillatesAndABandDoesNot) {
   constexpr int kFrames = 9;
   // 0 pixels at level 0 are below, 144 at level 1 above: the level changes with every result, which is every
   // frame but the first.
-  Bench one(scene, settings(unlit({{"delta_l", 100.0}, {"delta_u", 100.0}})));
+  Bench one(scene, settings(unlit({{"rule.limits.lower", 100.0}, {"rule.limits.upper", 100.0}})));
   one.run(kFrames);
   EXPECT_EQ(one.pipeline.control().switches(), kFrames - 1);
   EXPECT_EQ(one.pipeline.control().reversals(), kFrames - 2);
   // 144 lies in the band: level 1 is kept.
-  Bench band(scene, settings(unlit({{"delta_l", 100.0}, {"delta_u", 150.0}})));
+  Bench band(scene, settings(unlit({{"rule.limits.lower", 100.0}, {"rule.limits.upper", 150.0}})));
   band.run(kFrames);
   EXPECT_EQ(band.pipeline.control().switches(), 1);
   EXPECT_EQ(band.pipeline.control().reversals(), 0);
   EXPECT_EQ(band.pipeline.shown().levels, Levels{1});
   // As a share of the 400 pixels covered: 0.36.
   Bench share(scene,
-              settings(unlit({{"delta_l", 0.3}, {"delta_u", 0.4}, {"delta_unit", std::string("share")}})));
+              settings(unlit({{"rule.limits.lower", 0.3}, {"rule.limits.upper", 0.4}, {"rule.limits", std::string("share")}})));
   share.run(kFrames);
   EXPECT_EQ(share.pipeline.shown().levels, Levels{1});
   Bench less(scene,
-             settings(unlit({{"delta_l", 0.3}, {"delta_u", 0.35}, {"delta_unit", std::string("share")}})));
+             settings(unlit({{"rule.limits.lower", 0.3}, {"rule.limits.upper", 0.35}, {"rule.limits", std::string("share")}})));
   less.run(kFrames);
   EXPECT_EQ(less.pipeline.control().switches(), kFrames - 1);
 }
@@ -164,7 +164,7 @@ TEST_F(PerceptualLodTest, AMaskingPatternRaisesTheLevelThatIsTolerated) {
     addSquares(scene, shades({0.0, 0.5, 1.0, 1.25, 1.6, 30.0}), glm::dvec3(0.0),
                static_cast<float>(kAlbedo100));
     Bench bench(scene,
-                settings({{"coarsen", std::string("if_invisible")}, {"delta_l", 1.0}, {"delta_u", 1.0}}),
+                settings({{"rule.coarsen", std::string("if_invisible")}, {"rule.limits.lower", 1.0}, {"rule.limits.upper", 1.0}}),
                 {128, 128});
     bench.run(10);
     return bench.pipeline.shown().levels.at(0);
@@ -177,7 +177,7 @@ TEST_F(PerceptualLodTest, AMaskingPatternRaisesTheLevelThatIsTolerated) {
 TEST_F(PerceptualLodTest, ResultsComeAsLateAsToldAndThoseOfALeftLevelAreDropped) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.2F);
-  Bench bench(scene, settings(unlit({{"latency_frames", int64_t{3}}})));
+  Bench bench(scene, settings(unlit({{"tests.latency_frames", int64_t{3}}})));
   bench.run(3);
   EXPECT_EQ(bench.pipeline.shown().levels, Levels{0});
   EXPECT_TRUE(bench.pipeline.taken().empty());
@@ -193,7 +193,7 @@ TEST_F(PerceptualLodTest, WithoutWaitingResultsAreUsedOnceTheyAreThere) {
   for (const char* form : {"compute", "query"}) {
     scene::Scene scene = wall(0.2F);
     addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.2F);
-    Bench bench(scene, settings(unlit({{"count", std::string(form)}})));
+    Bench bench(scene, settings(unlit({{"tests.count", std::string(form)}})));
     // However late the results are: no frame tests more than the batches under way allow, none is lost.
     for (int i = 0; i < 40; ++i) bench.pipeline.render(0.0, false);
     glFinish();
@@ -209,8 +209,8 @@ TEST_F(PerceptualLodTest, WithoutWaitingResultsAreUsedOnceTheyAreThere) {
 TEST_F(PerceptualLodTest, FramesInFlightKeepTheirOwnObjects) {
   // All objects stay finest (nothing is below delta_l = 0), so no test may find a difference, although
   // several frames with other objects under test are under way at a time.
-  const scene::Scene scene = makeScene("lod/field", {{"rows", int64_t{4}}, {"columns", int64_t{3}}});
-  Bench bench(scene, settings({{"delta_l", 0.0}, {"latency_frames", int64_t{6}}}), {320, 240});
+  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{4}}, {"grid.columns", int64_t{3}}});
+  Bench bench(scene, settings({{"rule.limits.lower", 0.0}, {"tests.latency_frames", int64_t{6}}}), {320, 240});
   int tests = 0;
   for (int i = 0; i < 16; ++i) {
     bench.run(1);
@@ -227,7 +227,7 @@ TEST_F(PerceptualLodTest, UnseenObjectsKeepTheirLevel) {
   addSquares(scene, growingSquares(), {0.0, 0.0, -3.0}, 0.8F);  // behind the wall
   addSquares(scene, growingSquares(), {50.0, 0.0, 0.0}, 0.8F);  // beside the picture
   addSquares(scene, growingSquares(), {0.0, 0.0, 50.0}, 0.8F);  // behind the camera
-  Bench bench(scene, settings(unlit({{"objects_per_frame", int64_t{3}}})));
+  Bench bench(scene, settings(unlit({{"tests.objects_per_frame", int64_t{3}}})));
   bench.run(5);
   EXPECT_EQ(bench.pipeline.shown().levels, (Levels{0, 0, 0}));
   EXPECT_EQ(bench.pipeline.control().tested(), 4);  // the first alone, in each frame but the last
@@ -236,7 +236,7 @@ TEST_F(PerceptualLodTest, UnseenObjectsKeepTheirLevel) {
 TEST_F(PerceptualLodTest, ObjectsTakeTurns) {
   scene::Scene scene = wall(0.2F);
   for (int i = 0; i < 5; ++i) addSquares(scene, squares({0.3, 0.3}), {0.6 * (i - 2), 0.0, 0.0}, 0.8F);
-  Bench bench(scene, settings(unlit({{"objects_per_frame", int64_t{2}}})));
+  Bench bench(scene, settings(unlit({{"tests.objects_per_frame", int64_t{2}}})));
   std::vector<int> order;
   for (int i = 0; i < 6; ++i) {
     bench.run(1);
@@ -252,7 +252,7 @@ TEST_F(PerceptualLodTest, OddScenesAndPicturesStayFinite) {
   addSquares(nothing, growingSquares(), glm::dvec3(0.0), 0.5F);
   for (const scene::Scene* scene : {&empty, &black, &nothing})
     for (const glm::ivec2 size : {glm::ivec2(1), glm::ivec2(1, 9), glm::ivec2(33, 17)}) {
-      Bench bench(*scene, settings({{"background", 0.0}}), size);
+      Bench bench(*scene, settings({{"shading.background", 0.0}}), size);
       bench.run(4);
       for (const auto& [name, view] : bench.pipeline.debugViews())
         for (const float value : view->read().data) ASSERT_TRUE(std::isfinite(value)) << name;
@@ -262,10 +262,10 @@ TEST_F(PerceptualLodTest, OddScenesAndPicturesStayFinite) {
 
 TEST_F(PerceptualLodTest, TheSameFramesGiveTheSameBytes) {
   const scene::Scene scene =
-      makeScene("lod/field", {{"rows", int64_t{3}}, {"columns", int64_t{2}}, {"speed", 4.0}});
+      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}, {"motion.speed", 4.0}});
   std::vector<std::vector<float>> ends;
   for (int run = 0; run < 2; ++run) {
-    Bench bench(scene, settings({{"shadow", true}}), {64, 48});
+    Bench bench(scene, settings({{"shading.shadow", true}}), {64, 48});
     for (int i = 0; i < 12; ++i) bench.run(1, 0.1 * i);
     ends.push_back(bench.pipeline.picture().read().data);
     EXPECT_GT(bench.pipeline.control().switches(), 0);

@@ -128,7 +128,7 @@ TEST_F(PoppingSwitch, IsTheSameThereAndBackButForFlicker) {
   // The predictor takes the magnitude of a difference, and each frame brings its own luminance and velocity;
   // disocclusion takes the larger visibility of both levels. Flicker alone looks at the new frame only.
   for (const std::string presentation : {"static", "dynamic"}) {
-    const Given there = {{"presentation", presentation}, {"use_flicker", false}};
+    const Given there = {{"presentation", presentation}, {"predictor.flicker", "ignored"}};
     Given back = there;
     back["from_level"] = int64_t{0};
     back["to_level"] = int64_t{1};
@@ -149,7 +149,8 @@ TEST_F(PoppingSwitch, OfACameraAtRestIsThatOfTheStaticPresentation) {
 
 TEST_F(PoppingSwitch, AgreesWithTheReference) {
   for (const scene::Scene& scene : {ball(5.0, 2.0), post()}) {
-    const Given given = {{"use_flicker", false}, {"dt_s", 0.05}, {"specular", 0.9}};
+    const Given given = {
+        {"predictor.flicker", "ignored"}, {"presentation.dt_s", 0.05}, {"shading.specular", 0.9}};
     const Rendered gpu = predict(scene, given), reference = predict(scene, given, kReference);
     ASSERT_GT(largestOf(reference.product), 2.0);
     // 1 % on the map, which regions and ratings inherit; a rating is ln Sigma / ln 2.25.
@@ -164,9 +165,10 @@ TEST_F(PoppingSwitch, AgreesWithTheReference) {
 
 TEST_F(PoppingSwitch, WithFlickerAgreesWithTheReferenceButWhereItIsUndecided) {
   // Flicker is a comparison: where both sides are nearly equal, single precision may decide otherwise.
-  const Given given = {{"dt_s", 0.05}, {"flicker_max_displacement_px", 100.0}};
+  const Given given = {{"presentation.dt_s", 0.05}, {"predictor.flicker.max_displacement_px", 100.0}};
   const Rendered gpu = predict(ball(5.0, 2.0), given), reference = predict(ball(5.0, 2.0), given, kReference),
-                 without = predict(ball(5.0, 2.0), {{"dt_s", 0.05}, {"use_flicker", false}});
+                 without =
+                     predict(ball(5.0, 2.0), {{"presentation.dt_s", 0.05}, {"predictor.flicker", "ignored"}});
   int differing = 0, flickering = 0;
   for (size_t i = 0; i < gpu.product.data.size(); ++i) {
     const double value = gpu.product.data[i], expected = reference.product.data[i];
@@ -178,9 +180,10 @@ TEST_F(PoppingSwitch, WithFlickerAgreesWithTheReferenceButWhereItIsUndecided) {
 }
 
 TEST_F(PoppingSwitch, IsNotSeenWhereThePostHasJustUncoveredTheWall) {
-  const Given common = {{"dt_s", kPostDt}, {"use_flicker", false}, {"samples", int64_t{1}}};
+  const Given common = {
+      {"presentation.dt_s", kPostDt}, {"predictor.flicker", "ignored"}, {"samples", int64_t{1}}};
   Given unweighted = common;
-  unweighted["use_disocclusion"] = false;
+  unweighted["predictor.disocclusion"] = "ignored";
   const Rendered with = predict(post(), common), without = predict(post(), unweighted);
   // A column u right of the middle sees the wall, 9 away, at u + f m / 9 in the previous frame, m = 0.5 to
   // the left. The post, 4 away and from -1 to 1, then reached from f (m - 1) / 4 to f (m + 1) / 4.
@@ -214,10 +217,10 @@ TEST_F(PoppingSwitch, IsNotSeenWhereThePostHasJustUncoveredTheWall) {
 
 TEST_F(PoppingSwitch, KnowsHowFastTheObjectMovesOnTheScreen) {
   // The wall shifts by f 0.5 / 9 pixels in 0.1 s, on the study's display of 41.229 pixels a degree.
-  const Rendered out = predict(post(), {{"dt_s", kPostDt}});
+  const Rendered out = predict(post(), {{"presentation.dt_s", kPostDt}});
   EXPECT_NEAR(out.counter("screen_velocity_deg_s"), kFocalPx * 0.5 / 9.0 / kPostDt / 41.229, 0.01);
   // Half the time between frames, half the displacement, the same velocity.
-  const Rendered half = predict(post(), {{"dt_s", 0.5 * kPostDt}});
+  const Rendered half = predict(post(), {{"presentation.dt_s", 0.5 * kPostDt}});
   EXPECT_NEAR(half.counter("screen_velocity_deg_s"), out.counter("screen_velocity_deg_s"), 0.01);
 }
 
@@ -247,7 +250,7 @@ TEST_F(PoppingSwitch, RefusesObjectsAndLevelsThatAreNotThere) {
 TEST_F(PoppingSwitch, StaysFiniteInTheEyeOfTheObject) {
   for (const double distance : {0.5, 1e-3})
     for (const char* technique : {kSwitch, kReference}) {
-      const Rendered out = predict(ball(distance, 50.0), {{"specular", 1.0}}, technique);
+      const Rendered out = predict(ball(distance, 50.0), {{"shading.specular", 1.0}}, technique);
       for (const float value : out.product.data) ASSERT_TRUE(std::isfinite(value));
       for (const Counter& counter : out.counters) EXPECT_TRUE(std::isfinite(counter.value)) << counter.name;
       EXPECT_EQ(out.counter("flushed_inputs"), 0.0);

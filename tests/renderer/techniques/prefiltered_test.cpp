@@ -131,9 +131,9 @@ class OnePlane : public Prefiltered {
   /// of that from the truth. `tolerance`: of rounding.
   void expectFormula(const std::string& technique, Given given, double tolerance, double bound,
                      const std::function<double(double)>& formula) {
-    given["resolution"] = std::to_string(kResolution);
-    given["bias"] = kBias;
-    given["search_taps"] = kTaps;
+    given["resolution"] = int64_t{kResolution};
+    given["bias.constant"] = kBias;
+    given["window.taps"] = kTaps;
     const Rendered rendered = render(scene_, technique, given, {64, 48});
     int penumbra = 0, umbra = 0;
     for (size_t i = 0; i < rendered.product.pixels(); ++i) {
@@ -176,7 +176,7 @@ TEST_F(OnePlane, VarianceIsChebyshevsBound) {
     // The receiver is not at the farther depth but the bias before it, b: (1 - s) (1 + 2 b / gap), at most;
     // and the least variance is a gap's share in umbra.
     const double bias = 1.0 - receiver_, bound = 2.0 * bias / gap + 1e-6 / (gap * gap);
-    expectFormula("soft_shadows/variance", {{"sums", std::string(sums)}}, tolerance, bound,
+    expectFormula("soft_shadows/variance", {{"prefilter.form", std::string(sums)}}, tolerance, bound,
                   [&](double s) { return chebyshevBound(cardDepth_, 1.0, s, receiver_, 1e-6); });
   }
 }
@@ -212,25 +212,33 @@ TEST_F(OnePlane, ConvolutionIsItsSeries) {
   }
 }
 
-TEST_F(Prefiltered, WhatDoesNotGoTogetherIsRefused) {
-  const auto refuses = [](const std::string& technique, const Given& given, const std::string& parameter) {
-    const std::optional<Error> error = refusal(technique, given);
-    ASSERT_TRUE(error) << technique << " takes " << parameter;
-    EXPECT_NE(error->message().find(parameter == "sum_bits" ? "bits" : parameter), std::string::npos)
-        << error->what();
-    EXPECT_FALSE(error->mend().empty());
+TEST_F(Prefiltered, SumsOfMoreThan32BitsAreRefused) {
+  const auto sums = [](int64_t bits) {
+    return refusal("soft_shadows/variance",
+                   {{"prefilter.form", std::string("fixed")}, {"prefilter.form.bits", bits}});
+  };
+  // 2^(12 + 20) counts do not fit, 2^(13 - 1 + 20) do.
+  EXPECT_FALSE(sums(12));
+  const std::optional<Error> error = sums(13);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->where(), "prefilter.form.bits");
+  EXPECT_FALSE(error->mend().empty());
+}
+
+TEST_F(Prefiltered, ValuesOfWhatIsNotThereCannotBeWritten) {
+  const auto accepted = [](const std::string& technique, const Given& given) {
+    return !refusal(technique, given).has_value();
   };
   const auto text = [](const char* value) { return std::string(value); };
-  // 2^(12 + 20) counts do not fit, 2^(13 - 1 + 20) do.
-  refuses("soft_shadows/variance", {{"sums", text("fixed")}, {"sum_bits", int64_t{13}}}, "sum_bits");
-  EXPECT_FALSE(refusal("soft_shadows/variance", {{"sums", text("fixed")}, {"sum_bits", int64_t{12}}}));
-  refuses("soft_shadows/variance", {{"sum_bits", int64_t{8}}}, "sum_bits");
-  refuses("soft_shadows/variance", {{"filter_radius", 8.0}}, "filter_radius");
-  refuses("soft_shadows/variance", {{"window", text("fixed")}, {"search_taps", int64_t{4}}}, "search_taps");
-  refuses("soft_shadows/variance", {{"window", text("fixed")}, {"search_scale", 2.0}}, "search_scale");
-  refuses("soft_shadows/exponential", {{"sums", text("fixed")}}, "sums");
-  refuses("soft_shadows/convolution", {{"search_threshold", 0.2}}, "search_threshold");
-  refuses("soft_shadows/occlusion_textures", {{"raster", text("compute")}}, "rasterised");
+  EXPECT_TRUE(accepted("soft_shadows/variance", {{"window", text("fixed")}, {"window.radius", 8.0}}));
+  EXPECT_FALSE(accepted("soft_shadows/variance", {{"window.radius", 8.0}}));
+  EXPECT_FALSE(accepted("soft_shadows/variance", {{"prefilter.form.bits", int64_t{8}}}));
+  EXPECT_FALSE(accepted("soft_shadows/variance", {{"window", text("fixed")}, {"window.taps", int64_t{4}}}));
+  EXPECT_FALSE(accepted("soft_shadows/variance", {{"window", text("fixed")}, {"window.scale", 2.0}}));
+  EXPECT_FALSE(accepted("soft_shadows/variance", {{"window", text("convolved")}}));
+  EXPECT_FALSE(accepted("soft_shadows/exponential", {{"prefilter.form", text("fixed")}}));
+  EXPECT_FALSE(accepted("soft_shadows/convolution", {{"window.threshold", 0.2}}));
+  EXPECT_FALSE(accepted("soft_shadows/occlusion_textures", {{"raster", text("hardware")}}));
 }
 
 }  // namespace

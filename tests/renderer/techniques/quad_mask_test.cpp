@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "tests/renderer/techniques/quad_mask_twin.h"
@@ -13,8 +14,6 @@
 
 namespace limen::techniques {
 namespace {
-
-enum class Mask { Approximate = 0, Table = 1, Arithmetic = 2 };
 
 using Bits = std::vector<bool>;
 
@@ -53,7 +52,7 @@ struct Distribution {
   std::string text() const { return "mean " + std::to_string(mean()) + ", p99 " + std::to_string(p99()); }
 };
 
-class QuadMask : public TechniqueTest, public testing::WithParamInterface<SamplePattern> {
+class QuadMasks : public TechniqueTest, public testing::WithParamInterface<SamplePattern> {
  protected:
   static std::vector<int> probe(const std::vector<Quad>& quads, gl::ShaderDefines defines, int results) {
     std::vector<glm::vec4> corners;
@@ -71,19 +70,17 @@ class QuadMask : public TechniqueTest, public testing::WithParamInterface<Sample
     return out.read<int>();
   }
 
-  static std::vector<Bits> masks(const std::vector<Quad>& quads, const SamplePattern& pattern, Mask mask,
+  static std::vector<Bits> masks(const std::vector<Quad>& quads, const SamplePattern& pattern, QuadMask mask,
                                  int tableSize = 64) {
     std::optional<gl::Texture> table;
-    if (mask == Mask::Table) {
-      table.emplace(makeHalfSpaceTable(lightSamples(pattern.name), tableSize));
+    if (mask == QuadMask::HalfSpaceTable) {
+      table.emplace(makeHalfSpaceTable(lightSamples(fromText<LightPattern>(pattern.name)), tableSize));
       table->bindTexture(7);
     }
     const int words = pattern.samples() / 32;
-    const std::vector<int> raw = probe(quads,
-                                       {{"PATTERN", pattern.define},
-                                        {"QUAD_MASK", std::to_string(static_cast<int>(mask))},
-                                        {"TABLE_SIZE", std::to_string(tableSize)}},
-                                       words);
+    gl::ShaderDefines defines = {{"PATTERN", pattern.define}, {"TABLE_SIZE", std::to_string(tableSize)}};
+    defineEnum(defines, "QUAD_MASK", mask);
+    const std::vector<int> raw = probe(quads, defines, words);
     std::vector<Bits> out(quads.size(), Bits(static_cast<size_t>(pattern.samples())));
     for (size_t i = 0; i < raw.size(); ++i)
       for (size_t bit = 0; bit < 32; ++bit)
@@ -98,19 +95,19 @@ class QuadMask : public TechniqueTest, public testing::WithParamInterface<Sample
   }
 };
 
-TEST_P(QuadMask, LightSamplesLieWhereThePatternSays) {
+TEST_P(QuadMasks, LightSamplesLieWhereThePatternSays) {
   const SamplePattern pattern = GetParam();
-  const std::vector<glm::dvec2> samples = lightSamples(pattern.name);
+  const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(pattern.name));
   ASSERT_EQ(samples.size(), static_cast<size_t>(pattern.samples()));
   for (int j = 0; j < pattern.side; ++j)
     for (int i = 0; i < pattern.side; ++i)
       EXPECT_EQ(samples[static_cast<size_t>(j * pattern.side + i)], pattern.place(i, j));
 }
 
-TEST_P(QuadMask, ArithmeticEqualsTestingEverySample) {
+TEST_P(QuadMasks, ArithmeticEqualsTestingEverySample) {
   const SamplePattern pattern = GetParam();
   const std::vector<Quad> quads = hardQuads(pattern, 9000);
-  const std::vector<Bits> found = masks(quads, pattern, Mask::Arithmetic);
+  const std::vector<Bits> found = masks(quads, pattern, QuadMask::Arithmetic);
   int wrong = 0, covering = 0;
   for (size_t n = 0; n < quads.size(); ++n) {
     const Bits expected = exact(quads[n], pattern);
@@ -123,7 +120,7 @@ TEST_P(QuadMask, ArithmeticEqualsTestingEverySample) {
   EXPECT_GT(covering, 3000);
 }
 
-TEST_P(QuadMask, ArithmeticOfARectangleIsTheMaskOfRectangles) {
+TEST_P(QuadMasks, ArithmeticOfARectangleIsTheMaskOfRectangles) {
   // The eighth kind is parallel to the light's edges: there all masks have one meaning. Corners are rounded
   // to the grid of the exact mask first.
   const SamplePattern pattern = GetParam();
@@ -133,21 +130,21 @@ TEST_P(QuadMask, ArithmeticOfARectangleIsTheMaskOfRectangles) {
   for (Quad& quad : quads)
     for (glm::vec2& corner : quad)
       corner = glm::vec2(glm::dvec2(toStep(corner, pattern.side)) / (4096.0 * pattern.side));
-  const std::vector<Bits> byRows = masks(quads, pattern, Mask::Arithmetic),
-                          byRectangle = masks(quads, pattern, Mask::Approximate);
+  const std::vector<Bits> byRows = masks(quads, pattern, QuadMask::Arithmetic),
+                          byRectangle = masks(quads, pattern, QuadMask::Approximate);
   for (size_t n = 0; n < quads.size(); ++n) ASSERT_EQ(byRows[n], byRectangle[n]) << n;
 }
 
-TEST_P(QuadMask, MicrotrisOfAQuadUniteToIt) {
+TEST_P(QuadMasks, MicrotrisOfAQuadUniteToIt) {
   const SamplePattern pattern = GetParam();
   const std::vector<Quad> quads = hardQuads(pattern, 2700);
-  const std::vector<Bits> whole = masks(quads, pattern, Mask::Arithmetic);
+  const std::vector<Bits> whole = masks(quads, pattern, QuadMask::Arithmetic);
   std::vector<Bits> united(quads.size(), Bits(static_cast<size_t>(pattern.samples())));
   for (size_t missing = 0; missing < 4; ++missing) {
     std::vector<Quad> triangles = quads;
     // One corner gives way to the next, as where it does not block.
     for (Quad& quad : triangles) quad[missing] = quad[(missing + 1) % 4];
-    const std::vector<Bits> parts = masks(triangles, pattern, Mask::Arithmetic);
+    const std::vector<Bits> parts = masks(triangles, pattern, QuadMask::Arithmetic);
     for (size_t n = 0; n < quads.size(); ++n) {
       ASSERT_EQ(unite(parts[n], whole[n]), whole[n]) << "a microtri reaches beyond quad " << n;
       united[n] = unite(united[n], parts[n]);
@@ -156,7 +153,7 @@ TEST_P(QuadMask, MicrotrisOfAQuadUniteToIt) {
   for (size_t n = 0; n < quads.size(); ++n) ASSERT_EQ(united[n], whole[n]) << n;
 }
 
-TEST_P(QuadMask, ATiltedPlaneCutIntoQuadsIsOneQuad) {
+TEST_P(QuadMasks, ATiltedPlaneCutIntoQuadsIsOneQuad) {
   // Vertices of a plane seen in perspective; an affine one, then one with a strong convergence of lines.
   const SamplePattern pattern = GetParam();
   for (const double convergence : {0.0, 0.7})
@@ -171,7 +168,7 @@ TEST_P(QuadMask, ATiltedPlaneCutIntoQuadsIsOneQuad) {
       for (int y = 0; y < cells; ++y)
         for (int x = 0; x < cells; ++x)
           quads.push_back({vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)});
-      const std::vector<Bits> found = masks(quads, pattern, Mask::Arithmetic);
+      const std::vector<Bits> found = masks(quads, pattern, QuadMask::Arithmetic);
       Bits united(found[0].size());
       int setInAll = 0;
       for (size_t n = 1; n < found.size(); ++n) {
@@ -193,7 +190,7 @@ TEST_P(QuadMask, ATiltedPlaneCutIntoQuadsIsOneQuad) {
     }
 }
 
-TEST_P(QuadMask, ACornerFarOffTurnsItsEdgesByLittle) {
+TEST_P(QuadMasks, ACornerFarOffTurnsItsEdgesByLittle) {
   // One corner beyond what the grid holds. It is moved towards the light's centre, so that its edges turn by
   // less than the light's diagonal (to the edge's other end, up to 2 from the centre) over 2048.
   const SamplePattern pattern = GetParam();
@@ -201,7 +198,7 @@ TEST_P(QuadMask, ACornerFarOffTurnsItsEdgesByLittle) {
   const std::vector<Quad> near = quads;
   for (size_t n = 0; n < quads.size(); ++n)
     quads[n][n % 4] = 0.5F + (quads[n][n % 4] - 0.5F) * (n % 3 == 0 ? 3e4F : n % 3 == 1 ? 1e9F : 1e18F);
-  const std::vector<Bits> found = masks(quads, pattern, Mask::Arithmetic);
+  const std::vector<Bits> found = masks(quads, pattern, QuadMask::Arithmetic);
   for (size_t n = 0; n < quads.size(); ++n) {
     // The twin's corner is farther off by 10, so that a sample's distance from an edge has the rounding left
     // out here.
@@ -221,7 +218,7 @@ TEST_P(QuadMask, ACornerFarOffTurnsItsEdgesByLittle) {
   }
 }
 
-TEST_P(QuadMask, TableErrsOnlyWithinItsQuantisation) {
+TEST_P(QuadMasks, TableErrsOnlyWithinItsQuantisation) {
   const SamplePattern pattern = GetParam();
   std::vector<Quad> quads = hardQuads(pattern, 1800);
   const std::vector<Quad> mesh = meshQuads(12, 1200, 3);
@@ -229,7 +226,7 @@ TEST_P(QuadMask, TableErrsOnlyWithinItsQuantisation) {
   std::vector<double> means;
   for (const int size : {64, 128, 256, 512, 1024}) {
     if (size == 1024 && pattern.side == 32) continue;  // 128 MiB
-    const std::vector<Bits> found = masks(quads, pattern, Mask::Table, size);
+    const std::vector<Bits> found = masks(quads, pattern, QuadMask::HalfSpaceTable, size);
     // Rounding of single precision in the distance, beside that of the table.
     const double bound = halfSpaceTableError(size) * (1.0 + 1e-3);
     Distribution wrongShare;
@@ -268,7 +265,7 @@ TEST_P(QuadMask, TableErrsOnlyWithinItsQuantisation) {
   for (size_t i = 1; i < means.size(); ++i) EXPECT_LE(means[i], means[i - 1]);
 }
 
-TEST_P(QuadMask, TableMasksOfBothSidesOfAnEdgeAreDisjoint) {
+TEST_P(QuadMasks, TableMasksOfBothSidesOfAnEdgeAreDisjoint) {
   // Triangles on both sides of one diagonal: what the table says of the diagonal is the complement for the
   // other.
   const SamplePattern pattern = GetParam();
@@ -277,7 +274,8 @@ TEST_P(QuadMask, TableMasksOfBothSidesOfAnEdgeAreDisjoint) {
     left.push_back({quad[0], quad[1], quad[2], quad[2]});
     right.push_back({quad[0], quad[2], quad[3], quad[3]});
   }
-  const std::vector<Bits> a = masks(left, pattern, Mask::Table), b = masks(right, pattern, Mask::Table);
+  const std::vector<Bits> a = masks(left, pattern, QuadMask::HalfSpaceTable),
+                          b = masks(right, pattern, QuadMask::HalfSpaceTable);
   int covered = 0;
   for (size_t n = 0; n < left.size(); ++n) {
     ASSERT_EQ(countSet(unite(a[n], b[n])), countSet(a[n]) + countSet(b[n])) << n;
@@ -286,12 +284,12 @@ TEST_P(QuadMask, TableMasksOfBothSidesOfAnEdgeAreDisjoint) {
   EXPECT_GT(covered, 1000);
 }
 
-TEST_P(QuadMask, ApproximateStaysWithinTheClampedQuadsBounds) {
+TEST_P(QuadMasks, ApproximateStaysWithinTheClampedQuadsBounds) {
   const SamplePattern pattern = GetParam();
   std::vector<Quad> quads = hardQuads(pattern, 4500);
   for (const int perLight : {4, 12, 32}) {
     const std::vector<Quad> mesh = meshQuads(perLight, 1000, static_cast<unsigned>(perLight));
-    const std::vector<Bits> found = masks(mesh, pattern, Mask::Approximate);
+    const std::vector<Bits> found = masks(mesh, pattern, QuadMask::Approximate);
     Distribution differing, excess;
     for (size_t n = 0; n < mesh.size(); ++n) {
       const Bits expected = exact(mesh[n], pattern);
@@ -304,7 +302,7 @@ TEST_P(QuadMask, ApproximateStaysWithinTheClampedQuadsBounds) {
     RecordProperty("differing_share_" + std::to_string(perLight), differing.text());
     quads.insert(quads.end(), mesh.begin(), mesh.end());
   }
-  const std::vector<Bits> found = masks(quads, pattern, Mask::Approximate);
+  const std::vector<Bits> found = masks(quads, pattern, QuadMask::Approximate);
   for (size_t n = 0; n < quads.size(); ++n) {
     glm::vec2 low(1.0F), high(0.0F);
     for (const glm::vec2& corner : quads[n]) {
@@ -320,7 +318,7 @@ TEST_P(QuadMask, ApproximateStaysWithinTheClampedQuadsBounds) {
   }
 }
 
-TEST_P(QuadMask, ApproximateNeighboursShareNoSampleAcrossAnEdge) {
+TEST_P(QuadMasks, ApproximateNeighboursShareNoSampleAcrossAnEdge) {
   // Two cells of a mesh side by side: their rectangles meet at the middle of the edge between them.
   const SamplePattern pattern = GetParam();
   std::vector<Quad> left, right;
@@ -330,23 +328,24 @@ TEST_P(QuadMask, ApproximateNeighboursShareNoSampleAcrossAnEdge) {
     left.push_back(quad);
     right.push_back({quad[1], quad[1] + across, quad[2] + across, quad[2]});
   }
-  const std::vector<Bits> a = masks(left, pattern, Mask::Approximate),
-                          b = masks(right, pattern, Mask::Approximate);
+  const std::vector<Bits> a = masks(left, pattern, QuadMask::Approximate),
+                          b = masks(right, pattern, QuadMask::Approximate);
   ASSERT_GT(left.size(), 300U);
   for (size_t n = 0; n < left.size(); ++n)
     ASSERT_EQ(countSet(unite(a[n], b[n])), countSet(a[n]) + countSet(b[n])) << n;
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, QuadMask, testing::ValuesIn(kSamplePatterns),
+INSTANTIATE_TEST_SUITE_P(Patterns, QuadMasks, testing::ValuesIn(kSamplePatterns),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-using ConvexHull = QuadMask;
+using ConvexHull = QuadMasks;
 
 TEST_P(ConvexHull, EqualsTheMonotoneChain) {
   const SamplePattern pattern = GetParam();
   const std::vector<Quad> quads = hardQuads(pattern, 9000);
-  const std::vector<int> raw =
-      probe(quads, {{"PATTERN", "16"}, {"QUAD_MASK", "2"}, {"TABLE_SIZE", "64"}, {"HULL", "1"}}, 9);
+  gl::ShaderDefines defines = {{"PATTERN", "16"}, {"TABLE_SIZE", "64"}, {"HULL", "1"}};
+  defineEnum(defines, "QUAD_MASK", QuadMask::Arithmetic);
+  const std::vector<int> raw = probe(quads, defines, 9);
   std::array<int, 5> sizes{};
   for (size_t n = 0; n < quads.size(); ++n) {
     const std::vector<Step> expected = hullOf(quads[n], 16);

@@ -57,7 +57,7 @@ class RectangleTable : public TechniqueTest, public testing::WithParamInterface<
 };
 
 TEST_P(RectangleTable, ErrsOnlyWithinHalfAStepOfABound) {
-  const std::vector<glm::dvec2> samples = lightSamples(GetParam());
+  const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(GetParam()));
   double last = 1.0;
   for (const int size : {16, 64, 256}) {
     const std::vector<glm::vec4> given = rectangles(size);
@@ -91,7 +91,7 @@ TEST_P(RectangleTable, ErrsOnlyWithinHalfAStepOfABound) {
 }
 
 TEST_P(RectangleTable, RectanglesThatShareAnEdgeShareNoSample) {
-  const std::vector<glm::dvec2> samples = lightSamples(GetParam());
+  const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(GetParam()));
   std::mt19937 random(7);
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
   std::vector<float> cuts = {0.0F, 1.0F};
@@ -108,7 +108,7 @@ TEST_P(RectangleTable, RectanglesThatShareAnEdgeShareNoSample) {
 }
 
 TEST_P(RectangleTable, SamplesAreSpreadOverTheLight) {
-  const std::vector<glm::dvec2> samples = lightSamples(GetParam());
+  const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(GetParam()));
   const auto expected =
       static_cast<size_t>(std::stoi(std::string(GetParam()).substr(std::string(GetParam()).rfind('_') + 1)));
   ASSERT_EQ(samples.size(), expected);

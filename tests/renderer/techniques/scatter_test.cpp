@@ -20,7 +20,7 @@ class ScatterTest : public TechniqueTest {
   }
 
   static Given maps(const std::string& layers) {
-    return {{"resolution", std::string("64")}, {"soft_resolution", std::string("64")}, {"layers", layers}};
+    return {{"resolution", int64_t{64}}, {"soft_resolution", int64_t{64}}, {"layers", layers}};
   }
 };
 
@@ -34,7 +34,7 @@ TEST_F(ScatterTest, FlatRectangleIsTheClosedForm) {
   constexpr int kSoft = 256;
   const scene::Scene scene = makeScene("parallel_rectangle", {{"height", kHeight}});
   Given given = maps("nearest");
-  given["soft_resolution"] = std::to_string(kSoft);
+  given["soft_resolution"] = int64_t{kSoft};
   const Rendered rendered = render(scene, "soft_shadows/scatter", given, {64, 48}, true);
   const glm::dvec2 w = scene.lights[0].size, half(0.3, 0.2);
   const bool alongX = std::abs(scene.lights[0].axisX.x) > 0.5;

@@ -23,7 +23,7 @@ class SceneNeedsTest : public TechniqueTest {
   };
 
   static Chosen choose(const scene::Scene& scene, Given given = {}) {
-    given.emplace("resolution", std::string("256"));
+    given.emplace("resolution", int64_t{256});
     given.emplace("probe_divisor", int64_t{1});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/scene_needs");
     const frame::GpuScene gpuScene(scene);
@@ -57,7 +57,7 @@ TEST_F(SceneNeedsTest, WhatTheLightsCentreDoesNotSeeNeedsASecondLayer) {
 TEST_F(SceneNeedsTest, LayersAreNotBlended) {
   // Any change of level is one too many, and layers stay.
   const Chosen chosen = choose(makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}}),
-                               {{"seam_share", 0.0}, {"budget", int64_t{25}}});
+                               {{"blend_share", 0.0}, {"budget", int64_t{25}}});
   EXPECT_THAT(chosen.remarks, Contains(StartsWith("two peeled layers")));
   EXPECT_THAT(chosen.remarks, Contains(HasSubstr("masks of several layers cannot be blended")));
 }
@@ -94,10 +94,10 @@ TEST_F(SceneNeedsTest, LeavesOutNoMoreThanItsToleranceAllows) {
     const Chosen chosen =
         choose(scene, {{"tolerance", tolerance}, {"budget", int64_t{0}}, {"build_weight", 1e6}});
     const Rendered everything = render(scene, "soft_shadows/bitmask",
-                                       {{"resolution", std::string("256")},
-                                        {"budget", int64_t{0}},
+                                       {{"resolution", int64_t{256}},
+                                        {"budget.limit", int64_t{0}},
                                         {"maps", std::string("peeled")},
-                                        {"layers", int64_t{2}}},
+                                        {"maps.layers", int64_t{2}}},
                                        kSizePx);
     const bool quads = chosen.remarks.at(0).find("occluders=microquads") != std::string::npos;
     double sum = 0.0, gained = 0.0, pixels = 0.0;

@@ -19,13 +19,28 @@ class SoftShadows : public TechniqueTest {
     return names;
   }
 
-  /// A map that takes a software renderer less time than the usual one, where the technique reads a map.
-  static Given smallMap(const std::string& technique) {
-    const std::vector<Parameter>& declared = TechniqueRegistry::instance().get(technique).parameters;
-    const bool readsMap = std::any_of(declared.begin(), declared.end(), [](const Parameter& parameter) {
-      return parameter.name == "resolution";
-    });
-    return readsMap ? Given{{"resolution", std::string("256")}} : Given{};
+  /// Maps that take a software renderer less time than the usual ones, where the technique reads any.
+  static Given smallMap(const std::string& technique) { return withMaps(technique, 256); }
+
+  /// Ends of a parameter's range, or all that it may be.
+  static std::vector<ParameterValue> endsOf(const Parameter& parameter) {
+    // With more texels than a software renderer's loops may visit there is no number rather than a wrong one;
+    // and maps that large take it long.
+    constexpr int64_t kLargestMap = 128;
+    const bool isMap = parameter.name.ends_with("resolution");
+    std::vector<ParameterValue> ends;
+    if (parameter.type == ParameterType::Choice) {
+      for (const std::string& choice : parameter.choices)
+        if (!isMap || std::stoi(choice) <= kLargestMap) ends.emplace_back(choice);
+    } else if (!parameter.allowed.empty()) {
+      for (const int64_t number : parameter.allowed)
+        if (!isMap || number <= kLargestMap) ends.emplace_back(number);
+    } else if (parameter.type == ParameterType::Integer) {
+      ends = {static_cast<int64_t>(*parameter.minimum), static_cast<int64_t>(*parameter.maximum)};
+    } else if (parameter.type == ParameterType::Real) {
+      ends = {*parameter.minimum, *parameter.maximum};
+    }
+    return ends;
   }
 };
 
@@ -45,7 +60,7 @@ TEST_F(SoftShadows, HalfPlanePenumbraIsTheLinearRampOfTheClosedForm) {
     frame::Frame frame(context(), scene, gpuScene, {64, 48});
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
     const auto made = info.make(ParameterValues(
-        info.parameters, {{"resolution", std::to_string(kResolution)}, {"budget", int64_t{0}}}));
+        info.parameters, {{"resolution", int64_t{kResolution}}, {"budget.limit", int64_t{0}}}));
     made->prepare(frame);
     frame.begin();
     made->render(frame);
@@ -84,9 +99,9 @@ TEST_F(SoftShadows, BitmasksFuseWhatAreasCountTwice) {
         makeScene("card_stack", {{"cards", cards}, {"spacing", 0.1}, {"fit", std::string("strips")}});
     const Rendered exact = render(scene, "soft_shadows/exact_union", {}, {48, 36});
     // The map spans the staircase: as many texels for each card.
-    const Given given = {{"resolution", std::to_string(64 * cards)},
-                         {"budget", int64_t{0}},
-                         {"gap_fill", std::string("none")}};
+    const Given given = {{"resolution", 64 * cards},
+                         {"budget.limit", int64_t{0}},
+                         {"occluders.gap_fill", std::string("none")}};
     for (const char* technique : {"soft_shadows/backprojection", "soft_shadows/bitmask"}) {
       const Rendered rendered = render(scene, technique, given, {48, 36});
       double sum = 0.0, worst = 0.0;
@@ -132,10 +147,11 @@ TEST_F(SoftShadows, GapFillingClosesLeaksStepByStep) {
   const scene::Scene scene = makeScene("sphere_grid");
   std::vector<double> light;
   for (const char* fill : {"none", "left_bottom", "diagonal"}) {
-    const Rendered rendered =
-        render(scene, "soft_shadows/backprojection",
-               {{"resolution", std::string("128")}, {"budget", int64_t{0}}, {"gap_fill", std::string(fill)}},
-               {64, 48});
+    const Rendered rendered = render(scene, "soft_shadows/backprojection",
+                                     {{"resolution", int64_t{128}},
+                                      {"budget.limit", int64_t{0}},
+                                      {"occluders.gap_fill", std::string(fill)}},
+                                     {64, 48});
     double sum = 0.0;
     for (const float value : rendered.product.data) sum += value;
     light.push_back(sum);
@@ -202,32 +218,22 @@ TEST_F(SoftShadows, EveryCornerOfTheParametersIsFinite) {
       // What runs another technique, or has another's parameters, is tried where more breaks.
       const bool derived = std::find(kDerived.begin(), kDerived.end(), technique) != kDerived.end();
       if (derived && sceneName != std::string("degenerate_soup")) continue;
-      for (const Parameter& parameter : info.parameters) {
+      for (const DeclaredAt& at : flatten(info.parameters)) {
         // Drivers differ in the numbers of samples that they have, and say so; see multisample_test.cpp.
-        if (technique == "soft_shadows/multisample" && parameter.name == "samples") continue;
-        std::vector<ParameterValue> ends;
-        if (parameter.type == ParameterType::Choice) {
-          for (const std::string& choice : parameter.choices)
-            // With more texels than a software renderer's loops may visit there is no number rather than a
-            // wrong one; and maps that large take it long.
-            if (!parameter.name.ends_with("resolution") || std::stoi(choice) <= 128) ends.push_back(choice);
-        } else if (parameter.type == ParameterType::Integer) {
-          ends = {static_cast<int64_t>(*parameter.minimum), static_cast<int64_t>(*parameter.maximum)};
-        } else if (parameter.type == ParameterType::Real) {
-          ends = {*parameter.minimum, *parameter.maximum};
-        }
-        for (const ParameterValue& end : ends) {
-          Given given;
-          for (const Parameter& each : info.parameters)
-            if (each.name.ends_with("resolution")) given[each.name] = std::string("64");
-          given[parameter.name] = end;
-          // What means nothing beside the others' defaults; microquads_test.cpp tries those together.
+        if (technique == "soft_shadows/multisample" && at.path == "samples") continue;
+        // The inner technique's own have been tried with that technique.
+        if (at.path.starts_with("inner.")) continue;
+        for (const ParameterValue& end : endsOf(*at.parameter)) {
+          Given given(at.when.begin(), at.when.end());
+          given[at.path] = end;
+          const Given smaller = withMaps(technique, 64, given);
+          given.insert(smaller.begin(), smaller.end());
+          // What does not go together with the others' defaults; microquads_test.cpp tries those together.
           if (refusal(technique, given)) continue;
           const Rendered rendered = render(scene, technique, given, {24, 18});
           for (const float value : rendered.product.data)
-            ASSERT_TRUE(value >= 0.0F && value <= 1.0F)
-                << sceneName << ", " << technique << ", " << parameter.name << " = " << limen::toText(end)
-                << ": " << value;
+            ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << sceneName << ", " << technique << ", " << at.path
+                                                        << " = " << limen::toText(end) << ": " << value;
         }
       }
     }
@@ -242,11 +248,12 @@ TEST_F(SoftShadows, CountersAddUp) {
         std::any_of(info.parameters.begin(), info.parameters.end(),
                     [](const Parameter& parameter) { return parameter.name == "resolution"; });
     const auto counts = [&](const char* name) {
-      return std::find(info.counters.begin(), info.counters.end(), name) != info.counters.end();
+      return std::any_of(info.counters.begin(), info.counters.end(),
+                         [name](const Quantity& counter) { return counter.name == name; });
     };
     if (!readsMap || !counts("lit_share") || !counts("fetches_per_px")) continue;
     const Rendered rendered =
-        render(makeScene("sphere_grid"), technique, {{"resolution", std::string("256")}}, {64, 48}, true);
+        render(makeScene("sphere_grid"), technique, smallMap(technique), {64, 48}, true);
     EXPECT_NEAR(rendered.counter("lit_share") + rendered.counter("umbra_share") +
                     rendered.counter("processed_share") + rendered.counter("outside_map_share"),
                 rendered.counter("receivers_share"), 1e-12)

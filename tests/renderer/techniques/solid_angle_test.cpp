@@ -58,7 +58,7 @@ TEST_F(SolidAngle, OnePatchHidesItsBallsShareOfTheDirections) {
       const double radius =
           bounding ? 0.5 * std::hypot(size.x, size.y) : std::sqrt(size.x * size.y / std::numbers::pi);
       const Rendered rendered = render(scene, "soft_shadows/solid_angle",
-                                       {{"resolution", std::string("1")},
+                                       {{"resolution", int64_t{1}},
                                         {"sampling", std::string("all")},
                                         {"ball", std::string(bounding ? "bounding" : "equal_area")}},
                                        {28, 21});
@@ -92,15 +92,14 @@ TEST_F(SolidAngle, SubsamplesTendToAllTexels) {
   // estimate the same sum. A light of 16 cells on either axis leaves its rim's cells in doubt, 4 x 16 of 256,
   // for which centres decide: half of a cell each, of either sign.
   const scene::Scene scene = makeScene("parallel_rectangle", {{"height", 1.0}});
-  Given given = {{"resolution", std::string("64")},
-                 {"ball", std::string("equal_area")},
-                 {"sampling", std::string("all")}};
+  Given given = {
+      {"resolution", int64_t{64}}, {"ball", std::string("equal_area")}, {"sampling", std::string("all")}};
   const Rendered all = render(scene, "soft_shadows/solid_angle", given, {40, 30});
   for (const char* sampling : {"regular", "gaussian_poisson"}) {
     given["sampling"] = std::string(sampling);
     double last = 1e300;
     for (const int64_t taps : {4, 16, 48}) {
-      given["taps"] = taps;
+      given["sampling.taps"] = taps;
       const Rendered some = render(scene, "soft_shadows/solid_angle", given, {40, 30});
       double squares = 0.0;
       int partly = 0;

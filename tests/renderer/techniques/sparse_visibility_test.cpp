@@ -187,16 +187,16 @@ TEST_F(SparseVisibility, EveryPixelAskedForIsTheInnerTechniqueBitForBit) {
   const scene::Scene scene = makeScene("two_boxes");
   const glm::ivec2 sizePx(53, 38);
   for (const char* inner : {"backprojection", "bitmask"}) {
-    const Rendered full =
-        render(scene, std::string("soft_shadows/") + inner, {{"resolution", std::string("256")}}, sizePx);
-    const Given base = {{"inner", std::string(inner)}, {"resolution", std::string("256")}};
+    const Rendered full = render(scene, std::string("soft_shadows/") + inner,
+                                 withMaps(std::string("soft_shadows/") + inner, 256), sizePx);
     std::map<std::string, Given> cases = {
-        {"subset", {{"factor", std::string("1")}}},
-        {"rendered", {{"factor", std::string("1")}, {"points", std::string("rendered")}}},
-        {"adaptive", {{"mode", std::string("adaptive")}, {"coarsest_level", int64_t{0}}}}};
+        {"subset", {{"mode.factor", int64_t{1}}}},
+        {"rendered", {{"mode.factor", int64_t{1}}, {"mode.points", std::string("rendered")}}},
+        {"adaptive", {{"mode", std::string("adaptive")}, {"mode.coarsest_level", int64_t{0}}}}};
     for (auto& [name, given] : cases) {
-      given.insert(base.begin(), base.end());
-      const Rendered sparse = render(scene, "soft_shadows/sparse", given, sizePx, true);
+      given["inner"] = std::string(inner);
+      const Rendered sparse =
+          render(scene, "soft_shadows/sparse", withMaps("soft_shadows/sparse", 256, given), sizePx, true);
       EXPECT_EQ(sparse.product.data, full.product.data) << name << " " << inner;
       EXPECT_DOUBLE_EQ(sparse.counter("evaluated_share"), 1.0) << name << " " << inner;
       EXPECT_EQ(sparse.counter("fallback_share"), 0.0) << name << " " << inner;
@@ -207,10 +207,11 @@ TEST_F(SparseVisibility, EveryPixelAskedForIsTheInnerTechniqueBitForBit) {
 TEST_F(SparseVisibility, AdaptiveSamplesAreTheInnerTechniquesAndOthersLieBetweenThem) {
   const glm::ivec2 sizePx(96, 72);
   const scene::Scene scene = makeScene("half_plane");
-  const Given map = {{"resolution", std::string("256")}};
+  const Given map = withMaps("soft_shadows/backprojection", 256);
   const Rendered full = render(scene, "soft_shadows/backprojection", map, sizePx);
-  Given given = {{"mode", std::string("adaptive")}, {"min_samples", 4.0}, {"coarsest_level", int64_t{2}}};
-  given.insert(map.begin(), map.end());
+  const Given given = withMaps(
+      "soft_shadows/sparse", 256,
+      {{"mode", std::string("adaptive")}, {"mode.min_samples", 4.0}, {"mode.coarsest_level", int64_t{2}}});
   const Rendered sparse = render(scene, "soft_shadows/sparse", given, sizePx, true);
   EXPECT_LT(sparse.counter("evaluated_share"), 0.7);
   EXPECT_EQ(sparse.counter("unreached_share"), 0.0);
@@ -243,13 +244,14 @@ TEST_F(SparseVisibility, AdaptiveSamplesAreTheInnerTechniquesAndOthersLieBetween
 TEST_F(SparseVisibility, MoreSamplesAcrossAPenumbraCostMoreAndErrLess) {
   const glm::ivec2 sizePx(96, 72);
   const scene::Scene scene = makeScene("box_under_light");
-  const Given map = {{"resolution", std::string("256")}};
+  const Given map = withMaps("soft_shadows/backprojection", 256);
   const Rendered full = render(scene, "soft_shadows/backprojection", map, sizePx);
   double evaluatedBefore = 0.0, errorBefore = 1.0;
   for (const double samples : {2.0, 8.0, 32.0}) {
-    Given given = {
-        {"mode", std::string("adaptive")}, {"min_samples", samples}, {"coarsest_level", int64_t{3}}};
-    given.insert(map.begin(), map.end());
+    const Given given = withMaps("soft_shadows/sparse", 256,
+                                 {{"mode", std::string("adaptive")},
+                                  {"mode.min_samples", samples},
+                                  {"mode.coarsest_level", int64_t{3}}});
     const Rendered sparse = render(scene, "soft_shadows/sparse", given, sizePx, true);
     double error = 0.0;
     for (size_t i = 0; i < full.product.data.size(); ++i)
@@ -261,14 +263,19 @@ TEST_F(SparseVisibility, MoreSamplesAcrossAPenumbraCostMoreAndErrLess) {
   }
 }
 
-TEST_F(SparseVisibility, RefusesValuesOfTheOtherMode) {
-  const auto refused = [](const Given& given) { return refusal("soft_shadows/sparse", given).has_value(); };
-  EXPECT_FALSE(refused({}));
-  EXPECT_FALSE(refused({{"mode", std::string("adaptive")}, {"min_samples", 4.0}}));
-  EXPECT_TRUE(refused({{"min_samples", 4.0}}));
-  EXPECT_TRUE(refused({{"coarsest_level", int64_t{1}}}));
-  EXPECT_TRUE(refused({{"mode", std::string("adaptive")}, {"factor", std::string("4")}}));
-  EXPECT_TRUE(refused({{"mode", std::string("adaptive")}, {"points", std::string("rendered")}}));
+TEST_F(SparseVisibility, ValuesOfTheOtherModeCannotBeWritten) {
+  const auto accepted = [](const Given& given) { return !refusal("soft_shadows/sparse", given); };
+  EXPECT_TRUE(accepted({}));
+  EXPECT_TRUE(accepted({{"mode", std::string("adaptive")}, {"mode.min_samples", 4.0}}));
+  EXPECT_FALSE(accepted({{"mode.min_samples", 4.0}}));
+  EXPECT_FALSE(accepted({{"mode.coarsest_level", int64_t{1}}}));
+  for (const char* name : {"mode.factor", "mode.points", "mode.normal_power"}) {
+    const Given defaults = {
+        {"mode", std::string("adaptive")},
+        {name, *ParameterValues(TechniqueRegistry::instance().get("soft_shadows/sparse").parameters, {})
+                    .find(name)}};
+    EXPECT_FALSE(accepted(defaults)) << name;
+  }
 }
 
 }  // namespace

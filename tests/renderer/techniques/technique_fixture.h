@@ -61,6 +61,16 @@ class TechniqueTest : public testing::Test {
     }
   }
 
+  /// `given`, with every map that the technique reads at `side` texels.
+  static Given withMaps(const std::string& technique, int side, Given given = {}) {
+    const ParameterValues values(TechniqueRegistry::instance().get(technique).parameters, given);
+    for (const auto& [path, value] : values.all()) {
+      if (!path.ends_with("resolution")) continue;
+      given[path] = int64_t{side};
+    }
+    return given;
+  }
+
   static Rendered render(const scene::Scene& scene, const std::string& technique, const Given& given,
                          glm::ivec2 sizePx, bool counting = false) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);

@@ -108,10 +108,9 @@ class TriangleMasks : public TechniqueTest {
 
   static Traced trace(const scene::Scene& scene, const std::string& pattern, glm::ivec2 sizePx,
                       const references::Triangles& triangles) {
-    const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/triangle_bitmask");
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
-    TriangleBitmask made(ParameterValues(info.parameters, {{"pattern", pattern}}));
+    TriangleBitmask made(TriangleBitmaskSettings{fromText<GridPattern>(pattern)});
     made.prepare(frame);
     frame.begin();
     made.render(frame);
@@ -144,7 +143,7 @@ TEST_F(TriangleMasks, HoldTheSamplesThatTrianglesHide) {
     const references::Triangles triangles(scene, anchorOf(scene));
     const Traced traced = trace(scene, each.pattern, {28, 21}, triangles);
     const references::EmbreeScene embree(triangles);
-    const std::vector<glm::dvec2> places = lightSamples(each.pattern);
+    const std::vector<glm::dvec2> places = lightSamples(fromText<LightPattern>(each.pattern));
     std::vector<glm::dvec3> lights;
     double farthest = 0.0;
     for (const glm::dvec2 place : places) lights.push_back(scene.lights[0].point(place) - anchorOf(scene));

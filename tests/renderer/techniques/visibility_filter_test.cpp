@@ -10,7 +10,18 @@ namespace {
 
 constexpr const char* kFiltered = "soft_shadows/bitmask";
 
-class VisibilityFilterTest : public TechniqueTest {};
+class VisibilityFilterTest : public TechniqueTest {
+ protected:
+  /// Radius 0: no filter.
+  static Given withFilter(int64_t resolution, int64_t radius) {
+    Given given = {{"resolution", resolution}};
+    if (radius > 0) {
+      given["filter"] = std::string("surface_mean");
+      given["filter.radius"] = radius;
+    }
+    return given;
+  }
+};
 
 /// The edge is parallel to the light's rows of n samples: they vanish a row at a time, and visibility has
 /// steps of 1/n. Over 2 r + 1 pixels in line it rises by what the reference does, and by no more than one row
@@ -19,15 +30,11 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
   constexpr int kRadius = 4, kRows = 8;
   const scene::Scene scene = makeScene("half_plane");
   const auto productOf = [&](int64_t radius) {
-    return render(
-               scene, kFiltered,
-               {{"resolution", std::string("64")},
-                {"budget", int64_t{0}},
-                {"pattern", std::string("regular_8")},
-                {"filter_radius", radius},
-                {radius > 0 ? "filter_step" : "filter_radius", radius > 0 ? ParameterValue(0.25) : radius}},
-               {96, 72})
-        .product;
+    Given given = withFilter(64, radius);
+    given["budget.limit"] = int64_t{0};
+    given["pattern"] = std::string("regular_8");
+    if (radius > 0) given["filter.step"] = 0.25;
+    return render(scene, kFiltered, given, {96, 72}).product;
   };
   const Rendered truth = render(scene, "soft_shadows/exact_union", {}, {96, 72});
   const Image plain = productOf(0), filtered = productOf(kRadius);
@@ -72,8 +79,7 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
 TEST_F(VisibilityFilterTest, LeavesHardShadowsAlone) {
   const scene::Scene scene = makeScene("two_boxes", {{"light_size", 0.001}});
   const auto productOf = [&](int64_t radius) {
-    return render(scene, kFiltered, {{"resolution", std::string("256")}, {"filter_radius", radius}}, {64, 48})
-        .product;
+    return render(scene, kFiltered, withFilter(256, radius), {64, 48}).product;
   };
   const Image plain = productOf(0), filtered = productOf(4);
   int lit = 0, dark = 0;
@@ -91,12 +97,14 @@ TEST_F(VisibilityFilterTest, LeavesHardShadowsAlone) {
 /// What is not of one surface does not mix: the lit card keeps its light before its own shadow on the ground.
 TEST_F(VisibilityFilterTest, StaysOnTheSurface) {
   const scene::Scene scene = makeScene("parallel_rectangle");
-  const Rendered plain = render(scene, kFiltered, {{"resolution", std::string("64")}}, {96, 72});
-  const Image filtered =
-      render(scene, kFiltered,
-             {{"resolution", std::string("64")}, {"filter_radius", int64_t{8}}, {"filter_step", 1.0}},
-             {96, 72})
-          .product;
+  const Rendered plain = render(scene, kFiltered, {{"resolution", int64_t{64}}}, {96, 72});
+  const Image filtered = render(scene, kFiltered,
+                                {{"resolution", int64_t{64}},
+                                 {"filter", std::string("surface_mean")},
+                                 {"filter.radius", int64_t{8}},
+                                 {"filter.step", 1.0}},
+                                {96, 72})
+                             .product;
   // The card lies 1.3 m below the light, the ground 2 m.
   int top = 0;
   for (size_t i = 0; i < filtered.pixels(); ++i)
@@ -107,10 +115,10 @@ TEST_F(VisibilityFilterTest, StaysOnTheSurface) {
   EXPECT_GT(top, 100);
 }
 
-TEST_F(VisibilityFilterTest, SettingsWithoutAFilterAreRefused) {
+TEST_F(VisibilityFilterTest, WithoutAFilterItsSettingsCannotBeWritten) {
   const TechniqueInfo& info = TechniqueRegistry::instance().get(kFiltered);
-  for (const char* name : {"filter_step", "filter_plane_share", "filter_angle"})
-    EXPECT_THROW(info.check(ParameterValues(info.parameters, {{name, 0.5}})), Error) << name;
+  for (const char* name : {"filter.step", "filter.plane_share", "filter.angle"})
+    EXPECT_THROW(ParameterValues(info.parameters, {{name, 0.5}}), Error) << name;
 }
 
 }  // namespace

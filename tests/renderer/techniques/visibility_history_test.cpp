@@ -54,10 +54,11 @@ TEST_F(VisibilityHistoryTest, WithAllWeightOnThePresentItIsTheInnerTechniqueBitF
   const frame::GpuScene gpuScene(scene);
   for (const char* inner : {"backprojection", "bitmask"}) {
     frame::Frame frame(context(), scene, gpuScene, kHistoryPx);
-    const auto plain = make(std::string("soft_shadows/") + inner, {{"resolution", std::string("128")}});
+    const std::string plainName = std::string("soft_shadows/") + inner;
+    const auto plain = make(plainName, withMaps(plainName, 128));
     const auto averaged =
         make("soft_shadows/history",
-             {{"inner", std::string(inner)}, {"resolution", std::string("128")}, {"alpha", 1.0}});
+             withMaps("soft_shadows/history", 128, {{"inner", std::string(inner)}, {"alpha", 1.0}}));
     plain->prepare(frame);
     averaged->prepare(frame);
     for (const double timeS : {0.0, 0.0, 0.1, 0.2, 0.9}) {
@@ -74,7 +75,7 @@ TEST_F(VisibilityHistoryTest, PastFramesWeighExponentiallyLessWithinThePresentsB
   constexpr double kAlpha = 0.3, kShare = 0.4;
   constexpr int kSteps = 4;
   const scene::Scene scene = makeScene("two_boxes");
-  const Given inner = {{"resolution", std::string("128")}};
+  const Given inner = withMaps("soft_shadows/backprojection", 128);
   for (const int64_t radius : {0, 1, 2}) {
     Image twin, receivers;
     for (int step = 0; step <= kSteps; ++step) {
@@ -105,14 +106,14 @@ TEST_F(VisibilityHistoryTest, PastFramesWeighExponentiallyLessWithinThePresentsB
         }
       receivers = present.receivers;
     }
-    Given given = {{"resolution", std::string("128")},
-                   {"smoothing", std::string("history")},
-                   {"alpha", kAlpha},
-                   {"light_step", kShare},
-                   {"steps", int64_t{kSteps}},
-                   {"clamp", std::string(radius > 0 ? "neighbourhood" : "none")}};
-    if (radius > 0) given["clamp_radius"] = radius;
-    const Rendered averaged = render(scene, "soft_shadows/in_motion", given, kHistoryPx);
+    Given given = {{"smoothing", std::string("history")},
+                   {"smoothing.alpha", kAlpha},
+                   {"smoothing.light_step", kShare},
+                   {"smoothing.steps", int64_t{kSteps}},
+                   {"smoothing.clamp", std::string(radius > 0 ? "neighbourhood" : "none")}};
+    if (radius > 0) given["smoothing.clamp.radius"] = radius;
+    const Rendered averaged =
+        render(scene, "soft_shadows/in_motion", withMaps("soft_shadows/in_motion", 128, given), kHistoryPx);
     int between = 0;
     for (size_t i = 0; i < twin.pixels(); ++i) {
       // Values up to 1 in single precision, four steps of three roundings each.
@@ -131,10 +132,13 @@ TEST_F(VisibilityHistoryTest, OneStepOfTheLightLeavesThePastsShareAsLag) {
   const scene::Scene scene = makeScene("half_plane");
   const glm::dvec3 axis = scene.lights[0].axisX;
   const double direction = std::abs(axis.x) > 0.5 ? 0.0 : 90.0;
-  const Given map = {{"resolution", std::string("64")}, {"budget", int64_t{0}}};
-  Given moving = map;
-  moving["light_step"] = kShare, moving["direction_deg"] = direction;
-  moving["smoothing"] = std::string("history"), moving["alpha"] = kAlpha;
+  const Given map = withMaps("soft_shadows/backprojection", 64, {{"budget", int64_t{0}}});
+  const Given moving = withMaps("soft_shadows/in_motion", 64,
+                                {{"inner.budget", int64_t{0}},
+                                 {"smoothing", std::string("history")},
+                                 {"smoothing.light_step", kShare},
+                                 {"smoothing.direction_deg", direction},
+                                 {"smoothing.alpha", kAlpha}});
   const Rendered late = render(scene, "soft_shadows/in_motion", moving, kHistoryPx);
   const Rendered now = render(scene, "soft_shadows/backprojection", map, kHistoryPx);
   double largest = 0.0;
@@ -158,9 +162,10 @@ TEST_F(VisibilityHistoryTest, ThePastIsLookedUpWhereTheSurfaceWas) {
   const scene::Scene scene = withMovingCamera(makeScene("two_boxes"));
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, kHistoryPx);
-  const Given map = {{"resolution", std::string("128")}};
+  const Given map = withMaps("soft_shadows/backprojection", 128);
   const auto plain = make("soft_shadows/backprojection", map);
-  const auto averaged = make("soft_shadows/history", {{"resolution", std::string("128")}, {"alpha", kAlpha}});
+  const auto averaged =
+      make("soft_shadows/history", withMaps("soft_shadows/history", 128, {{"alpha", kAlpha}}));
   plain->prepare(frame);
   averaged->prepare(frame);
   show(frame, *averaged, kThenS);
@@ -224,8 +229,8 @@ TEST_F(VisibilityHistoryTest, CountsWhoHasAPast) {
   const scene::Scene scene = withMovingCamera(makeScene("two_boxes"));
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, kHistoryPx);
-  const auto averaged = make("soft_shadows/history",
-                             {{"resolution", std::string("128")}, {"clamp", std::string("neighbourhood")}});
+  const auto averaged = make("soft_shadows/history", withMaps("soft_shadows/history", 128,
+                                                              {{"clamp", std::string("neighbourhood")}}));
   averaged->prepare(frame);
   const auto counter = [&](const std::string& name) {
     for (const Counter& counted : averaged->count(frame))

@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/yaml_tree.h"
+#include "renderer/catalogue.h"
 #include "study/example/example.h"
 
 namespace limen::study {
@@ -19,7 +20,7 @@ constexpr const char* kGood =
     "question: q\n"
     "studies:\n"
     "  - protocol: quick\n"
-    "    observer: {kind: lapsing, lapse: 0.1}\n"
+    "    observer: {kind: lapsing, lapse: {kind: own, value: 0.1}}\n"
     "    observers: 3\n"
     "    seed: 7\n"
     "    window: {width_px: 64, height_px: 48}\n"
@@ -48,7 +49,7 @@ TEST(ExampleReader, ReadsWhatIsThere) {
   const ExampleStudy& study = example.studies[0];
   EXPECT_EQ(study.name, "quick");
   EXPECT_EQ(study.observer.name, "lapsing");
-  EXPECT_EQ(study.observer.values.real("lapse"), 0.1);
+  EXPECT_EQ(study.observer.behaviour.lapse, 0.1);
   EXPECT_EQ(study.observer.behaviour.lapse, 0.1);
   EXPECT_EQ(study.observers, 3);
   EXPECT_EQ(study.seed, 7U);
@@ -67,7 +68,7 @@ TEST(ExampleReader, NamesLineAndNearestName) {
   EXPECT_THAT(messageOf(with("quick", "qick")), AllOf(HasSubstr("e.yaml:4:"), HasSubstr("'quick'")));
   EXPECT_THAT(messageOf(with("kind: lapsing", "kind: lapsin")),
               AllOf(HasSubstr("e.yaml:5:"), HasSubstr("'lapsing'")));
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "laps: 0.1")),
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}", "laps: {kind: own, value: 0.1}")),
               AllOf(HasSubstr("e.yaml:5:"), HasSubstr("'lapse'")));
   EXPECT_THAT(messageOf(with("width_px", "widht_px")),
               AllOf(HasSubstr("e.yaml:8:"), HasSubstr("'width_px'")));
@@ -77,13 +78,16 @@ TEST(ExampleReader, NamesLineAndNearestName) {
 }
 
 TEST(ExampleReader, RefusesWhatDoesNotFit) {
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "lapse: 2")), HasSubstr("e.yaml:5:"));
-  EXPECT_THAT(messageOf(with("lapse: 0.1", "lapse: 0.6, guess: 0.6")), HasSubstr("sum to 1"));
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}", "lapse: {kind: own, value: 2}")),
+              HasSubstr("e.yaml:5:"));
+  EXPECT_THAT(messageOf(with("lapse: {kind: own, value: 0.1}",
+                             "lapse: {kind: own, value: 0.6}, guess: {kind: own, value: 0.6}")),
+              HasSubstr("sum to 1"));
   EXPECT_THAT(messageOf(with("observers: 3", "observers: 0")), HasSubstr("e.yaml:6:"));
   EXPECT_THAT(messageOf(with("observers: 3", "observers: many")), HasSubstr("e.yaml:6:"));
   EXPECT_THAT(messageOf(with(", height_px: 48", "")), HasSubstr("'height_px' of window is missing"));
   EXPECT_THAT(messageOf(with("title: t\n", "")), HasSubstr("'title' is missing"));
-  EXPECT_THAT(messageOf(with("    observer: {kind: lapsing, lapse: 0.1}\n", "")),
+  EXPECT_THAT(messageOf(with("    observer: {kind: lapsing, lapse: {kind: own, value: 0.1}}\n", "")),
               HasSubstr("'observer' is missing"));
   EXPECT_THAT(messageOf(with("    seed: 7", "    name: ../other")), HasSubstr("no name of a study"));
   EXPECT_THAT(messageOf(with("analyses:", "  - {protocol: quick, observer: {kind: ideal}}\nanalyses:")),
@@ -99,12 +103,12 @@ TEST(ExampleReader, RefusesWhatDoesNotFit) {
 
 TEST(ExampleReader, AnotherWindowIsInTheTextThatIsStored) {
   ExampleStudy study = parseExample(kGood, "e.yaml").studies[0];
-  const auto declarations = declarationsFromRegistries();
-  const Protocol small = protocolOf(study, declarations);
+  const auto catalogue = catalogueFromRegistries();
+  const Protocol small = protocolOf(study, catalogue);
   EXPECT_EQ(small.window.widthPx, 64);
   EXPECT_EQ(small.window.heightPx, 48);
   study.windowPx.reset();
-  const Protocol own = protocolOf(study, declarations);
+  const Protocol own = protocolOf(study, catalogue);
   EXPECT_EQ(own.window.widthPx, 320);
   EXPECT_EQ(small.name, own.name);
   EXPECT_NE(small.hash, own.hash);
@@ -122,7 +126,7 @@ TEST(ExampleReader, AnotherWindowIsInTheTextThatIsStored) {
 TEST(ExampleReader, ShippedExamplesAreGood) {
   const std::string features = readTextFile(LIMEN_SOURCE_DIR "/experiments/features.yaml");
   EXPECT_GE(shippedExamples().size(), 2U);
-  const auto declarations = declarationsFromRegistries();
+  const auto catalogue = catalogueFromRegistries();
   for (const auto& [name, title] : shippedExamples()) {
     const Example example = readExample(name);
     EXPECT_EQ(example.title, title);
@@ -131,7 +135,7 @@ TEST(ExampleReader, ShippedExamplesAreGood) {
     // As many observers as the thesis had, so that degrees of freedom are its own.
     for (const ExampleStudy& study : example.studies) {
       EXPECT_EQ(study.observers, study.protocol == "experiment_1" ? 8 : 12) << name;
-      EXPECT_NO_THROW(protocolOf(study, declarations)) << name;
+      EXPECT_NO_THROW(protocolOf(study, catalogue)) << name;
     }
   }
 }

@@ -9,15 +9,15 @@
 namespace limen::study {
 
 Protocol boxProtocol(const std::string& keys) {
-  static const auto kDeclarations = [] {
-    auto out = std::make_shared<Declarations>();
-    out->scenes["box"] = {1, {realParameter("distance", 5, 0.01, 1000, "m", "")}};
+  static const auto kCatalogue = [] {
+    auto out = std::make_shared<Catalogue>();
+    out->scenes["box"] = {.parameters = {realParameter("distance", 5, 0.01, 1000, "m", "")}};
     return out;
   }();
   return parseProtocol(keys +
                            "\ntitle: Test\nquestion: Does it work?\ndisplay: schwarz_2009\ntexts: {consent: "
                            "I agree., instructions: Look.}\n",
-                       "test.yaml", kDeclarations);
+                       "test.yaml", kCatalogue);
 }
 
 Trial trialOf(const Protocol& protocol, bool change, const std::map<std::string, std::string>& condition) {

@@ -48,7 +48,9 @@ TEST(Observer, SaysYesAsOftenAsTheDeclaredFunctionSays) {
   const Simulation simulation(protocol);
   SimulatedObserver lapsing(simulation, behaviourOf("lapsing"), 1),
       ideal(simulation, behaviourOf("ideal"), 1);
-  SimulatedObserver other(simulation, behaviourOf("lapsing", {"lapse=0.3", "guess=0.2"}), 1);
+  SimulatedObserver other(
+      simulation, behaviourOf("lapsing", {"lapse=own", "lapse.value=0.3", "guess=own", "guess.value=0.2"}),
+      1);
   for (const double distance : {4.0, 10.0}) {
     const Trial trial = trialOf(protocol, true, {{"distance", distance == 4.0 ? "4" : "10"}});
     const double f = logistic(7.0 - distance);
@@ -282,9 +284,11 @@ TEST(Observer, BadSettingsAreRefused) {
   EXPECT_THROW(chooseObserver("lapsing", {"lapse"}), Error);
   EXPECT_THROW(chooseObserver("lapsing", {"laps=0.1"}), Error);
   EXPECT_THROW(chooseObserver("lapsing", {"lapse=much"}), Error);
-  EXPECT_THROW(chooseObserver("lapsing", {"lapse=0.1", "lapse=0.2"}), Error);
-  EXPECT_THROW(chooseObserver("lapsing", {"lapse=0.6", "guess=0.6"}), Error);
-  EXPECT_THROW(chooseObserver("ideal", {"lapse=0.1"}), Error);
+  EXPECT_THROW(chooseObserver("lapsing", {"lapse.kind=own", "lapse=protocol"}), Error);
+  EXPECT_THROW(chooseObserver("lapsing", {"lapse=own", "lapse.value=0.6", "guess=own", "guess.value=0.6"}),
+               Error);
+  EXPECT_THROW(chooseObserver("ideal", {"lapse=own"}), Error);
+  EXPECT_THROW(chooseObserver("lapsing", {"lapse.value=0.1"}), Error);  // the protocol's: no value of its own
 }
 
 }  // namespace

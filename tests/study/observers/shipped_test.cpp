@@ -9,6 +9,7 @@
 #include <set>
 
 #include "experiments/store/sessions.h"
+#include "renderer/catalogue.h"
 #include "study/observers/simulate.h"
 #include "tests/study/observers/binomial.h"
 #include "tests/study/observers/example.h"
@@ -24,7 +25,7 @@ struct Sitting {
 };
 
 std::vector<Sitting> simulate(const std::string& name, int observers) {
-  const Protocol protocol = readProtocol(name, declarationsFromRegistries());
+  const Protocol protocol = readProtocol(name, catalogueFromRegistries());
   TemporaryStore store;
   SimulationRequest request;
   request.store = store.path;

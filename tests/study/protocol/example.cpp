@@ -5,21 +5,23 @@
 
 namespace limen::study {
 
-std::shared_ptr<const Declarations> exampleDeclarations() {
-  static const auto kDeclarations = [] {
-    auto out = std::make_shared<Declarations>();
-    out->scenes["box"] = {
-        3,
-        {realParameter("distance", 5, 0.5, 50, "m", ""), integerParameter("tile", 0, 0, 63, "", ""),
-         choiceParameter("kind", "wood", {"wood", "stone"}, ""), booleanParameter("textured", true, "")}};
-    out->scenes["model"] = {1, {fileParameter("file", "")}};
-    out->techniques["fast"] = {
-        2, {integerParameter("quality", 3, 1, 10, "", ""), choiceParameter("pattern", "8", {"8", "16"}, "")}};
-    out->techniques["exact"] = {1, {}};
+std::shared_ptr<const Catalogue> exampleCatalogue() {
+  static const auto kCatalogue = [] {
+    auto out = std::make_shared<Catalogue>();
+    out->scenes["box"] = {.version = 3,
+                          .parameters = {realParameter("distance", 5, 0.5, 50, "m", ""),
+                                         integerParameter("tile", 0, 0, 63, "", ""),
+                                         choiceParameter("kind", "wood", {"wood", "stone"}, ""),
+                                         booleanParameter("textured", true, "")}};
+    out->scenes["model"] = {.parameters = {fileParameter("file", "")}};
+    out->techniques["fast"] = {.version = 2,
+                               .parameters = {integerParameter("quality", 3, 1, 10, "", ""),
+                                              choiceParameter("pattern", "8", {"8", "16"}, "")}};
+    out->techniques["exact"] = {};
     out->shading = {realParameter("ambient", 0.2, 0, 1, "", "")};
     return out;
   }();
-  return kDeclarations;
+  return kCatalogue;
 }
 
 std::string protocolText(const std::string& partKeys) {
@@ -32,12 +34,12 @@ texts: {consent: I agree., instructions: Look.}
 }
 
 Protocol exampleProtocol(const std::string& partKeys) {
-  return parseProtocol(protocolText(partKeys), "test.yaml", exampleDeclarations());
+  return parseProtocol(protocolText(partKeys), "test.yaml", exampleCatalogue());
 }
 
 std::string refusal(const std::string& text) {
   try {
-    parseProtocol(text, "test.yaml", exampleDeclarations());
+    parseProtocol(text, "test.yaml", exampleCatalogue());
   } catch (const Error& error) {
     return error.what();
   }

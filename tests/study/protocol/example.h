@@ -9,7 +9,7 @@
 namespace limen::study {
 
 /// Scene "box" (distance, tile, kind, textured, label), techniques "fast" (quality, pattern) and "exact".
-std::shared_ptr<const Declarations> exampleDeclarations();
+std::shared_ptr<const Catalogue> exampleCatalogue();
 
 /// A protocol with the given keys of its only part besides title, question, display and texts. `partKeys`
 /// begin on line 1.

@@ -8,15 +8,16 @@
 #include <sstream>
 
 #include "experiments/base/yaml_tree.h"
+#include "renderer/catalogue.h"
 #include "renderer/scene/scene.h"
 #include "study/protocol/design.h"
 
 namespace limen::study {
 namespace {
 
-const std::shared_ptr<const Declarations>& declarations() {
-  static const std::shared_ptr<const Declarations> kDeclarations = declarationsFromRegistries();
-  return kDeclarations;
+const std::shared_ptr<const Catalogue>& catalogue() {
+  static const std::shared_ptr<const Catalogue> kCatalogue = catalogueFromRegistries();
+  return kCatalogue;
 }
 
 std::vector<PlannedTrial> plannedTrials(const Protocol& protocol) {
@@ -48,7 +49,7 @@ TEST(ShippedProtocols, AllReadAndGiveStimuli) {
   for (const auto& [name, title] : shippedProtocols()) {
     names.insert(name);
     EXPECT_FALSE(title.empty());
-    const Protocol protocol = readProtocol(name, declarations());
+    const Protocol protocol = readProtocol(name, catalogue());
     EXPECT_EQ(protocol.name, name);
     for (const std::string& feature : protocol.features)
       EXPECT_THAT(features, testing::HasSubstr("id: " + feature + ",")) << name;
@@ -73,11 +74,11 @@ TEST(ShippedProtocols, TheReadmesExampleReads) {
   std::istringstream lines(readme.substr(begin, end - begin));
   for (std::string line; std::getline(lines, line);) text += (line.empty() ? line : line.substr(4)) + "\n";
   // 4 speeds x 2 presentations x 2 changes, 3 + 1 trials of each.
-  EXPECT_EQ(plannedTrials(parseProtocol(text, "example.yaml", declarations())).size(), 64U);
+  EXPECT_EQ(plannedTrials(parseProtocol(text, "example.yaml", catalogue())).size(), 64U);
 }
 
 TEST(ShippedProtocols, ExperimentOneHasTheThesisDesign) {
-  const Protocol protocol = readProtocol("experiment_1", declarations());
+  const Protocol protocol = readProtocol("experiment_1", catalogue());
   const std::vector<PlannedTrial> trials = plannedTrials(protocol);
   ASSERT_EQ(trials.size(), 112U);
   std::map<std::map<std::string, std::string>, std::pair<int, int>> counts;
@@ -94,7 +95,7 @@ TEST(ShippedProtocols, ExperimentOneHasTheThesisDesign) {
 }
 
 TEST(ShippedProtocols, ExperimentOneChangesAtItsDistanceAndPointsAtTheTip) {
-  const Protocol protocol = readProtocol("experiment_1", declarations());
+  const Protocol protocol = readProtocol("experiment_1", catalogue());
   for (const PlannedTrial& trial : plannedTrials(protocol)) {
     const Stimulus s = stimuliOf(protocol, trial)[0];
     EXPECT_EQ(s.durationS, 4.5);
@@ -119,7 +120,7 @@ TEST(ShippedProtocols, ExperimentOneChangesAtItsDistanceAndPointsAtTheTip) {
 }
 
 TEST(ShippedProtocols, ExperimentTwoHasTheThesisDesign) {
-  const Protocol protocol = readProtocol("experiment_2", declarations());
+  const Protocol protocol = readProtocol("experiment_2", catalogue());
   std::map<std::string, std::map<std::map<std::string, std::string>, std::pair<int, int>>> counts;
   for (const PlannedTrial& trial : plannedTrials(protocol)) {
     auto& [change, none] = counts[protocol.parts[static_cast<size_t>(trial.part)].name][trial.condition];
@@ -142,7 +143,7 @@ TEST(ShippedProtocols, ExperimentTwoHasTheThesisDesign) {
 }
 
 TEST(ShippedProtocols, ExperimentTwoMarksTheTileThatChanges) {
-  const Protocol protocol = readProtocol("experiment_2", declarations());
+  const Protocol protocol = readProtocol("experiment_2", catalogue());
   for (const PlannedTrial& trial : plannedTrials(protocol)) {
     if (trial.part == 0 || !trial.change) continue;
     const Stimulus s = stimuliOf(protocol, trial)[0];
@@ -159,12 +160,12 @@ TEST(ShippedProtocols, ExperimentTwoMarksTheTileThatChanges) {
 }
 
 TEST(ShippedProtocols, ThresholdAndPairsHaveTheirTrials) {
-  const Protocol threshold = readProtocol("threshold_2ifc", declarations());
+  const Protocol threshold = readProtocol("threshold_2ifc", catalogue());
   EXPECT_EQ(plannedTrials(threshold).size(), 160U);
   EXPECT_EQ(makeDesign(threshold, 1, 0).procedures.size(), 4U);
-  const Protocol pairs = readProtocol("quality_pairs", declarations());
+  const Protocol pairs = readProtocol("quality_pairs", catalogue());
   EXPECT_EQ(plannedTrials(pairs).size(), 7U * 6U / 2U * 2U * 2U);
-  EXPECT_EQ(plannedTrials(readProtocol("quick", declarations())).size(), 6U);
+  EXPECT_EQ(plannedTrials(readProtocol("quick", catalogue())).size(), 6U);
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(Stimuli, FilesAreFoundBesideTheProtocol) {
   const Protocol protocol = parseProtocol(
       protocolText(kYesNo +
                    "stimulus: {scene: {name: model, file: mesh.obj}, levels: {before: 1, after: 0}}\n"),
-      (folder / "study.yaml").string(), exampleDeclarations());
+      (folder / "study.yaml").string(), exampleCatalogue());
   const Stimulus s = stimuliOf(protocol, firstTrial(protocol))[0];
   EXPECT_EQ(s.scene.fileHashes.at("file"), sha256("v 0 0 0\n"));
   ASSERT_EQ(protocol.fileHashes.size(), 1U);

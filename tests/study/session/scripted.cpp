@@ -5,16 +5,16 @@
 
 #include <chrono>
 
+#include "experiments/base/catalogue.h"
 #include "perception/psychometrics/random.h"
-#include "study/protocol/declarations.h"
 
 namespace limen::study {
 namespace {
 
 /// What the tests' stimuli may name: one scene, whose every parameter is a number.
-std::shared_ptr<const Declarations> testDeclarations() {
-  auto out = std::make_shared<Declarations>();
-  Declaration scene;
+std::shared_ptr<const Catalogue> testCatalogue() {
+  auto out = std::make_shared<Catalogue>();
+  CatalogueEntry scene;
   for (const char* name : {"distance", "motion", "sun", "contrast"})
     scene.parameters.push_back(realParameter(name, 0.0, 0.0, 100.0, "", "a number"));
   out->scenes["test/scene"] = scene;
@@ -90,7 +90,7 @@ stimulus: {{scene: {{name: test/scene}}, levels: {{before: 1, after: 0}}}}
 trials: {{change: {}, catch: {}}}
 )",
                                                         changes, catches),
-                                    "small.yaml", testDeclarations());
+                                    "small.yaml", testCatalogue());
   protocol.texts.consent.clear();
   return protocol;
 }
@@ -131,7 +131,7 @@ parts:
     stimulus: {scene: {name: test/scene}, levels: {before: 1, after: 0}}
     trials: {change: 4}
 )",
-                                    "large.yaml", testDeclarations());
+                                    "large.yaml", testCatalogue());
   // A field without choices, which a front end could offer.
   protocol.form.push_back({"remarks", "Remarks", {}});
   return protocol;

@@ -7,7 +7,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "study/protocol/declarations.h"
+#include "experiments/base/catalogue.h"
+#include "renderer/catalogue.h"
 #include "tests/run_program.h"
 #include "tests/study/session/session_fixture.h"
 
@@ -23,7 +24,7 @@ class SessionsCommandTest : public SessionStoreTest {
 };
 
 TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
-  const Protocol protocol = readProtocol("quick", declarationsFromRegistries());
+  const Protocol protocol = readProtocol("quick", catalogueFromRegistries());
   ScriptedFrontEnd frontEnd(protocol), paused(protocol);
   run(protocol, frontEnd);
   request_.participant = "p02";
@@ -79,7 +80,7 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
 }
 
 TEST_F(SessionsCommandTest, WhatIsNotThereIsNamed) {
-  const Protocol protocol = readProtocol("quick", declarationsFromRegistries());
+  const Protocol protocol = readProtocol("quick", catalogueFromRegistries());
   ScriptedFrontEnd frontEnd(protocol);
   run(protocol, frontEnd);
   const auto refused = [&](const std::string& arguments, const std::string& text) {

@@ -24,10 +24,9 @@ class PredictionTest : public gl::GlTest {
  protected:
   /// The first frame after the change as the display gets it, coded by the closed form of sRGB.
   static Image coded(const Stimulus& stimulus, int level) {
-    const scene::Scene scene = scene::buildScene(stimulus.scene.name, stimulus.scene.values);
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, kPredictionSize, stimulus.changeAtS);
-    frame.setLevels(scene::uniformLevels(scene, level));
+    const frame::SceneOnGpu onGpu(scene::buildScene(stimulus.scene.name, stimulus.scene.values));
+    frame::Frame frame(context(), onGpu, kPredictionSize, stimulus.changeAtS);
+    frame.setLevels(scene::uniformLevels(onGpu.scene, level));
     frame.begin();
     Image image = frame.get<frame::Shaded>(frame::ShadedSetting{}).texture().read();
     frame.end();
@@ -40,11 +39,10 @@ class PredictionTest : public gl::GlTest {
   /// What popping/lod_switch_reference, which has views of its own and does not round to codes, finds.
   static std::map<std::string, double> technique(const Stimulus& stimulus, const std::string& presentation) {
     Given given = stimulus.scene.values.all();
-    given["time_s"] = stimulus.changeAtS;
+    given["camera.time_s"] = stimulus.changeAtS;
     const NamedEntry moved = sceneEntry(stimulus.scene.name, given);
-    const scene::Scene scene = scene::buildScene(moved.name, moved.values);
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, kPredictionSize);
+    const frame::SceneOnGpu onGpu(scene::buildScene(moved.name, moved.values));
+    frame::Frame frame(context(), onGpu, kPredictionSize);
     const auto& info = techniques::TechniqueRegistry::instance().get("popping/lod_switch_reference");
     const auto made = info.make(ParameterValues(
         info.parameters, {{"presentation", presentation}, {"display", std::string("schwarz_2009")}}));
@@ -141,7 +139,8 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
     nearer.distanceM = 0.5;
     EXPECT_NE(Predictor(context(), kPredictionSize, nearer).key(stimulus), key);
     EXPECT_NE(Predictor(context(), kPredictionSize, studyDisplay(),
-                        ParameterValues(perception::poppingParameters(), {{"use_flicker", false}}))
+                        ParameterValues(perception::PoppingSettings::table().parameters(),
+                                        {{"flicker", "ignored"}}))
                   .key(stimulus),
               key);
   }

@@ -28,10 +28,9 @@ class StimulusRendererTest : public gl::GlTest {
 
   /// Linear light of levels at a time, without the study: `samples` squared samples of one frame, averaged.
   static Image light(const Stimulus& stimulus, double timeS, int level, glm::ivec2 sizePx = kStimulusSize) {
-    const scene::Scene scene = sceneOf(stimulus);
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, sizePx * stimulus.samples, timeS);
-    frame.setLevels(scene::uniformLevels(scene, level));
+    const frame::SceneOnGpu onGpu(sceneOf(stimulus));
+    frame::Frame frame(context(), onGpu, sizePx * stimulus.samples, timeS);
+    frame.setLevels(scene::uniformLevels(onGpu.scene, level));
     frame.begin();
     const Image fine = frame.get<frame::Shaded>(frame::ShadedSetting{}).texture().read();
     frame.end();
@@ -87,10 +86,10 @@ TEST_F(StimulusRendererTest, FramesAreThoseOfTheRendererAtTheirTimeAndLevel) {
 }
 
 TEST_F(StimulusRendererTest, TheSameStimulusGivesTheSameBytes) {
-  StageCache stages;
-  StimulusRenderer a(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
-  StimulusRenderer b(context(), patchStimulus(), kStimulusSize, studyDisplay(), &stages);
-  EXPECT_EQ(&a.stage(), &b.stage());
+  SceneCache scenes;
+  StimulusRenderer a(context(), patchStimulus(), kStimulusSize, studyDisplay(), &scenes);
+  StimulusRenderer b(context(), patchStimulus(), kStimulusSize, studyDisplay(), &scenes);
+  EXPECT_EQ(&a.scene(), &b.scene());
   b.render(11);  // order does not matter
   EXPECT_EQ(a.readBack(3).data, b.readBack(3).data);
 }
@@ -156,9 +155,8 @@ TEST_F(StimulusRendererTest, VisibilityModulatesTheDirectLightOnly) {
   const Image shown = renderer.readBack(0);
 
   // Shares of the light apart: with ambient 0.2 and diffuse 0.8 the shadowed picture is a + v d.
-  const scene::Scene scene = sceneOf(stimulus);
-  const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, kStimulusSize);
+  const frame::SceneOnGpu onGpu(sceneOf(stimulus));
+  frame::Frame frame(context(), onGpu, kStimulusSize);
   const auto hard =
       techniques::TechniqueRegistry::instance().get("soft_shadows/hard").make(stimulus.before->values);
   hard->prepare(frame);
@@ -167,7 +165,7 @@ TEST_F(StimulusRendererTest, VisibilityModulatesTheDirectLightOnly) {
   const Image visibility = hard->product().read();
   frame::ShadedSetting ambient, direct;
   ambient.diffuse = 0.0;
-  ambient.background = direct.background = glm::vec3(0.0F);
+  ambient.background = direct.background = 0.0;
   direct.ambient = 0.0;
   const Image a = frame.get<frame::Shaded>(ambient).texture().read(),
               d = frame.get<frame::Shaded>(direct).texture().read();

@@ -21,18 +21,68 @@ namespace {
 
 constexpr const char* kBlendPass = "lod/blend";
 
+const char* const kBlendSource = "Schwarz 2009, section 2.4";
+
+struct ImageSpaceBlend {
+  static constexpr const char *kKind = "image_space", *kSummary = "both levels mixed each frame";
+};
+
+struct AlternatingBlend {
+  static constexpr const char *kKind = "alternating", *kSummary = "one level a frame and pixels copied";
+  double frameRateHz = 60.0;
+  bool reproject = false;
+  static const SettingsTable<AlternatingBlend>& table() {
+    using S = AlternatingBlend;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::frameRateHz, "frame_rate", Range{1.0, 1000.0}, "Hz",
+                "Tells how far the camera moved since the last frame")
+            .formerly({"frame_rate"}),
+        Binding(&S::reproject, "reproject", "Follows the camera's motion in the older picture")
+            .formerly({"reproject"})};
+    return kTable;
+  }
+};
+
+struct BlendSettings {
+  std::variant<ImageSpaceBlend, AlternatingBlend> mode;
+  int fromLevel = 0, toLevel = 1;
+  int blendFrames = 16, frame = 8;
+  int samples = 1;
+  frame::ShadedSetting shading;
+  static const SettingsTable<BlendSettings>& table() {
+    using S = BlendSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::mode, "mode", "How the two levels are combined", kBlendSource},
+        {&S::fromLevel,
+         "from_level",
+         {0, 15},
+         "",
+         "Level of all objects before the blend; at most their last"},
+        {&S::toLevel, "to_level", {0, 15}, "", "Level of all objects after it; at most their last"},
+        {&S::blendFrames, "blend_frames", {1, 1000}, "frames", "Length of the blend", kBlendSource},
+        {&S::frame, "frame", {0, 1000}, "frames", "Frames since the blend began; past its end it is over"},
+        samplesBinding(&S::samples),
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
 class Blend : public Technique {
  public:
-  explicit Blend(const ParameterValues& values)
-      : alternating_(values.text("mode") == "alternating"),
-        reproject_(alternating_ && values.boolean("reproject")),
-        from_(static_cast<int>(values.integer("from_level"))),
-        to_(static_cast<int>(values.integer("to_level"))),
-        frames_(static_cast<int>(values.integer("blend_frames"))),
-        number_(static_cast<int>(values.integer("frame"))),
-        dtS_(1.0 / values.real("frame_rate")),
-        samples_(static_cast<int>(values.integer("samples"))),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = BlendSettings;
+  explicit Blend(const BlendSettings& settings)
+      : alternating_(std::holds_alternative<AlternatingBlend>(settings.mode)),
+        from_(settings.fromLevel),
+        to_(settings.toLevel),
+        frames_(settings.blendFrames),
+        number_(settings.frame),
+        samples_(settings.samples),
+        shaded_(settings.shading) {
+    const auto* alternating = std::get_if<AlternatingBlend>(&settings.mode);
+    if (!alternating) return;
+    reproject_ = alternating->reproject;
+    dtS_ = 1.0 / alternating->frameRateHz;
+  }
 
   void prepare(frame::Frame& frame) override {
     gl::ShaderDefines defines;
@@ -88,13 +138,11 @@ class Blend : public Technique {
                               newer = uniformLevels(frame.scene(), to_);
     const uint64_t both = triangleCount(frame.scene(), older) + triangleCount(frame.scene(), newer);
     const uint64_t drawn = alternating_ ? triangleCount(frame.scene(), newIsNow() ? newer : older) : both;
-    return {{"triangles_drawn", static_cast<double>(drawn), "", true},
-            {"new_level_weight", weight(), "", false},
-            {"screen_error_px",
-             std::min(std::max(largestScreenErrorPx(frame.scene(), older, view),
-                               largestScreenErrorPx(frame.scene(), newer, view)),
-                      1e9),
-             "px", false}};
+    return {{"triangles_drawn", static_cast<double>(drawn)},
+            {"new_level_weight", weight()},
+            {"screen_error_px", std::min(std::max(largestScreenErrorPx(frame.scene(), older, view),
+                                                  largestScreenErrorPx(frame.scene(), newer, view)),
+                                         1e9)}};
   }
 
  private:
@@ -105,9 +153,9 @@ class Blend : public Technique {
     beforeOf_ = frame.timeS();
   }
 
-  bool alternating_, reproject_;
+  bool alternating_, reproject_ = false;
   int from_, to_, frames_, number_;
-  double dtS_;
+  double dtS_ = 0.0;  // alternating only
   int samples_;
   frame::ShadedSetting shaded_;
   const gl::Program* program_ = nullptr;
@@ -117,38 +165,16 @@ class Blend : public Technique {
   double beforeOf_ = 0.0;
 };
 
-std::vector<Parameter> blendParameters() {
-  const char* const kSource = "Schwarz 2009, section 2.4";
-  std::vector<Parameter> out = {
-      choiceParameter("mode", "image_space", {"image_space", "alternating"},
-                      "Both levels mixed each frame, or one level a frame and pixels copied", kSource),
-      integerParameter("from_level", 0, 0, 15, "",
-                       "Level of all objects before the blend; at most their last"),
-      integerParameter("to_level", 1, 0, 15, "", "Level of all objects after it; at most their last"),
-      integerParameter("blend_frames", 16, 1, 1000, "frames", "Length of the blend", kSource),
-      integerParameter("frame", 8, 0, 1000, "frames",
-                       "Frames since the blend began; past its end it is over"),
-      realParameter("frame_rate", 60.0, 1.0, 1000.0, "Hz",
-                    "Tells how far the camera moved since the last frame"),
-      booleanParameter("reproject", false, "alternating: follows the camera's motion in the older picture"),
-      samplesParameter(1)};
-  for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
-  return out;
-}
-
-const Registered<TechniqueInfo> kBlendRegistered{
+const RegisteredTechnique<Blend> kBlendRegistered{
     {.name = "lod/blend",
      .version = 1,
      .summary = "A frame of a blend from one level to another, both mixed or one a frame",
      .source = "Schwarz 2009, section 2.4 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = blendParameters(),
      .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Blend>(values); },
-     .errorBound = {},
-     .counters = {"triangles_drawn", "new_level_weight", "screen_error_px"}}};
+     .counters = {trianglesDrawn(),
+                  {"new_level_weight", "Weight of the new level", "", Direction::Neither},
+                  screenErrorPx()}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -9,14 +9,26 @@
 namespace limen::techniques {
 namespace {
 
+struct DiscreteSettings {
+  LevelControlSettings levels;
+  int samples = 1;
+  frame::ShadedSetting shading;
+  static const SettingsTable<DiscreteSettings>& table() {
+    using S = DiscreteSettings;
+    static const SettingsTable<S> kTable = {included(&S::levels), samplesBinding(&S::samples),
+                                            frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
 class Discrete : public Technique {
  public:
-  explicit Discrete(const ParameterValues& values)
-      : control_(values),
-        shaded_(frame::ShadedSetting::from(values)),
-        samples_(static_cast<int>(values.integer("samples"))) {}
+  using Settings = DiscreteSettings;
+  explicit Discrete(const DiscreteSettings& settings) : settings_(settings), control_(settings.levels) {}
 
-  void prepare(frame::Frame& frame) override { view_.emplace(frame, "discrete", shaded_, samples_); }
+  void prepare(frame::Frame& frame) override {
+    view_.emplace(frame, "discrete", settings_.shading, settings_.samples);
+  }
 
   void render(frame::Frame& frame) override {
     const scene::LodSelection chosen = control_.choose(frame.scene(), {frame.camera(), frame.sizePx().y});
@@ -30,33 +42,26 @@ class Discrete : public Technique {
   }
 
  private:
+  DiscreteSettings settings_;
   LevelControl control_;
-  frame::ShadedSetting shaded_;
-  int samples_;
   scene::LodSelection shown_;
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> discreteParameters() {
-  std::vector<Parameter> out = LevelControl::parameters();
-  out.push_back(samplesParameter(1));
-  for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
+std::vector<Quantity> discreteQuantities() {
+  std::vector<Quantity> out = selectionQuantities();
+  out.push_back(levelSwitches());
   return out;
 }
 
-const Registered<TechniqueInfo> kDiscreteRegistered{
+const RegisteredTechnique<Discrete> kDiscreteRegistered{
     {.name = "lod/discrete",
      .version = 1,
      .summary = "One level an object and frame, chosen by distance, extent or error on the screen",
      .source = "Schwarz 2009, sections 2.4 and 10.3.5 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = discreteParameters(),
      .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Discrete>(values); },
-     .errorBound = {},
-     .counters = {"triangles_drawn", "level_mean", "screen_error_px", "level_switches"}}};
+     .counters = discreteQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

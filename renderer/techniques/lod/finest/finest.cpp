@@ -9,13 +9,23 @@
 namespace limen::techniques {
 namespace {
 
+struct FinestSettings {
+  int samples = 4;
+  frame::ShadedSetting shading;
+  static const SettingsTable<FinestSettings>& table() {
+    using S = FinestSettings;
+    static const SettingsTable<S> kTable = {samplesBinding(&S::samples), frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
 class Finest : public Technique {
  public:
-  explicit Finest(const ParameterValues& values)
-      : shaded_(frame::ShadedSetting::from(values)), samples_(static_cast<int>(values.integer("samples"))) {}
+  using Settings = FinestSettings;
+  explicit Finest(const FinestSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    view_.emplace(frame, "finest", shaded_, samples_);
+    view_.emplace(frame, "finest", settings_.shading, settings_.samples);
     view_->setLevels(scene::finestLevels(frame.scene()));
   }
   void render(frame::Frame&) override { view_->render(); }
@@ -26,30 +36,19 @@ class Finest : public Technique {
   }
 
  private:
-  frame::ShadedSetting shaded_;
-  int samples_;
+  FinestSettings settings_;
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> finestParameters() {
-  std::vector<Parameter> out{samplesParameter(4)};
-  for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
-  return out;
-}
-
-const Registered<TechniqueInfo> kFinestRegistered{
+const RegisteredTechnique<Finest> kFinestRegistered{
     {.name = "lod/finest",
      .version = 1,
      .summary = "The finest level of every object, supersampled",
      .source = "bench",
      .product = ProductKind::Colour,
-     .parameters = finestParameters(),
      .needs = {"lod_sets"},
      .reference = true,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Finest>(values); },
-     .errorBound = {},
-     .counters = {"triangles_drawn", "level_mean", "screen_error_px"}}};
+     .counters = selectionQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

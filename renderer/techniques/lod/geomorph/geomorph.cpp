@@ -51,16 +51,56 @@ size_t groupCount(const scene::Scene& scene) {
   return count;
 }
 
+const char* const kMorphSource = "Schwarz 2009, section 2.4";
+
+struct MorphByDistance {
+  static constexpr const char *kKind = "distance", *kSummary = "by the scene's switch distances";
+  double factor = 1.0, range = 0.3;
+  static const SettingsTable<MorphByDistance>& table() {
+    using S = MorphByDistance;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::factor, "factor", Range{0.001, 1000.0}, "", "Multiplies the scene's switch distances")
+            .formerly({"distance_factor"}),
+        Binding(&S::range, "range", Range{0.0, 1.0}, "",
+                "Last share of the way to a switch over which a level morphs; 0 switches hard")
+            .formerly({"morph_range"})};
+    return kTable;
+  }
+};
+
+struct FixedMorph {
+  static constexpr const char *kKind = "fixed", *kSummary = "one level and morph for all objects";
+  int level = 0;
+  double morph = 0.5;
+  static const SettingsTable<FixedMorph>& table() {
+    using S = FixedMorph;
+    static const SettingsTable<S> kTable = {
+        Binding(&S::level, "level", Range{0, 15}, "", "Of all objects; at most their last")
+            .formerly({"level"}),
+        Binding(&S::morph, "morph", Range{0.0, 1.0}, "", "Share of the way to the next level")
+            .formerly({"morph"})};
+    return kTable;
+  }
+};
+
+struct GeomorphSettings {
+  std::variant<MorphByDistance, FixedMorph> control;
+  int samples = 1;
+  frame::ShadedSetting shading;
+  static const SettingsTable<GeomorphSettings>& table() {
+    using S = GeomorphSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::control, "control", "What decides level and morph", kMorphSource},
+        samplesBinding(&S::samples),
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
 class Geomorph : public Technique {
  public:
-  explicit Geomorph(const ParameterValues& values)
-      : fixed_(values.text("control") == "fixed_level"),
-        level_(static_cast<int>(values.integer("level"))),
-        morph_(values.real("morph")),
-        factor_(values.real("distance_factor")),
-        range_(values.real("morph_range")),
-        samples_(static_cast<int>(values.integer("samples"))),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = GeomorphSettings;
+  explicit Geomorph(const GeomorphSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     const scene::Scene& scene = frame.scene();
@@ -71,7 +111,7 @@ class Geomorph : public Technique {
     moved_.emplace(frame.gpuScene().positions().bytes(), nullptr);
     frame.passes().setBytesHeld(kMorphPass,
                                 targets_->bytes() + groups_->bytes() + shares_->bytes() + moved_->bytes());
-    view_.emplace(frame, "morphed", shaded_, samples_);
+    view_.emplace(frame, "morphed", settings_.shading, settings_.samples);
     view_->frame().setPositions(&*moved_);
   }
 
@@ -104,7 +144,7 @@ class Geomorph : public Technique {
     std::vector<Counter> out = selectionCounters(frame.scene(), levels(frame.scene(), view), view);
     double sum = 0.0;
     for (const scene::LodObject& object : frame.scene().lodObjects) sum += place(object, view).second;
-    out.push_back({"morph_mean", sum / static_cast<double>(frame.scene().lodObjects.size()), "", false});
+    out.push_back({"morph_mean", sum / static_cast<double>(frame.scene().lodObjects.size())});
     return out;
   }
 
@@ -112,14 +152,16 @@ class Geomorph : public Technique {
   /// Level of an object and how far it has morphed into the next.
   std::pair<int, double> place(const scene::LodObject& object, const scene::LodView& view) const {
     const int last = static_cast<int>(object.levels.size()) - 1;
-    if (fixed_) return {std::min(level_, last), level_ < last ? morph_ : 0.0};
+    if (const auto* fixed = std::get_if<FixedMorph>(&settings_.control))
+      return {std::min(fixed->level, last), fixed->level < last ? fixed->morph : 0.0};
+    const auto [factor, range] = std::get<MorphByDistance>(settings_.control);
     const double distance = viewDistance(object, view.camera);
     int level = 0;
-    while (level < last && distance >= factor_ * object.switchDistances[static_cast<size_t>(level)]) ++level;
+    while (level < last && distance >= factor * object.switchDistances[static_cast<size_t>(level)]) ++level;
     if (level == last) return {level, 0.0};
     // Begins at this share of the way to the switch; complete where the level changes.
-    const double end = factor_ * object.switchDistances[static_cast<size_t>(level)],
-                 begin = end * (1.0 - range_);
+    const double end = factor * object.switchDistances[static_cast<size_t>(level)],
+                 begin = end * (1.0 - range);
     return {level, end > begin ? std::clamp((distance - begin) / (end - begin), 0.0, 1.0) : 0.0};
   }
 
@@ -140,45 +182,26 @@ class Geomorph : public Technique {
     return out;
   }
 
-  bool fixed_;
-  int level_;
-  double morph_, factor_, range_;
-  int samples_;
-  frame::ShadedSetting shaded_;
+  GeomorphSettings settings_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Buffer> targets_, groups_, shares_, moved_;
   std::optional<BoxView> view_;
 };
 
-std::vector<Parameter> geomorphParameters() {
-  const char* const kSource = "Schwarz 2009, section 2.4";
-  std::vector<Parameter> out = {
-      choiceParameter("control", "distance", {"fixed_level", "distance"}, "What decides level and morph",
-                      kSource),
-      integerParameter("level", 0, 0, 15, "", "fixed_level: of all objects; at most their last"),
-      realParameter("morph", 0.5, 0.0, 1.0, "", "fixed_level: share of the way to the next level"),
-      realParameter("distance_factor", 1.0, 0.001, 1000.0, "",
-                    "distance: multiplies the scene's switch distances"),
-      realParameter("morph_range", 0.3, 0.0, 1.0, "",
-                    "distance: last share of the way to a switch over which a level morphs; 0 switches hard"),
-      samplesParameter(1)};
-  for (Parameter& parameter : frame::ShadedSetting::parameters()) out.push_back(std::move(parameter));
+std::vector<Quantity> geomorphQuantities() {
+  std::vector<Quantity> out = selectionQuantities();
+  out.emplace_back("morph_mean", "Mean morph", "", Direction::Neither);
   return out;
 }
 
-const Registered<TechniqueInfo> kGeomorphRegistered{
+const RegisteredTechnique<Geomorph> kGeomorphRegistered{
     {.name = "lod/geomorph",
      .version = 1,
      .summary = "Levels whose vertices move onto the next level before it takes over",
      .source = "Schwarz 2009, section 2.4 (SP-57)",
      .product = ProductKind::Colour,
-     .parameters = geomorphParameters(),
      .needs = {"lod_sets"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Geomorph>(values); },
-     .errorBound = {},
-     .counters = {"triangles_drawn", "level_mean", "screen_error_px", "morph_mean"}}};
+     .counters = geomorphQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -15,15 +15,32 @@
 namespace limen::techniques {
 namespace {
 
+struct ThresholdMapTechniqueSettings {
+  perception::ThresholdMapSettings map;
+  perception::ThresholdMapGpuSettings gpu;
+  perception::ViewingSettings viewing;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ThresholdMapTechniqueSettings>& table() {
+    using S = ThresholdMapTechniqueSettings;
+    static const SettingsTable<S> kTable = {{&S::map, "map", "The model"},
+                                            {&S::gpu, "gpu", "How the GPU computes it"},
+                                            included(&S::viewing),
+                                            frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
 class ThresholdMapTechnique : public Technique {
  public:
-  explicit ThresholdMapTechnique(const ParameterValues& values)
-      : settings_(perception::thresholdMapSettings(values)),
-        display_(perception::viewingDisplay(values)),
-        shaded_(frame::ShadedSetting::from(values)) {}
+  using Settings = ThresholdMapTechniqueSettings;
+  explicit ThresholdMapTechnique(const Settings& settings)
+      : settings_(settings.map),
+        gpu_(settings.gpu),
+        display_(settings.viewing.profile()),
+        shaded_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
-    map_.emplace(frame.context(), frame.sizePx(), display_, settings_);
+    map_.emplace(frame.context(), frame.sizePx(), display_, settings_, gpu_);
     frame.passes().setBytesHeld("threshold_map/levels", map_->bytesHeld());
   }
 
@@ -37,39 +54,28 @@ class ThresholdMapTechnique : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto bytes = static_cast<double>(map_->bytesMoved(frame.get<frame::Shaded>(shaded_).texture()));
     const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
-    return {{"bytes_moved_per_px", bytes / pixels, "byte", true},
-            {"gaussian_levels", static_cast<double>(map_->levels()), "", false},
-            {"pixels_per_degree", display_.pixelsPerDegree(), "px/deg", false}};
+    return {{"bytes_moved_per_px", bytes / pixels},
+            {"gaussian_levels", static_cast<double>(map_->levels())},
+            {"pixels_per_degree", display_.pixelsPerDegree()}};
   }
 
  private:
   perception::ThresholdMapSettings settings_;
+  perception::ThresholdMapGpuSettings gpu_;
   perception::DisplayProfile display_;
   frame::ShadedSetting shaded_;
   std::optional<perception::ThresholdMapGpu> map_;
 };
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> out;
-  for (const auto& group : {perception::thresholdMapGpuParameters(), perception::thresholdMapParameters(),
-                            perception::viewingParameters(), frame::ShadedSetting::parameters()})
-    out.insert(out.end(), group.begin(), group.end());
-  return out;
-}
-
-const Registered<TechniqueInfo> kThresholdMapRegistered{
+const RegisteredTechnique<ThresholdMapTechnique> kThresholdMapRegistered{
     {.name = "perception/threshold_map",
      .version = 1,
      .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",
      .source = "Schwarz 2009, section 9.4 (SP-30, SP-31)",
      .product = ProductKind::Threshold,
-     .parameters = parameters(),
-     .needs = {},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<ThresholdMapTechnique>(values); },
-     .errorBound = {},
-     .counters = {"bytes_moved_per_px", "gaussian_levels", "pixels_per_degree"}}};
+     .counters = {{"bytes_moved_per_px", "Bytes moved per pixel", "byte", Direction::LowerIsBetter},
+                  {"gaussian_levels", "Levels of the Gaussian pyramid", "", Direction::Neither},
+                  {"pixels_per_degree", "Pixels per degree", "px/deg", Direction::Neither}}}};
 
 }  // namespace
 }  // namespace limen::techniques

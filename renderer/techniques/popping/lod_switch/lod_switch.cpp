@@ -17,7 +17,8 @@ namespace {
 
 class LodSwitch : public Technique {
  public:
-  explicit LodSwitch(const ParameterValues& values) : setting_(SwitchSetting::from(values)) {}
+  using Settings = SwitchSettings;
+  explicit LodSwitch(const SwitchSettings& settings) : setting_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     views_.emplace(frame, setting_);
@@ -82,21 +83,14 @@ class LodSwitch : public Technique {
   std::optional<gl::Texture> disocclusion_, flicker_;
 };
 
-const RegisteredLater<TechniqueInfo> kLodSwitchRegistered{[] {
-  return TechniqueInfo{
-      .name = "popping/lod_switch",
-      .version = 1,
-      .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
-      .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
-      .product = ProductKind::JndMap,
-      .parameters = SwitchSetting::parameters(),
-      .needs = {"lod_sets"},
-      .reference = false,
-      .onCpu = false,
-      .make = [](const ParameterValues& values) { return std::make_unique<LodSwitch>(values); },
-      .errorBound = {},
-      .counters = switchFigureNames()};
-}};
+const RegisteredTechnique<LodSwitch> kLodSwitchRegistered{
+    {.name = "popping/lod_switch",
+     .version = 1,
+     .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
+     .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
+     .product = ProductKind::JndMap,
+     .needs = {"lod_sets"},
+     .counters = switchFigureQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

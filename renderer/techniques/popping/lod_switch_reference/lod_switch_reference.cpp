@@ -10,7 +10,8 @@ namespace {
 
 class LodSwitchReference : public Technique {
  public:
-  explicit LodSwitchReference(const ParameterValues& values) : setting_(SwitchSetting::from(values)) {}
+  using Settings = SwitchSettings;
+  explicit LodSwitchReference(const SwitchSettings& settings) : setting_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     views_.emplace(frame, setting_);
@@ -24,8 +25,10 @@ class LodSwitchReference : public Technique {
     images_ = views_->read();
     perception::PoppingInput input = images_.input;
     if (!images_.disocclusion.empty())
-      input.disocclusion = perception::disocclusionWeight(images_.disocclusion, setting_.popping);
-    if (images_.flicker) input.flicker = perception::flickerWeight(*images_.flicker, setting_.popping);
+      input.disocclusion =
+          perception::disocclusionWeight(images_.disocclusion, setting_.popping.disocclusionSettings());
+    if (images_.flicker)
+      input.flicker = perception::flickerWeight(*images_.flicker, setting_.popping.flickerSettings());
     result_ = perception::predictPopping(input, setting_.display, setting_.popping);
     product_->write(result_.jnd);
   }
@@ -50,21 +53,16 @@ class LodSwitchReference : public Technique {
   perception::PoppingResult result_;
 };
 
-const RegisteredLater<TechniqueInfo> kLodSwitchReferenceRegistered{[] {
-  return TechniqueInfo{
-      .name = "popping/lod_switch_reference",
-      .version = 1,
-      .summary = "Popping predictor in double precision on the frames of one object's change of level",
-      .source = "Schwarz 2009, chapter 10 (SP-51)",
-      .product = ProductKind::JndMap,
-      .parameters = SwitchSetting::parameters(),
-      .needs = {"lod_sets"},
-      .reference = true,
-      .onCpu = true,
-      .make = [](const ParameterValues& values) { return std::make_unique<LodSwitchReference>(values); },
-      .errorBound = {},
-      .counters = switchFigureNames()};
-}};
+const RegisteredTechnique<LodSwitchReference> kLodSwitchReferenceRegistered{
+    {.name = "popping/lod_switch_reference",
+     .version = 1,
+     .summary = "Popping predictor in double precision on the frames of one object's change of level",
+     .source = "Schwarz 2009, chapter 10 (SP-51)",
+     .product = ProductKind::JndMap,
+     .needs = {"lod_sets"},
+     .reference = true,
+     .onCpu = true,
+     .counters = switchFigureQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -22,7 +22,7 @@ void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) {
 #endif
 }
 
-#if OCCLUDERS == 3
+#if OCCLUDERS == OCCLUDERS_CONTOURS
 // Area of the light to the left of an edge, up to the light's side x = 0 and signed: the integral of x clamped to the light
 // along the edge's part with y on the light. Over a closed contour it adds up to the area within.
 void accumulateEdge(vec2 from, vec2 to) {
@@ -41,7 +41,7 @@ void accumulateEdge(vec2 from, vec2 to) {
 #endif
 
 bool isSaturated() {
-#if defined(SIGNED_AREAS) || OCCLUDERS == 3
+#if defined(SIGNED_AREAS) || OCCLUDERS == OCCLUDERS_CONTOURS
   return false;  // what is still to come may take away
 #else
   return occludedArea >= 1.0;

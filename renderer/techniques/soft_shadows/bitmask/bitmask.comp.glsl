@@ -12,7 +12,7 @@
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #undef visibilityOf
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
-#if OCCLUDERS == 1 || OCCLUDERS == 2
+#if OCCLUDERS == OCCLUDERS_MICROQUADS || OCCLUDERS == OCCLUDERS_MICROQUADS_MICROTRIS
 #include "renderer/techniques/soft_shadows/bitmask/quad_mask.glsl"
 void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d); }
 #endif

@@ -27,36 +27,74 @@ std::vector<glm::dvec2> grid(int side, bool jittered) {
   return samples;
 }
 
-}  // namespace
-
-std::vector<std::string> lightSamplePatterns() {
-  return {"regular_8",  "regular_16",  "regular_32",     "jittered_16", "random_128",
-          "random_256", "random_1024", "stratified_256", "halton_256"};
-}
-
-bool isGridPattern(const std::string& pattern) {
-  return pattern.starts_with("regular_") || pattern.starts_with("jittered_");
-}
-
-std::vector<glm::dvec2> lightSamples(const std::string& pattern, int64_t seed) {
-  const size_t mark = pattern.rfind('_');
-  const int number = std::stoi(pattern.substr(mark + 1));
-  if (isGridPattern(pattern)) return grid(number, pattern.starts_with("jittered_"));
+std::vector<glm::dvec2> halton(int number) {
   std::vector<glm::dvec2> samples;
-  if (pattern.starts_with("halton_")) {
-    for (int i = 0; i < number; ++i) samples.emplace_back(mirrored(i + 1, 2), mirrored(i + 1, 3));
-    return samples;
-  }
+  for (int i = 0; i < number; ++i) samples.emplace_back(mirrored(i + 1, 2), mirrored(i + 1, 3));
+  return samples;
+}
+
+std::vector<glm::dvec2> randomPlaces(int number, int64_t seed) {
   // The engine alone is the same everywhere; distributions are not.
   std::mt19937_64 random(static_cast<uint64_t>(seed));
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const bool stratified = pattern.starts_with("stratified_");
-  const int side = 16;  // strata along the light; only 256 samples have them
+  std::vector<glm::dvec2> samples;
   for (int i = 0; i < number; ++i) {
     const double x = unit(), y = unit();
-    samples.push_back(stratified ? glm::dvec2(i % side + x, i / side + y) / double(side) : glm::dvec2(x, y));
+    samples.emplace_back(x, y);
   }
   return samples;
+}
+
+std::vector<glm::dvec2> stratified(int side, int64_t seed) {
+  std::vector<glm::dvec2> samples = randomPlaces(side * side, seed);
+  for (int i = 0; i < side * side; ++i) {
+    glm::dvec2& sample = samples[static_cast<size_t>(i)];
+    sample = glm::dvec2(i % side + sample.x, i / side + sample.y) / double(side);
+  }
+  return samples;
+}
+
+}  // namespace
+
+bool isGridPattern(LightPattern pattern) { return pattern <= LightPattern::Jittered16; }
+
+std::string patternDefine(LightPattern pattern) {
+  switch (pattern) {
+    case LightPattern::Regular8:
+      return "8";
+    case LightPattern::Regular16:
+      return "16";
+    case LightPattern::Regular32:
+      return "32";
+    case LightPattern::Jittered16:
+      return "160";
+    default:
+      return "0";
+  }
+}
+
+std::vector<glm::dvec2> lightSamples(LightPattern pattern, int64_t seed) {
+  switch (pattern) {
+    case LightPattern::Regular8:
+      return grid(8, false);
+    case LightPattern::Regular16:
+      return grid(16, false);
+    case LightPattern::Regular32:
+      return grid(32, false);
+    case LightPattern::Jittered16:
+      return grid(16, true);
+    case LightPattern::Random128:
+      return randomPlaces(128, seed);
+    case LightPattern::Random256:
+      return randomPlaces(256, seed);
+    case LightPattern::Random1024:
+      return randomPlaces(1024, seed);
+    case LightPattern::Stratified256:
+      return stratified(16, seed);
+    case LightPattern::Halton256:
+      return halton(256);
+  }
+  return {};
 }
 
 std::vector<uint32_t> lightMask(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples) {

@@ -6,19 +6,57 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::techniques {
 
-/// Names of the patterns of light samples, those on grids first.
-std::vector<std::string> lightSamplePatterns();
+/// Where on the light samples lie: on grids, at random, at random in strata, or by Halton's sequence; the
+/// number is that of samples, of grids that along a side. Source: Schwarz 2009, section 4.2.1.
+enum class LightPattern {
+  Regular8,
+  Regular16,
+  Regular32,
+  Jittered16,  ///< rotated pairs
+  Random128,
+  Random256,
+  Random1024,
+  Stratified256,
+  Halton256
+};
+constexpr EnumNames<LightPattern, 9> enumNames(LightPattern) {
+  return {{{{LightPattern::Regular8, "regular_8"},
+            {LightPattern::Regular16, "regular_16"},
+            {LightPattern::Regular32, "regular_32"},
+            {LightPattern::Jittered16, "jittered_16"},
+            {LightPattern::Random128, "random_128"},
+            {LightPattern::Random256, "random_256"},
+            {LightPattern::Random1024, "random_1024"},
+            {LightPattern::Stratified256, "stratified_256"},
+            {LightPattern::Halton256, "halton_256"}}}};
+}
+
+/// Those on grids, for techniques without tables.
+enum class GridPattern { Regular8, Regular16, Regular32, Jittered16 };
+constexpr EnumNames<GridPattern, 4> enumNames(GridPattern) {
+  return {{{{GridPattern::Regular8, "regular_8"},
+            {GridPattern::Regular16, "regular_16"},
+            {GridPattern::Regular32, "regular_32"},
+            {GridPattern::Jittered16, "jittered_16"}}}};
+}
+inline LightPattern lightPattern(GridPattern pattern) {
+  return fromText<LightPattern>(limen::toText(pattern));
+}
+
 /// True if masks of rectangles are worked out by arithmetic; of others a table holds them.
-bool isGridPattern(const std::string& pattern);
+bool isGridPattern(LightPattern pattern);
+/// PATTERN of occlusion_mask.glsl.
+std::string patternDefine(LightPattern pattern);
 
 /// Places of a pattern's light samples in unit light coordinates, in the order of the mask's bits; a whole
 /// number of words of 32 bits, at most 1024. Grids come in rows of ascending y, each of ascending x. `seed`
-/// decides random and stratified patterns. Source: Schwarz 2009, section 4.2.1.
-std::vector<glm::dvec2> lightSamples(const std::string& pattern, int64_t seed = 1);
+/// decides random and stratified patterns.
+std::vector<glm::dvec2> lightSamples(LightPattern pattern, int64_t seed = 1);
 
 /// Mask of the samples that lie on a light which need not fill its bounding rectangle: bit b of the words is
 /// sample b. Throws Error if there are none. Source: Schwarz 2009, section 4.2.2.

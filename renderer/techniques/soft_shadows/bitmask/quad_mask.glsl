@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Masks of backprojected microquads and microtris. QUAD_MASK: 0 a rectangle in place of the quad (Schwarz 2009, section
-// 4.4.2), 1 the convex hull by a table of half-spaces, 2 the convex hull by arithmetic (both section 4.4.4).
-#if QUAD_MASK == 0
+// Masks of backprojected microquads and microtris. QUAD_MASK_APPROXIMATE: a rectangle in place of the quad (Schwarz
+// 2009, section 4.4.2); _HALF_SPACE_TABLE and _ARITHMETIC: the convex hull (section 4.4.4).
+#if QUAD_MASK == QUAD_MASK_APPROXIMATE
 // Bounds at the middles of the edges of the quad clamped to the light. Neighbours that share an edge share that bound.
 void addQuadToMask(vec2 a, vec2 b, vec2 c, vec2 d) {
   // Clamped in an order that turns a NaN, were there one, into a bound.
@@ -15,7 +15,7 @@ void addQuadToMask(vec2 a, vec2 b, vec2 c, vec2 d) {
 }
 #else
 #include "renderer/techniques/soft_shadows/bitmask/convex_hull.glsl"
-#if QUAD_MASK == 1
+#if QUAD_MASK == QUAD_MASK_HALF_SPACE_TABLE
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.glsl"
 #else
 #include "renderer/techniques/soft_shadows/bitmask/hull_rows.glsl"

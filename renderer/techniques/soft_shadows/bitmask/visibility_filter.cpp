@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {
@@ -14,41 +13,28 @@ namespace {
 constexpr const char *kFilterPass = "soft_shadows/visibility_filter",
                      *kFilterShader = "renderer/techniques/soft_shadows/bitmask/visibility_filter.comp.glsl",
                      *kFilterSource = "Schwarz 2009, section 4.2.3 (not given there)";
-constexpr double kDefaultStep = 0.125, kDefaultPlaneShare = 0.1, kDefaultAngle = 15.0;
 
 }  // namespace
 
-std::vector<Parameter> VisibilityFilter::parameters() {
-  return {
-      integerParameter("filter_radius", 0, 0, 16, "px",
-                       "Neighbours on either side over which visibility is averaged; 0: none", kFilterSource),
-      realParameter("filter_step", kDefaultStep, 0.001, 1.0, "",
-                    "Largest step of visibility between neighbours that samples are taken to explain: two "
-                    "rows of 16 by 16",
-                    kFilterSource),
-      realParameter("filter_plane_share", kDefaultPlaneShare, 0.0, 1.0, "",
-                    "Distance of a neighbour's point from the pixel's plane, as a share of that from its "
-                    "point, up to which both are of one surface",
-                    kFilterSource),
-      realParameter("filter_angle", kDefaultAngle, 0.0, 90.0, "deg",
-                    "Angle between normals up to which both are of one surface", kFilterSource)};
+const SettingsTable<SurfaceMean>& SurfaceMean::table() {
+  static const SettingsTable<SurfaceMean> kTable = {
+      Binding(&SurfaceMean::radius, "radius", Range{1, 16}, "px",
+              "Neighbours on either side over which visibility is averaged", kFilterSource)
+          .formerly({"filter_radius"}),
+      Binding(&SurfaceMean::step, "step", Range{0.001, 1.0}, "",
+              "Largest step of visibility between neighbours that samples are taken to explain",
+              kFilterSource)
+          .formerly({"filter_step"}),
+      Binding(&SurfaceMean::planeShare, "plane_share", Range{0.0, 1.0}, "",
+              "Distance of a neighbour's point from the pixel's plane, as a share of that from its point, up "
+              "to which both are of one surface",
+              kFilterSource)
+          .formerly({"filter_plane_share"}),
+      Binding(&SurfaceMean::angle, "angle", Range{0.0, 90.0}, "deg",
+              "Angle between normals up to which both are of one surface", kFilterSource)
+          .formerly({"filter_angle"})};
+  return kTable;
 }
-
-void VisibilityFilter::check(const ParameterValues& values) {
-  if (values.integer("filter_radius") > 0) return;
-  for (const auto& [name, usual] : {std::pair("filter_step", kDefaultStep),
-                                    {"filter_plane_share", kDefaultPlaneShare},
-                                    {"filter_angle", kDefaultAngle}})
-    if (values.real(name) != usual)
-      throw Error("'" + std::string(name) + "' is about the visibility filter, and there is none", name,
-                  "leave it out, or give a filter_radius");
-}
-
-VisibilityFilter::VisibilityFilter(const ParameterValues& values)
-    : radius_(static_cast<int>(values.integer("filter_radius"))),
-      step_(static_cast<float>(values.real("filter_step"))),
-      planeShare_(static_cast<float>(values.real("filter_plane_share"))),
-      normalCosine_(static_cast<float>(std::cos(glm::radians(values.real("filter_angle"))))) {}
 
 void VisibilityFilter::prepare(frame::Frame& frame) {
   program_ = &frame.context().programs().compute(kFilterShader);
@@ -57,7 +43,7 @@ void VisibilityFilter::prepare(frame::Frame& frame) {
   frame.passes().setBytesHeld(kFilterPass, rows_->bytes() + filtered_->bytes());
 }
 
-void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) const {
+void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) {
   const auto channel = [&](frame::Channel which) -> const gl::Texture& {
     return frame.get<frame::GBufferChannel>(frame::ChannelSetting{which}).texture();
   };
@@ -66,10 +52,10 @@ void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) c
                     &normals = channel(frame::Channel::Normal);
   const auto scope = frame.passes().open(kFilterPass);
   program_->set("sizePx", frame.sizePx());
-  program_->set("radius", radius_);
-  program_->set("maxStep", step_);
-  program_->set("planeShare", planeShare_);
-  program_->set("normalCosine", normalCosine_);
+  program_->set("radius", settings_.radius);
+  program_->set("maxStep", static_cast<float>(settings_.step));
+  program_->set("planeShare", static_cast<float>(settings_.planeShare));
+  program_->set("normalCosine", static_cast<float>(std::cos(glm::radians(settings_.angle))));
   receivers.bindTexture(0);
   positions.bindTexture(2);
   normals.bindTexture(3);

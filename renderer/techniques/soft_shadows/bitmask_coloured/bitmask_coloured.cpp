@@ -9,62 +9,43 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
-#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
+#include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
+#include "renderer/techniques/soft_shadows/bitmask_coloured/coloured_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kColourPass = "soft_shadows/light_colours", *kDefaultGroup = "8",
+constexpr const char *kColourPass = "soft_shadows/light_colours",
                      *kColourShader =
                          "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
 constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
 /// Colours up to which masks are of any use: each costs as many operations as the samples have words.
 constexpr size_t kMostColours = 64;
 
-void checkBitmaskColoured(const ParameterValues& values) {
-  Bitmask::checkValues(values);
-  Bitmask::checkKept(values, "colours follow from the masks of all pixels");
-  if (values.text("colours") != "table" && values.text("group_bits") != kDefaultGroup)
-    throw Error("'group_bits' is about the table of colours, and there is none", "group_bits",
-                "leave it out, or give colours: table");
-  if (!isGridPattern(values.text("pattern")) && !values.boolean("prefilter"))
-    throw Error("'prefilter' is about samples with cells, which " + values.text("pattern") + " has not",
-                "prefilter", "leave it out, or give another pattern");
-}
-
-class BitmaskColoured : public Bitmask {
+/// What visible samples emit, from the stored masks of all pixels.
+class LightColourStage : public ProductStage {
  public:
-  explicit BitmaskColoured(const ParameterValues& values)
-      : Bitmask(values, true),
-        colours_(values.text("colours")),
-        groupBits_(std::stoi(values.text("group_bits"))),
-        filters_(values.boolean("prefilter") && isGridPattern(values.text("pattern"))) {
-    checkBitmaskColoured(values);
-  }
+  /// `masks` outlives this.
+  LightColourStage(const ColouredSettings& settings, const MaskGathering& masks)
+      : colours_(settings.colours), filters_(settings.prefilters()), masks_(masks) {}
 
   const gl::Texture& product() const override { return *colour_; }
 
-  std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> all = Bitmask::count(frame);
-    all.push_back({"colour_table_bytes", double(tableBytes_), "byte", true});
-    return all;
-  }
+  std::vector<Counter> count() const override { return {{"colour_table_bytes", double(tableBytes_)}}; }
 
- protected:
-  void prepareSearch(frame::Frame& frame) override {
-    Bitmask::prepareSearch(frame);
-    const int side = static_cast<int>(std::lround(std::sqrt(double(samples().size()))));
+  void prepare(frame::Frame& frame) override {
+    const int side = static_cast<int>(std::lround(std::sqrt(double(masks_.samples().size()))));
     const std::vector<glm::dvec3> shares =
-        emissionShares(frame.scene().lights.at(0), samples(), filters_ ? side : 0);
+        emissionShares(frame.scene().lights.at(0), masks_.samples(), filters_ ? side : 0);
     glm::dvec3 sum(0.0);
     for (const glm::dvec3 share : shares) sum += share;
     absent_ = glm::vec3(glm::lessThan(sum, glm::dvec3(0.5)));
-    gl::ShaderDefines defines = maskDefines();
+    gl::ShaderDefines defines = masks_.maskDefines();
     std::vector<glm::vec4> rows;
-    if (colours_ == "masks") {
-      defines["COLOURS"] = "0";
+    if (std::holds_alternative<ColourMasks>(colours_)) {
+      defines["COLOURS_MASKS"] = "1";
       std::vector<uint32_t> words;
       const std::vector<ColourMask> masks = colourMasks(shares);
       if (masks.size() > kMostColours)
@@ -77,12 +58,12 @@ class BitmaskColoured : public Bitmask {
       }
       colourCount_ = static_cast<int>(masks.size());
       table_.emplace(words);
-    } else if (colours_ == "table") {
-      defines["COLOURS"] = "1";
-      defines["GROUP_BITS"] = std::to_string(groupBits_);
-      table_.emplace(colourTable(shares, groupBits_));
+    } else if (const auto* table = std::get_if<ColourTable>(&colours_)) {
+      defines["COLOURS_TABLE"] = "1";
+      defines["GROUP_BITS"] = std::to_string(table->groupBits);
+      table_.emplace(colourTable(shares, table->groupBits));
     } else {
-      defines["COLOURS"] = "2";
+      defines["COLOURS_SAMPLES"] = "1";
       for (const glm::dvec3 share : shares) rows.emplace_back(glm::vec3(share), 0.0F);
     }
     shares_.emplace(rows);
@@ -92,11 +73,11 @@ class BitmaskColoured : public Bitmask {
     frame.passes().setBytesHeld(kColourPass, colour_->bytes() + tableBytes_);
   }
 
-  void finish(frame::Frame& frame) override {
+  void run(frame::Frame& frame, const gl::Texture&) override {
     const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
     const auto scope = frame.passes().open(kColourPass);
     program_->set("sizePx", frame.sizePx());
-    program_->set("sets", bindMasks());
+    program_->set("sets", masks_.bindMasks());
     program_->set("absent", absent_);
     program_->set("colours", colourCount_);
     if (table_) table_->bindStorage(kTableBinding);
@@ -108,9 +89,10 @@ class BitmaskColoured : public Bitmask {
   }
 
  private:
-  std::string colours_;
-  int groupBits_, colourCount_ = 0;
+  ColourSums colours_;
+  int colourCount_ = 0;
   bool filters_;
+  const MaskGathering& masks_;
   glm::vec3 absent_{0.0F};
   const gl::Program* program_ = nullptr;
   std::optional<gl::Buffer> table_, shares_;
@@ -118,41 +100,43 @@ class BitmaskColoured : public Bitmask {
   int64_t tableBytes_ = 0;
 };
 
-std::vector<Parameter> bitmaskColouredParameters() {
-  std::vector<Parameter> all = Bitmask::parameters();
-  all.push_back(choiceParameter("colours", "table", {"masks", "table", "samples"},
-                                "How what visible samples emit is added up: a mask for each colour, a table "
-                                "of sums for groups of samples, or one after another",
-                                "Schwarz 2009, section 4.2.2 (samples: bench)"));
-  all.push_back(choiceParameter("group_bits", kDefaultGroup, {"4", "8", "16"},
-                                "Samples in a group of the table; its memory doubles with each",
-                                "Schwarz 2009, section 4.2.2 (8)"));
-  all.push_back(booleanParameter("prefilter", true,
-                                 "Samples on a grid emit the mean of their cell of the light, not what is "
-                                 "emitted at their place"));
+class BitmaskColoured : public SearchTechnique {
+ public:
+  using Settings = ColouredSettings;
+  explicit BitmaskColoured(const ColouredSettings& settings) : SearchTechnique(partsOf(settings)) {}
+
+ private:
+  static Parts partsOf(const ColouredSettings& settings) {
+    auto masks = std::make_unique<MaskGathering>(settings.occluders, sampleChoice(settings.pattern),
+                                                 MaskGathering::Masks::Stored);
+    auto colours = std::make_unique<LightColourStage>(settings, *masks);
+    return {.shader = "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl",
+            .pass = "soft_shadows/bitmask",
+            .search = settings.search,
+            .levels = anyLevels(settings.levels),
+            .passes = SinglePass{},
+            .occluders = occluderChoice(settings.occluders),
+            .maps = settings.maps,
+            .gathering = std::move(masks),
+            .last = std::move(colours)};
+  }
+};
+
+std::vector<Quantity> colouredQuantities() {
+  std::vector<Quantity> all = SearchTechnique::quantities();
+  for (Quantity& quantity : MaskGathering::quantities()) all.push_back(std::move(quantity));
+  all.emplace_back("colour_table_bytes", "Memory of the table of colours", "byte", Direction::LowerIsBetter);
   return all;
 }
 
-std::vector<Quantity> counterNames() {
-  std::vector<Quantity> names = Bitmask::counterNames();
-  names.emplace_back("colour_table_bytes");
-  return names;
-}
-
-const Registered<TechniqueInfo> kBitmaskColouredRegistered{
+const RegisteredTechnique<BitmaskColoured> kBitmaskColouredRegistered{
     {.name = "soft_shadows/bitmask_coloured",
      .version = 1,
      .summary = "Share of a coloured or textured light's radiance that a bit field of light samples leaves",
      .source = "Schwarz 2009, section 4.2.2 (SS-17, SS-18)",
      .product = ProductKind::LightColour,
-     .parameters = bitmaskColouredParameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<BitmaskColoured>(values); },
-     .errorBound = {},
-     .counters = counterNames(),
-     .check = checkBitmaskColoured}};
+     .counters = colouredQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

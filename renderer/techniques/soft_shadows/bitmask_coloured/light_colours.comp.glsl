@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Share of the light that reaches a pixel, channel by channel, by its mask. Schwarz 2009, section 4.2.2.
-// COLOURS: 0 one mask for each colour, 1 a table of sums for groups of GROUP_BITS samples, 2 sample by sample.
+// COLOURS_MASKS: one mask for each colour; COLOURS_TABLE: a table of sums for groups of GROUP_BITS samples; COLOURS_SAMPLES:
+// sample by sample.
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,7 +13,7 @@ uniform ivec2 sizePx;
 uniform int sets;
 uniform vec3 absent;  // 1 in channels of which the light has nothing: nothing of it is missing
 
-#if COLOURS == 0
+#if defined(COLOURS_MASKS)
 layout(std430, binding = 1) readonly buffer ColourMasks { uint colourMasks[]; };
 layout(std430, binding = 2) readonly buffer Shares { vec4 shares[]; };  // of a sample of each colour
 uniform int colours;
@@ -26,7 +27,7 @@ vec3 visibleColour() {
   }
   return sum;
 }
-#elif COLOURS == 1
+#elif defined(COLOURS_TABLE)
 layout(std430, binding = 1) readonly buffer Table { uvec2 table[]; };
 
 vec3 visibleColour() {

@@ -16,28 +16,84 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kChangePass = "soft_shadows/change", *kLastStep = "last_step";
+constexpr const char* kChangePass = "soft_shadows/change";
+
+struct LastStep {
+  static constexpr const char *kKind = "last_step", *kSummary = "change over the last step, with its sign";
+};
+
+struct MeanAbsolute {
+  static constexpr const char *kKind = "mean_absolute", *kSummary = "mean of several steps' absolute changes";
+  int steps = 1;
+  static const SettingsTable<MeanAbsolute>& table() {
+    static const SettingsTable<MeanAbsolute> kTable = {
+        Binding(&MeanAbsolute::steps, "steps", Range{1, 32}, "steps", "Steps of the light")
+            .formerly({"steps"})};
+    return kTable;
+  }
+};
+
+struct Unsmoothed {
+  static constexpr const char *kKind = "none", *kSummary = "each frame by itself";
+};
+
+struct Smoothed {
+  static constexpr const char *kKind = "history",
+                              *kSummary = "averaged with the frames before, as soft_shadows/history does";
+  int leadIn = 0;
+  HistorySettings history;
+  static const SettingsTable<Smoothed>& table() {
+    static const SettingsTable<Smoothed> kTable = {
+        {&Smoothed::leadIn,
+         "lead_in",
+         {0, 31},
+         "steps",
+         "Steps of the light before those whose change is measured"},
+        included(&Smoothed::history)};
+    return kTable;
+  }
+};
+
+struct ChangeSettings {
+  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  std::variant<LastStep, MeanAbsolute> quantity;
+  LightWay way;
+  std::variant<Unsmoothed, Smoothed> smoothing;
+  static const SettingsTable<ChangeSettings>& table() {
+    using S = ChangeSettings;
+    static const SettingsTable<S> kTable = {
+        innerBinding(&S::inner, InnerKind::OrExact),
+        {&S::quantity, "quantity", "Which change of visibility"},
+        included(&S::way),
+        {&S::smoothing, "smoothing", "Whether frames are averaged with those before them",
+         "Schwarz 2009, section 5.2.2 (suggested there)"}};
+    return kTable;
+  }
+};
 
 class Change : public Technique {
  public:
-  explicit Change(const ParameterValues& values)
-      : motion_(values), lastOnly_(values.text("quantity") == kLastStep) {}
+  using Settings = ChangeSettings;
+  explicit Change(const ChangeSettings& settings)
+      : Change(settings, std::get_if<Smoothed>(&settings.smoothing),
+               std::get_if<MeanAbsolute>(&settings.quantity)) {}
 
   void prepare(frame::Frame& frame) override {
-    motion_.prepare(frame, lastOnly_ && !motion_.hasHistory() ? 2 : motion_.steps() + 1);
+    motion_.prepare(frame, leadIn_ + steps_);
     program_ = &frame.context().programs().compute(
         "renderer/techniques/soft_shadows/change/change.comp.glsl",
-        lastOnly_ ? gl::ShaderDefines{} : gl::ShaderDefines{{"MEAN_ABSOLUTE", "1"}});
+        isMean_ ? gl::ShaderDefines{{"MEAN_ABSOLUTE", "1"}} : gl::ShaderDefines{});
     change_.emplace(gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld(kChangePass, change_->bytes());
   }
 
   void render(frame::Frame& frame) override {
     motion_.render(frame, [&](int step, const LightMotion::Seen& before, const LightMotion::Seen& after) {
+      if (step < leadIn_) return;
       const auto scope = frame.passes().open(kChangePass);
       program_->set("sizePx", frame.sizePx());
-      program_->set("isFirst", step == 0 ? 1 : 0);
-      program_->set("steps", static_cast<float>(motion_.steps()));
+      program_->set("isFirst", step == leadIn_ ? 1 : 0);
+      program_->set("steps", static_cast<float>(steps_));
       before.visibility->bindTexture(0);
       after.visibility->bindTexture(1);
       before.receivers->bindTexture(2);
@@ -59,8 +115,8 @@ class Change : public Technique {
       changed += value != 0.0F;
     }
     const auto pixels = static_cast<double>(change.pixels());
-    all.push_back({"mean_absolute_change", sum / pixels, "", false});
-    all.push_back({"changed_share", changed / pixels, "", false});
+    all.push_back({"mean_absolute_change", sum / pixels});
+    all.push_back({"changed_share", changed / pixels});
     return all;
   }
 
@@ -78,41 +134,34 @@ class Change : public Technique {
   }
 
  private:
+  Change(const ChangeSettings& settings, const Smoothed* smoothed, const MeanAbsolute* mean)
+      : motion_(settings.inner, settings.way, smoothed ? &smoothed->history : nullptr),
+        leadIn_(smoothed ? smoothed->leadIn : 0),
+        steps_(mean ? mean->steps : 1),
+        isMean_(mean != nullptr) {}
+
   LightMotion motion_;
-  bool lastOnly_;
+  int leadIn_, steps_;
+  bool isMean_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> change_;
 };
 
-std::vector<Parameter> changeParameters() {
-  std::vector<Parameter> all = {choiceParameter(
-      "quantity", kLastStep, {kLastStep, "mean_absolute"},
-      "Change of visibility over the last step with its sign, or the mean of all steps' absolute changes")};
-  for (Parameter& parameter : LightMotion::parameters()) all.push_back(std::move(parameter));
+std::vector<Quantity> changeCounters() {
+  std::vector<Quantity> all = LightMotion::counters();
+  all.push_back({"mean_absolute_change", "Mean size of the change", "", Direction::Neither});
+  all.push_back({"changed_share", "Share of pixels that change", "", Direction::Neither});
   return all;
 }
 
-std::vector<Quantity> changeCounters() {
-  std::vector<Quantity> names = LightMotion::counterNames();
-  names.emplace_back("mean_absolute_change");
-  names.emplace_back("changed_share");
-  return names;
-}
-
-const Registered<TechniqueInfo> kChangeTechnique{
+const RegisteredTechnique<Change> kChangeTechnique{
     {.name = "soft_shadows/change",
      .version = 1,
      .summary = "Change of another technique's visibility from frame to frame while the light moves",
      .source = "Schwarz 2009, sections 4.5 and 5.2.2 (SS-43)",
      .product = ProductKind::VisibilityChange,
-     .parameters = changeParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Change>(values); },
-     .errorBound = {},
-     .counters = changeCounters(),
-     .check = LightMotion::check}};
+     .counters = changeCounters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
 
-#include <cassert>
 #include <cmath>
 
-#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::techniques {
-namespace {
-
-constexpr const char *kUnsmoothed = "none", *kSmoothed = "history";
-
-}  // namespace
 
 scene::Scene withMovedLight(const scene::Scene& scene, glm::dvec2 share) {
   scene::Scene moved = scene;
@@ -22,48 +15,34 @@ scene::Scene withMovedLight(const scene::Scene& scene, glm::dvec2 share) {
   return moved;
 }
 
-LightMotion::LightMotion(const ParameterValues& values)
-    : values_(values), steps_(static_cast<int>(values.integer("steps"))) {
-  const double angle = glm::radians(values.real("direction_deg"));
-  stepShare_ = values.real("light_step") * glm::dvec2(std::cos(angle), std::sin(angle));
-  if (values.text("smoothing") == kSmoothed) history_.emplace(values);
+const SettingsTable<LightWay>& LightWay::table() {
+  static const SettingsTable<LightWay> kTable = {
+      {&LightWay::step,
+       "light_step",
+       {0, 100},
+       "",
+       "Way of the light in its plane from one frame to the next, as a share of its extents"},
+      {&LightWay::directionDeg,
+       "direction_deg",
+       {0, 360},
+       "deg",
+       "Direction of that way, from the light's x axis to its y axis"}};
+  return kTable;
 }
 
-std::vector<Parameter> LightMotion::parameters() {
-  std::vector<Parameter> all = {
-      realParameter("light_step", 0.05, 0.0, 100.0, "",
-                    "Way of the light in its plane from one frame to the next, as a share of its extents"),
-      realParameter("direction_deg", 0.0, 0.0, 360.0, "deg",
-                    "Direction of that way, from the light's x axis to its y axis"),
-      integerParameter("steps", 1, 1, 32, "steps",
-                       "Steps of the light up to the frame in question; without a history only the last one "
-                       "or two frames matter"),
-      choiceParameter("smoothing", kUnsmoothed, {kUnsmoothed, kSmoothed},
-                      "Whether frames are averaged with those before them, as soft_shadows/history does",
-                      "Schwarz 2009, section 5.2.2 (suggested there)")};
-  for (Parameter& parameter : innerParameters(InnerKind::OrExact)) all.push_back(std::move(parameter));
-  for (Parameter& parameter : VisibilityHistory::parameters()) all.push_back(std::move(parameter));
-  return all;
+LightMotion::LightMotion(ChosenEntry inner, const LightWay& way, const HistorySettings* history)
+    : inner_(std::move(inner)) {
+  const double angle = glm::radians(way.directionDeg);
+  stepShare_ = way.step * glm::dvec2(std::cos(angle), std::sin(angle));
+  if (history) history_.emplace(*history);
 }
 
-void LightMotion::check(const ParameterValues& values) {
-  checkInner(values);
-  VisibilityHistory::check(values);
-  if (values.text("smoothing") == kSmoothed) return;
-  for (const Parameter& parameter : VisibilityHistory::parameters())
-    if (values.all().at(parameter.name) != parameter.defaultValue)
-      throw Error("'" + parameter.name + "' is about the history, and there is none", parameter.name,
-                  "leave it out, or give smoothing: history");
-}
-
-void LightMotion::prepare(frame::Frame& frame, int places) {
-  assert(places >= 1 && places <= steps_ + 1);
-  for (int back = places - 1; back >= 0; --back) {
+void LightMotion::prepare(frame::Frame& frame, int steps) {
+  for (int back = steps; back >= 0; --back) {
     Place& place = *places_.emplace_back(std::make_unique<Place>());
     place.scene = withMovedLight(frame.scene(), -double(back) * stepShare_);
-    place.frame =
-        std::make_unique<frame::Frame>(frame, "place_" + std::to_string(steps_ - back), place.scene);
-    place.technique = makeInner(values_);
+    place.frame = std::make_unique<frame::Frame>(frame, "place_" + std::to_string(steps - back), place.scene);
+    place.technique = makeInner(inner_);
     place.technique->prepare(*place.frame);
   }
   if (history_) history_->prepare(*places_.front()->frame);
@@ -96,10 +75,10 @@ std::vector<Counter> LightMotion::count() {
   return all;
 }
 
-std::vector<Quantity> LightMotion::counterNames() {
-  std::vector<Quantity> names = innerCounterNames();
-  for (Quantity& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
-  return names;
+std::vector<Quantity> LightMotion::counters() {
+  std::vector<Quantity> all = innerCounters();
+  for (Quantity& counter : VisibilityHistory::counters()) all.push_back(std::move(counter));
+  return all;
 }
 
 }  // namespace limen::techniques

@@ -11,6 +11,13 @@
 
 namespace limen::techniques {
 
+/// How the light moves from one frame to the next.
+struct LightWay {
+  double step = 0.05;         ///< share of the light's extents
+  double directionDeg = 0.0;  ///< from the light's x axis to its y axis
+  static const SettingsTable<LightWay>& table();
+};
+
 /// A technique watched while the light moves in its own plane, in equal steps that end where the scene has
 /// it. Each place of the light is a view of its own within the frame, with its own shadow maps, as it would
 /// be frame after frame; a history goes along, if there is one. Work and bytes are those of all places
@@ -25,20 +32,15 @@ class LightMotion {
   /// `after` is the frame's, `before` the one before it; valid during the call.
   using StepVisitor = std::function<void(int step, const Seen& before, const Seen& after)>;
 
-  /// `values` must hold parameters().
-  explicit LightMotion(const ParameterValues& values);
-  static std::vector<Parameter> parameters();
-  /// Throws Error where values of these parameters do not go together.
-  static void check(const ParameterValues& values);
+  /// `history`: none if null.
+  LightMotion(ChosenEntry inner, const LightWay& way, const HistorySettings* history);
 
-  int steps() const { return steps_; }
-  bool hasHistory() const { return history_.has_value(); }
   /// Time that the camera moves on between two places, s; at the last it is where the frame has it. Before
   /// prepare().
   void setCameraStep(double seconds) { cameraStepS_ = seconds; }
 
-  /// Renders only the last `places` places of the light: 1 .. steps() + 1.
-  void prepare(frame::Frame& frame, int places);
+  /// `steps` of the light lead to where the scene has it: steps + 1 places.
+  void prepare(frame::Frame& frame, int steps);
   /// Shows all places in order, the history starting anew with the first, and visits the steps between them,
   /// numbered from 0 on.
   void render(frame::Frame& frame, const StepVisitor& visit = {});
@@ -47,7 +49,7 @@ class LightMotion {
 
   /// Of the last place.
   std::vector<Counter> count();
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> counters();
 
  private:
   struct Place {
@@ -56,8 +58,7 @@ class LightMotion {
     std::unique_ptr<Technique> technique;
   };
 
-  ParameterValues values_;
-  int steps_;
+  ChosenEntry inner_;
   glm::dvec2 stepShare_;  // of the light's extents
   double cameraStepS_ = 0.0;
   std::optional<VisibilityHistory> history_;

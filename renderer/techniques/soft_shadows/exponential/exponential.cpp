@@ -12,35 +12,42 @@
 namespace limen::techniques {
 namespace {
 
-frame::PrefilterSettings exponentialSettings(const ParameterValues& values) {
-  frame::PrefilterSettings settings = PrefilteredTechnique::settingsOf(values);
-  settings.basis = frame::DepthBasis::Exponential;
-  settings.exponent = values.real("exponent");
-  return settings;
-}
+struct ExponentialSettings {
+  PrefilteredSettings common{.prefilter = MipsPrefilter{}};
+  std::variant<SearchedWindow, FixedWindow> window;
+  double exponent = 80.0;
+  static const SettingsTable<ExponentialSettings>& table() {
+    using S = ExponentialSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::common),
+        windowBinding(&S::window),
+        {&S::exponent,
+         "exponent",
+         {1, 88},
+         "",
+         "Steepness c, for depths from 0 to 1 over the map's range; beyond 88 exp(c) leaves 32-bit floats",
+         "Schwarz 2009, section 3.2.1 (value not given there)"}};
+    return kTable;
+  }
+
+  frame::PrefilterSettings prefilterSettings() const {
+    frame::PrefilterSettings settings = common.prefilterSettings();
+    settings.basis = frame::DepthBasis::Exponential;
+    settings.exponent = exponent;
+    return settings;
+  }
+};
 
 class Exponential : public PrefilteredTechnique {
  public:
-  explicit Exponential(const ParameterValues& values)
-      : PrefilteredTechnique(values, "exponential", exponentialSettings(values)) {}
+  using Settings = ExponentialSettings;
+  explicit Exponential(const ExponentialSettings& settings)
+      : PrefilteredTechnique("exponential", settings.common, settings.window, settings.prefilterSettings()) {}
 };
 
-std::vector<Parameter> exponentialParameters() {
-  std::vector<Parameter> all =
-      PrefilteredTechnique::prefilterParameters({"searched", "fixed"}, {"mips", "sums"});
-  all.push_back(realParameter(
-      "exponent", 80.0, 1.0, 88.0, "",
-      "Steepness c, for depths from 0 to 1 over the map's range; beyond 88 exp(c) leaves 32-bit "
-      "floats",
-      "Schwarz 2009, section 3.2.1 (value not given there)"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kExponentialRegistered{PrefilteredTechnique::declare(
-    "soft_shadows/exponential", 1,
-    "Exponential shadow map: averaged exponentials of depth stand for the comparison",
-    exponentialParameters(),
-    [](const ParameterValues& values) { return std::make_unique<Exponential>(values); })};
+const RegisteredTechnique<Exponential> kExponentialRegistered{PrefilteredTechnique::info(
+    "soft_shadows/exponential",
+    "Exponential shadow map: averaged exponentials of depth stand for the comparison")};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -36,7 +36,7 @@ const RegisteredTechnique<HardShadow> kHardRegistered{
      .source = "Schwarz 2009, section 3.3 (SS-01)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

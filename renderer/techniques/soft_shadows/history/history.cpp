@@ -8,9 +8,22 @@
 namespace limen::techniques {
 namespace {
 
+struct HistoryTechniqueSettings {
+  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  HistorySettings history;
+  static const SettingsTable<HistoryTechniqueSettings>& table() {
+    using S = HistoryTechniqueSettings;
+    static const SettingsTable<S> kTable = {innerBinding(&S::inner, InnerKind::OrExact),
+                                            included(&S::history)};
+    return kTable;
+  }
+};
+
 class History : public Technique {
  public:
-  explicit History(const ParameterValues& values) : inner_(makeInner(values)), history_(values) {}
+  using Settings = HistoryTechniqueSettings;
+  explicit History(const HistoryTechniqueSettings& settings)
+      : inner_(makeInner(settings.inner)), history_(settings.history) {}
 
   void prepare(frame::Frame& frame) override {
     inner_->prepare(frame);
@@ -39,36 +52,20 @@ class History : public Technique {
   VisibilityHistory history_;
 };
 
-std::vector<Parameter> historyTechniqueParameters() {
-  std::vector<Parameter> all = innerParameters(InnerKind::OrExact);
-  for (Parameter& parameter : VisibilityHistory::parameters()) all.push_back(std::move(parameter));
+std::vector<Quantity> historyTechniqueCounters() {
+  std::vector<Quantity> all = innerCounters();
+  for (Quantity& counter : VisibilityHistory::counters()) all.push_back(std::move(counter));
   return all;
 }
 
-std::vector<Quantity> historyTechniqueCounters() {
-  std::vector<Quantity> names = innerCounterNames();
-  for (Quantity& name : VisibilityHistory::counterNames()) names.push_back(std::move(name));
-  return names;
-}
-
-const Registered<TechniqueInfo> kHistoryTechnique{
+const RegisteredTechnique<History> kHistoryTechnique{
     {.name = "soft_shadows/history",
      .version = 1,
      .summary = "Visibility of another technique averaged over past frames",
      .source = "Schwarz 2009, section 5.2.2 (suggested there, after Scherzer et al. 2007) (SS-43)",
      .product = ProductKind::Visibility,
-     .parameters = historyTechniqueParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<History>(values); },
-     .errorBound = {},
-     .counters = historyTechniqueCounters(),
-     .check =
-         [](const ParameterValues& values) {
-           checkInner(values);
-           VisibilityHistory::check(values);
-         }}};
+     .counters = historyTechniqueCounters()}};
 
 }  // namespace
 }  // namespace limen::techniques

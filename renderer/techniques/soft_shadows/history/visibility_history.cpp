@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/motion.h"
 
@@ -15,8 +14,6 @@ namespace {
 constexpr const char *kHistoryPass = "soft_shadows/history",
                      *kHistoryShader =
                          "renderer/techniques/soft_shadows/history/visibility_history.comp.glsl";
-constexpr const char* kUnbounded = "none";
-constexpr int64_t kDefaultClampRadius = 1;
 
 /// What the shader writes about a pixel where FATES is defined.
 enum Fate : uint32_t { NoReceiver = 0, NoPast = 1, PastTaken = 2, PastBounded = 3 };
@@ -37,36 +34,45 @@ gl::ShaderDefines historyDefines(bool moving, bool fates) {
 
 }  // namespace
 
-VisibilityHistory::VisibilityHistory(const ParameterValues& values)
-    : alpha_(static_cast<float>(values.real("alpha"))),
-      depthTolerance_(static_cast<float>(values.real("depth_tolerance"))),
-      normalCosine_(static_cast<float>(std::cos(glm::radians(values.real("normal_tolerance_deg"))))),
-      clampRadius_(values.text("clamp") == kUnbounded ? 0
-                                                      : static_cast<int>(values.integer("clamp_radius"))) {}
-
-std::vector<Parameter> VisibilityHistory::parameters() {
-  const std::string source = "Schwarz 2009, section 5.2.2 (suggested there; value not given)";
-  return {realParameter("alpha", 0.2, 0.01, 1.0, "",
-                        "Weight of the present frame; the past has the rest; 1: no history", source),
-          realParameter("depth_tolerance", 0.01, 0.0, 1.0, "",
-                        "Difference of depth from the past at which it is another surface, as a share of the "
-                        "depth",
-                        source),
-          realParameter("normal_tolerance_deg", 20.0, 0.0, 180.0, "deg",
-                        "Angle between normals from which the past is another surface", source),
-          choiceParameter("clamp", kUnbounded, {kUnbounded, "neighbourhood"},
-                          "Bounds of the past: none, or the least and the greatest visibility of receivers "
-                          "around the pixel in the present frame",
-                          "Karis 2014"),
-          integerParameter("clamp_radius", kDefaultClampRadius, 1, 8, "px",
-                           "Half the side of the square that clamp: neighbourhood looks at, without its "
-                           "middle")};
+const SettingsTable<NeighbourhoodClamp>& NeighbourhoodClamp::table() {
+  static const SettingsTable<NeighbourhoodClamp> kTable = {
+      Binding(&NeighbourhoodClamp::radius, "radius", Range{1, 8}, "px",
+              "Half the side of the square that is looked at, without its middle")
+          .formerly({"clamp_radius"})};
+  return kTable;
 }
 
-void VisibilityHistory::check(const ParameterValues& values) {
-  if (values.text("clamp") == kUnbounded && values.integer("clamp_radius") != kDefaultClampRadius)
-    throw Error("'clamp_radius' is about clamp: neighbourhood, and the past is not bounded", "clamp_radius",
-                "leave it out, or give clamp: neighbourhood");
+const SettingsTable<HistorySettings>& HistorySettings::table() {
+  using S = HistorySettings;
+  static const std::string kSource = "Schwarz 2009, section 5.2.2 (suggested there; value not given)";
+  static const SettingsTable<S> kTable = {
+      {&S::alpha,
+       "alpha",
+       {0.01, 1},
+       "",
+       "Weight of the present frame; the past has the rest; 1: no history",
+       kSource},
+      {&S::depthTolerance,
+       "depth_tolerance",
+       {0, 1},
+       "",
+       "Difference of depth from the past at which it is another surface, as a share of the depth",
+       kSource},
+      {&S::normalToleranceDeg,
+       "normal_tolerance_deg",
+       {0, 180},
+       "deg",
+       "Angle between normals from which the past is another surface",
+       kSource},
+      Binding(&S::clamp, "clamp", "Bounds of the past", "Karis 2014")};
+  return kTable;
+}
+
+VisibilityHistory::VisibilityHistory(const HistorySettings& settings)
+    : alpha_(static_cast<float>(settings.alpha)),
+      depthTolerance_(static_cast<float>(settings.depthTolerance)),
+      normalCosine_(static_cast<float>(std::cos(glm::radians(settings.normalToleranceDeg)))) {
+  if (const auto* clamp = std::get_if<NeighbourhoodClamp>(&settings.clamp)) clampRadius_ = clamp->radius;
 }
 
 void VisibilityHistory::prepare(frame::Frame& frame) {
@@ -126,8 +132,9 @@ void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-std::vector<Quantity> VisibilityHistory::counterNames() {
-  return {"history_taken_share", "history_bounded_share"};
+std::vector<Quantity> VisibilityHistory::counters() {
+  return {{"history_taken_share", "Share of receivers that find a past", "", Direction::Neither},
+          {"history_bounded_share", "Share of receivers whose past is bounded", "", Direction::Neither}};
 }
 
 std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Texture& visibility) {
@@ -142,8 +149,7 @@ std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Tex
     bounded += fate == PastBounded;
   }
   const auto share = [&](double part) { return receivers > 0.0 ? part / receivers : 0.0; };
-  return {{"history_taken_share", share(taken), "", false},
-          {"history_bounded_share", share(bounded), "", false}};
+  return {{"history_taken_share", share(taken)}, {"history_bounded_share", share(bounded)}};
 }
 
 }  // namespace limen::techniques

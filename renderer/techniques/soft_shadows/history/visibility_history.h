@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "renderer/frame/frame.h"
@@ -11,6 +12,27 @@
 
 namespace limen::techniques {
 
+/// The past is taken as it is.
+struct UnboundedPast {
+  static constexpr const char *kKind = "none", *kSummary = "the past is taken as it is";
+};
+/// The past lies within what the present has around the pixel.
+struct NeighbourhoodClamp {
+  static constexpr const char *kKind = "neighbourhood",
+                              *kSummary =
+                                  "least and greatest visibility of receivers around the pixel in the "
+                                  "present frame";
+  int radius = 1;  ///< px, half the side of the square without its middle
+  static const SettingsTable<NeighbourhoodClamp>& table();
+};
+
+struct HistorySettings {
+  double alpha = 0.2;  ///< weight of the present frame
+  double depthTolerance = 0.01, normalToleranceDeg = 20.0;
+  std::variant<UnboundedPast, NeighbourhoodClamp> clamp;
+  static const SettingsTable<HistorySettings>& table();
+};
+
 /// Visibility averaged over past frames with weights that fall exponentially. Where a pixel's surface point
 /// lay in the frame before is known from the camera's motion; the light may move as it likes, which is what
 /// the history smooths and what it lags behind. Source: Schwarz 2009, section 5.2.2, suggests it and leaves
@@ -18,11 +40,7 @@ namespace limen::techniques {
 /// to be another surface; bounding the past by the present's neighbourhood after Karis 2014.
 class VisibilityHistory {
  public:
-  /// `values` must hold parameters().
-  explicit VisibilityHistory(const ParameterValues& values);
-  static std::vector<Parameter> parameters();
-  /// Throws Error where values of these parameters do not go together.
-  static void check(const ParameterValues& values);
+  explicit VisibilityHistory(const HistorySettings& settings);
 
   void prepare(frame::Frame& frame);
   /// The next frame has no past.
@@ -37,13 +55,13 @@ class VisibilityHistory {
   /// Shares of receivers that find a past, and whose past is bounded by the present, were the frame at hand
   /// added once more. Changes nothing.
   std::vector<Counter> count(frame::Frame& frame, const gl::Texture& visibility);
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> counters();
 
  private:
   void run(frame::Frame& frame, const gl::Texture& visibility, const gl::Texture* fates);
 
   float alpha_, depthTolerance_, normalCosine_;
-  int clampRadius_;  // 0: the past is taken as it is
+  int clampRadius_ = 0;  // 0: the past is taken as it is
   std::array<std::optional<gl::Texture>, 2> visibility_, surface_;
   size_t latest_ = 0;
   bool hasPast_ = false;

@@ -12,6 +12,16 @@ layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid
 uniform int levels, finestLevel;
 uniform int maxIterations;  // that the driver's compiler allows
 
+#ifdef BLOCKS
+#if BLOCK_DEPTH == BLOCK_DEPTH_MINIMUM
+#define BLOCK_AT nearest
+#elif BLOCK_DEPTH == BLOCK_DEPTH_MAXIMUM
+#define BLOCK_AT farthest
+#else
+#define BLOCK_AT (0.5 * (nearest + farthest))
+#endif
+#endif
+
 bool isSaturated() {
 #ifdef BITMASK
   return allCovered();
@@ -74,7 +84,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
           if (farthest < depth) {
             const vec2 least = halfLight * (1.0 / farthest - 1.0 / p.z);
             if (all(greaterThanEqual(low, centre - least)) && all(lessThanEqual(high, centre + least))) {
-              addTile(low, high, BLOCK_DEPTH, p);
+              addTile(low, high, BLOCK_AT, p);
               levelUsed = max(levelUsed, uint(level));
               descend = false;
             }

@@ -15,8 +15,9 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/inner_technique.h"
+#include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
 
 namespace limen::techniques {
 namespace {
@@ -24,83 +25,30 @@ namespace {
 constexpr const char *kRaster = "multisample/raster", *kSelect = "multisample/select",
                      *kResolve = "multisample/resolve";
 constexpr const char* kMultisampleFolder = "renderer/techniques/soft_shadows/multisample/";
-constexpr const char* kMultisampleSection = "Schwarz 2009, section 4.6";
-constexpr double kDefaultTolerance = 0.01;
-
-enum class Method { Interpolate, Centre, PerSample };
-
-Method methodOf(const ParameterValues& values) {
-  const std::string& name = values.text("method");
-  return name == "interpolate" ? Method::Interpolate : name == "centre" ? Method::Centre : Method::PerSample;
-}
-
-std::vector<Parameter> multisampleParameters() {
-  std::vector<Parameter> out = {
-      choiceParameter("samples", "4", {"1", "2", "4", "8"},
-                      "Samples a pixel; a driver need not have every number", kMultisampleSection),
-      choiceParameter(
-          "method", "interpolate", {"interpolate", "centre", "per_sample"},
-          "Samples take the visibility of what is closest in depth, or all that of the pixel, or each "
-          "gets its own",
-          kMultisampleSection),
-      choiceParameter(
-          "representative", "first", {"first", "nearest", "farthest", "median"},
-          "Sample that the visibility is found for; all but the first are chosen by depth among those "
-          "that see a surface",
-          "Schwarz 2009, section 4.6 (first; others suggested)"),
-      choiceParameter(
-          "depth_at", "centre", {"centre", "sample"},
-          "Place whose depth a sample has: the pixel's centre, as where shading runs once a pixel, or "
-          "its own",
-          "Schwarz 2009, section 4.6, footnote 10 (centre)"),
-      realParameter(
-          "tolerance", kDefaultTolerance, 0.0, 1.0, "",
-          "Difference in depth, as a share of the sample's, up to which samples are taken for one surface",
-          "Schwarz 2009, section 4.6 (value not given there)"),
-      choiceParameter("neighbours", "4", {"4", "8"}, "Pixels around one that may lend their visibility",
-                      "Schwarz 2009, section 4.6 (4)")};
-  for (Parameter& parameter : innerParameters(InnerKind::OrRayTraced)) out.push_back(std::move(parameter));
-  return out;
-}
-
-void checkMultisample(const ParameterValues& values) {
-  const Method method = methodOf(values);
-  const auto refuse = [&](const std::string& name, const std::string& why) {
-    throw Error("'" + name + "' " + why, name, "leave it out, or give another method");
-  };
-  for (const Parameter& parameter : multisampleParameters()) {
-    const std::string& name = parameter.name;
-    if (values.all().at(name) == parameter.defaultValue) continue;
-    if (method != Method::Interpolate && (name == "tolerance" || name == "neighbours"))
-      refuse(name, "is about interpolation, and method '" + values.text("method") + "' does none");
-    if (method == Method::PerSample && (name == "representative" || name == "depth_at"))
-      refuse(name, "is about one sample for all of a pixel's, and each has its own");
-  }
-  checkInner(values);
-}
-
 class Multisample : public Technique {
  public:
-  explicit Multisample(const ParameterValues& values)
-      : method_(methodOf(values)),
-        samples_(std::stoi(values.text("samples"))),
-        representative_(values.text("representative")),
-        depthAtCentre_(values.text("depth_at") == "centre"),
-        tolerance_(values.real("tolerance")),
-        neighbours_(std::stoi(values.text("neighbours"))),
-        inner_(makeInner(values)) {
-    checkMultisample(values);
+  using Settings = MultisampleSettings;
+  explicit Multisample(const MultisampleSettings& settings)
+      : settings_(settings), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
+
+  static std::vector<Quantity> counters() {
+    return {{"inner_evaluations_per_px", "Points evaluated per pixel", "1/px", Direction::LowerIsBetter},
+            counterOf(innerCounters(), "micro_occluders_per_px"),
+            {"complex_share", "Share of pixels that see several surfaces", "", Direction::Neither},
+            {"borrowed_share", "Share of samples that take a neighbour's visibility", "", Direction::Neither},
+            {"orphan_share", "Share of samples with another surface's visibility", "", Direction::Neither}};
   }
 
   void prepare(frame::Frame& frame) override {
-    const bool all = method_ == Method::PerSample;
-    const glm::ivec2 sizePx = frame.sizePx(), pointsPx(sizePx.x, sizePx.y * (all ? samples_ : 1));
+    const bool all = !chosen_;
+    const glm::ivec2 sizePx = frame.sizePx(), pointsPx(sizePx.x, sizePx.y * (all ? settings_.samples : 1));
     requireSize(pointsPx);
-    gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples_)}};
-    if (samples_ == 1)
+    gl::ShaderDefines defines = {{"SAMPLES", std::to_string(settings_.samples)}};
+    if (settings_.samples == 1)
       defines["SINGLE"] = "1";
     else
-      ids_.emplace(frame, samples_);
+      ids_.emplace(frame, settings_.samples);
+    if (chosen_) defineEnum(defines, "REPRESENTATIVE", chosen_->representative);
     choose_ = &shader(frame, all ? "spread.comp.glsl" : "select.comp.glsl", defines);
     defines["MEAN"] = "1";
     resolve_ = all ? &shader(frame, "spread.comp.glsl", defines) : &shader(frame, "resolve.comp.glsl");
@@ -110,7 +58,7 @@ class Multisample : public Technique {
     int64_t held = pointIds_->bytes() + places_->bytes();
     if (!all) {
       depths_.emplace(gl::Format::R32F, sizePx);
-      sampleDepths_.emplace(gl::Format::R32F, sizePx, 1, samples_);
+      sampleDepths_.emplace(gl::Format::R32F, sizePx, 1, settings_.samples);
       held += depths_->bytes() + sampleDepths_->bytes();
     }
     if (ids_) frame.passes().setBytesHeld(kRaster, ids_->bytes());
@@ -130,7 +78,7 @@ class Multisample : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     std::optional<gl::Texture> counts;
     const gl::Program* program = resolve_;
-    if (method_ != Method::PerSample) {
+    if (chosen_) {
       counts.emplace(gl::Format::RGBA32UI, frame.sizePx());
       program = &shader(frame, "resolve.comp.glsl", {{"COUNT", "1"}});
     }
@@ -142,7 +90,7 @@ class Multisample : public Technique {
     const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
     double evaluated = 0.0;
     for (size_t i = 3; i < receivers.size(); i += 4) evaluated += receivers[i] >= 0.0F ? 1.0 : 0.0;
-    std::vector<Counter> out = {{"inner_evaluations_per_px", evaluated / pixels, "", true}};
+    std::vector<Counter> out = {{"inner_evaluations_per_px", evaluated / pixels}};
     for (const Counter& counter : work)
       if (counter.name == "micro_occluders_per_px") out.push_back(counter);
     if (!counts) return out;
@@ -153,9 +101,9 @@ class Multisample : public Technique {
       complex += read[i + 3] > 0 ? 1.0 : 0.0;
     }
     const auto share = [&](double part) { return samples > 0.0 ? part / samples : 0.0; };
-    out.push_back({"complex_share", complex / pixels, "", false});
-    out.push_back({"borrowed_share", share(lent), "", false});
-    out.push_back({"orphan_share", share(orphaned), "", false});
+    out.push_back({"complex_share", complex / pixels});
+    out.push_back({"borrowed_share", share(lent)});
+    out.push_back({"orphan_share", share(orphaned)});
     return out;
   }
 
@@ -169,8 +117,9 @@ class Multisample : public Technique {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (std::max(pointsPx.x, pointsPx.y) <= largest) return;
-    throw Error("visibility for each of " + std::to_string(samples_) + " samples needs a picture of " +
-                    std::to_string(pointsPx.x) + " x " + std::to_string(pointsPx.y) + " points",
+    throw Error("visibility for each of " + std::to_string(settings_.samples) +
+                    " samples needs a picture of " + std::to_string(pointsPx.x) + " x " +
+                    std::to_string(pointsPx.y) + " points",
                 "samples",
                 "this driver has at most " + std::to_string(largest) + ": lower 'samples' or the image size");
   }
@@ -183,13 +132,15 @@ class Multisample : public Technique {
     points_->end();
     const auto scope = frame.passes().open(kResolve);
     resolve.set("sizePx", frame.sizePx());
-    if (method_ == Method::PerSample) {
+    if (!chosen_) {
       inner_->product().bindTexture(0);
     } else {
-      resolve.set("samples", samples_);
-      resolve.set("neighbours", neighbours_);
-      resolve.set("tolerance", static_cast<float>(tolerance_));
-      resolve.set("interpolate", method_ == Method::Interpolate ? 1 : 0);
+      resolve.set("samples", settings_.samples);
+      const auto* given = std::get_if<InterpolatedSamples>(&settings_.method);
+      const InterpolatedSamples interpolation = given ? *given : InterpolatedSamples{};
+      resolve.set("neighbours", interpolation.neighbours);
+      resolve.set("tolerance", static_cast<float>(interpolation.tolerance));
+      resolve.set("interpolate", given ? 1 : 0);
       sampleDepths_->bindTexture(0);
       depths_->bindTexture(1);
       inner_->product().bindTexture(2);
@@ -210,7 +161,7 @@ class Multisample : public Technique {
     }
     const auto scope = frame.passes().open(kSelect);
     choose_->set("sizePx", frame.sizePx());
-    for (int i = 0; i < samples_; ++i)
+    for (int i = 0; i < settings_.samples; ++i)
       choose_->set(("samplePlaces[" + std::to_string(i) + "]").c_str(),
                    ids_ ? ids_->places()[static_cast<size_t>(i)] : glm::vec2(0.5F));
     if (ids_)
@@ -219,17 +170,13 @@ class Multisample : public Technique {
       frame.get<frame::TriangleIds>().texture().bindTexture(0);
     pointIds_->bindImage(0, gl::Access::Write);
     places_->bindImage(1, gl::Access::Write);
-    if (method_ != Method::PerSample) {
+    if (chosen_) {
       const glm::dmat4& toCamera = frame.anchorToCamera();
       const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
       choose_->set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
       choose_->set("anchorToCamera", glm::mat4(toCamera));
       choose_->set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
-      choose_->set("depthAtCentre", depthAtCentre_ ? 1 : 0);
-      choose_->set("representative", representative_ == "first"      ? 0
-                                     : representative_ == "nearest"  ? 1
-                                     : representative_ == "farthest" ? 2
-                                                                     : 3);
+      choose_->set("depthAtCentre", chosen_->depthAt == DepthAt::Centre ? 1 : 0);
       depths_->bindImage(2, gl::Access::Write);
       sampleDepths_->bindImage(3, gl::Access::Write);
       frame.geometry().bindStorage(0);
@@ -238,12 +185,8 @@ class Multisample : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
-  Method method_;
-  int samples_;
-  std::string representative_;
-  bool depthAtCentre_;
-  double tolerance_;
-  int neighbours_;
+  MultisampleSettings settings_;
+  std::optional<ChosenSample> chosen_;  // none: every sample has its own visibility
   std::unique_ptr<Technique> inner_;
   std::optional<MultisampleIds> ids_;
   const gl::Program *choose_ = nullptr, *resolve_ = nullptr;
@@ -251,21 +194,14 @@ class Multisample : public Technique {
   std::optional<frame::Frame> points_;
 };
 
-const Registered<TechniqueInfo> kMultisampleRegistered{
+const RegisteredTechnique<Multisample> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
      .version = 1,
      .summary = "Another technique's visibility at one sample a pixel, shared by the pixel's other samples",
      .source = "Schwarz 2009, section 4.6 (SS-35)",
      .product = ProductKind::Visibility,
-     .parameters = multisampleParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Multisample>(values); },
-     .errorBound = {},
-     .counters = {"inner_evaluations_per_px", "micro_occluders_per_px", "complex_share", "borrowed_share",
-                  "orphan_share"},
-     .check = checkMultisample}};
+     .counters = Multisample::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -22,7 +22,6 @@ uniform vec2 rayScale;
 uniform mat4 anchorToCamera, cameraToLight;
 uniform vec2 samplePlaces[SAMPLES];
 uniform bool depthAtCentre;  // as a shader run once a pixel would find it, instead of at the sample
-uniform int representative;  // 0 first, 1 nearest, 2 farthest, 3 median
 
 const uint kNone = 0xffffffffu;
 
@@ -53,19 +52,25 @@ void main() {
     imageStore(outSampleDepths, ivec3(pixel, i), vec4(depths[i]));
   }
   int chosen = 0;
-  if (representative > 0) {
-    // Of the surfaces alone: rank 0 is the nearest; of equal depths, the first sample's comes first.
-    int surfaces = 0;
-    for (int i = 0; i < SAMPLES; ++i) surfaces += ids[i] == kNone ? 0 : 1;
-    const int wanted = representative == 1 ? 0 : representative == 2 ? surfaces - 1 : (surfaces - 1) / 2;
-    for (int i = 0; i < SAMPLES; ++i) {
-      if (ids[i] == kNone) continue;
-      int rank = 0;
-      for (int j = 0; j < SAMPLES; ++j)
-        if (ids[j] != kNone && (abs(depths[j]) < abs(depths[i]) || (abs(depths[j]) == abs(depths[i]) && j < i))) ++rank;
-      if (rank == wanted) chosen = i;
-    }
+#if REPRESENTATIVE != REPRESENTATIVE_FIRST
+  // Of the surfaces alone: rank 0 is the nearest; of equal depths, the first sample's comes first.
+  int surfaces = 0;
+  for (int i = 0; i < SAMPLES; ++i) surfaces += ids[i] == kNone ? 0 : 1;
+#if REPRESENTATIVE == REPRESENTATIVE_NEAREST
+  const int wanted = 0;
+#elif REPRESENTATIVE == REPRESENTATIVE_FARTHEST
+  const int wanted = surfaces - 1;
+#else
+  const int wanted = (surfaces - 1) / 2;
+#endif
+  for (int i = 0; i < SAMPLES; ++i) {
+    if (ids[i] == kNone) continue;
+    int rank = 0;
+    for (int j = 0; j < SAMPLES; ++j)
+      if (ids[j] != kNone && (abs(depths[j]) < abs(depths[i]) || (abs(depths[j]) == abs(depths[i]) && j < i))) ++rank;
+    if (rank == wanted) chosen = i;
   }
+#endif
   imageStore(outIds, pixel, uvec4(ids[chosen]));
   imageStore(outPlaces, pixel, vec4(placeOf(pixel, chosen), 0.0, 0.0));
   imageStore(outDepths, pixel, vec4(depths[chosen]));

@@ -15,12 +15,23 @@ namespace {
 
 constexpr const char* kSupersampledPass = "supersampled/mean";
 
+struct SupersampledSettings {
+  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  int samples = 4;
+  static const SettingsTable<SupersampledSettings>& table() {
+    using S = SupersampledSettings;
+    static const SettingsTable<S> kTable = {
+        innerBinding(&S::inner, InnerKind::OrRayTraced),
+        {&S::samples, "samples", {1, 16}, "", "Samples a pixel along each axis, box filter"}};
+    return kTable;
+  }
+};
+
 class Supersampled : public Technique {
  public:
-  explicit Supersampled(const ParameterValues& values)
-      : samples_(static_cast<int>(values.integer("samples"))), inner_(makeInner(values)) {
-    checkInner(values);
-  }
+  using Settings = SupersampledSettings;
+  explicit Supersampled(const SupersampledSettings& settings)
+      : samples_(settings.samples), inner_(makeInner(settings.inner)) {}
 
   void prepare(frame::Frame& frame) override {
     const glm::ivec2 sizePx = frame.sizePx() * samples_;
@@ -64,27 +75,14 @@ class Supersampled : public Technique {
   std::optional<frame::Frame> sampled_;
 };
 
-std::vector<Parameter> supersampledParameters() {
-  std::vector<Parameter> out = {
-      integerParameter("samples", 4, 1, 16, "", "Samples a pixel along each axis, box filter")};
-  for (Parameter& parameter : innerParameters(InnerKind::OrRayTraced)) out.push_back(std::move(parameter));
-  return out;
-}
-
-const Registered<TechniqueInfo> kSupersampledRegistered{
+const RegisteredTechnique<Supersampled> kSupersampledRegistered{
     {.name = "soft_shadows/supersampled",
      .version = 1,
      .summary = "Another technique's visibility at many samples over each pixel, averaged",
      .source = "bench: reference for Schwarz 2009, section 4.6",
      .product = ProductKind::Visibility,
-     .parameters = supersampledParameters(),
      .needs = {"rectangular_light"},
-     .reference = true,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Supersampled>(values); },
-     .errorBound = {},
-     .counters = {},
-     .check = checkInner}};
+     .reference = true}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -5,37 +5,61 @@
 // receiver's own slice is missed. Source: Schwarz 2009, section 3.2.1 (after Eisemann and Décoret 2006 and
 // 2008; formula reconstructed). Here the slices are seen in perspective from the light's centre and made in
 // one pass, a bit of a texel each.
-#include "experiments/base/error.h"
 #include "renderer/frame/occlusion_slices.h"
-#include "renderer/techniques/soft_shadows/prefiltered_technique.h"
+#include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
 namespace {
 
-gl::ShaderDefines occlusionTexturesDefines(const ParameterValues& values) {
-  if (prefilterOf(values) == frame::Prefilter::Mips) return {{"MIPS", "1"}};
-  return frame::SummedAreaTable::defines(frame::SumForm::Fixed);
-}
+struct OcclusionTexturesSettings {
+  int resolution = 256, slices = 16;
+  SlopeBias bias;
+  frame::Prefilter prefilter = frame::Prefilter::Sums;
+  static const SettingsTable<OcclusionTexturesSettings>& table() {
+    using S = OcclusionTexturesSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::resolution, "resolution", oneOf({1, 2, 64, 128, 256, 512, 1024, 2048, 4096}), "texel",
+         "Side of each slice's picture", "Schwarz 2009, section 4.5"},
+        {&S::slices,
+         "slices",
+         {1, 32},
+         "",
+         "Slices between the nearest and the farthest caster",
+         "Schwarz 2009, section 3.2.1 (number not given there)"},
+        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::prefilter, "prefilter",
+         "What averages are taken from: sums: summed-area table, any rectangle; mips: pyramid, squares of "
+         "the window's area",
+         "Schwarz 2009, section 3.2.1"}};
+    return kTable;
+  }
+};
 
-void checkOcclusionTextures(const ParameterValues& values) {
-  if (values.text("raster") == "compute")
-    throw Error("slices are rasterised by the driver alone", "raster",
-                "leave it out, or give raster: hardware");
+gl::ShaderDefines occlusionTexturesDefines(frame::Prefilter prefilter) {
+  if (prefilter == frame::Prefilter::Mips) return {{"MIPS", "1"}};
+  return frame::SummedAreaTable::defines(frame::SumForm::Fixed);
 }
 
 class OcclusionTextures : public VisibilityTechnique {
  public:
-  explicit OcclusionTextures(const ParameterValues& values)
+  using Settings = OcclusionTexturesSettings;
+  explicit OcclusionTextures(const OcclusionTexturesSettings& settings)
       : VisibilityTechnique(
-            values, "renderer/techniques/soft_shadows/occlusion_textures/occlusion_textures.comp.glsl",
-            "soft_shadows/occlusion_textures", occlusionTexturesDefines(values)),
-        settings_{mapSettings().resolution, static_cast<int>(values.integer("slices")), prefilterOf(values)} {
-    checkOcclusionTextures(values);
+            {.resolution = settings.resolution}, settings.bias,
+            "renderer/techniques/soft_shadows/occlusion_textures/occlusion_textures.comp.glsl",
+            "soft_shadows/occlusion_textures", occlusionTexturesDefines(settings.prefilter)),
+        settings_{settings.resolution, settings.slices, settings.prefilter} {}
+
+  static std::vector<Quantity> counters() {
+    std::vector<Quantity> all = quantities();
+    all.push_back(structureBytes());
+    return all;
   }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     std::vector<Counter> all = VisibilityTechnique::count(frame);
-    all.push_back({"structure_bytes", static_cast<double>(slices_->bytes()), "byte", true});
+    all.push_back({structureBytes().name, static_cast<double>(slices_->bytes())});
     return all;
   }
 
@@ -58,38 +82,15 @@ class OcclusionTextures : public VisibilityTechnique {
   const frame::OcclusionSlices* slices_ = nullptr;
 };
 
-std::vector<Parameter> occlusionTexturesParameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
-  for (Parameter& parameter : all)
-    if (parameter.name == "resolution") parameter.defaultValue = std::string("256");
-  all.push_back(integerParameter("slices", 16, 1, 32, "",
-                                 "Slices between the nearest and the farthest caster",
-                                 "Schwarz 2009, section 3.2.1 (number not given there)"));
-  all.push_back(prefilterParameter({"sums", "mips"}));
-  return all;
-}
-
-std::vector<Quantity> counterNamesWithBytes() {
-  std::vector<Quantity> names = VisibilityTechnique::counterNames();
-  names.emplace_back("structure_bytes");
-  return names;
-}
-
-const Registered<TechniqueInfo> kOcclusionTexturesRegistered{
+const RegisteredTechnique<OcclusionTextures> kOcclusionTexturesRegistered{
     {.name = "soft_shadows/occlusion_textures",
      .version = 1,
      .summary =
          "Occlusion textures: product over slices of the part of the light's cone that each leaves open",
      .source = "Schwarz 2009, section 3.2.1 (SS-08)",
      .product = ProductKind::Visibility,
-     .parameters = occlusionTexturesParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<OcclusionTextures>(values); },
-     .errorBound = {},
-     .counters = counterNamesWithBytes(),
-     .check = checkOcclusionTextures}};
+     .counters = OcclusionTextures::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -6,45 +6,48 @@
 namespace limen::techniques {
 namespace {
 
+struct PcfSettings {
+  MapSettings map;
+  SlopeBias bias;
+  double filterRadius = 4.0;
+  int filterTaps = 8;
+  static const SettingsTable<PcfSettings>& table() {
+    using S = PcfSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::map),
+        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::filterRadius, "filter_radius", {0, 256}, "texel", "Half the side of the filter window"},
+        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps along a side of the window"}};
+    return kTable;
+  }
+};
+
 class Pcf : public VisibilityTechnique {
  public:
-  explicit Pcf(const ParameterValues& values)
-      : VisibilityTechnique(values, "renderer/techniques/soft_shadows/pcf/pcf.comp.glsl", "soft_shadows/pcf"),
-        radius_(values.real("filter_radius")),
-        taps_(static_cast<int>(values.integer("filter_taps"))) {}
+  using Settings = PcfSettings;
+  explicit Pcf(const PcfSettings& settings)
+      : VisibilityTechnique(settings.map, settings.bias, "renderer/techniques/soft_shadows/pcf/pcf.comp.glsl",
+                            "soft_shadows/pcf"),
+        settings_(settings) {}
 
  protected:
   void configure(const gl::Program& program) const override {
-    program.set("filterRadius", static_cast<float>(radius_));
-    program.set("filterTaps", taps_);
+    program.set("filterRadius", static_cast<float>(settings_.filterRadius));
+    program.set("filterTaps", settings_.filterTaps);
   }
 
  private:
-  double radius_;
-  int taps_;
+  PcfSettings settings_;
 };
 
-std::vector<Parameter> pcfParameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
-  all.push_back(
-      realParameter("filter_radius", 4.0, 0.0, 256.0, "texel", "Half the side of the filter window"));
-  all.push_back(integerParameter("filter_taps", 8, 1, 32, "", "Taps along a side of the window"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kPcfRegistered{
+const RegisteredTechnique<Pcf> kPcfRegistered{
     {.name = "soft_shadows/pcf",
      .version = 1,
      .summary = "Percentage-closer filtering over a window of fixed size",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,
-     .parameters = pcfParameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Pcf>(values); },
-     .errorBound = {},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

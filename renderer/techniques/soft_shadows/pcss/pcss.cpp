@@ -8,49 +8,54 @@
 namespace limen::techniques {
 namespace {
 
+struct PcssSettings {
+  MapSettings map;
+  SlopeBias bias;
+  double searchScale = 1.0;
+  int searchTaps = 8, filterTaps = 16;
+  static const SettingsTable<PcssSettings>& table() {
+    using S = PcssSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::map),
+        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::searchScale,
+         "search_scale",
+         {0.01, 4},
+         "",
+         "Window of the blocker search as a share of the light's extents"},
+        {&S::searchTaps, "search_taps", {1, 32}, "", "Taps of the blocker search along a side"},
+        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps of the filter along a side"}};
+    return kTable;
+  }
+};
+
 class Pcss : public VisibilityTechnique {
  public:
-  explicit Pcss(const ParameterValues& values)
-      : VisibilityTechnique(values, "renderer/techniques/soft_shadows/pcss/pcss.comp.glsl",
-                            "soft_shadows/pcss"),
-        searchScale_(values.real("search_scale")),
-        searchTaps_(static_cast<int>(values.integer("search_taps"))),
-        filterTaps_(static_cast<int>(values.integer("filter_taps"))) {}
+  using Settings = PcssSettings;
+  explicit Pcss(const PcssSettings& settings)
+      : VisibilityTechnique(settings.map, settings.bias,
+                            "renderer/techniques/soft_shadows/pcss/pcss.comp.glsl", "soft_shadows/pcss"),
+        settings_(settings) {}
 
  protected:
   void configure(const gl::Program& program) const override {
-    program.set("searchScale", static_cast<float>(searchScale_));
-    program.set("searchTaps", searchTaps_);
-    program.set("filterTaps", filterTaps_);
+    program.set("searchScale", static_cast<float>(settings_.searchScale));
+    program.set("searchTaps", settings_.searchTaps);
+    program.set("filterTaps", settings_.filterTaps);
   }
 
  private:
-  double searchScale_;
-  int searchTaps_, filterTaps_;
+  PcssSettings settings_;
 };
 
-std::vector<Parameter> pcssParameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters(1.0);
-  all.push_back(realParameter("search_scale", 1.0, 0.01, 4.0, "",
-                              "Window of the blocker search as a share of the light's extents"));
-  all.push_back(integerParameter("search_taps", 8, 1, 32, "", "Taps of the blocker search along a side"));
-  all.push_back(integerParameter("filter_taps", 16, 1, 32, "", "Taps of the filter along a side"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kPcssRegistered{
+const RegisteredTechnique<Pcss> kPcssRegistered{
     {.name = "soft_shadows/pcss",
      .version = 1,
      .summary = "Percentage-closer soft shadows: filter window from the blockers' average depth",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,
-     .parameters = pcssParameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Pcss>(values); },
-     .errorBound = {},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -11,23 +11,55 @@
 namespace limen::techniques {
 namespace {
 
+struct PeeledSettings {
+  MapSettings map;
+  SlopeBias bias{.slope = 2.0};
+  int layers = 2;
+  double peelBias = 1e-5;
+  int refinements = 2;
+  static const SettingsTable<PeeledSettings>& table() {
+    using S = PeeledSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::map),
+        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::layers,
+         "layers",
+         {1, 4},
+         "",
+         "Surfaces behind one another that a texel knows",
+         "Schwarz 2009, section 3.2.1 (after Bavoil et al. 2008)"},
+        {&S::peelBias,
+         "peel_bias",
+         {0, 0.1},
+         "",
+         "A surface lies behind another if it is farther by more than this share"},
+        {&S::refinements,
+         "refinements",
+         {0, 3},
+         "",
+         "Times that the search area is narrowed by its depth range",
+         "Schwarz 2009, section 4.1"}};
+    return kTable;
+  }
+};
+
 class Peeled : public VisibilityTechnique {
  public:
-  explicit Peeled(const ParameterValues& values)
-      : VisibilityTechnique(values, "renderer/techniques/soft_shadows/peeled/peeled.comp.glsl",
-                            "soft_shadows/peeled", {{"LAYERS", std::to_string(values.integer("layers"))}}),
-        layers_(static_cast<int>(values.integer("layers"))),
-        refinements_(static_cast<int>(values.integer("refinements"))),
-        peelBias_(values.real("peel_bias")) {}
+  using Settings = PeeledSettings;
+  explicit Peeled(const PeeledSettings& settings)
+      : VisibilityTechnique(settings.map, settings.bias,
+                            "renderer/techniques/soft_shadows/peeled/peeled.comp.glsl", "soft_shadows/peeled",
+                            {{"LAYERS", std::to_string(settings.layers)}}),
+        settings_(settings) {}
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
     constexpr uint32_t kSecondLayerUnit = 4;
     // Before any is bound, since making the inputs binds textures too.
-    for (int layer = 1; layer < layers_; ++layer) frame.get<frame::ShadowMap>(settings(layer));
+    for (int layer = 1; layer < settings_.layers; ++layer) frame.get<frame::ShadowMap>(layerMap(layer));
     frame.get<frame::MinMaxPyramid>(mapSettings());
-    for (int layer = 1; layer < layers_; ++layer)
-      frame.get<frame::ShadowMap>(settings(layer))
+    for (int layer = 1; layer < settings_.layers; ++layer)
+      frame.get<frame::ShadowMap>(layerMap(layer))
           .texture()
           .bindTexture(kSecondLayerUnit + static_cast<uint32_t>(layer) - 1);
     maxIterations_ = maxIterations(frame);
@@ -36,47 +68,30 @@ class Peeled : public VisibilityTechnique {
 
   void configure(const gl::Program& program) const override {
     program.set("levels", pyramidLevels());
-    program.set("refinements", refinements_);
+    program.set("refinements", settings_.refinements);
     program.set("maxIterations", maxIterations_);
   }
 
  private:
-  frame::ShadowMapSettings settings(int layer) const {
-    frame::ShadowMapSettings all = mapSettings();
-    all.layer = layer;
-    all.peelBias = peelBias_;
-    return all;
+  frame::ShadowMapSettings layerMap(int layer) const {
+    frame::ShadowMapSettings map = mapSettings();
+    map.layer = layer;
+    map.peelBias = settings_.peelBias;
+    return map;
   }
 
-  int layers_, refinements_, maxIterations_ = 0;
-  double peelBias_;
+  PeeledSettings settings_;
+  int maxIterations_ = 0;
 };
 
-std::vector<Parameter> peeledParameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters(2.0);
-  all.push_back(integerParameter("layers", 2, 1, 4, "", "Surfaces behind one another that a texel knows",
-                                 "Schwarz 2009, section 3.2.1 (after Bavoil et al. 2008)"));
-  all.push_back(realParameter("peel_bias", 1e-5, 0.0, 0.1, "",
-                              "A surface lies behind another if it is farther by more than this share"));
-  all.push_back(integerParameter("refinements", 2, 0, 3, "",
-                                 "Times that the search area is narrowed by its depth range",
-                                 "Schwarz 2009, section 4.1"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kPeeledRegistered{
+const RegisteredTechnique<Peeled> kPeeledRegistered{
     {.name = "soft_shadows/peeled",
      .version = 1,
      .summary = "Backprojection of each texel's farthest layer that is nearer than the receiver",
      .source = "Schwarz 2009, section 3.2.1 (SS-07)",
      .product = ProductKind::Visibility,
-     .parameters = peeledParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Peeled>(values); },
-     .errorBound = {},
-     .counters = VisibilityTechnique::counterNames()}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

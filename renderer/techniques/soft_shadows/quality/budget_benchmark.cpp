@@ -18,7 +18,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace {
 
@@ -26,7 +26,8 @@ using namespace limen;
 using HostClock = std::chrono::steady_clock;
 
 constexpr double kWarmUpS = 0.5;  ///< an idle GPU takes up to a third of a second to raise its clock
-constexpr const char* kUsage = "--scene-set and --set take name=value, once for each parameter";
+constexpr const char* kUsage =
+    "--scene-set and --set take name=value, once for each parameter: budget=frame_time, budget.target_ms=1";
 
 struct Options {
   std::string scene = "columns_hall", technique = "soft_shadows/backprojection";
@@ -43,30 +44,38 @@ struct Row {
   double passesMs = 0.0, frameMs = 0.0;
 };
 
+/// The value that `text` is for one of the parameters at that path; the list of values refuses what fits
+/// none.
+ParameterValue valueOf(const std::vector<Parameter>& declared, const std::string& path,
+                       const std::string& text) {
+  for (const DeclaredAt& at : flatten(declared)) {
+    if (at.path != path) continue;
+    try {
+      switch (at.parameter->type) {
+        case ParameterType::Boolean:
+          return text == "true";
+        case ParameterType::Integer:
+          return int64_t{std::stoll(text)};
+        case ParameterType::Real:
+          return std::stod(text);
+        default:
+          return text;
+      }
+    } catch (const std::logic_error&) {
+      throw Error("'" + text + "' is no number", path, kUsage);
+    }
+  }
+  return text;
+}
+
 std::map<std::string, ParameterValue> parse(const std::vector<Parameter>& declared,
                                             const std::vector<std::string>& given) {
   std::map<std::string, ParameterValue> out;
   for (const std::string& item : given) {
     const size_t at = item.find('=');
     if (at == std::string::npos) throw Error("'" + item + "' gives no value", {}, kUsage);
-    const std::string name = item.substr(0, at), text = item.substr(at + 1);
-    const auto found = std::find_if(declared.begin(), declared.end(),
-                                    [&](const Parameter& parameter) { return parameter.name == name; });
-    ParameterValue value = text;
-    try {
-      if (found == declared.end()) {
-        // The list of values says which names there are.
-      } else if (found->type == ParameterType::Boolean) {
-        value = text == "true";
-      } else if (found->type == ParameterType::Integer) {
-        value = int64_t{std::stoll(text)};
-      } else if (found->type == ParameterType::Real) {
-        value = std::stod(text);
-      }
-    } catch (const std::logic_error&) {
-      throw Error("'" + text + "' is no number", name, kUsage);
-    }
-    out[name] = value;
+    const std::string path = item.substr(0, at);
+    out[path] = valueOf(declared, path, item.substr(at + 1));
   }
   return out;
 }
@@ -80,15 +89,15 @@ double factOf(const std::vector<techniques::Counter>& facts, const std::string& 
 /// Over the pixels that may be shadowed.
 void compare(const Image& product, const Image& reference, const Image& receivers, Row& row) {
   double squares = 0.0;
-  size_t judged = 0;
+  size_t compared = 0;
   for (size_t i = 0; i < product.pixels(); ++i) {
     if (receivers.data[4 * i + 3] < 0.0F) continue;
     const double error = std::abs(double{product.data[i]} - reference.data[i]);
     squares += error * error;
     row.largest = std::max(row.largest, error);
-    ++judged;
+    ++compared;
   }
-  row.rmse = judged > 0 ? std::sqrt(squares / static_cast<double>(judged)) : 0.0;
+  row.rmse = compared > 0 ? std::sqrt(squares / static_cast<double>(compared)) : 0.0;
 }
 
 class Walk {
@@ -102,7 +111,7 @@ class Walk {
         frame_(*context_, scene_, gpuScene_, sizePx_),
         referenceFrame_(*context_, scene_, gpuScene_, sizePx_),
         technique_(makeTechnique(options.set)) {
-    search_ = dynamic_cast<techniques::OccluderSearch*>(technique_.get());
+    search_ = dynamic_cast<techniques::SearchTechnique*>(technique_.get());
     if (!search_)
       throw Error("'" + options.technique + "' has no budget", "--technique",
                   "name one that searches occluders");
@@ -128,7 +137,7 @@ class Walk {
       row.timeS = i * options_.stepS;
       render(row.timeS);
       row.scale = factOf(search_->budgetFacts(), "budget_scale", 1.0);
-      if (reference_) judge(row);
+      if (reference_) evaluate(row);
     }
     const std::string& own = options_.technique;
     for (const gl::PassTime& time : frame_.passes().finishRecording()) {
@@ -161,11 +170,11 @@ class Walk {
 
   /// The same search without a limit; levels are 0 then, whatever is said of them.
   static std::vector<std::string> withoutBudget(const std::vector<std::string>& set) {
-    std::vector<std::string> out = {"budget=0"};
+    std::vector<std::string> out = {"budget=uniform", "budget.limit=0"};
     for (const std::string& item : set)
-      for (const char* kept : {"resolution=", "structure=", "ysm_base=", "occluders=", "gap_fill=", "bias=",
-                               "slope_bias=", "max_slope=", "raster="})
-        if (item.starts_with(kept)) out.push_back(item);
+      for (const char* name : {"resolution", "raster", "structure", "occluders", "bias"})
+        if (item.starts_with(std::string(name) + "=") || item.starts_with(std::string(name) + "."))
+          out.push_back(item);
     return out;
   }
 
@@ -183,7 +192,7 @@ class Walk {
     fences_.pop_front();
   }
 
-  void judge(Row& row) {
+  void evaluate(Row& row) {
     referenceFrame_.setTime(row.timeS);
     referenceFrame_.begin();
     reference_->render(referenceFrame_);
@@ -199,16 +208,16 @@ class Walk {
   glm::ivec2 sizePx_;
   frame::Frame frame_, referenceFrame_;
   Technique technique_, reference_;
-  techniques::OccluderSearch* search_ = nullptr;
+  techniques::SearchTechnique* search_ = nullptr;
   std::deque<GLsync> fences_;  // of frames that may still be under way
 };
 
 void summarise(const std::vector<Row>& rows, double targetMs, int from) {
-  int within = 0, judged = 0, reversals = 0, side = 0;
+  int within = 0, compared = 0, reversals = 0, side = 0;
   double worst = 0.0, sum = 0.0;
   for (size_t i = static_cast<size_t>(from); i < rows.size(); ++i) {
     const double error = rows[i].passesMs / targetMs - 1.0;
-    ++judged;
+    ++compared;
     within += std::abs(error) <= 0.1;
     worst = std::max(worst, std::abs(error));
     sum += rows[i].passesMs;
@@ -216,11 +225,11 @@ void summarise(const std::vector<Row>& rows, double targetMs, int from) {
     reversals += now != 0 && side != 0 && now != side;
     if (now != 0) side = now;
   }
-  if (judged == 0) return;
+  if (compared == 0) return;
   fmt::print(
       "# from frame {} on: mean {:.4g} ms of {:.4g} ms, {:.1f} % of frames within 10 %, worst {:.1f} %, "
       "{} changes of side beyond 10 %\n",
-      from, sum / judged, targetMs, 100.0 * within / judged, 100.0 * worst, reversals);
+      from, sum / compared, targetMs, 100.0 * within / compared, 100.0 * worst, reversals);
 }
 
 }  // namespace
@@ -261,8 +270,9 @@ int main(int argc, char** argv) {
       else
         fmt::print(",\n");
     }
-    if (values.text("budget_map") == "frame_time")
-      summarise(rows, values.real("frame_time_ms"), std::min(options.settled, options.frames));
+    const techniques::SearchSettings search = techniques::SearchSettings::table().read(values);
+    if (const auto* steered = std::get_if<techniques::FrameTimeBudget>(&search.budget))
+      summarise(rows, steered->targetMs, std::min(options.settled, options.frames));
     return kExitSuccess;
   } catch (const Error& error) {
     fmt::print(stderr, "limen-budget-benchmark: {}\n", error.what());

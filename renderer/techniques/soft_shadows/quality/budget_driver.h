@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "experiments/base/parameter.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
+#include "renderer/techniques/soft_shadows/quality/budget_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -47,32 +47,12 @@ class BudgetDriver {
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
 };
 
-/// A choice of `budget_map`.
-struct BudgetDriverInfo {
-  std::string name;
-  /// Its own parameters, whose names begin with its name and "_"; they share a list with the technique's.
-  std::vector<Parameter> parameters;
-  std::function<std::unique_ptr<BudgetDriver>(const ParameterValues&)> make;
-  /// Throws Error if the values do not go together; null: all do. Called where the driver is chosen.
-  std::function<void(const ParameterValues&)> check = {};
-  /// Name of the driver that it starts from, whose parameters then count too; null or "uniform": none.
-  std::function<std::string(const ParameterValues&)> base = {};
-  /// Names of all that count() may return, those of a base aside.
-  std::vector<Quantity> counters = {};
-};
-
-/// All drivers, in order of their names' places in the choice. The uniform budget needs no driver.
-const std::vector<BudgetDriverInfo>& budgetDrivers();
-
-/// `budget_map` and the parameters of all drivers.
-std::vector<Parameter> budgetParameters();
-/// Throws Error where values do not go together, or a driver's are given without it.
-void checkBudget(const ParameterValues& values);
-/// Some driver is chosen.
-bool hasBudgetMap(const ParameterValues& values);
 /// The chosen driver; null for a uniform budget.
-std::unique_ptr<BudgetDriver> makeBudgetDriver(const ParameterValues& values);
-/// The driver of that name, whatever `budget_map` says; null for "uniform".
-std::unique_ptr<BudgetDriver> makeBudgetDriver(const std::string& name, const ParameterValues& values);
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const BudgetSettings& settings);
+/// What drivers of any kind count.
+std::vector<Quantity> budgetQuantities();
+
+/// Sets the uniforms leastRoot and mostRoot.
+void setRoots(const gl::Program& program, const BudgetRange& range);
 
 }  // namespace limen::techniques

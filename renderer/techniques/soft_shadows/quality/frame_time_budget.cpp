@@ -6,36 +6,46 @@
 #include <cmath>
 #include <optional>
 
-#include "renderer/techniques/soft_shadows/quality/budget_range.h"
 #include "renderer/techniques/soft_shadows/quality/frame_stopwatch.h"
 #include "renderer/techniques/soft_shadows/quality/frame_time_controller.h"
+#include "renderer/techniques/soft_shadows/quality/masking_budget.h"
+#include "renderer/techniques/soft_shadows/quality/painted_budget.h"
+#include "renderer/techniques/soft_shadows/quality/perceptual_budget.h"
+#include "renderer/techniques/soft_shadows/quality/radial_budget.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kUniformBase = "uniform";
-
-FrameTimeSettings settingsOf(const ParameterValues& values) {
-  const BudgetRange range = BudgetRange::of(values, "frame_time");
-  FrameTimeSettings settings;
-  settings.targetMs = values.real("frame_time_ms");
-  settings.leastScale =
-      static_cast<double>(range.least) / static_cast<double>(std::max<int64_t>(range.most, 1));
-  settings.gain = values.real("frame_time_gain");
-  settings.deadBand = values.real("frame_time_dead_band");
-  settings.memory = static_cast<double>(values.integer("frame_time_memory"));
-  settings.largestFactor = values.real("frame_time_largest_factor");
-  return settings;
+/// Null: the same for all pixels.
+std::unique_ptr<BudgetDriver> makeBase(const FrameTimeBudget::Base& settings) {
+  return std::visit(
+      [](const auto& chosen) -> std::unique_ptr<BudgetDriver> {
+        if constexpr (std::is_same_v<decltype(chosen), const ScaledBudget&>)
+          return nullptr;
+        else
+          return makeBudgetDriver(chosen);
+      },
+      settings);
 }
 
-class FrameTimeBudget : public BudgetDriver {
+FrameTimeSettings controllerSettings(const FrameTimeBudget& settings) {
+  const BudgetRange range = settings.range();
+  return {.targetMs = settings.targetMs,
+          .leastScale = static_cast<double>(range.least) / static_cast<double>(range.most),
+          .gain = settings.gain,
+          .deadBand = settings.deadBand,
+          .memory = static_cast<double>(settings.memory),
+          .largestFactor = settings.largestFactor};
+}
+
+class FrameTimeBudgetDriver : public BudgetDriver {
  public:
-  explicit FrameTimeBudget(const ParameterValues& values)
-      : range_(BudgetRange::of(values, "frame_time")),
-        dithers_(values.boolean("frame_time_dither")),
-        settleFrames_(static_cast<int>(values.integer("frame_time_settle_frames"))),
-        controller_(settingsOf(values)),
-        base_(makeBudgetDriver(values.text("frame_time_base"), values)) {}
+  explicit FrameTimeBudgetDriver(const FrameTimeBudget& settings)
+      : range_(settings.range()),
+        dithers_(settings.dither),
+        settleFrames_(settings.settleFrames),
+        controller_(controllerSettings(settings)),
+        base_(makeBase(settings.base)) {}
 
   void prepare(frame::Frame& frame) override {
     if (base_) base_->prepare(frame);
@@ -80,9 +90,9 @@ class FrameTimeBudget : public BudgetDriver {
 
   std::vector<Counter> count() const override {
     std::vector<Counter> all = base_ ? base_->count() : std::vector<Counter>{};
-    all.push_back({"budget_scale", controller_.scale(), "", false});
-    all.push_back({"frame_time_error_share", controller_.errorShare(), "", false});
-    all.push_back({"frame_time_oscillations", static_cast<double>(controller_.oscillations()), "", false});
+    all.push_back({"budget_scale", controller_.scale()});
+    all.push_back({"frame_time_error_share", controller_.errorShare()});
+    all.push_back({"frame_time_oscillations", static_cast<double>(controller_.oscillations())});
     return all;
   }
 
@@ -104,37 +114,15 @@ class FrameTimeBudget : public BudgetDriver {
 
 }  // namespace
 
-BudgetDriverInfo frameTimeBudgetInfo(const std::vector<BudgetDriverInfo>& others) {
-  std::vector<std::string> bases = {kUniformBase};
-  for (const BudgetDriverInfo& other : others) bases.push_back(other.name);
-  const char* open = "Schwarz 2009, chapter 5 (open there)";
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const FrameTimeBudget& settings) {
+  return std::make_unique<FrameTimeBudgetDriver>(settings);
+}
+
+std::vector<Quantity> frameTimeQuantities() {
   return {
-      .name = "frame_time",
-      .parameters =
-          {BudgetRange::parameter("frame_time", "at the least, however long a frame takes", open),
-           realParameter("frame_time_ms", 2.0, 1e-9, 1e9, "ms",
-                         "Time that the passes of the technique are to take, those that a budget changes",
-                         open),
-           choiceParameter("frame_time_base", kUniformBase, bases,
-                           "What is scaled: 'budget' for all pixels, or another map"),
-           realParameter("frame_time_gain", 0.25, 0.01, 1.0, "",
-                         "Share of the change that a frame's time asks for that is followed", open),
-           realParameter("frame_time_dead_band", 0.05, 0.0, 1.0, "",
-                         "Error of the time, as a share of it, that is left alone", open),
-           integerParameter("frame_time_memory", 32, 2, 4096, "frames",
-                            "Past frames that the fixed part of the cost is fitted to", open),
-           realParameter("frame_time_largest_factor", 4.0, 1.01, 1000.0, "",
-                         "Largest change of the scale that one frame can ask for", open),
-           booleanParameter("frame_time_dither", true,
-                            "Give pixels one of the two whole counts per axis around a scaled one, by share; "
-                            "otherwise all the smaller one"),
-           integerParameter("frame_time_settle_frames", 32, 0, 4096, "frames",
-                            "Frames that run before the first that is shown or timed, as part of the "
-                            "preparation")},
-      .make = [](const ParameterValues& values) { return std::make_unique<FrameTimeBudget>(values); },
-      .check = [](const ParameterValues& values) { BudgetRange::check(values, "frame_time"); },
-      .base = [](const ParameterValues& values) { return values.text("frame_time_base"); },
-      .counters = {"budget_scale", "frame_time_error_share", "frame_time_oscillations"}};
+      {"budget_scale", "Scale of the budget", "", Direction::Neither},
+      {"frame_time_error_share", "Error of the frame time", "", Direction::Neither},
+      {"frame_time_oscillations", "Changes of side of the frame time's error", "", Direction::LowerIsBetter}};
 }
 
 }  // namespace limen::techniques

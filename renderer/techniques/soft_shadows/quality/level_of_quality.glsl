@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level of the pyramid from which a pixel's micro-occluders come, by what it may spend. Schwarz 2009, section 5.2.1; the
 // formulas are reconstructed from there.
-// LEVELS: 0 the finest within the budget; the others by a real level: 1 its floor, 2 blends the two around it, 3 blends
-// them over `blendWidth` levels about the middle, 4 takes one of the two at random.
+// LEVELS: see LevelRule in level_settings.h; narrow_blend blends over `blendWidth` levels about the middle.
 // FILTERED_LEVEL: the real level follows from linearly filtered depths, after Guennebaud et al. 2007 (section 5.2).
 uniform int budgetPerAxis;  // micro-occluders; 16384: no limit
 #ifdef BUDGET_MAP
 layout(binding = 12) uniform sampler2D budgetMap;  // micro-occluders, not their root; 0: no limit
 #endif
 uniform float blendWidth;
+
+#if LEVELS == LEVELS_FINEST_WITHIN || LEVELS == LEVELS_COARSEST_OVER
+#define ONE_LEVEL  // a pixel has one whole level
+#endif
 
 // What this pixel may spend.
 int allowedPerAxis = 1;
@@ -46,12 +49,12 @@ float levelOfExtent(float extent) {
 }
 
 float levelOfArea(Area area) {
-#if LEVELS == 0
+#if LEVELS == LEVELS_FINEST_WITHIN
   return float(finestLevelWithin(area));
 #else
   const ivec2 extent = area.high - area.low;
   const float level = levelOfExtent(float(max(extent.x, extent.y)));
-#if LEVELS == 1
+#if LEVELS == LEVELS_COARSEST_OVER
   return floor(level);
 #else
   return level;
@@ -81,7 +84,7 @@ float filteredLevel(vec4 p, Area area) {
   const float nearest = mix(mix(z[0], z[1], part.x), mix(z[2], z[3], part.x), part.y);
   const vec2 extents = lightSize * max(1.0 / nearest - 1.0 / p.z, 0.0) / tangentSize * float(resolution);
   const float found = levelOfExtent(max(extents.x, extents.y));
-#if LEVELS == 1
+#if LEVELS == LEVELS_COARSEST_OVER
   return floor(found);
 #else
   return found;
@@ -98,15 +101,15 @@ float qualityLevel(vec4 p, Area area) {
 #endif
 }
 
-#if LEVELS == 4
+#if LEVELS == LEVELS_DITHER
 #include "renderer/techniques/soft_shadows/quality/dither.glsl"
 #endif
 
 // Weight of the coarser of the two levels around a real one whose fraction is given.
 float coarserWeight(float fraction, ivec2 pixel) {
-#if LEVELS == 3
+#if LEVELS == LEVELS_NARROW_BLEND
   return clamp((fraction - 0.5 + 0.5 * blendWidth) / blendWidth, 0.0, 1.0);
-#elif LEVELS == 4
+#elif LEVELS == LEVELS_DITHER
   return fraction > ditherThreshold(pixel) ? 1.0 : 0.0;
 #else
   return fraction;
@@ -125,7 +128,7 @@ float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
   pixelClass = kProcessed;
   areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
   levelUsed = level;
-#if LEVELS < 2
+#ifdef ONE_LEVEL
   clearGathered();
   return gatherOccluders(p, area, int(level));
 #else

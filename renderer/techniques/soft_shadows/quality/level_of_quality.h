@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
-#include "experiments/base/parameter.h"
 #include "renderer/gl/program.h"
+#include "renderer/techniques/soft_shadows/quality/level_settings.h"
 
 namespace limen::techniques {
 
@@ -12,36 +10,27 @@ namespace limen::techniques {
 /// and 5.2.2, with what they advise against as controls.
 class LevelOfQuality {
  public:
-  /// `passes`, `levels` and what goes with them.
-  static std::vector<Parameter> parameters();
-  /// Throws Error where values of these parameters do not go together.
-  static void check(const ParameterValues& values);
-
-  explicit LevelOfQuality(const ParameterValues& values);
+  LevelOfQuality(const LevelSettings& levels, const PassSettings& passes)
+      : levels_(levels), passes_(passes) {}
 
   /// Classify, smooth and gather in passes of their own.
-  bool splits() const { return splits_; }
+  bool splits() const { return std::holds_alternative<SplitPasses>(passes_); }
   /// The list of pixels is put in the order of their loops' lengths.
-  bool orders() const { return orders_; }
-  /// Half of the filter's support in pixels, without its middle; 0: levels are not smoothed.
-  int smoothingRadius() const { return smoothingRadius_; }
+  bool orders() const;
+  /// The filter of real levels; null: they are not smoothed, or there are none.
+  const LevelFilter* smoothing() const;
   /// Pixels of one level may choose differently.
-  bool dithers() const { return levels_ == Levels::Dither; }
+  bool dithers() const { return ruleOf(levels_) == LevelRule::Dither; }
   /// Adds to `defines` what level_of_quality.glsl reads.
   void define(gl::ShaderDefines& defines) const;
-  /// Sets the uniforms of level_of_quality.glsl, `budgetPerAxis` aside.
+  /// Sets the uniforms of level_of_quality.glsl, `budgetPerAxis` and `fixedLevel` aside.
   void configure(const gl::Program& program) const;
   /// Sets those of smooth_levels.comp.glsl that do not change from axis to axis.
   void configureSmoothing(const gl::Program& program) const;
 
  private:
-  enum class Levels { FinestWithin, CoarsestOver, Blend, NarrowBlend, Dither };
-  static Levels levelsOf(const ParameterValues& values);
-
-  bool splits_, orders_, filtered_;
-  Levels levels_;
-  int smoothingRadius_;
-  double blendWidth_, sigma_, depthThreshold_;
+  LevelSettings levels_;
+  PassSettings passes_;
 };
 
 }  // namespace limen::techniques

@@ -12,10 +12,10 @@ namespace {
 constexpr double kUsualShare = 0.99;
 
 std::vector<Counter> levelStepFacts(double largest, double usual, double mean, double changes) {
-  return {{"level_step_max", largest, "", false},
-          {"level_step_p99", usual, "", false},
-          {"level_step_mean", mean, "", false},
-          {"level_changes_per_px", changes, "", false}};
+  return {{"level_step_max", largest},
+          {"level_step_p99", usual},
+          {"level_step_mean", mean},
+          {"level_changes_per_px", changes}};
 }
 
 }  // namespace
@@ -44,10 +44,13 @@ std::vector<Counter> levelStepCounters(const LevelSteps& steps) {
                         pairs > 0.0 ? sum / pairs : 0.0, perPixel);
 }
 
-std::vector<Quantity> levelStepCounterNames() {
-  std::vector<Quantity> names;
-  for (const Counter& counter : levelStepFacts(0.0, 0.0, 0.0, 0.0)) names.push_back(counter.name);
-  return names;
+std::vector<Quantity> levelStepQuantities() {
+  constexpr const char* kSource = "Schwarz 2009, section 5.2.2";
+  return {
+      {"level_step_max", "Largest step between levels", "", Direction::LowerIsBetter, kSource},
+      {"level_step_p99", "99th percentile of steps between levels", "", Direction::LowerIsBetter, kSource},
+      {"level_step_mean", "Mean step between levels", "", Direction::LowerIsBetter, kSource},
+      {"level_changes_per_px", "Changes of level per pixel", "1/px", Direction::Neither, kSource}};
 }
 
 }  // namespace limen::techniques

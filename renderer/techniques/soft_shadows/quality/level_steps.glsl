@@ -20,7 +20,7 @@ float levelChosen(ivec2 pixel) { return uintBitsToFloat(imageLoad(countedSearch,
 // The level between two whole ones that a choice amounts to: equal where the same levels count with the same weights.
 float choiceAt(ivec2 pixel) {
   const float level = levelChosen(pixel);
-#if LEVELS < 2
+#ifdef ONE_LEVEL
   return level;
 #else
   return floor(level) + coarserWeight(level - floor(level), pixel);

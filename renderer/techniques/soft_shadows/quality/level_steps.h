@@ -9,9 +9,9 @@
 
 namespace limen::techniques {
 
-/// Seams between levels of quality as a technique makes them, without a reference: how far the visibility of
-/// a pixel would change by its neighbour's choice of level alone, its receiver, search area and all else
-/// staying its own. An error against a reference mixes that with how coarse the levels are.
+/// Discontinuities between levels of quality as a technique makes them, without a reference: how far the
+/// visibility of a pixel would change by its neighbour's choice of level alone, its receiver, search area and
+/// all else staying its own. An error against a reference mixes that with how coarse the levels are.
 ///
 /// Two channels each, row 0 at the top: visibility of the pixel by the choice that a pixel made, itself
 /// (`own`), the one on its right or the one below, which counts only where the choices differ; and that
@@ -34,7 +34,7 @@ inline constexpr double kSurfaceSlope = 0.25881904510252074;
 /// level_step_p99, since the sum along a way over the image is about the same for both.
 /// Empty where some visibility is not finite, that is, out of a software renderer's reach.
 std::vector<Counter> levelStepCounters(const LevelSteps& steps);
-/// Their names.
-std::vector<Quantity> levelStepCounterNames();
+/// What they mean.
+std::vector<Quantity> levelStepQuantities();
 
 }  // namespace limen::techniques

@@ -9,9 +9,9 @@ namespace limen::techniques {
 /// 5.2.3 and figure 5.4 (12^2, and 5^2 on a textured part), which says nothing of how the texture is
 /// measured. (derived) Here the measure is the RMS contrast of the unshadowed picture, albedo by the cosine
 /// to the light: standard deviation over mean of its luminance among the receivers in a square window. Up to
-/// `masking_low_contrast` the whole budget is allowed, from `masking_high_contrast` on `masking_budget`; in
+/// `low_contrast` the budget is `plain`, from `high_contrast` on `masked`; in
 /// between the root falls evenly. What stands before a surface of another brightness counts as contrast too:
 /// an edge masks as texture does.
-BudgetDriverInfo maskingBudgetInfo();
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const MaskingBudget& settings);
 
 }  // namespace limen::techniques

@@ -7,16 +7,9 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/image_file.h"
-#include "renderer/techniques/soft_shadows/quality/budget_range.h"
 
 namespace limen::techniques {
 namespace {
-
-constexpr const char* kDefaultFit = "refuse";
-
-PaintedFit fitOf(const std::string& name) {
-  return name == "stretch" ? PaintedFit::Stretch : name == "cover" ? PaintedFit::Cover : PaintedFit::Refuse;
-}
 
 /// Source pixels and weights of one sample along an axis.
 struct Taps {
@@ -60,23 +53,20 @@ Image greyOf(const ImageFile& file) {
   return grey;
 }
 
-class PaintedBudget : public BudgetDriver {
+class PaintedBudgetDriver : public BudgetDriver {
  public:
-  explicit PaintedBudget(const ParameterValues& values)
-      : range_(BudgetRange::of(values, "painted")),
-        file_(values.text("painted_file")),
-        fit_(fitOf(values.text("painted_fit"))) {}
+  explicit PaintedBudgetDriver(const PaintedBudget& settings) : settings_(settings) {}
 
   /// The map depends on nothing that a frame changes: it is made here.
   void prepare(frame::Frame& frame) override {
     Image weights;
     try {
-      weights = paintedWeights(greyOf(readImageFile(file_)), frame.sizePx(), fit_);
+      weights = paintedWeights(greyOf(readImageFile(settings_.file.path)), frame.sizePx(), settings_.fit);
     } catch (const Error& error) {
-      throw Error(error.message(), error.where().empty() ? file_ : error.where(), error.mend());
+      throw Error(error.message(), error.where().empty() ? settings_.file.path : error.where(), error.mend());
     }
-    const double least = std::sqrt(static_cast<double>(range_.least)),
-                 most = std::sqrt(static_cast<double>(range_.most));
+    const double least = std::sqrt(static_cast<double>(settings_.black)),
+                 most = std::sqrt(static_cast<double>(settings_.white));
     for (float& weight : weights.data) {
       const double root = least + (most - least) * weight;
       weight = static_cast<float>(root * root);
@@ -89,18 +79,9 @@ class PaintedBudget : public BudgetDriver {
   const gl::Texture& make(frame::Frame&) override { return *map_; }
 
  private:
-  BudgetRange range_;
-  std::string file_;
-  PaintedFit fit_;
+  PaintedBudget settings_;
   std::optional<gl::Texture> map_;
 };
-
-void checkPaintedBudget(const ParameterValues& values) {
-  BudgetRange::check(values, "painted");
-  if (values.text("painted_file").empty())
-    throw Error("a painted budget needs an image", "painted_file",
-                "name an image file: black is 'painted_budget', white is 'budget'");
-}
 
 }  // namespace
 
@@ -112,7 +93,7 @@ Image paintedWeights(const Image& grey, glm::ivec2 sizePx, PaintedFit fit) {
     throw Error("the painted image has " + std::to_string(grey.width) + " x " + std::to_string(grey.height) +
                     " pixels, other proportions than the frame's " + std::to_string(sizePx.x) + " x " +
                     std::to_string(sizePx.y),
-                {}, "give painted_fit: stretch or cover, or paint it with the frame's proportions");
+                {}, "give fit: stretch or cover, or paint it with the frame's proportions");
   if (fit == PaintedFit::Cover) {
     const glm::dvec2 source(grey.width, grey.height);
     scale = glm::dvec2(std::min(scale.x, scale.y));
@@ -143,19 +124,8 @@ Image paintedWeights(const Image& grey, glm::ivec2 sizePx, PaintedFit fit) {
   return out;
 }
 
-BudgetDriverInfo paintedBudgetInfo() {
-  const char* source = "Schwarz 2009, section 5.2.1";
-  Parameter file = fileParameter("painted_file",
-                                 "Image of weights: black for 'painted_budget', white for 'budget'; greys as "
-                                 "stored, without a transfer curve");
-  file.required = false;
-  return {.name = "painted",
-          .parameters = {BudgetRange::parameter("painted", "where the painted image is black", source), file,
-                         choiceParameter("painted_fit", kDefaultFit, {kDefaultFit, "stretch", "cover"},
-                                         "Image of other proportions than the frame: an error, stretched, or "
-                                         "cut to cover the frame")},
-          .make = [](const ParameterValues& values) { return std::make_unique<PaintedBudget>(values); },
-          .check = checkPaintedBudget};
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const PaintedBudget& settings) {
+  return std::make_unique<PaintedBudgetDriver>(settings);
 }
 
 }  // namespace limen::techniques

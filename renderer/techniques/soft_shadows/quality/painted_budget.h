@@ -6,17 +6,10 @@
 
 namespace limen::techniques {
 
-/// Budget by an image that somebody painted: black for `painted_budget`, white for `budget`, the root evenly
+/// Budget by an image that somebody painted: black for `black`, white for `white`, the root evenly
 /// in between; the same in every frame. Source: Schwarz 2009, section 5.2.1 ("importance as assigned by the
 /// user").
-BudgetDriverInfo paintedBudgetInfo();
-
-/// What becomes of an image of other proportions than the frame's.
-enum class PaintedFit {
-  Refuse,   ///< an error, beyond what whole pixels explain
-  Stretch,  ///< each axis by its own factor
-  Cover     ///< one factor; what then lies beyond the frame is cut away evenly
-};
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const PaintedBudget& settings);
 
 /// Weights 0..1 of a one-channel image at the frame's size: a tent filter that reaches a pixel of the coarser
 /// of the two images, so that every texel counts when the image shrinks, and bilinear where it grows. Throws

@@ -7,7 +7,6 @@
 
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "renderer/frame/shaded.h"
-#include "renderer/techniques/soft_shadows/quality/budget_range.h"
 
 namespace limen::techniques {
 namespace {
@@ -15,18 +14,15 @@ namespace {
 const char* const kPerceptualShader = "renderer/techniques/soft_shadows/quality/perceptual_budget.comp.glsl";
 const char* const kPerceptualPass = "soft_shadows/budget_map";
 
-class PerceptualBudget : public BudgetDriver {
+class PerceptualBudgetDriver : public BudgetDriver {
  public:
-  explicit PerceptualBudget(const ParameterValues& values)
-      : range_(BudgetRange::of(values, "perceptual")),
-        display_(perception::displayPreset(values.text("perceptual_display"))),
-        error_(values.real("perceptual_error")),
-        thresholds_(values.real("perceptual_thresholds")) {
-    picture_.ambient = values.real("perceptual_ambient");
-    picture_.diffuse = values.real("perceptual_diffuse");
+  explicit PerceptualBudgetDriver(const PerceptualBudget& settings)
+      : settings_(settings), display_(perception::displayPreset(settings.display)) {
+    picture_.ambient = settings.ambient;
+    picture_.diffuse = settings.diffuse;
     direct_ = picture_;
     direct_.ambient = 0.0;
-    direct_.background = glm::vec3(0.0F);
+    direct_.background = 0.0;
   }
 
   void prepare(frame::Frame& frame) override {
@@ -44,9 +40,9 @@ class PerceptualBudget : public BudgetDriver {
     const auto scope = frame.passes().open(kPerceptualPass);
     program_->set("sizePx", frame.sizePx());
     program_->set("whiteCdM2", static_cast<float>(display_.whiteLevelCdM2() - display_.blackLevelCdM2()));
-    program_->set("errorOfOne", static_cast<float>(error_));
-    program_->set("allowedThresholds", static_cast<float>(thresholds_));
-    range_.configure(*program_);
+    program_->set("errorOfOne", static_cast<float>(settings_.error));
+    program_->set("allowedThresholds", static_cast<float>(settings_.thresholds));
+    setRoots(*program_, settings_.range());
     thresholds.bindTexture(0);
     direct.bindTexture(1);
     map_->bindImage(0, gl::Access::Write);
@@ -60,9 +56,8 @@ class PerceptualBudget : public BudgetDriver {
   }
 
  private:
-  BudgetRange range_;
+  PerceptualBudget settings_;
   perception::DisplayProfile display_;
-  double error_, thresholds_;
   frame::ShadedSetting picture_, direct_;
   std::optional<gl::Texture> map_;
   std::optional<perception::ThresholdMapGpu> thresholdMap_;
@@ -71,27 +66,8 @@ class PerceptualBudget : public BudgetDriver {
 
 }  // namespace
 
-BudgetDriverInfo perceptualBudgetInfo() {
-  const char* open = "Schwarz 2009, section 5.2.1 (open there)";
-  return {
-      .name = "perceptual",
-      .parameters =
-          {BudgetRange::parameter("perceptual", "where errors are seen least", open),
-           realParameter("perceptual_error", 2.0, 0.0, 16.0, "",
-                         "Error of the visibility that one micro-occluder an axis makes (c); r of them make "
-                         "the r-th part of it",
-                         open),
-           realParameter("perceptual_thresholds", 1.0, 0.01, 1000.0, "threshold",
-                         "Multiple of the visible increment that errors may reach", open),
-           choiceParameter("perceptual_display", "schwarz_2009", perception::displayPresets(),
-                           "Display and viewing distance that the budget is for",
-                           "Schwarz 2009, section 10.4.1"),
-           realParameter("perceptual_ambient", 0.2, 0.0, 1.0, "",
-                         "Share of the albedo that is seen without the light, for the threshold map"),
-           realParameter("perceptual_diffuse", 0.8, 0.0, 1.0, "",
-                         "Share of the albedo by the cosine to the light: what the visibility multiplies")},
-      .make = [](const ParameterValues& values) { return std::make_unique<PerceptualBudget>(values); },
-      .check = [](const ParameterValues& values) { BudgetRange::check(values, "perceptual"); }};
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const PerceptualBudget& settings) {
+  return std::make_unique<PerceptualBudgetDriver>(settings);
 }
 
 }  // namespace limen::techniques

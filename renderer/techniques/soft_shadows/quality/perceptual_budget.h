@@ -12,14 +12,14 @@ namespace limen::techniques {
 /// A search area holds what can lie before the light; cut into r micro-occluders an axis, each stands for
 /// 1 / r of the light's extent. A shadow's edge is then misplaced by some part c of that, and the visibility
 /// wrong by c / r. With the direct light's luminance D on the unshadowed surface, the pixel's is wrong by
-/// D c / r. It stays below `perceptual_thresholds` times the pixel's threshold T from
+/// D c / r. It stays below `thresholds` times the pixel's threshold T from
 ///   r = c D / (thresholds T)
-/// on, which is held between the roots of `perceptual_budget` and `budget`. T is the threshold map of the
-/// unshadowed picture (ambient and direct light) on `perceptual_display`, with the map's default settings.
+/// on, which is held between the roots of `least` and `most`. T is the threshold map of the
+/// unshadowed picture (ambient and direct light) on `display`, with the map's default settings.
 ///
 /// That errors go with 1 / r was measured: over sphere_grid, columns_hall, textured_ground and foliage with
 /// maps of 256 texels, 95 % of the processed pixels of blended levels are within 1.9 / r of an unlimited
 /// budget, for r from 3 to 16 (one integer level: 3.1 / r). Hence the default of c, 2.
-BudgetDriverInfo perceptualBudgetInfo();
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const PerceptualBudget& settings);
 
 }  // namespace limen::techniques

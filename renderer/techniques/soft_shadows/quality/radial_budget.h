@@ -5,9 +5,9 @@
 
 namespace limen::techniques {
 
-/// Budget that goes from `budget` around a centre to `radial_budget` at the rim, the same in every frame. Its
+/// Budget that goes from `centre` around a centre to `rim` at the rim, the same in every frame. Its
 /// root, which counts micro-occluders per axis, changes evenly with the distance. Source: Schwarz 2009,
 /// figure 5.5 d, which takes 12^2 in the centre and 5^2 at the left and right borders.
-BudgetDriverInfo radialBudgetInfo();
+std::unique_ptr<BudgetDriver> makeBudgetDriver(const RadialBudget& settings);
 
 }  // namespace limen::techniques

@@ -16,6 +16,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/scatter/light_layers.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -37,20 +38,50 @@ std::vector<uint32_t> receiverBits(const scene::Scene& scene) {
   return bits;
 }
 
+/// Which surfaces of the casters scatter.
+enum class Layering { Nearest, FrontAndBack, NearestAndFarthest };
+constexpr EnumNames<Layering, 3> enumNames(Layering) {
+  return {{{{Layering::Nearest, "nearest"},
+            {Layering::FrontAndBack, "front_and_back"},
+            {Layering::NearestAndFarthest, "nearest_and_farthest"}}}};
+}
+
+struct ScatterSettings {
+  int resolution = 512, softResolution = 512;
+  Layering layers = Layering::Nearest;
+  double bias = 1e-4;
+  static const SettingsTable<ScatterSettings>& table() {
+    using S = ScatterSettings;
+    static const OneOf kSides = oneOf({1, 2, 64, 128, 256, 512, 1024, 2048});
+    static const SettingsTable<S> kTable = {
+        {&S::resolution, "resolution", kSides, "texel", "Side of the map of casters",
+         "Schwarz 2009, section 3.2.1"},
+        {&S::softResolution, "soft_resolution", kSides, "texel", "Side of the soft shadow map"},
+        {&S::layers, "layers",
+         "Surfaces that scatter: the nearest; or the larger of what the nearest front and the farthest back "
+         "faces hide; or of the nearest and the farthest of any side",
+         "Schwarz 2009, section 4.2.2 (Fig. 4.3)"},
+        {&S::bias,
+         "bias",
+         {0, 0.1},
+         "",
+         "Constant depth bias as a share of the receiver's distance from the light's plane",
+         "Schwarz 2009, section 4.4.5 (value not given there)"}};
+    return kTable;
+  }
+};
+
 class Scatter : public Technique {
  public:
-  explicit Scatter(const ParameterValues& values)
-      : resolution_(std::stoi(values.text("resolution"))),
-        softResolution_(std::stoi(values.text("soft_resolution"))),
-        layering_(values.text("layers")),
-        bias_(values.real("bias")) {}
+  using Settings = ScatterSettings;
+  explicit Scatter(const ScatterSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    layers_.emplace(frame, resolution_, softResolution_, withSecond());
+    layers_.emplace(frame, settings_.resolution, settings_.softResolution, withSecond());
     scatter_ = &scatterProgram(frame, false);
     lookup_ = &lookupProgram(frame, false);
     for (std::optional<gl::Texture>& each : hidden_)
-      each.emplace(gl::Format::R32UI, glm::ivec2(softResolution_));
+      each.emplace(gl::Format::R32UI, glm::ivec2(settings_.softResolution));
     costs_.emplace(3 * int64_t{sizeof(uint32_t)}, nullptr);
     receiverBits_.emplace(receiverBits(frame.scene()));
     triangleCount_ = static_cast<uint32_t>(frame.scene().mesh.triangles.size());
@@ -64,9 +95,15 @@ class Scatter : public Technique {
 
   const gl::Texture& product() const override { return *visibility_; }
 
-  static std::vector<Quantity> counterNames() {
-    return {"caster_texels", "splats_per_caster_texel", "splats_per_receiver", "receivers_share", "lit_share",
-            "umbra_share",   "processed_share",         "without_answer_share"};
+  static std::vector<Quantity> counters() {
+    std::vector<Quantity> all = {
+        {"caster_texels", "Texels that scatter", "", Direction::LowerIsBetter},
+        {"splats_per_caster_texel", "Splats per scattering texel", "1/texel", Direction::LowerIsBetter},
+        {"splats_per_receiver", "Splats per receiver", "1/px", Direction::LowerIsBetter}};
+    for (Quantity& share : pixelShares()) all.push_back(std::move(share));
+    all.push_back({"without_answer_share", "Share of pixels that the soft shadow map knows nothing of", "",
+                   Direction::Neither});
+    return all;
   }
 
   std::vector<Counter> count(frame::Frame& frame) override {
@@ -85,18 +122,18 @@ class Scatter : public Technique {
                   "soft_shadows/scatter", "lower 'soft_resolution', or run on a GPU");
     const auto all = static_cast<double>(classOf.size());
     const double receivers = all - pixels[NotReceiver], casterTexels = costs[1], splats = costs[2];
-    return {{"caster_texels", casterTexels, "", true},
-            {"splats_per_caster_texel", casterTexels > 0.0 ? splats / casterTexels : 0.0, "", true},
-            {"splats_per_receiver", receivers > 0.0 ? splats / receivers : 0.0, "", true},
-            {"receivers_share", receivers / all, "", false},
-            {"lit_share", pixels[Lit] / all, "", false},
-            {"umbra_share", pixels[Umbra] / all, "", false},
-            {"processed_share", pixels[Processed] / all, "", false},
-            {"without_answer_share", pixels[Outside] / all, "", false}};
+    return {{"caster_texels", casterTexels},
+            {"splats_per_caster_texel", casterTexels > 0.0 ? splats / casterTexels : 0.0},
+            {"splats_per_receiver", receivers > 0.0 ? splats / receivers : 0.0},
+            {"receivers_share", receivers / all},
+            {"lit_share", pixels[Lit] / all},
+            {"umbra_share", pixels[Umbra] / all},
+            {"processed_share", pixels[Processed] / all},
+            {"without_answer_share", pixels[Outside] / all}};
   }
 
  private:
-  bool withSecond() const { return layering_ != "nearest"; }
+  bool withSecond() const { return settings_.layers != Layering::Nearest; }
 
   const gl::Program& scatterProgram(frame::Frame& frame, bool counting) const {
     gl::ShaderDefines defines = {{"WHOLE", kWhole}};
@@ -119,7 +156,7 @@ class Scatter : public Technique {
     casters.bindTexture(0);
     layers_->receivers().bindTexture(1);
     hidden.bindImage(0, gl::Access::ReadWrite);
-    program.dispatch(glm::ivec2(resolution_));
+    program.dispatch(glm::ivec2(settings_.resolution));
   }
 
   void run(frame::Frame& frame, const gl::Program& scatter, const gl::Program& lookup,
@@ -128,7 +165,7 @@ class Scatter : public Technique {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     {
       const auto scope = frame.passes().open(kScatterRaster);
-      const bool anyFace = layering_ != "front_and_back";
+      const bool anyFace = settings_.layers != Layering::FrontAndBack;
       layers_->draw(frame, anyFace ? LightLayers::Faces::All : LightLayers::Faces::Towards,
                     anyFace ? LightLayers::Faces::All : LightLayers::Faces::Away);
     }
@@ -138,8 +175,8 @@ class Scatter : public Technique {
       for (const std::optional<gl::Texture>& each : hidden_) each->clearUint(glm::uvec4(0));
       costs_->clearUint(0);
       glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-      scatter.set("resolution", resolution_);
-      scatter.set("softResolution", softResolution_);
+      scatter.set("resolution", settings_.resolution);
+      scatter.set("softResolution", settings_.softResolution);
       scatter.set("maxIterations", frame.context().device().software ? 60000 : 0x7fffffff);
       scatter.set("tangentLow", glm::vec2(from.low));
       scatter.set("tangentSize", glm::vec2(from.high - from.low));
@@ -149,7 +186,7 @@ class Scatter : public Technique {
       scatter.set("casterNear", static_cast<float>(from.near));
       scatter.set("receiverNear", static_cast<float>(onto.near));
       scatter.set("farthestReceiver", static_cast<float>(layers_->farthestReceiver()));
-      scatter.set("bias", static_cast<float>(bias_));
+      scatter.set("bias", static_cast<float>(settings_.bias));
       costs_->bindStorage(0);
       splat(scatter, layers_->nearest(), 0.0F, *hidden_[0]);
       if (withSecond()) splat(scatter, layers_->farthest(), 1.0F, *hidden_[1]);
@@ -157,7 +194,7 @@ class Scatter : public Technique {
     }
     const auto scope = frame.passes().open(kScatterLookup);
     lookup.set("sizePx", frame.sizePx());
-    lookup.set("softResolution", softResolution_);
+    lookup.set("softResolution", settings_.softResolution);
     lookup.set("softLow", glm::vec2(onto.low));
     lookup.set("softSize", glm::vec2(onto.high - onto.low));
     lookup.set("triangleCount", triangleCount_);
@@ -174,9 +211,7 @@ class Scatter : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  int resolution_, softResolution_;
-  std::string layering_;
-  double bias_;
+  ScatterSettings settings_;
   std::optional<LightLayers> layers_;
   const gl::Program *scatter_ = nullptr, *lookup_ = nullptr;
   std::array<std::optional<gl::Texture>, 2> hidden_;  ///< by the nearest and by the farthest layer
@@ -185,33 +220,14 @@ class Scatter : public Technique {
   std::optional<gl::Texture> visibility_;
 };
 
-std::vector<Parameter> scatterParameters() {
-  return {choiceParameter("resolution", "512", {"1", "2", "64", "128", "256", "512", "1024", "2048"},
-                          "Texels along a side of the map of casters", "Schwarz 2009, section 3.2.1"),
-          choiceParameter("soft_resolution", "512", {"1", "2", "64", "128", "256", "512", "1024", "2048"},
-                          "Texels along a side of the soft shadow map"),
-          choiceParameter("layers", "nearest", {"nearest", "front_and_back", "nearest_and_farthest"},
-                          "Surfaces that scatter: the nearest; or the larger of what the nearest front and "
-                          "the farthest back faces hide; or of the nearest and the farthest of any side",
-                          "Schwarz 2009, section 4.2.2 (Fig. 4.3)"),
-          realParameter("bias", 1e-4, 0.0, 0.1, "",
-                        "Constant depth bias as a share of the receiver's distance from the light's plane",
-                        "Schwarz 2009, section 4.4.5 (value not given there)")};
-}
-
-const Registered<TechniqueInfo> kScatterRegistered{
+const RegisteredTechnique<Scatter> kScatterRegistered{
     {.name = "soft_shadows/scatter",
      .version = 1,
      .summary = "Texels of a map of casters scatter what they hide into a soft shadow map of the receivers",
      .source = "Schwarz 2009, sections 3.2.1 and 4.2.2 (SS-06)",
      .product = ProductKind::Visibility,
-     .parameters = scatterParameters(),
      .needs = {"rectangular_light", "casters", "receiver_only_parts"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Scatter>(values); },
-     .errorBound = {},
-     .counters = Scatter::counterNames()}};
+     .counters = Scatter::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -9,10 +9,6 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kHard = "soft_shadows/hard", *kArea = "soft_shadows/backprojection",
-                     *kMask = "soft_shadows/bitmask";
-constexpr int kYsmBase = 256;
-
 enum Evidence {
   Penumbra,
   SecondLayer,
@@ -20,25 +16,25 @@ enum Evidence {
   Overlap,
   Thin,
   Coarse,
-  Seams,
+  LevelChanges,
   SavedVisits,
   EvidenceCount
 };
 
 class Decider {
  public:
-  Decider(frame::Frame& frame, ShadowProbe& probe, const std::map<std::string, ParameterValue>& common,
+  Decider(frame::Frame& frame, ShadowProbe& probe, const CommonNeeds& common,
           const NeedThresholds& thresholds)
       : frame_(frame), probe_(probe), common_(common), limits_(thresholds), figures_(EvidenceCount, 0.0) {}
 
   Decision decide() {
     if (!isSoft()) return done();
-    decision_.setting = {kMask, common_};
-    set("maps", std::string("peeled"));
-    set("layers", int64_t{2});
+    BitmaskSettings everything{.search = search()};
+    everything.maps = PeeledMaps{.layers = 2};
+    decision_.setting = everything;
     current_ = probe_.run(decision_.setting);
     if (current_.processed == 0.0) {
-      decision_.setting = {kMask, common_};
+      decision_.setting = BitmaskSettings{.search = search()};
       remark(
           "one map, 16 x 16 samples: no pixel of the small picture lies in a penumbra, so nothing was "
           "compared");
@@ -54,14 +50,20 @@ class Decider {
   }
 
  private:
-  void set(const std::string& name, ParameterValue value) {
-    decision_.setting.values[name] = std::move(value);
-  }
   void remark(std::string text) { decision_.remarks.push_back(std::move(text)); }
 
-  ShadowSetting with(const std::map<std::string, ParameterValue>& values) const {
+  SearchSettings search() const {
+    return {.map = common_.map, .budget = UniformBudget{.limit = common_.budget}};
+  }
+  const BitmaskSettings* masked() const { return std::get_if<BitmaskSettings>(&decision_.setting); }
+  bool layered() const { return masked() && !std::holds_alternative<CentreMap>(masked()->maps); }
+
+  /// The present setting, changed; it is not a hard shadow.
+  template <class Change>
+  ShadowSetting with(const Change& change) const {
     ShadowSetting out = decision_.setting;
-    for (const auto& [name, value] : values) out.values[name] = value;
+    if (auto* areas = std::get_if<BackprojectionSettings>(&out)) change(*areas);
+    if (auto* masks = std::get_if<BitmaskSettings>(&out)) change(*masks);
     return out;
   }
   void take(ShadowSetting setting, Probed probed) {
@@ -72,11 +74,10 @@ class Decider {
 
   bool isSoft() {
     frame::ShadowMapSettings map;
-    map.resolution = std::stoi(std::get<std::string>(common_.at("resolution")));
+    map.resolution = common_.map.resolution;
     figures_[Penumbra] = probe_.penumbraTexels(map);
     if (figures_[Penumbra] > limits_.hardPenumbraTexels) return true;
-    decision_.setting = {kHard, common_};
-    decision_.setting.values.erase("budget");
+    decision_.setting = common_.map;
     remark(
         fmt::format("hard shadows: the widest penumbra that the depths allow is {:.2g} texels (limit {:g})",
                     figures_[Penumbra], limits_.hardPenumbraTexels));
@@ -84,9 +85,8 @@ class Decider {
   }
 
   void dropLayer() {
-    ShadowSetting one = decision_.setting;
-    one.values.erase("maps");
-    one.values.erase("layers");
+    BitmaskSettings one = *masked();
+    one.maps = CentreMap{};
     Probed probed = probe_.run(one);
     figures_[SecondLayer] = meanDifference(current_, probed);
     if (figures_[SecondLayer] > limits_.tolerance) {
@@ -97,37 +97,44 @@ class Decider {
     }
     remark(fmt::format("one map: a second layer changes visibility by {:.2g} (tolerance {:.2g})",
                        figures_[SecondLayer], limits_.tolerance));
-    take(std::move(one), std::move(probed));
+    take(one, std::move(probed));
   }
 
   void dropSamples() {
-    ShadowSetting fewer = with({{"pattern", std::string("regular_8")}});
+    BitmaskSettings fewer = *masked();
+    fewer.pattern = GridSamples<LightPattern::Regular8>{};
     Probed probed = probe_.run(fewer);
     figures_[MoreSamples] = meanDifference(current_, probed);
     const bool enough = figures_[MoreSamples] <= limits_.tolerance;
     remark(fmt::format("{} light samples: 64 in place of 256 change visibility by {:.2g} (tolerance {:.2g})",
                        enough ? 64 : 256, figures_[MoreSamples], limits_.tolerance));
-    if (enough) take(std::move(fewer), std::move(probed));
+    if (enough) take(fewer, std::move(probed));
   }
 
   /// Areas add up and know neither layers nor lights of other shapes.
   void dropMask() {
-    if (decision_.setting.values.count("maps") || !rectangular()) {
+    if (layered() || !rectangular()) {
       remark(rectangular() ? "bitmask: layers need it" : "bitmask: the light is no rectangle");
       return;
     }
-    ShadowSetting area{kArea, common_};
+    const BackprojectionSettings area{.search = search()};
     Probed probed = probe_.run(area);
     figures_[Overlap] = meanDifference(current_, probed);
     const bool enough = figures_[Overlap] <= limits_.tolerance;
     remark(fmt::format("{}: summed areas change visibility by {:.2g} (tolerance {:.2g})",
                        enough ? "areas" : "bitmask", figures_[Overlap], limits_.tolerance));
-    if (enough) take(std::move(area), std::move(probed));
+    if (enough) take(area, std::move(probed));
   }
 
   /// Microquads need less bias, but lose casters of one or two texels.
   void chooseOccluders() {
-    ShadowSetting quads = with({{"occluders", std::string("microquads")}, {"slope_bias", 0.5}});
+    ShadowSetting quads = with([](auto& settings) {
+      settings.search.bias = SlopeBias{.slope = 0.5};
+      if constexpr (std::is_same_v<decltype(settings), BitmaskSettings&>)
+        settings.occluders = MaskedMicroquads{};
+      else
+        settings.occluders = SummedMicroquads{};
+    });
     Probed probed = probe_.run(quads);
     figures_[Thin] = meanLightGained(current_, probed);
     const bool enough = figures_[Thin] <= limits_.tolerance;
@@ -138,42 +145,45 @@ class Decider {
 
   void chooseLevels() {
     figures_[Coarse] = current_.coarseShare;
-    figures_[Seams] = current_.levelChangeShare;
-    const bool masked = decision_.setting.technique == kMask;
-    if (masked && figures_[Coarse] > limits_.coarseShare) {
-      ShadowSetting rects =
-          with({{"occluders", std::string("microrects")}, {"diagonal_merge", std::string("nearest")}});
-      rects.values.erase("slope_bias");
+    figures_[LevelChanges] = current_.levelChangeShare;
+    if (masked() && figures_[Coarse] > limits_.coarseShare) {
+      BitmaskSettings rects = *masked();
+      Microrects merged;
+      merged.diagonalMerge = frame::DiagonalMerge::Nearest;
+      rects.occluders = merged;
+      rects.search.bias = SearchSettings{}.bias;
       take(rects, probe_.run(rects));
       remark(fmt::format(
           "microrects: {:.0f} % of the pixels have micro-occluders of level 2 or coarser (limit {:.0f} %)",
           100.0 * figures_[Coarse], 100.0 * limits_.coarseShare));
     }
-    if (decision_.setting.values.count("maps")) {
+    if (layered()) {
       remark(fmt::format(
           "one level a pixel, though {:.1f} % of neighbours differ in level: masks of several layers cannot "
           "be blended",
-          100.0 * figures_[Seams]));
+          100.0 * figures_[LevelChanges]));
       return;
     }
-    const bool seams = figures_[Seams] > limits_.seamShare;
+    const bool blends = figures_[LevelChanges] > limits_.blendShare;
     remark(fmt::format("{}: {:.1f} % of neighbours differ in level (limit {:.1f} %)",
-                       seams ? "levels smoothed and blended" : "one level a pixel", 100.0 * figures_[Seams],
-                       100.0 * limits_.seamShare));
-    if (!seams) return;
-    set("passes", std::string("split"));
-    set("levels", std::string("blend"));
+                       blends ? "levels smoothed and blended" : "one level a pixel",
+                       100.0 * figures_[LevelChanges], 100.0 * limits_.blendShare));
+    if (!blends) return;
+    decision_.setting = with([](auto& settings) {
+      settings.passes = SplitPasses{};
+      settings.levels = BlendedLevels{};
+    });
     current_ = probe_.run(decision_.setting);
   }
 
   /// The small picture stands for the whole one by its number of pixels.
   void chooseStructure() {
-    ShadowSetting ysm = with({{"structure", std::string("ysm")}});
+    ShadowSetting ysm = with([](auto& settings) { settings.search.structure = YLayers{}; });
     Probed probed = probe_.run(ysm);
     const double pixels =
         double(frame_.sizePx().x) * frame_.sizePx().y / (double(probe_.sizePx().x) * probe_.sizePx().y);
     figures_[SavedVisits] = (current_.examined - probed.examined) * pixels;
-    const int base = std::min(kYsmBase, std::stoi(std::get<std::string>(common_.at("resolution"))));
+    const int base = std::min(YLayers{}.base, common_.map.resolution);
     const double built = double(base) * base * (std::bit_width(unsigned(base)) - 1);
     const bool worth = figures_[SavedVisits] > limits_.buildWeight * built;
     remark(fmt::format("{}: a Y shadow map saves {:.3g} micro-occluders and takes {:.3g} texels to build",
@@ -182,15 +192,15 @@ class Decider {
   }
 
   Decision done() {
-    const std::vector<std::string> names = evidenceNames();
-    for (size_t i = 0; i < names.size(); ++i)
-      decision_.evidence.push_back({names[i], figures_[i], i == Penumbra ? "texel" : "", false});
+    const std::vector<Quantity> quantities = evidenceQuantities();
+    for (size_t i = 0; i < quantities.size(); ++i)
+      decision_.evidence.push_back({quantities[i].name, figures_[i]});
     return std::move(decision_);
   }
 
   frame::Frame& frame_;
   ShadowProbe& probe_;
-  const std::map<std::string, ParameterValue>& common_;
+  const CommonNeeds& common_;
   const NeedThresholds& limits_;
   std::vector<double> figures_;
   Probed current_;
@@ -199,13 +209,65 @@ class Decider {
 
 }  // namespace
 
-std::vector<std::string> evidenceNames() {
-  return {"penumbra_texels",  "second_layer_change", "fewer_samples_change", "summed_areas_change",
-          "thin_caster_loss", "coarse_level_share",  "level_change_share",   "saved_micro_occluders"};
+const SettingsTable<NeedThresholds>& NeedThresholds::table() {
+  using S = NeedThresholds;
+  static const SettingsTable<S> kTable = {
+      {&S::tolerance,
+       "tolerance",
+       {0.0, 1.0},
+       "",
+       "Mean change of visibility where there is shadow, up to which a feature is left out"},
+      {&S::hardPenumbraTexels,
+       "hard_penumbra",
+       {0.0, 64.0},
+       "texel",
+       "Widest penumbra that is shown as a hard edge",
+       "Schwarz 2009, section 3.2.1"},
+      {&S::coarseShare,
+       "coarse_share",
+       {0.0, 1.0},
+       "",
+       "Share of pixels with coarse micro-occluders from which on these are microrects",
+       "Schwarz 2009, section 4.4.4"},
+      Binding(&S::blendShare, "blend_share", Range{0.0, 1.0}, "",
+              "Share of neighbours with different levels from which on levels are blended",
+              "Schwarz 2009, section 5.2.1")
+          .formerly({"seam_share"}),
+      {&S::buildWeight,
+       "build_weight",
+       {0.0, 1e6},
+       "",
+       "Micro-occluders that must be saved for each texel of a Y shadow map",
+       "Schwarz 2009, section 4.3.2"}};
+  return kTable;
 }
 
-Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe,
-                     const std::map<std::string, ParameterValue>& common, const NeedThresholds& thresholds) {
+const SettingsTable<CommonNeeds>& CommonNeeds::table() {
+  static const SettingsTable<CommonNeeds> kTable = {
+      included(&CommonNeeds::map),
+      {&CommonNeeds::budget,
+       "budget",
+       {0, 1 << 24},
+       "",
+       "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
+       "Schwarz 2009, sections 4.1 and 4.5"}};
+  return kTable;
+}
+
+std::vector<Quantity> evidenceQuantities() {
+  constexpr Direction kNeither = Direction::Neither;
+  return {{"penumbra_texels", "Widest penumbra", "texel", kNeither, "Schwarz 2009, section 3.2.1"},
+          {"second_layer_change", "Change by a second layer", "", kNeither},
+          {"fewer_samples_change", "Change by fewer samples", "", kNeither},
+          {"summed_areas_change", "Change by summed areas", "", kNeither},
+          {"thin_caster_loss", "Light let through by microquads", "", kNeither},
+          {"coarse_level_share", "Share of pixels with coarse occluders", "", kNeither},
+          {"level_change_share", "Share of neighbours with different levels", "", kNeither},
+          {"saved_micro_occluders", "Micro-occluders saved by a Y shadow map", "", kNeither}};
+}
+
+Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe, const CommonNeeds& common,
+                     const NeedThresholds& thresholds) {
   return Decider(frame, probe, common, thresholds).decide();
 }
 

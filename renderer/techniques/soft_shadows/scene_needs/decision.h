@@ -15,24 +15,32 @@ struct NeedThresholds {
   double tolerance = 1.0 / 256.0;
   double hardPenumbraTexels = 1.0;  ///< up to this widest penumbra a hard shadow is shown
   double coarseShare = 0.25;        ///< of pixels with level 2 or coarser, from which on microrects are taken
-  double seamShare = 0.05;          ///< of neighbours with different levels, from which on levels are blended
+  double blendShare = 0.05;         ///< of neighbours with different levels, from which on levels are blended
   double buildWeight = 1.0;         ///< micro-occluders whose cost that of one texel of a structure equals
+  static const SettingsTable<NeedThresholds>& table();
 };
 
 /// What a scene was found to need in its view, and why.
 struct Decision {
   ShadowSetting setting;
   std::vector<std::string> remarks;  ///< a sentence for each choice
-  std::vector<Counter> evidence;     ///< the figures that decided; none is a cost
+  std::vector<Counter> evidence;     ///< the figures that decided
 };
 
-/// Names of the figures in Decision::evidence.
-std::vector<std::string> evidenceNames();
+/// The figures in Decision::evidence.
+std::vector<Quantity> evidenceQuantities();
+
+/// What all methods that a decision can fall on have in common.
+struct CommonNeeds {
+  MapSettings map;
+  int budget = 256;  ///< micro-occluders allowed for a pixel; 0: no limit
+  static const SettingsTable<CommonNeeds>& table();
+};
 
 /// Starts from everything (bitmask with jittered samples over two peeled layers) and leaves out what hardly
 /// changes a small picture of the scene; then chooses the structure by counted work. `common` goes into every
-/// setting: resolution, budget, raster. Waits for the GPU.
-Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe,
-                     const std::map<std::string, ParameterValue>& common, const NeedThresholds& thresholds);
+/// setting. Waits for the GPU.
+Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe, const CommonNeeds& common,
+                     const NeedThresholds& thresholds);
 
 }  // namespace limen::techniques

@@ -26,11 +26,34 @@ double meanOverShadow(const Probed& a, const Probed& b, Difference difference) {
   return pixels > 0.0 ? sum / pixels : 0.0;
 }
 
+ParameterValues valuesOf(const ShadowSetting& setting) {
+  const std::vector<Parameter>& declared = TechniqueRegistry::instance().get(techniqueOf(setting)).parameters;
+  return std::visit(
+      [&]<class S>(const S& chosen) { return ParameterValues(declared, S::table().write(chosen)); }, setting);
+}
+
 }  // namespace
 
-std::unique_ptr<Technique> ShadowSetting::make() const {
-  const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
-  return info.make(ParameterValues(info.parameters, values, technique));
+std::string techniqueOf(const ShadowSetting& setting) {
+  if (std::holds_alternative<MapSettings>(setting)) return "soft_shadows/hard";
+  return std::holds_alternative<BitmaskSettings>(setting) ? "soft_shadows/bitmask"
+                                                          : "soft_shadows/backprojection";
+}
+
+std::unique_ptr<Technique> makeTechnique(const ShadowSetting& setting) {
+  return TechniqueRegistry::instance().get(techniqueOf(setting)).make(valuesOf(setting));
+}
+
+std::string describe(const ShadowSetting& setting) {
+  const std::string technique = techniqueOf(setting);
+  const ParameterValues defaults(TechniqueRegistry::instance().get(technique).parameters, {});
+  const ParameterValues values = valuesOf(setting);
+  std::string text = technique;
+  for (const auto& [name, value] : values.all()) {
+    const ParameterValue* usual = defaults.find(name);
+    if (!usual || *usual != value) text += ", " + name + "=" + limen::toText(value);
+  }
+  return text;
 }
 
 ShadowProbe::ShadowProbe(frame::Frame& frame, int divisor)
@@ -38,16 +61,15 @@ ShadowProbe::ShadowProbe(frame::Frame& frame, int divisor)
              frame.timeS(), frame.raster()) {}
 
 Probed ShadowProbe::run(const ShadowSetting& setting) {
-  const std::unique_ptr<Technique> technique = setting.make();
-  auto& visible = dynamic_cast<VisibilityTechnique&>(*technique);
-  visible.prepare(frame_);
-  visible.count(frame_);
+  const std::unique_ptr<Technique> technique = makeTechnique(setting);
+  technique->prepare(frame_);
+  technique->count(frame_);
   frame_.begin();
-  visible.render(frame_);
+  technique->render(frame_);
   frame_.end();
   Probed out;
-  out.visibility = visible.product().read().data;
-  out.counted = visible.counted();
+  out.visibility = technique->product().read().data;
+  out.counted = dynamic_cast<const CountsPixels&>(*technique).counted();
   const glm::ivec2 size = out.counted.sizePx;
   const auto kindAt = [&](size_t i) { return out.counted.work[4 * i]; };
   const auto levelAt = [&](size_t i) { return out.counted.work[4 * i + 3]; };

@@ -5,7 +5,7 @@
 
 uniform int levels, refinements, taps, maxIterations;
 uniform float lightRadius;
-#if SAMPLING == 2
+#if SAMPLING == SAMPLING_GAUSSIAN_POISSON
 layout(std430, binding = 0) readonly buffer Taps { vec4 placesAndShares[]; };
 #endif
 
@@ -52,7 +52,7 @@ void addPatch(vec2 tangent, vec2 size, float z, float depth, vec3 p, float light
   const float sine = min(lightRadius / far, 1.0), cosine = dot(to, toLight) / (distance * far);
   if (!(cosine * cosine >= 1.0 - sine * sine && cosine > 0.0)) return;
   ++usedCount;
-#ifdef EQUAL_AREA
+#if BALL == BALL_EQUAL_AREA
   const float radius = z * sqrt(size.x * size.y / 3.14159265358979);
 #else
   const float radius = 0.5 * z * length(size);
@@ -88,7 +88,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
   const float lightCap = capHeight(lightRadius / length(p.xyz));
   const vec2 perTexel = tangentSize / float(resolution);
-#if SAMPLING == 0
+#if SAMPLING == SAMPLING_ALL
   if (float(area.high.x - area.low.x + 1) * float(area.high.y - area.low.y) > float(maxIterations)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
@@ -101,7 +101,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   // Only what the map shows is searched: the rest hides nothing that is known.
   const vec2 low = max(section.xy, tangentLow), size = min(section.zw, tangentLow + tangentSize) - low;
   for (int i = 0; i < taps * taps; ++i) {
-#if SAMPLING == 1
+#if SAMPLING == SAMPLING_REGULAR
     const vec2 place = (vec2(i % taps, i / taps) + 0.5) / float(taps), part = size / float(taps);
 #else
     const vec2 place = placesAndShares[i].xy, part = size * sqrt(placesAndShares[i].z);

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <variant>
 
-#include "experiments/base/error.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/techniques/soft_shadows/solid_angle/gaussian_taps.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
@@ -17,46 +17,107 @@
 namespace limen::techniques {
 namespace {
 
-constexpr int64_t kDefaultAreaTaps = 16, kDefaultTapSeed = 1;
-constexpr double kDefaultSigma = 0.3;
-
-gl::ShaderDefines solidAngleDefines(const ParameterValues& values) {
-  const std::string& sampling = values.text("sampling");
-  gl::ShaderDefines defines = {{"SAMPLING", sampling == "all" ? "0" : sampling == "regular" ? "1" : "2"}};
-  if (values.text("ball") == "equal_area") defines["EQUAL_AREA"] = "1";
-  return defines;
+enum class Ball { Bounding, EqualArea };
+constexpr EnumNames<Ball, 2> enumNames(Ball) {
+  return {{{{Ball::Bounding, "bounding"}, {Ball::EqualArea, "equal_area"}}}};
 }
 
-void checkSolidAngle(const ParameterValues& values) {
-  const std::string& sampling = values.text("sampling");
-  if (sampling == "all" && values.integer("taps") != kDefaultAreaTaps)
-    throw Error("'taps' is about subsampling, and all texels are taken", "taps",
-                "leave it out, or give sampling: regular or gaussian_poisson");
-  if (sampling != "gaussian_poisson" &&
-      (values.real("sigma") != kDefaultSigma || values.integer("tap_seed") != kDefaultTapSeed))
-    throw Error("'sigma' and 'tap_seed' are about Gaussian Poisson taps, and there are none", "sigma",
-                "leave them out, or give sampling: gaussian_poisson");
+/// Which texels of the search area are read, as the shader names them.
+enum class Sampling { All, Regular, GaussianPoisson };
+constexpr EnumNames<Sampling, 3> enumNames(Sampling) {
+  return {{{{Sampling::All, "all"},
+            {Sampling::Regular, "regular"},
+            {Sampling::GaussianPoisson, "gaussian_poisson"}}}};
+}
+
+constexpr const char* kTapsText = "Root of the number of taps in the search area";
+
+struct AllTexels {
+  static constexpr const char *kKind = limen::toText(Sampling::All),
+                              *kSummary = "every texel of the search area";
+};
+
+struct RegularTaps {
+  static constexpr const char *kKind = limen::toText(Sampling::Regular),
+                              *kSummary = "texels on a regular grid";
+  int taps = 16;
+  static const SettingsTable<RegularTaps>& table() {
+    static const SettingsTable<RegularTaps> kTable = {
+        Binding(&RegularTaps::taps, "taps", Range{1, 64}, "", kTapsText).formerly({"taps"})};
+    return kTable;
+  }
+};
+
+struct GaussianTaps {
+  static constexpr const char *kKind = limen::toText(Sampling::GaussianPoisson),
+                              *kSummary = "texels at random places, denser towards the middle";
+  int taps = 16;
+  double sigma = 0.3;
+  int64_t seed = 1;
+  static const SettingsTable<GaussianTaps>& table() {
+    using S = GaussianTaps;
+    static const SettingsTable<S> kTable = {
+        {&S::taps, "taps", {1, 64}, "", kTapsText},
+        Binding(&S::sigma, "sigma", Range{0.1, 10}, "",
+                "Standard deviation of the taps' places as a share of the search area's side")
+            .formerly({"sigma"}),
+        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Seed of the taps' places").formerly({"tap_seed"})};
+    return kTable;
+  }
+};
+
+struct SolidAngleSettings {
+  MapSettings map;
+  SlopeBias bias{.slope = 2.0};
+  int refinements = 2;
+  std::variant<RegularTaps, AllTexels, GaussianTaps> sampling;
+  Ball ball = Ball::Bounding;
+  static const SettingsTable<SolidAngleSettings>& table() {
+    using S = SolidAngleSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::map),
+        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::refinements,
+         "refinements",
+         {0, 3},
+         "",
+         "Times that the search area is narrowed by its depth range",
+         "Schwarz 2009, section 4.1"},
+        Binding(&S::sampling, "sampling", "Texels of the search area that are read",
+                "Schwarz 2009, section 3.2.1")
+            .shorthand("taps"),
+        {&S::ball, "ball", "Ball in place of a micropatch: around it, or with a disc of its area",
+         "Schwarz 2009, section 3.2.1 (bounding)"}};
+    return kTable;
+  }
+};
+
+Sampling samplingOf(const SolidAngleSettings& settings) {
+  return std::visit([](const auto& chosen) { return fromText<Sampling>(chosen.kKind); }, settings.sampling);
+}
+
+gl::ShaderDefines solidAngleDefines(const SolidAngleSettings& settings) {
+  gl::ShaderDefines defines;
+  defineEnum(defines, "SAMPLING", samplingOf(settings));
+  defineEnum(defines, "BALL", settings.ball);
+  return defines;
 }
 
 class SolidAngle : public VisibilityTechnique {
  public:
-  explicit SolidAngle(const ParameterValues& values)
-      : VisibilityTechnique(values, "renderer/techniques/soft_shadows/solid_angle/solid_angle.comp.glsl",
-                            "soft_shadows/solid_angle", solidAngleDefines(values)),
-        gaussian_(values.text("sampling") == "gaussian_poisson"),
-        taps_(static_cast<int>(values.integer("taps"))),
-        refinements_(static_cast<int>(values.integer("refinements"))),
-        sigma_(values.real("sigma")),
-        seed_(values.integer("tap_seed")) {
-    checkSolidAngle(values);
-  }
+  using Settings = SolidAngleSettings;
+  explicit SolidAngle(const SolidAngleSettings& settings)
+      : VisibilityTechnique(settings.map, settings.bias,
+                            "renderer/techniques/soft_shadows/solid_angle/solid_angle.comp.glsl",
+                            "soft_shadows/solid_angle", solidAngleDefines(settings)),
+        settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
     VisibilityTechnique::prepare(frame);
     // As much area as the light has.
     lightRadius_ = std::sqrt(frame.scene().lights.at(0).area() * std::numbers::inv_pi);
-    if (gaussian_) {
-      tapBuffer_.emplace(gaussianTaps(taps_ * taps_, sigma_, seed_));
+    if (const auto* taps = std::get_if<GaussianTaps>(&settings_.sampling)) {
+      tapBuffer_.emplace(gaussianTaps(taps->taps * taps->taps, taps->sigma, taps->seed));
       frame.passes().setBytesHeld("soft_shadows/solid_angle_taps", tapBuffer_->bytes());
     }
   }
@@ -69,56 +130,31 @@ class SolidAngle : public VisibilityTechnique {
 
   void configure(const gl::Program& program) const override {
     program.set("levels", pyramidLevels());
-    program.set("refinements", refinements_);
-    program.set("taps", taps_);
+    program.set("refinements", settings_.refinements);
     program.set("maxIterations", maxIterations_);
     program.set("lightRadius", static_cast<float>(lightRadius_));
+    if (const auto* regular = std::get_if<RegularTaps>(&settings_.sampling))
+      program.set("taps", regular->taps);
+    if (const auto* random = std::get_if<GaussianTaps>(&settings_.sampling))
+      program.set("taps", random->taps);
     if (tapBuffer_) tapBuffer_->bindStorage(0);
   }
 
  private:
-  bool gaussian_;
-  int taps_, refinements_, maxIterations_ = 0;
-  double sigma_, lightRadius_ = 0.0;
-  int64_t seed_;
+  SolidAngleSettings settings_;
+  int maxIterations_ = 0;
+  double lightRadius_ = 0.0;
   std::optional<gl::Buffer> tapBuffer_;
 };
 
-std::vector<Parameter> solidAngleParameters() {
-  std::vector<Parameter> all = VisibilityTechnique::commonParameters(2.0);
-  all.push_back(integerParameter("refinements", 2, 0, 3, "",
-                                 "Times that the search area is narrowed by its depth range",
-                                 "Schwarz 2009, section 4.1"));
-  all.push_back(choiceParameter("sampling", "regular", {"all", "regular", "gaussian_poisson"},
-                                "Texels of the search area that are read: all, those on a regular grid, or "
-                                "those at random places, denser towards the middle",
-                                "Schwarz 2009, section 3.2.1"));
-  all.push_back(
-      integerParameter("taps", kDefaultAreaTaps, 1, 64, "", "Root of the number of taps in the search area"));
-  all.push_back(choiceParameter("ball", "bounding", {"bounding", "equal_area"},
-                                "Ball in place of a micropatch: around it, or with a disc of its area",
-                                "Schwarz 2009, section 3.2.1 (bounding)"));
-  all.push_back(realParameter("sigma", kDefaultSigma, 0.1, 10.0, "",
-                              "Deviation of Gaussian Poisson taps as a share of the search area's side"));
-  all.push_back(
-      integerParameter("tap_seed", kDefaultTapSeed, 0, 1000000, "", "Seed of Gaussian Poisson taps"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kSolidAngleRegistered{
+const RegisteredTechnique<SolidAngle> kSolidAngleRegistered{
     {.name = "soft_shadows/solid_angle",
      .version = 1,
      .summary = "Solid angles of balls around micropatches, summed within the cone to a ball-shaped light",
      .source = "Schwarz 2009, section 3.2.1 (SS-07)",
      .product = ProductKind::Visibility,
-     .parameters = solidAngleParameters(),
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<SolidAngle>(values); },
-     .errorBound = {},
-     .counters = VisibilityTechnique::counterNames(),
-     .check = checkSolidAngle}};
+     .counters = VisibilityTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

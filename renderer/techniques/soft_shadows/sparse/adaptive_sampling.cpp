@@ -30,16 +30,15 @@ glm::ivec2 pyramidBase(glm::ivec2 sizePx, int levels) {
 
 class AdaptiveSampling : public SparseSampling {
  public:
-  AdaptiveSampling(frame::Frame& frame, const ParameterValues& values)
-      : reconstruction_(values),
-        minSamples_(values.real("min_samples")),
-        bias_(values.real("bias")),
-        slopeBias_(values.real("slope_bias")),
-        maxSlope_(values.real("max_slope")),
-        coarsest_(static_cast<int>(values.integer("coarsest_level"))),
+  AdaptiveSampling(frame::Frame& frame, const AdaptiveSamplingSettings& settings, double depthTolerance,
+                   const ChosenEntry& inner)
+      : reconstruction_(depthTolerance),
+        minSamples_(settings.minSamples),
+        bias_(innerBias(inner)),
+        coarsest_(settings.coarsestLevel),
         // A level more than is skipped: squares without a sample find one in those around them.
         levels_(coarsest_ + 1),
-        map_(innerMap(values)),
+        map_(innerMap(inner)),
         points_(frame, "sparse/inner", wholeTiles(frame.sizePx())),
         choose_(shader(frame.context(), "choose.comp.glsl")),
         pullFirst_(shader(frame.context(), "pull.comp.glsl", {{"FIRST", "1"}})),
@@ -74,9 +73,9 @@ class AdaptiveSampling : public SparseSampling {
     choose_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
     choose_.set("lightSize", glm::vec2(frame.scene().lights[0].size));
     choose_.set("near", static_cast<float>(frustum.near));
-    choose_.set("bias", static_cast<float>(bias_));
-    choose_.set("slopeBias", static_cast<float>(slopeBias_));
-    choose_.set("maxSlope", static_cast<float>(maxSlope_));
+    choose_.set("bias", static_cast<float>(bias_.constant));
+    choose_.set("slopeBias", static_cast<float>(bias_.slope));
+    choose_.set("maxSlope", static_cast<float>(bias_.maxSlope));
     choose_.set("resolution", map_.resolution);
     choose_.set("mapLevels", pyramid.levels());
     choose_.set("minSamples", static_cast<float>(minSamples_));
@@ -141,7 +140,8 @@ class AdaptiveSampling : public SparseSampling {
   }
 
   Reconstruction reconstruction_;
-  double minSamples_, bias_, slopeBias_, maxSlope_;
+  double minSamples_;
+  SlopeBias bias_;
   int coarsest_, levels_;
   frame::ShadowMapSettings map_;
   frame::Frame points_;
@@ -152,8 +152,23 @@ class AdaptiveSampling : public SparseSampling {
 
 }  // namespace
 
-std::unique_ptr<SparseSampling> makeAdaptiveSampling(frame::Frame& frame, const ParameterValues& values) {
-  return std::make_unique<AdaptiveSampling>(frame, values);
+const SettingsTable<AdaptiveSamplingSettings>& AdaptiveSamplingSettings::table() {
+  using S = AdaptiveSamplingSettings;
+  static const std::string kSource = "Schwarz 2009, section 5.1.3 (value not given there)";
+  static const SettingsTable<S> kTable = {
+      Binding(&S::minSamples, "min_samples", Range{1, 256}, "samples",
+              "Samples that a penumbra's width on the screen must hold before pixels are skipped (s_min)",
+              kSource)
+          .formerly({"min_samples"}),
+      Binding(&S::coarsestLevel, "coarsest_level", Range{0, 5}, "",
+              "Samples are at most 2 to this power pixels apart", kSource)
+          .formerly({"coarsest_level"})};
+  return kTable;
+}
+
+std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const AdaptiveSamplingSettings& settings,
+                                             double depthTolerance, const ChosenEntry& inner) {
+  return std::make_unique<AdaptiveSampling>(frame, settings, depthTolerance, inner);
 }
 
 }  // namespace limen::techniques

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
-#include "renderer/techniques/technique.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
 
 namespace limen::techniques {
 
 /// What upsampling and pull-push share: whose samples may stand for a point, and what to bind and set for it.
 class Reconstruction {
  public:
-  /// depth_tolerance and normal_power.
-  static std::vector<Parameter> parameters();
-  explicit Reconstruction(const ParameterValues& values);
+  /// `depthTolerance`: distance from a point's tangent plane, as a share of its distance from the camera, at
+  /// which a sample no longer counts for it. `normalPower`: of the cosine between normals that weighs a
+  /// sample.
+  explicit Reconstruction(double depthTolerance, double normalPower = 0.0)
+      : depthTolerance_(depthTolerance), normalPower_(normalPower) {}
 
   /// Uniforms of surface_weight.glsl, and the picture's size and rays.
   void configure(const frame::Frame& frame, const gl::Program& program) const;

@@ -3,9 +3,33 @@
 
 #include <memory>
 
+#include "experiments/base/chosen_entry.h"
 #include "renderer/techniques/soft_shadows/sparse/reconstruction.h"
 
 namespace limen::techniques {
+
+/// Which points a uniform grid of samples consists of.
+enum class GridPoints { Subset, Rendered };
+constexpr EnumNames<GridPoints, 2> enumNames(GridPoints) {
+  return {{{{GridPoints::Subset, "subset"}, {GridPoints::Rendered, "rendered"}}}};
+}
+
+struct UniformSamplingSettings {
+  static constexpr const char *kKind = "uniform", *kSummary = "samples on a grid, then interpolation";
+  int factor = 2;  ///< pixels from sample to sample, along rows and along columns
+  GridPoints points = GridPoints::Subset;
+  double normalPower = 4.0;
+  static const SettingsTable<UniformSamplingSettings>& table();
+};
+
+struct AdaptiveSamplingSettings {
+  static constexpr const char *kKind = "adaptive",
+                              *kSummary =
+                                  "fewer samples the wider the penumbra is on the screen, then pull-push";
+  double minSamples = 8.0;
+  int coarsestLevel = 3;
+  static const SettingsTable<AdaptiveSamplingSettings>& table();
+};
 
 /// How pixels share visibilities: which points the inner technique is asked for, and how every pixel's value
 /// comes from theirs.
@@ -33,9 +57,12 @@ enum SampleClass : uint32_t {
 };
 
 /// Every factor-th pixel of rows and columns (of the picture itself, or of one rendered at lower resolution),
-/// then interpolation.
-std::unique_ptr<SparseSampling> makeUniformSampling(frame::Frame& frame, const ParameterValues& values);
-/// The fewer pixels the wider a penumbra is on the screen, then pull-push.
-std::unique_ptr<SparseSampling> makeAdaptiveSampling(frame::Frame& frame, const ParameterValues& values);
+/// then interpolation. `depthTolerance` as Reconstruction has it.
+std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const UniformSamplingSettings& settings,
+                                             double depthTolerance, const ChosenEntry& inner);
+/// The fewer pixels the wider a penumbra is on the screen, by the map and the bias of the inner technique,
+/// then pull-push.
+std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const AdaptiveSamplingSettings& settings,
+                                             double depthTolerance, const ChosenEntry& inner);
 
 }  // namespace limen::techniques

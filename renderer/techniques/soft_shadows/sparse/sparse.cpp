@@ -10,8 +10,9 @@
 // reaches over an edge of its surface, the pixel is not skipped.
 #include <array>
 #include <optional>
+#include <variant>
 
-#include "experiments/base/error.h"
+#include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 #include "renderer/techniques/soft_shadows/sparse/sampling.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
@@ -20,64 +21,39 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char* kSparsePass = "sparse/visibility";
-constexpr const char* kSparseSection = "Schwarz 2009, section 5.1.3";
-
-bool adaptive(const ParameterValues& values) { return values.text("mode") == "adaptive"; }
-
-std::vector<Parameter> sparseParameters() {
-  std::vector<Parameter> out = {
-      choiceParameter("mode", "uniform", {"uniform", "adaptive"},
-                      "Samples on a grid, or the fewer the wider the penumbra is on the screen",
-                      kSparseSection),
-      choiceParameter("factor", "2", {"1", "2", "4", "8"},
-                      "Uniform mode: pixels from sample to sample, along rows and along columns",
-                      "Schwarz 2009, section 5.1.3 (value not given there)"),
-      choiceParameter(
-          "points", "subset", {"subset", "rendered"},
-          "Uniform mode: samples are pixels of the picture, or of one rendered at lower resolution",
-          kSparseSection),
-      realParameter(
-          "min_samples", 8.0, 1.0, 256.0, "samples",
-          "Adaptive mode: samples that a penumbra's width on the screen must hold before pixels are skipped "
-          "(s_min)",
-          "Schwarz 2009, section 5.1.3 (value not given there)"),
-      integerParameter("coarsest_level", 3, 0, 5, "",
-                       "Adaptive mode: samples are at most 2 to this power pixels apart",
-                       "Schwarz 2009, section 5.1.3 (value not given there)")};
-  for (Parameter& parameter : Reconstruction::parameters()) out.push_back(std::move(parameter));
-  for (Parameter& parameter : innerParameters(InnerKind::Backprojecting)) out.push_back(std::move(parameter));
-  return out;
-}
-
-void checkSparse(const ParameterValues& values) {
-  static const std::map<std::string, bool> kOnlyAdaptive = {{"factor", false},
-                                                            {"points", false},
-                                                            {"normal_power", false},
-                                                            {"min_samples", true},
-                                                            {"coarsest_level", true}};
-  for (const Parameter& parameter : sparseParameters()) {
-    const auto mode = kOnlyAdaptive.find(parameter.name);
-    if (mode == kOnlyAdaptive.end() || mode->second == adaptive(values) ||
-        values.all().at(parameter.name) == parameter.defaultValue)
-      continue;
-    throw Error("'" + parameter.name + "' is about the other mode than '" + values.text("mode") + "'",
-                parameter.name,
-                "leave it out, or give mode: " + std::string(mode->second ? "adaptive" : "uniform"));
+struct SparseSettings {
+  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  std::variant<UniformSamplingSettings, AdaptiveSamplingSettings> mode;
+  double depthTolerance = 0.02;
+  static const SettingsTable<SparseSettings>& table() {
+    using S = SparseSettings;
+    static const SettingsTable<S> kTable = {
+        innerBinding(&S::inner, InnerKind::Backprojecting),
+        {&S::mode, "mode", "Which pixels are samples", "Schwarz 2009, section 5.1.3"},
+        {&S::depthTolerance,
+         "depth_tolerance",
+         {1e-4, 1},
+         "",
+         "Distance from a point's tangent plane, as a share of its distance from the camera, at which a "
+         "sample no longer counts for it",
+         "Schwarz 2009, section 5.1.3 (value not given there)"}};
+    return kTable;
   }
-  checkInner(values);
-}
+};
 
 class Sparse : public Technique {
  public:
-  explicit Sparse(const ParameterValues& values) : values_(values), inner_(makeInner(values)) {
-    checkSparse(values);
-  }
+  using Settings = SparseSettings;
+  explicit Sparse(const SparseSettings& settings) : settings_(settings), inner_(makeInner(settings.inner)) {}
 
   void prepare(frame::Frame& frame) override {
     visibility_.emplace(gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld(kSparsePass, visibility_->bytes());
-    sampling_ =
-        adaptive(values_) ? makeAdaptiveSampling(frame, values_) : makeUniformSampling(frame, values_);
+    sampling_ = std::visit(
+        [&](const auto& mode) {
+          return makeSampling(frame, mode, settings_.depthTolerance, settings_.inner);
+        },
+        settings_.mode);
     inner_->prepare(sampling_->points());
   }
 
@@ -102,11 +78,20 @@ class Sparse : public Technique {
     const glm::dvec2 points(sampling_->points().sizePx());
     const double samples = of("receivers_share") * points.x * points.y;
     const double processed = of("processed_share") * points.x * points.y;
-    return {{"evaluated_share", share(samples), "", true},
-            {"micro_occluders_per_px", of("micro_occluders_per_px"), "", true},
-            {"micro_occluders_per_receiver", share(processed * of("micro_occluders_per_px")), "", true},
-            {"fallback_share", share(pixels[NearestInDepth] + pixels[NoSample]), "", false},
-            {"unreached_share", share(pixels[NoSample]), "", false}};
+    return {{"evaluated_share", share(samples)},
+            {"micro_occluders_per_px", of("micro_occluders_per_px")},
+            {"micro_occluders_per_receiver", share(processed * of("micro_occluders_per_px"))},
+            {"fallback_share", share(pixels[NearestInDepth] + pixels[NoSample])},
+            {"unreached_share", share(pixels[NoSample])}};
+  }
+
+  static std::vector<Quantity> counters() {
+    return {
+        {"evaluated_share", "Share of receivers that are evaluated", "", Direction::LowerIsBetter},
+        counterOf(innerCounters(), "micro_occluders_per_px"),
+        {"micro_occluders_per_receiver", "Micro-occluders per receiver", "1/px", Direction::LowerIsBetter},
+        {"fallback_share", "Share of receivers without a sample on their surface", "", Direction::Neither},
+        {"unreached_share", "Share of receivers without a sample in reach", "", Direction::Neither}};
   }
 
  private:
@@ -120,27 +105,20 @@ class Sparse : public Technique {
     points.end();
   }
 
-  ParameterValues values_;
+  SparseSettings settings_;
   std::unique_ptr<Technique> inner_;
   std::unique_ptr<SparseSampling> sampling_;
   std::optional<gl::Texture> visibility_;
 };
 
-const Registered<TechniqueInfo> kSparseRegistered{
+const RegisteredTechnique<Sparse> kSparseRegistered{
     {.name = "soft_shadows/sparse",
      .version = 1,
      .summary = "Another technique's visibility for some of the pixels, interpolated for the others",
      .source = "Schwarz 2009, section 5.1.3 (SS-39)",
      .product = ProductKind::Visibility,
-     .parameters = sparseParameters(),
      .needs = {"rectangular_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<Sparse>(values); },
-     .errorBound = {},
-     .counters = {"evaluated_share", "micro_occluders_per_px", "micro_occluders_per_receiver",
-                  "fallback_share", "unreached_share"},
-     .check = checkSparse}};
+     .counters = Sparse::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -15,10 +15,10 @@ constexpr const char* kUpsampleShader = "renderer/techniques/soft_shadows/sparse
 
 class UniformSampling : public SparseSampling {
  public:
-  UniformSampling(frame::Frame& frame, const ParameterValues& values)
-      : reconstruction_(values),
-        factor_(std::stoi(values.text("factor"))),
-        fromPicture_(values.text("points") == "subset"),
+  UniformSampling(frame::Frame& frame, const UniformSamplingSettings& settings, double depthTolerance)
+      : reconstruction_(depthTolerance, settings.normalPower),
+        factor_(settings.factor),
+        fromPicture_(settings.points == GridPoints::Subset),
         points_(frame, "sparse/inner", pointCount(frame.sizePx())),
         upsample_(frame.context().programs().compute(kUpsampleShader)) {
     if (!fromPicture_) return;
@@ -92,8 +92,29 @@ class UniformSampling : public SparseSampling {
 
 }  // namespace
 
-std::unique_ptr<SparseSampling> makeUniformSampling(frame::Frame& frame, const ParameterValues& values) {
-  return std::make_unique<UniformSampling>(frame, values);
+const SettingsTable<UniformSamplingSettings>& UniformSamplingSettings::table() {
+  using S = UniformSamplingSettings;
+  static const std::string kSection = "Schwarz 2009, section 5.1.3";
+  static const SettingsTable<S> kTable = {
+      Binding(&S::factor, "factor", oneOf({1, 2, 4, 8}), "px",
+              "Pixels from sample to sample, along rows and along columns",
+              kSection + " (value not given there)")
+          .formerly({"factor"}),
+      Binding(&S::points, "points",
+              "Samples are pixels of the picture, or of one rendered at lower resolution", kSection)
+          .formerly({"points"}),
+      Binding(
+          &S::normalPower, "normal_power", Range{0, 64}, "",
+          "Power of the cosine between a point's normal and a sample's that weighs the sample; 0: normals "
+          "do not matter",
+          kSection + " (value not given there)")
+          .formerly({"normal_power"})};
+  return kTable;
+}
+
+std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const UniformSamplingSettings& settings,
+                                             double depthTolerance, const ChosenEntry&) {
+  return std::make_unique<UniformSampling>(frame, settings, depthTolerance);
 }
 
 }  // namespace limen::techniques

@@ -18,6 +18,7 @@
 #include "experiments/base/text.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
+#include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bvh.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -85,27 +86,35 @@ std::vector<Counter> summariseTriangles(const std::vector<uint32_t>& counts) {
   const double all = static_cast<double>(counts.size()) / 4.0, receivers = all - pixels[NotReceiver];
   const auto share = [&](double part) { return all > 0.0 ? part / all : 0.0; };
   const auto perReceiver = [&](double sum) { return receivers > 0.0 ? sum / receivers : 0.0; };
-  return {{"nodes_per_receiver", perReceiver(nodes), "", true},
-          {"triangles_per_receiver", perReceiver(tested), "", true},
-          {"masks_per_receiver", perReceiver(reached), "", true},
-          {"receivers_share", share(receivers), "", false},
-          {"lit_share", share(pixels[Lit]), "", false},
-          {"umbra_share", share(pixels[Umbra]), "", false},
-          {"processed_share", share(pixels[Processed]), "", false}};
+  return {{"nodes_per_receiver", perReceiver(nodes)},
+          {"triangles_per_receiver", perReceiver(tested)},
+          {"masks_per_receiver", perReceiver(reached)},
+          {"receivers_share", share(receivers)},
+          {"lit_share", share(pixels[Lit])},
+          {"umbra_share", share(pixels[Umbra])},
+          {"processed_share", share(pixels[Processed])}};
 }
 
 }  // namespace
 
-TriangleBitmask::TriangleBitmask(const ParameterValues& values)
-    : pattern_(values.text("pattern")),
-      defines_({{"PATTERN", pattern_ == "jittered_16" ? "160" : pattern_.substr(pattern_.rfind('_') + 1)}}) {}
+const SettingsTable<TriangleBitmaskSettings>& TriangleBitmaskSettings::table() {
+  static const SettingsTable<TriangleBitmaskSettings> kTable = {
+      {&TriangleBitmaskSettings::pattern, "pattern",
+       "Light samples: regular grids, or 16 x 16 in rotated pairs",
+       "Schwarz 2009, sections 4.2.1 and 4.2.2"}};
+  return kTable;
+}
+
+TriangleBitmask::TriangleBitmask(const TriangleBitmaskSettings& settings)
+    : pattern_(settings.pattern), defines_({{"PATTERN", patternDefine(lightPattern(pattern_))}}) {}
 
 void TriangleBitmask::prepare(frame::Frame& frame) {
   program_ = &frame.context().programs().compute(kTriangleShader, defines_);
   visibility_.emplace(gl::Format::R32F, frame.sizePx());
   frame.passes().setBytesHeld(kTrianglePass, visibility_->bytes());
 
-  const std::vector<uint32_t> shape = lightMask(frame.scene().lights.at(0), lightSamples(pattern_));
+  const std::vector<uint32_t> shape =
+      lightMask(frame.scene().lights.at(0), lightSamples(lightPattern(pattern_)));
   lightSamples_ = bitCount(shape);
   lightShape_.emplace(shape);
 
@@ -150,11 +159,15 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
 
 void TriangleBitmask::render(frame::Frame& frame) { run(frame, *program_, nullptr); }
 
-std::vector<Quantity> TriangleBitmask::counterNames() {
-  std::vector<Quantity> out;
-  for (const Counter& counter : summariseTriangles({})) out.push_back(counter.name);
-  out.emplace_back("structure_bytes");
-  return out;
+std::vector<Quantity> TriangleBitmask::counters() {
+  std::vector<Quantity> all = {
+      {"nodes_per_receiver", "Nodes visited per receiver", "1/px", Direction::LowerIsBetter},
+      {"triangles_per_receiver", "Triangles tested per receiver", "1/px", Direction::LowerIsBetter},
+      {"masks_per_receiver", "Triangles that cover light samples, per receiver", "1/px",
+       Direction::LowerIsBetter}};
+  for (Quantity& share : pixelShares()) all.push_back(std::move(share));
+  all.push_back(structureBytes());
+  return all;
 }
 
 std::vector<Counter> TriangleBitmask::count(frame::Frame& frame) {
@@ -169,30 +182,21 @@ std::vector<Counter> TriangleBitmask::count(frame::Frame& frame) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   masks_ = work.masks.read<uint32_t>();
   std::vector<Counter> all = summariseTriangles(work.counts.readUint());
-  all.push_back({"structure_bytes",
-                 static_cast<double>(nodes_->bytes() + triangles_->bytes() + planes_->bytes()), "byte",
-                 true});
+  all.push_back(
+      {structureBytes().name, static_cast<double>(nodes_->bytes() + triangles_->bytes() + planes_->bytes())});
   return all;
 }
 
 namespace {
 
-const Registered<TechniqueInfo> kTriangleBitmaskRegistered{
+const RegisteredTechnique<TriangleBitmask> kTriangleBitmaskRegistered{
     {.name = "soft_shadows/triangle_bitmask",
      .version = 1,
      .summary = "Light samples hidden by the scene's own triangles, through a hierarchy of them",
      .source = "Schwarz 2009, section 3.3 and outlook (SS-09)",
      .product = ProductKind::Visibility,
-     .parameters = {choiceParameter("pattern", "jittered_16",
-                                    {"regular_8", "regular_16", "regular_32", "jittered_16"},
-                                    "Light samples: regular grids, or 16 x 16 in rotated pairs",
-                                    "Schwarz 2009, sections 4.2.1 and 4.2.2")},
      .needs = {"area_light"},
-     .reference = false,
-     .onCpu = false,
-     .make = [](const ParameterValues& values) { return std::make_unique<TriangleBitmask>(values); },
-     .errorBound = {},
-     .counters = TriangleBitmask::counterNames()}};
+     .counters = TriangleBitmask::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -4,16 +4,23 @@
 #include <optional>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
+
+struct TriangleBitmaskSettings {
+  GridPattern pattern = GridPattern::Jittered16;
+  static const SettingsTable<TriangleBitmaskSettings>& table();
+};
 
 /// Bit field of light samples, filled from the scene's own triangles: for each receiver point every triangle
 /// between it and the light hides the samples within its projection. Exact at the samples but for rounding.
 /// Source: Schwarz 2009, section 3.3 ("Backprojecting triangles") and the outlook.
 class TriangleBitmask : public Technique {
  public:
-  explicit TriangleBitmask(const ParameterValues& values);
+  using Settings = TriangleBitmaskSettings;
+  explicit TriangleBitmask(const TriangleBitmaskSettings& settings);
   void prepare(frame::Frame& frame) override;
   void render(frame::Frame& frame) override;
   const gl::Texture& product() const override { return *visibility_; }
@@ -23,7 +30,7 @@ class TriangleBitmask : public Technique {
   /// lightSamples(). None where there is no receiver.
   const std::vector<uint32_t>& masks() const { return masks_; }
 
-  static std::vector<Quantity> counterNames();
+  static std::vector<Quantity> counters();
 
  private:
   struct Work {
@@ -32,7 +39,7 @@ class TriangleBitmask : public Technique {
   };
   void run(frame::Frame& frame, const gl::Program& program, const Work* work);
 
-  std::string pattern_;
+  GridPattern pattern_;
   gl::ShaderDefines defines_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> visibility_;

@@ -8,41 +8,52 @@
 namespace limen::techniques {
 namespace {
 
+struct VarianceSettings {
+  PrefilteredSettings common;
+  std::variant<SearchedWindow, FixedWindow> window;
+  double minVariance = 1e-6, bleedClamp = 0.0;
+  static const SettingsTable<VarianceSettings>& table() {
+    using S = VarianceSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::common),
+        windowBinding(&S::window),
+        {&S::minVariance,
+         "min_variance",
+         {1e-12, 0.01},
+         "",
+         "Least variance of depth, with depths from 0 to 1 over the map's range",
+         "Schwarz 2009, section 3.2.1 (value not given there)"},
+        {&S::bleedClamp,
+         "bleed_clamp",
+         {0, 0.99},
+         "",
+         "Visibility that becomes 0, the rest being stretched to 0..1: less light bleeding, darker penumbrae",
+         "Schwarz 2009, section 3.2.1 (reconstructed)"}};
+    return kTable;
+  }
+};
+
 class Variance : public PrefilteredTechnique {
  public:
-  explicit Variance(const ParameterValues& values)
-      : PrefilteredTechnique(values, "variance", settingsOf(values)),
-        minVariance_(values.real("min_variance")),
-        bleedClamp_(values.real("bleed_clamp")) {}
+  using Settings = VarianceSettings;
+  explicit Variance(const VarianceSettings& settings)
+      : PrefilteredTechnique("variance", settings.common, settings.window,
+                             settings.common.prefilterSettings()),
+        settings_(settings) {}
 
  protected:
   void configure(const gl::Program& program) const override {
     PrefilteredTechnique::configure(program);
-    program.set("minVariance", static_cast<float>(minVariance_));
-    program.set("bleedClamp", static_cast<float>(bleedClamp_));
+    program.set("minVariance", static_cast<float>(settings_.minVariance));
+    program.set("bleedClamp", static_cast<float>(settings_.bleedClamp));
   }
 
  private:
-  double minVariance_, bleedClamp_;
+  VarianceSettings settings_;
 };
 
-std::vector<Parameter> varianceParameters() {
-  std::vector<Parameter> all =
-      PrefilteredTechnique::prefilterParameters({"searched", "fixed"}, {"sums", "mips"});
-  all.push_back(realParameter("min_variance", 1e-6, 1e-12, 0.01, "",
-                              "Least variance of depth, with depths from 0 to 1 over the map's range",
-                              "Schwarz 2009, section 3.2.1 (value not given there)"));
-  all.push_back(realParameter(
-      "bleed_clamp", 0.0, 0.0, 0.99, "",
-      "Visibility that becomes 0, the rest being stretched to 0..1: less light bleeding, darker "
-      "penumbrae",
-      "Schwarz 2009, section 3.2.1 (reconstructed)"));
-  return all;
-}
-
-const Registered<TechniqueInfo> kVarianceRegistered{PrefilteredTechnique::declare(
-    "soft_shadows/variance", 1, "Variance shadow map: Chebyshev's bound from averaged moments of depth",
-    varianceParameters(), [](const ParameterValues& values) { return std::make_unique<Variance>(values); })};
+const RegisteredTechnique<Variance> kVarianceRegistered{PrefilteredTechnique::info(
+    "soft_shadows/variance", "Variance shadow map: Chebyshev's bound from averaged moments of depth")};
 
 }  // namespace
 }  // namespace limen::techniques

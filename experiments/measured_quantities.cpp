@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/measured_quantities.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace limen::experiments {
+namespace {
+
+const store::QuantityRow* find(const std::string& name) {
+  const std::vector<store::QuantityRow>& common = commonQuantities();
+  const auto row = std::find_if(common.begin(), common.end(),
+                                [&](const store::QuantityRow& one) { return one.name == name; });
+  return row == common.end() ? nullptr : &*row;
+}
+
+}  // namespace
+
+const std::vector<store::QuantityRow>& commonQuantities() {
+  constexpr Direction kLower = Direction::LowerIsBetter, kNeither = Direction::Neither;
+  // Name, title, unit, direction, kind, pass of the frame times that it is the median of, source.
+  static const std::vector<store::QuantityRow> kCommon = {
+      {"gpu_ms", "GPU time", "ms", kLower, "time", "frame", ""},
+      {"gpu_ms_p95", "Frame time, 95th percentile", "ms", kLower, "time", "", ""},
+      {"technique_ms", "Frame time without the G-buffer", "ms", kLower, "time", "", ""},
+      {"wall_ms", "Wall time", "ms", kLower, "time", "wall", ""},
+      {"cpu_ms", "CPU time", "ms", kLower, "time", "cpu", ""},
+      {"prepare_ms", "Preparation time", "ms", kLower, "time", "", ""},
+      {"timed_frames", "Timed frames", "", kNeither, "fact", "", ""},
+      {"bytes_held", "Memory held", "byte", kLower, "fact", "", ""},
+      {"non_finite_count", "Non-finite values", "", kLower, "error", "", ""},
+      {"gpu_clock_mhz", "GPU clock", "MHz", kNeither, "fact", "", ""},
+      {"error_png_white", "White of the error's picture", "", kNeither, "fact", "", ""},
+      {"relative_error_png_white", "White of the relative error's picture", "", kNeither, "fact", "", ""},
+      {"threshold_png_black", "Black of the threshold's picture", "cd/m2", kNeither, "fact", "", ""},
+      {"threshold_png_white", "White of the threshold's picture", "cd/m2", kNeither, "fact", "", ""},
+      {"product_png_white", "White of the product's picture", "", kNeither, "fact", "", ""}};
+  return kCommon;
+}
+
+bool isCommonQuantity(const std::string& name) { return find(name) != nullptr; }
+
+store::Measurement measured(const std::string& name, std::optional<double> value) {
+  const store::QuantityRow* row = find(name);
+  assert(row != nullptr && "measured without a declaration");
+  return {name, value, row->unit, row->kind};
+}
+
+}  // namespace limen::experiments

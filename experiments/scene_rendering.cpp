@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/scene_rendering.h"
+
+#include <algorithm>
+
+#include "experiments/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/g_buffer.h"
+
+namespace limen::experiments {
+
+nlohmann::json sceneFacts(const scene::Scene& scene) {
+  const scene::Bounds bounds = scene.bounds();
+  return {{"content_hash", scene.contentHash()},
+          {"triangles", scene.mesh.triangles.size()},
+          {"bounds",
+           {{bounds.low.x, bounds.low.y, bounds.low.z}, {bounds.high.x, bounds.high.y, bounds.high.z}}}};
+}
+
+ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx) {
+  using frame::Channel;
+  using frame::ChannelSetting;
+  using frame::GBufferChannel;
+  frame::Frame frame(context, onGpu, sizePx);
+  frame.begin();
+  const Image receivers = frame.get<frame::Receivers>().texture().read();
+  const Image normals = frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture().read();
+  const Image positions = frame.get<GBufferChannel>(ChannelSetting{Channel::Position}).texture().read();
+  const Image albedo = frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture().read();
+  frame.end();
+  ViewImages out{Image(sizePx.x, sizePx.y, 1), Image(sizePx.x, sizePx.y, 3)};
+  const auto& lights = onGpu.scene.lights;
+  const glm::dvec3 light = lights.empty() ? glm::dvec3(0.0) : lights[0].centre - onGpu.gpu.anchor();
+  for (size_t i = 0; i < out.mask.pixels(); ++i) {
+    const bool receiver = receivers.data[4 * i + 3] >= 0.0F;
+    out.mask.data[i] = receiver ? 1.0F : 0.0F;
+    if (!receiver) continue;
+    const glm::dvec3 toLight =
+        light - glm::dvec3(positions.data[4 * i], positions.data[4 * i + 1], positions.data[4 * i + 2]);
+    const double cosine =
+        glm::dot(glm::dvec3(normals.data[4 * i], normals.data[4 * i + 1], normals.data[4 * i + 2]),
+                 toLight / glm::length(toLight));
+    for (size_t c = 0; c < 3; ++c)
+      out.shading.data[3 * i + c] = albedo.data[4 * i + c] * static_cast<float>(std::max(cosine, 0.0));
+  }
+  return out;
+}
+
+void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene) {
+  const std::set<std::string> traits = scene.traits();
+  for (const std::string& need : info.needs)
+    if (!traits.count(need))
+      throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
+                      "' with these parameters does not have",
+                  {}, "choose another light or another technique");
+}
+
+Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                 const Choice& technique) {
+  const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
+  requireTraits(info, onGpu.scene);
+  const auto made = info.make(technique.values);
+  frame::Frame frame(context, onGpu, sizePx);
+  made->prepare(frame);
+  frame.begin();
+  made->render(frame);
+  frame.end();
+  Image product = made->product().read();
+  context.checkDebugMessages();
+  return product;
+}
+
+}  // namespace limen::experiments

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+#include "experiments/base/image.h"
+#include "experiments/executor.h"
+#include "renderer/frame/scene_on_gpu.h"
+#include "renderer/gl/context.h"
+#include "renderer/scene/scene.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::experiments {
+
+/// What metrics and pictures need of a view beside the product.
+struct ViewImages {
+  Image mask;     ///< 1 channel: 1 on receivers, 0 elsewhere
+  Image shading;  ///< 3 channels: albedo by the cosine to the light's centre, unshadowed
+};
+
+ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx);
+
+/// Content hash, triangles and bounds, as a run records them.
+nlohmann::json sceneFacts(const scene::Scene& scene);
+
+/// Throws Error where the scene lacks what the technique needs.
+void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene);
+
+/// The product of a technique made for this one frame. Throws what the technique throws, and where the driver
+/// reported a mistake.
+Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                 const Choice& technique);
+
+}  // namespace limen::experiments

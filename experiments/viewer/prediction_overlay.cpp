@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/prediction_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+#include "experiments/product.h"
+#include "perception/metrics/error_map.h"
+#include "perception/popping/overlay.h"
+#include "perception/popping/predictor.h"
+#include "perception/threshold_maps/reference.h"
+
+namespace limen::viewer {
+namespace {
+
+/// Light of a display-coded picture, as the display turns its values into it.
+Image lightOf(Image coded, const perception::DisplayProfile& display) {
+  for (float& value : coded.data) value = static_cast<float>(display.decode(value));
+  return coded;
+}
+
+void paintThresholds(const Image& picture, const EvaluationRequest& request, EvaluationResult& result) {
+  const perception::ThresholdMap map = perception::computeThresholdMap(
+      perception::luminancePlane(lightOf(picture, request.display), request.display),
+      request.display.pixelsPerDegree(), {});
+  const Image thresholds = perception::toImage(map.thresholdCdM2);
+  result.overlay = std::make_shared<ScreenPicture>(screenPicture(perception::thresholdPicture(thresholds)));
+  const auto [least, most] = std::minmax_element(thresholds.data.begin(), thresholds.data.end());
+  result.overlayNote = "thresholds " + shortestNumber(*least) + " to " + shortestNumber(*most) +
+                       " cd/m2 (black " + shortestNumber(perception::kThresholdPictureBlack) + ", white " +
+                       shortestNumber(perception::kThresholdPictureWhite) + ") on " + request.display.name;
+}
+
+void paintPopping(const Image& actual, const Image& before, const EvaluationRequest& request,
+                  EvaluationResult& result) {
+  perception::PoppingInput input;
+  input.actual = actual;
+  input.predicted = before;
+  const perception::PoppingResult popping = perception::predictPopping(input, request.display);
+  perception::OverlayOptions options;
+  options.legend = false;
+  result.overlay = std::make_shared<ScreenPicture>(
+      screenPicture(perception::poppingOverlay(actual, popping.regions, options)));
+  const perception::PoppingSummary& summary = popping.summary;
+  result.overlayNote = popping.regions.regions.empty()
+                           ? "no popping region"
+                           : std::to_string(popping.regions.regions.size()) + " popping regions, " +
+                                 shortestNumber(std::round(1000.0 * summary.coverage) / 10.0) +
+                                 " % of the picture, largest R " +
+                                 shortestNumber(std::round(100.0 * summary.largestRating) / 100.0) + ", " +
+                                 shortestNumber(std::round(100.0 * summary.detectionProbability)) +
+                                 " % would see it";
+  result.overlayNote += " on " + request.display.name;
+}
+
+}  // namespace
+
+void paintOverlay(const EvaluationRequest& request, EvaluationResult& result) {
+  if (request.overlay == Overlay::None || !request.product || !request.view) return;
+  try {
+    const auto pictureOf = [&](const Image& product) {
+      return experiments::productPicture(request.kind, product, request.view->shading);
+    };
+    const Image picture = pictureOf(*request.product);
+    if (request.overlay == Overlay::Thresholds) {
+      paintThresholds(picture, request, result);
+      return;
+    }
+    const Image* before = request.second ? request.second.get() : result.reference.get();
+    if (!before) throw Error("popping needs two pictures", {}, "choose a second technique or a reference");
+    paintPopping(picture, pictureOf(*before), request, result);
+  } catch (const std::exception& error) {
+    result.overlayNote = error.what();
+  }
+}
+
+}  // namespace limen::viewer

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/viewed_scene.h"
+
+#include "renderer/scene/placement.h"
+
+namespace limen::viewer {
+namespace {
+
+/// What the scene is without what moves its camera.
+ParameterValues stillValues(const experiments::Choice& scene) {
+  std::map<std::string, ParameterValue> still = scene.values.all();
+  scene::setCamera(still, scene::BuiltInCamera());
+  return {scene::SceneRegistry::instance().get(scene.name).allParameters(), still};
+}
+
+}  // namespace
+
+std::string ViewedScene::keyOf(const experiments::Choice& scene) {
+  return scene.name + stillValues(scene).toJson().dump();
+}
+
+bool ViewedScene::show(const experiments::Choice& scene) {
+  const bool build = needsBuilding(scene);
+  if (build) {
+    onGpu_.reset();
+    onGpu_ = std::make_unique<frame::SceneOnGpu>(scene::buildScene(scene.name, stillValues(scene)));
+    built_ = onGpu_->scene.camera;
+    key_ = keyOf(scene);
+  }
+  // The very steps that building takes, so that a sweep has the same camera to the last bit.
+  const scene::CameraChoice camera = scene::PlacementSettings::table().read(scene.values).camera;
+  onGpu_->scene.camera = scene::cameraFor(built_, camera);
+  path_ = onGpu_->scene.camera;
+  for (scene::CameraPath::Key& key : path_.keys) key.timeS += scene::timeOf(camera);
+  return build;
+}
+
+}  // namespace limen::viewer

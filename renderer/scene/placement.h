@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+
+#include "experiments/base/enum_names.h"
+#include "experiments/base/settings_table.h"
+#include "renderer/scene/scene.h"
+
+namespace limen::scene {
+
+/// The camera path that the scene comes with.
+struct BuiltInCamera {
+  static constexpr const char *kKind = "built_in", *kSummary = "the scene's own";
+  double timeS = 0.0;  ///< position on the path
+  static const SettingsTable<BuiltInCamera>& table();
+};
+
+/// A still view, in the units of the built world: `scale` and `offset` do not move it.
+struct StillView {
+  static constexpr const char *kKind = "view", *kSummary = "a still view in place of the scene's own";
+  std::string text;  ///< see camera_text.h
+  static const SettingsTable<StillView>& table();
+  void check() const;
+};
+
+/// A recorded path, in the units of the built world: `scale` and `offset` do not move it.
+struct RecordedPath {
+  static constexpr const char *kKind = "path", *kSummary = "a camera path from a file";
+  FilePath file;       ///< see camera_path_file.h
+  double timeS = 0.0;  ///< position on the path
+  static const SettingsTable<RecordedPath>& table();
+  /// Reads the file.
+  void check() const;
+};
+
+using CameraChoice = std::variant<BuiltInCamera, StillView, RecordedPath>;
+
+enum class LightShapeChoice { AsBuilt, Rectangle, Disc, Polygon };
+constexpr EnumNames<LightShapeChoice, 4> enumNames(LightShapeChoice) {
+  return {{{{LightShapeChoice::AsBuilt, "as_built"},
+            {LightShapeChoice::Rectangle, "rectangle"},
+            {LightShapeChoice::Disc, "disc"},
+            {LightShapeChoice::Polygon, "polygon"}}}};
+}
+
+/// Settings of every scene: where its world lies, how large its light is and who looks at it.
+struct PlacementSettings {
+  double scale = 1.0;      ///< of the whole world, about the origin
+  double offset = 0.0;     ///< moves the world by this many of its own diagonals along (1,1,1)/sqrt(3)
+  double lightSize = 1.0;  ///< multiplies the light's extents
+  LightShapeChoice lightShape = LightShapeChoice::AsBuilt;
+  CameraChoice camera;
+  static const SettingsTable<PlacementSettings>& table();
+};
+
+/// What a choice of camera makes of a scene's own path, the last step of buildScene(). A path is moved so
+/// that its time 0 is the chosen position: camera.at(0) is the camera of a still picture. Throws Error on a
+/// view or path that cannot be used.
+CameraPath cameraFor(const CameraPath& builtIn, const CameraChoice& choice);
+
+/// Position on the path [s]; 0 of a still view.
+double timeOf(const CameraChoice& choice);
+
+/// Removes what a scene's values, by path, say about its camera, or replaces it.
+void clearCamera(std::map<std::string, ParameterValue>& values);
+void setCamera(std::map<std::string, ParameterValue>& values, const CameraChoice& choice);
+
+/// Applies the settings to a scene as its builder made it. Throws Error, naming `where`.
+void place(Scene& scene, const PlacementSettings& settings, const std::string& where);
+
+}  // namespace limen::scene

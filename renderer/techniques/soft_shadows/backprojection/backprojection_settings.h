@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/techniques/soft_shadows/search_settings.h"
+
+namespace limen::techniques {
+
+/// Area that a microquad adds. Whether one that folds over on the light adds or takes away is left open by
+/// the thesis: it sums the signed areas of a quad's two triangles.
+enum class QuadArea {
+  Absolute,  ///< its size
+  Signed     ///< its size with the sign of its orientation, so that folds cancel
+};
+constexpr EnumNames<QuadArea, 2> enumNames(QuadArea) {
+  return {{{{QuadArea::Absolute, "absolute"}, {QuadArea::Signed, "signed"}}}};
+}
+
+struct SummedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
+  static constexpr const char* kSummary = "a mesh between the centres of texels";
+  QuadArea area = QuadArea::Absolute;
+  static const SettingsTable<SummedMicroquads>& table();
+};
+
+struct SummedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> {
+  static constexpr const char* kSummary = "that mesh with triangles where three of four texels block";
+  QuadArea area = QuadArea::Absolute;
+  static const SettingsTable<SummedMicrotris>& table();
+};
+
+struct Contours : OccluderAlternative<OccluderKind::Contours> {
+  static constexpr const char* kSummary = "outlines of the texels that block";
+  double inset = 0.0;
+  static const SettingsTable<Contours>& table();
+};
+
+struct MorphingMicroquads : OccluderAlternative<OccluderKind::MorphingMicroquads> {
+  static constexpr const char* kSummary = "a mesh that moves from one level to the next";
+  double morphLevel = 0.0;
+  QuadArea area = QuadArea::Absolute;
+  static const SettingsTable<MorphingMicroquads>& table();
+};
+
+struct BackprojectionSettings {
+  using Occluders =
+      std::variant<Micropatches, SummedMicroquads, SummedMicrotris, Contours, Microrects, MorphingMicroquads>;
+  SearchSettings search = {};
+  LevelSettings levels = {};
+  PassSettings passes = {};
+  Occluders occluders = {};
+  static const SettingsTable<BackprojectionSettings>& table();
+  void check() const;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
+
+namespace limen::techniques {
+
+const SettingsTable<ChosenSample>& ChosenSample::table() {
+  using S = ChosenSample;
+  static const SettingsTable<S> kTable = {
+      Binding(&S::representative, "representative",
+              "Sample that the visibility is found for; all but the first are chosen by depth among those "
+              "that see a surface",
+              "Schwarz 2009, section 4.6 (first; others suggested)")
+          .formerly({"representative"}),
+      Binding(
+          &S::depthAt, "depth_at",
+          "Place whose depth a sample has: the pixel's centre, as where shading runs once a pixel, or its "
+          "own",
+          "Schwarz 2009, section 4.6, footnote 10 (centre)")
+          .formerly({"depth_at"})};
+  return kTable;
+}
+
+const SettingsTable<InterpolatedSamples>& InterpolatedSamples::table() {
+  using S = InterpolatedSamples;
+  static const SettingsTable<S> kTable = {
+      included(&S::chosen),
+      Binding(
+          &S::tolerance, "tolerance", Range{0, 1}, "",
+          "Difference in depth, as a share of the sample's, up to which samples are taken for one surface",
+          "Schwarz 2009, section 4.6 (value not given there)")
+          .formerly({"tolerance"}),
+      Binding(&S::neighbours, "neighbours", oneOf({4, 8}), "px",
+              "Pixels around one that may lend their visibility", "Schwarz 2009, section 4.6 (4)")
+          .formerly({"neighbours"})};
+  return kTable;
+}
+
+const SettingsTable<PixelForAll>& PixelForAll::table() {
+  static const SettingsTable<PixelForAll> kTable = {included(&PixelForAll::chosen)};
+  return kTable;
+}
+
+const SettingsTable<MultisampleSettings>& MultisampleSettings::table() {
+  using S = MultisampleSettings;
+  static const SettingsTable<S> kTable = {
+      innerBinding(&S::inner, InnerKind::OrRayTraced),
+      {&S::samples, "samples", oneOf({1, 2, 4, 8}), "",
+       "Samples a pixel; a driver need not have every number", "Schwarz 2009, section 4.6"},
+      {&S::method, "method", "Whose visibility samples get", "Schwarz 2009, section 4.6"}};
+  return kTable;
+}
+
+std::optional<ChosenSample> MultisampleSettings::chosen() const {
+  if (const auto* interpolated = std::get_if<InterpolatedSamples>(&method)) return interpolated->chosen;
+  if (const auto* pixel = std::get_if<PixelForAll>(&method)) return pixel->chosen;
+  return std::nullopt;
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "renderer/techniques/soft_shadows/inner_technique.h"
+
+namespace limen::techniques {
+
+/// Sample of a pixel that the visibility is found for; all but the first are chosen by depth among those that
+/// see a surface.
+enum class Representative { First, Nearest, Farthest, Median };
+constexpr EnumNames<Representative, 4> enumNames(Representative) {
+  return {{{{Representative::First, "first"},
+            {Representative::Nearest, "nearest"},
+            {Representative::Farthest, "farthest"},
+            {Representative::Median, "median"}}}};
+}
+
+/// Place whose depth a sample has.
+enum class DepthAt { Centre, Sample };
+constexpr EnumNames<DepthAt, 2> enumNames(DepthAt) {
+  return {{{{DepthAt::Centre, "centre"}, {DepthAt::Sample, "sample"}}}};
+}
+
+/// The sample that stands for its pixel.
+struct ChosenSample {
+  Representative representative = Representative::First;
+  DepthAt depthAt = DepthAt::Centre;
+  static const SettingsTable<ChosenSample>& table();
+};
+
+struct InterpolatedSamples {
+  static constexpr const char *kKind = "interpolate",
+                              *kSummary = "samples take the visibility of what is closest in depth";
+  ChosenSample chosen;
+  double tolerance = 0.01;  ///< difference in depth, as a share of the sample's
+  int neighbours = 4;
+  static const SettingsTable<InterpolatedSamples>& table();
+};
+
+struct PixelForAll {
+  static constexpr const char *kKind = "centre", *kSummary = "all samples take the pixel's visibility";
+  ChosenSample chosen;
+  static const SettingsTable<PixelForAll>& table();
+};
+
+struct EverySample {
+  static constexpr const char *kKind = "per_sample", *kSummary = "each sample gets a visibility of its own";
+};
+
+struct MultisampleSettings {
+  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  int samples = 4;
+  std::variant<InterpolatedSamples, PixelForAll, EverySample> method;
+  static const SettingsTable<MultisampleSettings>& table();
+
+  /// None where each sample gets its own.
+  std::optional<ChosenSample> chosen() const;
+};
+
+}  // namespace limen::techniques

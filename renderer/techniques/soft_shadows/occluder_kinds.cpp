@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/occluder_kinds.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char *kGapText = "Neighbours to which a rectangle is stretched to close gaps",
+                     *kGapSource = "Schwarz 2009, section 4.1 (after Guennebaud 2006; diagonal: Bavoil 2008)";
+
+}  // namespace
+
+const SettingsTable<Micropatches>& Micropatches::table() {
+  static const SettingsTable<Micropatches> kTable = {
+      Binding(&Micropatches::gapFill, "gap_fill", kGapText, kGapSource).formerly({"gap_fill"})};
+  return kTable;
+}
+
+const SettingsTable<Microrects>& Microrects::table() {
+  static const SettingsTable<Microrects> kTable = {
+      {&Microrects::gapFill, "gap_fill", kGapText, kGapSource},
+      Binding(
+          &Microrects::mergeMetric, "merge_metric",
+          "Difference of depth by which a microrect is merged with one of two neighbours: as it is, or as "
+          "a share of the nearer one's depth",
+          "Schwarz 2009, section 4.5.2 (absolute)")
+          .formerly({"merge_metric"}),
+      Binding(
+          &Microrects::diagonalMerge, "diagonal_merge",
+          "Which neighbour takes a microrect that both axes drop: the lower left one that spans it already "
+          "or else the upper right one, or the nearest in depth of four",
+          "Schwarz 2009, section 4.5.2 (contained)")
+          .formerly({"diagonal_merge"})};
+  return kTable;
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "experiments/base/settings_table.h"
+#include "renderer/frame/microrect_map.h"
+#include "renderer/gl/program.h"
+
+namespace limen::techniques {
+
+/// What is made of texels that block. Sources: Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and
+/// 5.1.2.
+enum class OccluderKind {
+  Micropatches,         ///< rectangles at one depth
+  Microquads,           ///< a mesh between the texels' centres
+  MicroquadsMicrotris,  ///< that with triangles where three of four block
+  Contours,             ///< outlines of the texels that block
+  Microrects,           ///< rectangles of their own extents
+  MorphingMicroquads    ///< a mesh between two levels
+};
+constexpr EnumNames<OccluderKind, 6> enumNames(OccluderKind) {
+  return {{{{OccluderKind::Micropatches, "micropatches"},
+            {OccluderKind::Microquads, "microquads"},
+            {OccluderKind::MicroquadsMicrotris, "microquads_microtris"},
+            {OccluderKind::Contours, "contours"},
+            {OccluderKind::Microrects, "microrects"},
+            {OccluderKind::MorphingMicroquads, "morphing_microquads"}}}};
+}
+
+/// Neighbours to which a rectangle is stretched to close gaps.
+enum class GapFill { None, LeftBottom, Diagonal };
+constexpr EnumNames<GapFill, 3> enumNames(GapFill) {
+  return {{{{GapFill::None, "none"}, {GapFill::LeftBottom, "left_bottom"}, {GapFill::Diagonal, "diagonal"}}}};
+}
+
+/// A kind of micro-occluder as an alternative of a technique's settings.
+template <OccluderKind K>
+struct OccluderAlternative {
+  static constexpr OccluderKind kOccluders = K;
+  static constexpr const char* kKind = limen::toText(K);
+};
+
+struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
+  static constexpr const char* kSummary = "texels as rectangles at one depth";
+  GapFill gapFill = GapFill::LeftBottom;
+  static const SettingsTable<Micropatches>& table();
+};
+
+struct Microrects : OccluderAlternative<OccluderKind::Microrects> {
+  static constexpr const char* kSummary = "rectangles of texels, of their own extents, at one depth";
+  GapFill gapFill = GapFill::LeftBottom;
+  frame::MergeMetric mergeMetric = frame::MergeMetric::Absolute;
+  frame::DiagonalMerge diagonalMerge = frame::DiagonalMerge::Contained;
+  static const SettingsTable<Microrects>& table();
+};
+
+/// What a search needs to know of the chosen alternative.
+struct OccluderChoice {
+  OccluderKind kind = OccluderKind::Micropatches;
+  GapFill gapFill = GapFill::LeftBottom;
+  frame::MergeRule merge = {};            ///< of microrects
+  std::optional<double> morphLevel = {};  ///< of morphing microquads
+
+  void define(gl::ShaderDefines& defines) const {
+    defineEnum(defines, "OCCLUDERS", kind);
+    defineEnum(defines, "GAP_FILL", gapFill);
+  }
+};
+
+template <class Alternative>
+OccluderChoice occluderChoice(const Alternative& chosen) {
+  OccluderChoice choice{.kind = Alternative::kOccluders};
+  if constexpr (requires { chosen.gapFill; }) choice.gapFill = chosen.gapFill;
+  if constexpr (requires { chosen.mergeMetric; }) choice.merge = {chosen.mergeMetric, chosen.diagonalMerge};
+  if constexpr (requires { chosen.morphLevel; }) choice.morphLevel = chosen.morphLevel;
+  return choice;
+}
+template <class... A>
+OccluderChoice occluderChoice(const std::variant<A...>& occluders) {
+  return std::visit([](const auto& chosen) { return occluderChoice(chosen); }, occluders);
+}
+
+}  // namespace limen::techniques

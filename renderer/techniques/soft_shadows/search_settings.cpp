@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/search_settings.h"
+
+#include <bit>
+
+#include "experiments/base/error.h"
+#include "experiments/base/text.h"
+
+namespace limen::techniques {
+
+const SettingsTable<SearchSettings>& SearchSettings::table() {
+  using S = SearchSettings;
+  static const SettingsTable<S> kTable = {
+      included(&S::map),
+      Binding(&S::bias, "bias",
+              "What a depth must undercut the receiver's by, to keep a surface from shadowing itself",
+              "Schwarz 2009, section 4.5.4")
+          .shorthand("constant")
+          .formerly({"bias_form"}),
+      Binding(&S::budget, "budget", "Micro-occluders allowed for a pixel",
+              "Schwarz 2009, sections 4.1, 4.5 and 5.2.1")
+          .shorthand("limit")
+          .formerly({"budget_map"}),
+      {&S::refinements,
+       "refinements",
+       {0, 3},
+       "",
+       "Times that the search area is narrowed by its depth range",
+       "Schwarz 2009, section 4.1"},
+      {&S::structure, "structure", "What finds the depth range of a search area",
+       "Schwarz 2009, sections 4.1 and 4.3; N-buffer: Décoret 2005"}};
+  return kTable;
+}
+
+void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels) {
+  const int resolution = search.map.resolution;
+  const int coarsest = std::bit_width(static_cast<unsigned>(resolution)) - 1;
+  const auto* fixed = std::get_if<FixedLevel>(&levels);
+  const auto tooCoarse = [&](double level, const char* where) {
+    if (level > coarsest)
+      throw Error("level " + shortestNumber(level) + " of a map of " + std::to_string(resolution) +
+                      " texels a side is asked for, of which level " + std::to_string(coarsest) +
+                      " is a single texel",
+                  where, "give a lower level, or a higher resolution");
+  };
+  if (fixed) tooCoarse(fixed->level, "levels.level");
+  if (occluders.morphLevel) {
+    tooCoarse(*occluders.morphLevel, "occluders.level");
+    if (!std::holds_alternative<FinestWithin>(levels))
+      throw Error("morphing microquads lie between two levels of their own, and 'levels' would choose others",
+                  "levels", "leave it out, or give other occluders");
+  }
+  if (!fixed && !occluders.morphLevel) return;
+  const auto* uniform = std::get_if<UniformBudget>(&search.budget);
+  if (!uniform || uniform->limit != UniformBudget{}.limit)
+    throw Error("a budget leads to a level for each pixel, and here all have one level", "budget",
+                fixed ? "leave it out, or give other levels" : "leave it out, or give other occluders");
+}
+
+void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {
+  const bool ofTexels = occluders.kind == OccluderKind::Micropatches ||
+                        occluders.kind == OccluderKind::Microquads ||
+                        occluders.kind == OccluderKind::MicroquadsMicrotris;
+  if (std::holds_alternative<StoredBias>(search.bias) && !ofTexels)
+    throw Error(std::string("a stored bias belongs to a texel of a level, and ") + limen::toText(occluders.kind) +
+                    " are made of others or of several",
+                "bias", "give another form, or occluders: micropatches or microquads");
+}
+
+}  // namespace limen::techniques

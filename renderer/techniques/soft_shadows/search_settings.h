@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/techniques/soft_shadows/bias_form.h"
+#include "renderer/techniques/soft_shadows/occluder_kinds.h"
+#include "renderer/techniques/soft_shadows/quality/budget_settings.h"
+#include "renderer/techniques/soft_shadows/quality/level_settings.h"
+#include "renderer/techniques/soft_shadows/structure_settings.h"
+
+namespace limen::techniques {
+
+/// What all techniques have that search the shadow map for the texels that can matter to a receiver; included
+/// in their settings. Source: Schwarz 2009, sections 4.1 to 4.4.
+struct SearchSettings {
+  MapSettings map = {};
+  /// A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving
+  /// out the receiver's texel and the next leaves only patches whose false elevation is below half of the
+  /// plane's own.
+  BiasSettings bias = SlopeBias{.slope = 2.0};
+  BudgetSettings budget = {};
+  int refinements = 2;  ///< times that the search area is narrowed
+  StructureSettings structure = HierarchicalMap{};
+  static const SettingsTable<SearchSettings>& table();
+};
+
+/// Throws Error where a level is asked for that the map does not have, or more than one choice is made of it.
+void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels);
+/// Throws Error where occluders have no single texel whose stored bias would count.
+void checkBias(const SearchSettings& search, const OccluderChoice& occluders);
+
+}  // namespace limen::techniques

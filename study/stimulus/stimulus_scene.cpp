@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/stimulus/stimulus_scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/base/error.h"
+#include "experiments/base/hash.h"
+
+namespace limen::study {
+
+void checkFiles(const NamedEntry& entry, const std::string& where) {
+  for (const auto& [parameter, hash] : entry.fileHashes)
+    if (entry.values.has(parameter) && sha256File(entry.values.text(parameter)) != hash)
+      throw Error("'" + entry.values.text(parameter) + "' has changed since the stimulus was made", where,
+                  "put the file back, or read the protocol anew");
+}
+
+std::shared_ptr<const frame::SceneOnGpu> buildStimulusScene(const NamedEntry& scene) {
+  const std::string where = "scene '" + scene.name + "'";
+  const scene::SceneInfo& info = scene::SceneRegistry::instance().get(scene.name, "stimulus");
+  if (info.version != scene.version)
+    throw Error("version " + std::to_string(scene.version) + " is asked for", where,
+                "this program builds version " + std::to_string(info.version));
+  checkFiles(scene, where);
+  return std::make_shared<const frame::SceneOnGpu>(
+      scene::buildScene(scene.name, ParameterValues(info.allParameters(), scene.values.all(), where)));
+}
+
+std::shared_ptr<const frame::SceneOnGpu> SceneCache::get(const NamedEntry& scene) {
+  const std::string key =
+      scene.name + "|" + std::to_string(scene.version) + "|" + scene.values.toJson().dump();
+  for (auto entry = scenes_.begin(); entry != scenes_.end(); ++entry) {
+    if (entry->first != key) continue;
+    scenes_.splice(scenes_.begin(), scenes_, entry);
+    return entry->second;
+  }
+  // Room is made first: two large scenes at once may be more than the GPU holds.
+  while (!scenes_.empty() && scenes_.size() >= most_) scenes_.pop_back();
+  scenes_.emplace_front(key, buildStimulusScene(scene));
+  return scenes_.front().second;
+}
+
+}  // namespace limen::study
