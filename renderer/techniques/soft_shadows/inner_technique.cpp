@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
@@ -48,7 +48,7 @@ std::vector<Counter> countInner(Technique& inner, frame::Frame& frame) {
 }
 
 std::vector<Quantity> innerCounters() {
-  std::vector<Quantity> all = OccluderSearch::quantities();
+  std::vector<Quantity> all = SearchTechnique::quantities();
   // Named here, since the references may not be registered yet when wrappers are.
   all.insert(all.end(),
              {{"rays_per_receiver", "Rays per receiver", "1/px", Direction::LowerIsBetter},

@@ -28,7 +28,7 @@ double areaHeat(double texels) {
 }
 
 template <class HeatOf>
-Image picture(const VisibilityTechnique::Counted& counted, HeatOf heatOf) {
+Image picture(const PixelCounts& counted, HeatOf heatOf) {
   std::array<glm::vec3, ClassCount> colours{};
   colours[Lit] = glm::vec3(0.8F);
   colours[Umbra] = glm::vec3(0.25F);
@@ -45,11 +45,11 @@ Image picture(const VisibilityTechnique::Counted& counted, HeatOf heatOf) {
 
 }  // namespace
 
-Image searchAreaPicture(const VisibilityTechnique::Counted& counted) {
+Image searchAreaPicture(const PixelCounts& counted) {
   return picture(counted, [&](size_t i) { return areaHeat(counted.search[4 * i]); });
 }
 
-Image levelPicture(const VisibilityTechnique::Counted& counted) {
+Image levelPicture(const PixelCounts& counted) {
   return picture(counted,
                  [&](size_t i) { return std::bit_cast<float>(counted.search[4 * i + 3]) / kCoarsestLevel; });
 }

@@ -19,7 +19,7 @@ uniform vec2 eyeOnLight;  // place that the map is seen from and receivers are r
 uniform int resolution;
 uniform float bias, slopeBias, maxSlope;
 
-const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u, kCutShort = 5u;
+#include "renderer/techniques/soft_shadows/pixel_class.glsl"
 
 // Classes and work of this pixel; the compiler removes them where nobody counts. A level that lies between two stands for
 // both.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
 #include "renderer/techniques/soft_shadows/search_settings.h"
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
 #include "tests/renderer/frame/depth_pyramid.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -19,7 +19,7 @@ struct Searched {
   Image visibility, receivers, map;
   frame::LightFrustum frustum;
   glm::dvec2 lightSize;
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::map<std::string, double> counters;
 
   PixelClass kind(size_t pixel) const { return static_cast<PixelClass>(counted.work[4 * pixel]); }
@@ -52,7 +52,7 @@ class AccelerationStructures : public TechniqueTest {
                  {}};
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
-    out.counted = dynamic_cast<const VisibilityTechnique&>(*made).counted();
+    out.counted = dynamic_cast<const CountsPixels&>(*made).counted();
     return out;
   }
 

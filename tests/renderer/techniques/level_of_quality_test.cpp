@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "experiments/base/error.h"
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
 #include "renderer/techniques/soft_shadows/search_settings.h"
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -21,7 +21,7 @@ struct Graded {
   Image visibility, receivers, depth;
   Image levels;                 // of the split form: first channel
   std::vector<uint32_t> areas;  // of the split form
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::map<std::string, double> counters;
   std::vector<std::string> passes;
   std::vector<Image> pyramid;
@@ -67,7 +67,7 @@ class LevelsOfQuality : public TechniqueTest {
     out.frustum = pyramid.frustum();
     frame.end();
     for (const Counter& counter : made->count(frame)) out.counters[counter.name] = counter.value;
-    out.counted = dynamic_cast<const VisibilityTechnique&>(*made).counted();
+    out.counted = dynamic_cast<const CountsPixels&>(*made).counted();
     return out;
   }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -22,7 +22,7 @@ constexpr glm::ivec2 kStepSize(48, 36);
 struct Stepped {
   Image visibility, afterwards;  // the product before and after counting
   Image positions, normals;
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   std::optional<LevelSteps> steps;
   std::map<std::string, double> counters;
 
@@ -76,7 +76,7 @@ class LevelStep : public TechniqueTest {
       }
     }
     out.afterwards = made->product().read();
-    const auto& search = dynamic_cast<const OccluderSearch&>(*made);
+    const auto& search = dynamic_cast<const SearchTechnique&>(*made);
     out.counted = search.counted();
     out.steps = search.levelSteps();
     return out;

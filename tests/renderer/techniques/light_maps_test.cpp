@@ -5,7 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/receivers_from.h"
-#include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "tests/renderer/techniques/mask_twin.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -54,7 +54,8 @@ class LightMapsTest : public TechniqueTest {
     frame.begin();
     made->render(frame);
     std::vector<MaskTwin> twins;
-    for (const frame::ShadowMapSettings& map : LightMaps(values).of(scene, {.resolution = 64})) {
+    for (const frame::ShadowMapSettings& map :
+         lightMaps(BitmaskSettings::table().read(values).maps, scene, {.resolution = 64})) {
       const auto& depth = frame.get<frame::ShadowMap>(map);
       twins.push_back({depth.texture().read(), frame.get<frame::Receivers>().texture().read(),
                        depth.frustum(), scene.lights[0].size});

@@ -3,6 +3,7 @@
 // break them.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "experiments/base/error.h"
 #include "tests/renderer/techniques/technique_fixture.h"

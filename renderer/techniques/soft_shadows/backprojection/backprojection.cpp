@@ -3,40 +3,48 @@
 // of all micro-occluders on the light are summed, so overlapping ones count twice. Source: Schwarz 2009,
 // sections 4.1 (after Guennebaud 2006), 4.4.1 and 4.4.3.
 #include "renderer/techniques/soft_shadows/backprojection/backprojection_settings.h"
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
 
-gl::ShaderDefines areaDefines(const BackprojectionSettings::Occluders& occluders) {
-  return std::visit(
-      [](const auto& chosen) -> gl::ShaderDefines {
-        if constexpr (requires { chosen.area; })
-          if (chosen.area == QuadArea::Signed) return {{"SIGNED_AREAS", "1"}};
-        return {};
-      },
-      occluders);
-}
-
-class Backprojection : public OccluderSearch {
+/// Areas are summed in a register of the shader.
+class AreaGathering : public Gathering {
  public:
-  using Settings = BackprojectionSettings;
-  explicit Backprojection(const BackprojectionSettings& settings)
-      : OccluderSearch(settings.search, settings.levels, settings.passes, occluderChoice(settings.occluders),
-                       "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl",
-                       "soft_shadows/backprojection", areaDefines(settings.occluders)) {
-    if (const auto* contours = std::get_if<Contours>(&settings.occluders))
-      contourInset_ = static_cast<float>(contours->inset);
+  explicit AreaGathering(const BackprojectionSettings::Occluders& occluders) : occluders_(occluders) {}
+
+  gl::ShaderDefines prepare(frame::Frame&, const MapSource&) override {
+    return std::visit(
+        [](const auto& chosen) -> gl::ShaderDefines {
+          if constexpr (requires { chosen.area; })
+            if (chosen.area == QuadArea::Signed) return {{"SIGNED_AREAS", "1"}};
+          return {};
+        },
+        occluders_);
   }
 
- protected:
-  void configure(const gl::Program& program) const override {
-    OccluderSearch::configure(program);
-    program.set("contourInset", contourInset_);
+  void configure(const gl::Program& program, size_t) const override {
+    if (const auto* contours = std::get_if<Contours>(&occluders_))
+      program.set("contourInset", static_cast<float>(contours->inset));
   }
 
  private:
-  float contourInset_ = 0.0F;
+  BackprojectionSettings::Occluders occluders_;
+};
+
+class Backprojection : public SearchTechnique {
+ public:
+  using Settings = BackprojectionSettings;
+  explicit Backprojection(const BackprojectionSettings& settings)
+      : SearchTechnique({.shader = "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl",
+                         .pass = "soft_shadows/backprojection",
+                         .search = settings.search,
+                         .levels = settings.levels,
+                         .passes = settings.passes,
+                         .occluders = occluderChoice(settings.occluders),
+                         .maps = CentreMap{},
+                         .gathering = std::make_unique<AreaGathering>(settings.occluders),
+                         .last = nullptr}) {}
 };
 
 const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
@@ -46,7 +54,7 @@ const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
      .source = "Schwarz 2009, sections 4.1 and 4.4 (SS-10, SS-11, SS-26, SS-30, SS-31)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
-     .counters = OccluderSearch::quantities()}};
+     .counters = SearchTechnique::quantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -43,7 +43,7 @@ void VisibilityFilter::prepare(frame::Frame& frame) {
   frame.passes().setBytesHeld(kFilterPass, rows_->bytes() + filtered_->bytes());
 }
 
-void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) const {
+void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) {
   const auto channel = [&](frame::Channel which) -> const gl::Texture& {
     return frame.get<frame::GBufferChannel>(frame::ChannelSetting{which}).texture();
   };

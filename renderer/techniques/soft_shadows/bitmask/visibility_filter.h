@@ -7,6 +7,7 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
+#include "renderer/techniques/soft_shadows/gathering.h"
 
 namespace limen::techniques {
 
@@ -31,12 +32,12 @@ using FilterSettings = std::variant<NoFilter, SurfaceMean>;
 /// other, so that a visibility that changes evenly stays as it is. All visibilities are multiples of one
 /// sample, so where there is no step of them nothing changes. Source: Schwarz 2009, section 4.2.3, which
 /// leaves open how to filter.
-class VisibilityFilter {
+class VisibilityFilter : public ProductStage {
  public:
   explicit VisibilityFilter(const SurfaceMean& settings) : settings_(settings) {}
-  void prepare(frame::Frame& frame);
-  void run(frame::Frame& frame, const gl::Texture& visibility) const;
-  const gl::Texture& filtered() const { return *filtered_; }
+  void prepare(frame::Frame& frame) override;
+  void run(frame::Frame& frame, const gl::Texture& visibility) override;
+  const gl::Texture& product() const override { return *filtered_; }
 
  private:
   SurfaceMean settings_;

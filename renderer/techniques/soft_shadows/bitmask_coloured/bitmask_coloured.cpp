@@ -9,9 +9,10 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
+#include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/coloured_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
@@ -23,51 +24,25 @@ constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
 /// Colours up to which masks are of any use: each costs as many operations as the samples have words.
 constexpr size_t kMostColours = 64;
 
-PatternSettings plainPattern(const ColouredPattern& pattern) {
-  return std::visit(
-      []<class Chosen>(const Chosen& chosen) -> PatternSettings {
-        if constexpr (requires { chosen.prefilter; })
-          return GridSamples<Chosen::kPattern>{};
-        else
-          return chosen;
-      },
-      pattern);
-}
-
-BitmaskSettings maskSettings(const ColouredSettings& settings) {
-  return {.search = settings.search,
-          .levels = anyLevels(settings.levels),
-          .passes = SinglePass{},
-          .occluders = settings.occluders,
-          .pattern = plainPattern(settings.pattern),
-          .maps = settings.maps,
-          .filter = NoFilter{}};
-}
-
-class BitmaskColoured : public Bitmask {
+/// What visible samples emit, from the stored masks of all pixels.
+class LightColourStage : public ProductStage {
  public:
-  using Settings = ColouredSettings;
-  explicit BitmaskColoured(const ColouredSettings& settings)
-      : Bitmask(maskSettings(settings), true), colours_(settings.colours), filters_(settings.prefilters()) {}
+  /// `masks` outlives this.
+  LightColourStage(const ColouredSettings& settings, const MaskGathering& masks)
+      : colours_(settings.colours), filters_(settings.prefilters()), masks_(masks) {}
 
   const gl::Texture& product() const override { return *colour_; }
 
-  std::vector<Counter> count(frame::Frame& frame) override {
-    std::vector<Counter> all = Bitmask::count(frame);
-    all.push_back({"colour_table_bytes", double(tableBytes_)});
-    return all;
-  }
+  std::vector<Counter> count() const override { return {{"colour_table_bytes", double(tableBytes_)}}; }
 
- protected:
-  void prepareSearch(frame::Frame& frame) override {
-    Bitmask::prepareSearch(frame);
-    const int side = static_cast<int>(std::lround(std::sqrt(double(samples().size()))));
+  void prepare(frame::Frame& frame) override {
+    const int side = static_cast<int>(std::lround(std::sqrt(double(masks_.samples().size()))));
     const std::vector<glm::dvec3> shares =
-        emissionShares(frame.scene().lights.at(0), samples(), filters_ ? side : 0);
+        emissionShares(frame.scene().lights.at(0), masks_.samples(), filters_ ? side : 0);
     glm::dvec3 sum(0.0);
     for (const glm::dvec3 share : shares) sum += share;
     absent_ = glm::vec3(glm::lessThan(sum, glm::dvec3(0.5)));
-    gl::ShaderDefines defines = maskDefines();
+    gl::ShaderDefines defines = masks_.maskDefines();
     std::vector<glm::vec4> rows;
     if (std::holds_alternative<ColourMasks>(colours_)) {
       defines["COLOURS_MASKS"] = "1";
@@ -98,11 +73,11 @@ class BitmaskColoured : public Bitmask {
     frame.passes().setBytesHeld(kColourPass, colour_->bytes() + tableBytes_);
   }
 
-  void finish(frame::Frame& frame) override {
+  void run(frame::Frame& frame, const gl::Texture&) override {
     const gl::Texture& receivers = frame.get<frame::Receivers>().texture();
     const auto scope = frame.passes().open(kColourPass);
     program_->set("sizePx", frame.sizePx());
-    program_->set("sets", bindMasks());
+    program_->set("sets", masks_.bindMasks());
     program_->set("absent", absent_);
     program_->set("colours", colourCount_);
     if (table_) table_->bindStorage(kTableBinding);
@@ -117,6 +92,7 @@ class BitmaskColoured : public Bitmask {
   ColourSums colours_;
   int colourCount_ = 0;
   bool filters_;
+  const MaskGathering& masks_;
   glm::vec3 absent_{0.0F};
   const gl::Program* program_ = nullptr;
   std::optional<gl::Buffer> table_, shares_;
@@ -124,8 +100,31 @@ class BitmaskColoured : public Bitmask {
   int64_t tableBytes_ = 0;
 };
 
+class BitmaskColoured : public SearchTechnique {
+ public:
+  using Settings = ColouredSettings;
+  explicit BitmaskColoured(const ColouredSettings& settings) : SearchTechnique(partsOf(settings)) {}
+
+ private:
+  static Parts partsOf(const ColouredSettings& settings) {
+    auto masks = std::make_unique<MaskGathering>(settings.occluders, sampleChoice(settings.pattern),
+                                                 MaskGathering::Masks::Stored);
+    auto colours = std::make_unique<LightColourStage>(settings, *masks);
+    return {.shader = "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl",
+            .pass = "soft_shadows/bitmask",
+            .search = settings.search,
+            .levels = anyLevels(settings.levels),
+            .passes = SinglePass{},
+            .occluders = occluderChoice(settings.occluders),
+            .maps = settings.maps,
+            .gathering = std::move(masks),
+            .last = std::move(colours)};
+  }
+};
+
 std::vector<Quantity> colouredQuantities() {
-  std::vector<Quantity> all = Bitmask::quantities();
+  std::vector<Quantity> all = SearchTechnique::quantities();
+  for (Quantity& quantity : MaskGathering::quantities()) all.push_back(std::move(quantity));
   all.emplace_back("colour_table_bytes", "Memory of the table of colours", "byte", Direction::LowerIsBetter);
   return all;
 }

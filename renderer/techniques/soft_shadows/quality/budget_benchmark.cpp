@@ -18,7 +18,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/occluder_search.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace {
 
@@ -111,7 +111,7 @@ class Walk {
         frame_(*context_, scene_, gpuScene_, sizePx_),
         referenceFrame_(*context_, scene_, gpuScene_, sizePx_),
         technique_(makeTechnique(options.set)) {
-    search_ = dynamic_cast<techniques::OccluderSearch*>(technique_.get());
+    search_ = dynamic_cast<techniques::SearchTechnique*>(technique_.get());
     if (!search_)
       throw Error("'" + options.technique + "' has no budget", "--technique",
                   "name one that searches occluders");
@@ -208,7 +208,7 @@ class Walk {
   glm::ivec2 sizePx_;
   frame::Frame frame_, referenceFrame_;
   Technique technique_, reference_;
-  techniques::OccluderSearch* search_ = nullptr;
+  techniques::SearchTechnique* search_ = nullptr;
   std::deque<GLsync> fences_;  // of frames that may still be under way
 };
 

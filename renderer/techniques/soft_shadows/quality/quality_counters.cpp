@@ -5,8 +5,7 @@
 
 namespace limen::techniques {
 
-std::vector<Counter> qualityCounters(const VisibilityTechnique::Counted& counted, const Image* budgets,
-                                     int64_t budget) {
+std::vector<Counter> qualityCounters(const PixelCounts& counted, const Image* budgets, int64_t budget) {
   double processed = 0.0, sum = 0.0, squares = 0.0, limited = 0.0, ofBudget = 0.0, budgetSum = 0.0;
   for (size_t i = 0; i < counted.work.size(); i += 4) {
     if (counted.work[i] != Processed) continue;

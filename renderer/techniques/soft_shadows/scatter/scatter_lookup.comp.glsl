@@ -18,7 +18,7 @@ uniform int softResolution;
 uniform vec2 softLow, softSize;
 uniform uint triangleCount;
 
-const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kOutside = 4u, kCutShort = 5u;
+#include "renderer/techniques/soft_shadows/pixel_class.glsl"
 
 float visibilityAt(ivec2 texel) {
   uint most = texelFetch(hidden, texel, 0).x;

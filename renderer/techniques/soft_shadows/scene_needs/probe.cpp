@@ -62,15 +62,14 @@ ShadowProbe::ShadowProbe(frame::Frame& frame, int divisor)
 
 Probed ShadowProbe::run(const ShadowSetting& setting) {
   const std::unique_ptr<Technique> technique = makeTechnique(setting);
-  auto& visible = dynamic_cast<VisibilityTechnique&>(*technique);
-  visible.prepare(frame_);
-  visible.count(frame_);
+  technique->prepare(frame_);
+  technique->count(frame_);
   frame_.begin();
-  visible.render(frame_);
+  technique->render(frame_);
   frame_.end();
   Probed out;
-  out.visibility = visible.product().read().data;
-  out.counted = visible.counted();
+  out.visibility = technique->product().read().data;
+  out.counted = dynamic_cast<const CountsPixels&>(*technique).counted();
   const glm::ivec2 size = out.counted.sizePx;
   const auto kindAt = [&](size_t i) { return out.counted.work[4 * i]; };
   const auto levelAt = [&](size_t i) { return out.counted.work[4 * i + 3]; };

@@ -8,7 +8,7 @@
 
 #include "renderer/techniques/soft_shadows/backprojection/backprojection_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
-#include "renderer/techniques/soft_shadows/visibility_technique.h"
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
 
 namespace limen::techniques {
 
@@ -23,7 +23,7 @@ std::string describe(const ShadowSetting& setting);
 /// What a setting made of a small picture of the scene.
 struct Probed {
   std::vector<float> visibility;
-  VisibilityTechnique::Counted counted;
+  PixelCounts counted;
   double examined = 0.0;     ///< micro-occluders looked at, of all pixels
   double processed = 0.0;    ///< pixels
   double coarseShare = 0.0;  ///< of the processed pixels, those with micro-occluders of level 2 and coarser
@@ -36,7 +36,7 @@ class ShadowProbe {
  public:
   /// The picture has 1/`divisor` of the frame's width and height, at least 1 px.
   ShadowProbe(frame::Frame& frame, int divisor);
-  /// Waits for the GPU. The technique must be a VisibilityTechnique.
+  /// Waits for the GPU. The technique must count pixels.
   Probed run(const ShadowSetting& setting);
   /// Widest penumbra that the scene's depths allow, in texels of a map: the light's extent as seen from the
   /// farthest receiver past the nearest caster. 0 without receivers or casters.

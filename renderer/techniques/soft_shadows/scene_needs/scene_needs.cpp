@@ -5,8 +5,9 @@
 // it is there in the large one.
 #include <optional>
 
-#include "renderer/techniques/soft_shadows/bitmask/bitmask.h"
+#include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
 #include "renderer/techniques/soft_shadows/scene_needs/decision.h"
+#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
@@ -62,7 +63,8 @@ const SettingsTable<SceneNeedsSettings>& SceneNeedsSettings::table() {
 }
 
 std::vector<Quantity> sceneNeedsQuantities() {
-  std::vector<Quantity> all = Bitmask::quantities();
+  std::vector<Quantity> all = SearchTechnique::quantities();
+  for (Quantity& quantity : MaskGathering::quantities()) all.push_back(std::move(quantity));
   for (Quantity& quantity : evidenceQuantities()) all.push_back(std::move(quantity));
   return all;
 }

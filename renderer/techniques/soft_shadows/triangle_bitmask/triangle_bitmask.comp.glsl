@@ -25,7 +25,7 @@ uniform float reach, planeTolerance, lightMargin;
 uniform int lightSamples, maxIterations;
 uniform uint triangleCount;
 
-const uint kNotReceiver = 0u, kLit = 1u, kUmbra = 2u, kProcessed = 3u, kCutShort = 5u;
+#include "renderer/techniques/soft_shadows/pixel_class.glsl"
 uint nodeCount = 0u, testedCount = 0u, reachedCount = 0u;
 int iterations = 0;  // of all loops: llvmpipe leaves them silently once a shader has spent its share
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/map_source.h"
+
+#include <algorithm>
+
+namespace limen::techniques {
+
+MapSource::MapSource(const MapSettings& map, const MapChoice& choice)
+    : usual_{map.resolution, map.raster}, choice_(choice) {}
+
+void MapSource::prepare(const scene::Scene& scene) {
+  maps_ = lightMaps(choice_, scene, usual_);
+  chooseAll();
+}
+
+void MapSource::choose(double timeS) {
+  const size_t due = mapsAtRest();
+  const bool rests = wasRead_ && due < isDue_.size() && readForS_ == timeS;
+  isDue_.assign(isDue_.size(), !rests);
+  for (size_t i = 0; rests && i < due; ++i) isDue_[(nextUpdate_ + i) % isDue_.size()] = true;
+  if (rests) nextUpdate_ = (nextUpdate_ + due) % isDue_.size();
+  wasRead_ = true;
+  readForS_ = timeS;
+}
+
+size_t MapSource::mapsAtRest() const {
+  const auto* objects = std::get_if<ObjectMaps>(&choice_);
+  return objects && objects->updates > 0 ? std::min(static_cast<size_t>(objects->updates), maps_.size())
+                                         : maps_.size();
+}
+
+}  // namespace limen::techniques

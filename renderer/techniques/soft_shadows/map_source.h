@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
+#include "renderer/techniques/soft_shadows/map_settings.h"
+
+namespace limen::techniques {
+
+/// The shadow maps whose occluders a technique joins, and those of them that a frame reads.
+class MapSource {
+ public:
+  MapSource(const MapSettings& map, const MapChoice& choice);
+
+  /// Throws Error where the scene has no such maps.
+  void prepare(const scene::Scene& scene);
+  /// At least one; valid from prepare() on.
+  const std::vector<frame::ShadowMapSettings>& maps() const { return maps_; }
+  /// Each map has masks of its own, which stay while its object does.
+  bool perObject() const { return std::holds_alternative<ObjectMaps>(choice_); }
+
+  /// Decides which maps the frame at this time reads: all, or some in turn while the camera rests.
+  void choose(double timeS);
+  void chooseAll() { isDue_.assign(maps_.size(), true); }
+  bool isDue(size_t map) const { return isDue_[map]; }
+  /// Maps that a frame reads while the camera rests.
+  size_t mapsAtRest() const;
+
+ private:
+  frame::ShadowMapSettings usual_;
+  MapChoice choice_;
+  std::vector<frame::ShadowMapSettings> maps_;
+  std::vector<bool> isDue_;  ///< of each map
+  size_t nextUpdate_ = 0;
+  double readForS_ = 0.0;  ///< time whose camera the last frame had
+  bool wasRead_ = false;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/quality/split_passes.h"
+
+#include "renderer/frame/g_buffer.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr uint32_t kCameraDepthUnit = 15;
+const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
+const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
+
+const gl::ShaderDefines kGatherDefines = {{"SPLIT_GATHER", "1"}};
+
+gl::ShaderDefines classifyDefines(bool smooths) {
+  gl::ShaderDefines defines = {{"SPLIT_CLASSIFY", "1"}};
+  if (smooths) defines["SMOOTH"] = "1";
+  return defines;
+}
+
+const gl::Texture& cameraDepth(frame::Frame& frame) {
+  return frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture();
+}
+
+}  // namespace
+
+SplitRunner::SplitRunner(frame::Frame& frame, const VisibilityPass& pass, const LevelOfQuality& quality,
+                         bool smooths)
+    : quality_(quality),
+      smooths_(smooths),
+      search_(frame, smooths, quality.orders()),
+      classify_(pass.program(frame, false, classifyDefines(smooths))),
+      gather_(pass.program(frame, false, kGatherDefines)) {
+  gl::ProgramCache& programs = frame.context().programs();
+  if (smooths_) smooth_ = &programs.compute(kSmoothShader);
+  if (quality_.orders()) {
+    countBins_ = &programs.compute(kOrderShader);
+    scatter_ = &programs.compute(kOrderShader, {{"SCATTER", "1"}});
+  }
+  frame.passes().setBytesHeld(pass.name() + "/classify", pass.visibility().bytes() + search_.bytes());
+}
+
+void SplitRunner::makeInputs(frame::Frame& frame) const {
+  if (smooths_) cameraDepth(frame);
+}
+
+void SplitRunner::bindInputs(frame::Frame& frame) const {
+  if (smooths_) cameraDepth(frame).bindTexture(kCameraDepthUnit);
+}
+
+void SplitRunner::run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
+                      const frame::ShadowMapSettings& map, const CountImages* counts) const {
+  {
+    const auto scope = frame.passes().open(pass.name() + "/classify");
+    const gl::Program& classify = counts ? pass.program(frame, true, classifyDefines(smooths_)) : classify_;
+    pass.bind(frame, classify, inputs, map, counts);
+    search_.bindForClassify();
+    classify.dispatch(frame.sizePx());
+    SplitSearch::makeVisible();
+  }
+  if (smooths_) {
+    const auto scope = frame.passes().open(pass.name() + "/smooth");
+    quality_.configureSmoothing(*smooth_);
+    search_.smooth(*smooth_);
+  }
+  if (quality_.orders()) {
+    const auto scope = frame.passes().open(pass.name() + "/order");
+    search_.order(*countBins_, *scatter_);
+  }
+  const auto scope = frame.passes().open(pass.name() + "/gather");
+  const gl::Program& gather = counts ? pass.program(frame, true, kGatherDefines) : gather_;
+  pass.bind(frame, gather, inputs, map, counts);
+  search_.bindForGather();
+  search_.dispatchOverList(gather);
+  SplitSearch::makeVisible();
+}
+
+}  // namespace limen::techniques
