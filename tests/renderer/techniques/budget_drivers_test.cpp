@@ -89,6 +89,16 @@ class BudgetDrivers : public TechniqueTest {
     return path.string();
   }
 
+  /// Whether the values exist together at all, and none is missing.
+  static bool canBeWritten(const Given& given) {
+    try {
+      const ParameterValues values(TechniqueRegistry::instance().get(kSteered).parameters, given);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
   static std::string refused(const Given& given) {
     const std::optional<Error> error = refusal(kSteered, given);
     return error ? error->where() : std::string();
@@ -208,7 +218,7 @@ TEST_F(BudgetDrivers, PaintedIsTheImagesRoots) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("none.png"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(refused(driver("painted")), "budget.file");
+  EXPECT_FALSE(canBeWritten(driver("painted")));
 }
 
 // The map on the GPU keeps its thresholds to 0.5 % and a step of 0.72 % (threshold_map_test.cpp); the budget
@@ -303,7 +313,7 @@ TEST_F(BudgetDrivers, FrameTimeScalesAnotherMap) {
   for (size_t i = 0; i < base.budgets.pixels(); ++i)
     ASSERT_NEAR(held.budgets.data[i],
                 std::max(0.25 * base.budgets.data[i], std::min(36.0, double{base.budgets.data[i]})), 1e-3);
-  EXPECT_EQ(refused(driver("frame_time", {{"budget.base.rim", int64_t{16}}})), "budget.base.rim");
+  EXPECT_FALSE(canBeWritten(driver("frame_time", {{"budget.base.rim", int64_t{16}}})));
   EXPECT_EQ(refused(scaled), "");
 }
 
@@ -355,12 +365,12 @@ TEST_F(BudgetDrivers, RefuseWhatDoesNotGoTogether) {
   EXPECT_EQ(refused(driver("frame_time", {{"budget.base.limit", int64_t{9}}})), "budget.least");
   EXPECT_EQ(refused(driver("masking", {{"levels", named("fixed")}, {"levels.level", int64_t{2}}})), "budget");
   EXPECT_EQ(refused(driver("frame_time")), "");
-  // Cannot be written: no limit at all, what belongs to another driver, no picture.
-  EXPECT_EQ(refused(driver("perceptual", {{"budget.most", int64_t{0}}})), "budget.most");
-  EXPECT_EQ(refused(driver("uniform", {{"budget.error", 0.1}})), "budget.error");
+  // No limit at all, what belongs to another driver, no picture.
+  EXPECT_FALSE(canBeWritten(driver("perceptual", {{"budget.most", int64_t{0}}})));
+  EXPECT_FALSE(canBeWritten(driver("uniform", {{"budget.error", 0.1}})));
   Given painted = driver("frame_time", {{"budget.base", named("painted")}});
   painted.erase("budget.base.limit");
-  EXPECT_EQ(refused(painted), "budget.base.file");
+  EXPECT_FALSE(canBeWritten(painted));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST_F(LightMotionTest, ChangesAreThoseOfTheClosedForm) {
   for (const auto& [inner, bound] : std::vector<std::pair<std::string, double>>{
            {"exact_union", 1e-5}, {"backprojection", 0.004}, {"bitmask", 1.0 / 16.0 + 0.004}}) {
     Given given = {{"inner", inner}, {"light_step", kShare}, {"direction_deg", alongWorldX(light)}};
-    if (inner != "exact_union") given["inner.budget"] = int64_t{0};
+    if (inner != "exact_union") given["inner.budget.limit"] = int64_t{0};
     given = withMaps("soft_shadows/change", 64, given);
     const Rendered change = render(scene, "soft_shadows/change", given, kMotionPx);
     given["quantity"] = std::string("mean_absolute");
@@ -126,12 +126,13 @@ TEST_F(LightMotionTest, OccludersSwimAsTheEdgeOfTheirLevelsBlocksDoes) {
       const glm::dvec2 way(std::cos(angle), std::sin(angle));
       const scene::Scene after = withMovedLight(built, start * way),
                          before = withMovedLight(built, (start - kShare) * way);
-      const Rendered change = render(
-          after, "soft_shadows/change",
-          withMaps(
-              "soft_shadows/change", kMap,
-              {{"light_step", kShare}, {"direction_deg", direction}, {"inner.fixed_level", int64_t{level}}}),
-          kMotionPx);
+      const Rendered change = render(after, "soft_shadows/change",
+                                     withMaps("soft_shadows/change", kMap,
+                                              {{"light_step", kShare},
+                                               {"direction_deg", direction},
+                                               {"inner.levels", std::string("fixed")},
+                                               {"inner.levels.level", int64_t{level}}}),
+                                     kMotionPx);
       const double edgeBefore = edgeOfBlocks(before, kMap, level),
                    edgeAfter = edgeOfBlocks(after, kMap, level);
       for (const GroundPoint& point : groundPoints(after.lights[0], change.receivers)) {
@@ -260,12 +261,13 @@ TEST_F(LightMotionTest, WhatMeansNothingCannotBeWritten) {
   EXPECT_FALSE(accepted("soft_shadows/change",
                         {{"smoothing", std::string("history")}, {"smoothing.clamp.radius", int64_t{2}}}));
   EXPECT_FALSE(accepted("soft_shadows/change", {{"inner.samples", int64_t{64}}}));
-  EXPECT_FALSE(
-      accepted("soft_shadows/change", {{"inner", std::string("ray_traced")}, {"inner.budget", int64_t{64}}}));
+  EXPECT_FALSE(accepted("soft_shadows/change",
+                        {{"inner", std::string("ray_traced")}, {"inner.budget.limit", int64_t{64}}}));
   EXPECT_FALSE(accepted("soft_shadows/in_motion", {{"smoothing.light_step", 0.1}}));
   // The inner technique refuses what it would refuse by itself.
-  EXPECT_FALSE(accepted("soft_shadows/change",
-                        withMaps("soft_shadows/change", 64, {{"inner.fixed_level", int64_t{9}}})));
+  EXPECT_FALSE(accepted("soft_shadows/change", withMaps("soft_shadows/change", 64,
+                                                        {{"inner.levels", std::string("fixed")},
+                                                         {"inner.levels.level", int64_t{9}}})));
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ TEST_F(Microrects, AMapOfOneTexelAndOneWithoutCastersHaveThem) {
     Given single = rects, coarse = rects;
     single["resolution"] = int64_t{1};
     coarse["resolution"] = int64_t{64};
-    coarse["fixed_level"] = int64_t{6};
+    coarse["levels.level"] = int64_t{6};
     for (const float value : render(makeScene("two_boxes"), technique, single, {16, 12}).product.data)
       ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;
     // A plane that nothing shadows, flat to the light's eye up to its bias at any level.

@@ -314,7 +314,7 @@ TEST_F(MultisampleShadows, WhatMeansNothingBesideTheMethodCannotBeWritten) {
   EXPECT_FALSE(
       accepted({{"method", std::string("per_sample")}, {"method.representative", std::string("median")}}));
   EXPECT_FALSE(accepted({{"inner.samples", int64_t{64}}}));
-  EXPECT_FALSE(accepted({{"inner", std::string("ray_traced")}, {"inner.budget", int64_t{25}}}));
+  EXPECT_FALSE(accepted({{"inner", std::string("ray_traced")}, {"inner.budget.limit", int64_t{25}}}));
 }
 
 }  // namespace

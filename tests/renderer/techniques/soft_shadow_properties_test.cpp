@@ -221,9 +221,13 @@ TEST_F(SoftShadows, EveryCornerOfTheParametersIsFinite) {
       for (const DeclaredAt& at : flatten(info.parameters)) {
         // Drivers differ in the numbers of samples that they have, and say so; see multisample_test.cpp.
         if (technique == "soft_shadows/multisample" && at.path == "samples") continue;
+        // Needs a picture; see budget_drivers_test.cpp.
+        const auto painted = [](const auto& choice) { return choice.second == "painted"; };
+        if (std::any_of(at.when.begin(), at.when.end(), painted)) continue;
         // The inner technique's own have been tried with that technique.
         if (at.path.starts_with("inner.")) continue;
         for (const ParameterValue& end : endsOf(*at.parameter)) {
+          if (end == ParameterValue("painted")) continue;
           Given given(at.when.begin(), at.when.end());
           given[at.path] = end;
           const Given smaller = withMaps(technique, 64, given);

@@ -132,9 +132,9 @@ TEST_F(VisibilityHistoryTest, OneStepOfTheLightLeavesThePastsShareAsLag) {
   const scene::Scene scene = makeScene("half_plane");
   const glm::dvec3 axis = scene.lights[0].axisX;
   const double direction = std::abs(axis.x) > 0.5 ? 0.0 : 90.0;
-  const Given map = withMaps("soft_shadows/backprojection", 64, {{"budget", int64_t{0}}});
+  const Given map = withMaps("soft_shadows/backprojection", 64, {{"budget.limit", int64_t{0}}});
   const Given moving = withMaps("soft_shadows/in_motion", 64,
-                                {{"inner.budget", int64_t{0}},
+                                {{"inner.budget.limit", int64_t{0}},
                                  {"smoothing", std::string("history")},
                                  {"smoothing.light_step", kShare},
                                  {"smoothing.direction_deg", direction},

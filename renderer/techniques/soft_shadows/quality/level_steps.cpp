@@ -46,11 +46,10 @@ std::vector<Counter> levelStepCounters(const LevelSteps& steps) {
 
 std::vector<Quantity> levelStepQuantities() {
   constexpr const char* kSource = "Schwarz 2009, section 5.2.2";
-  return {
-      {"level_step_max", "Largest step between levels", "", Direction::LowerIsBetter, kSource},
-      {"level_step_p99", "99th percentile of steps between levels", "", Direction::LowerIsBetter, kSource},
-      {"level_step_mean", "Mean step between levels", "", Direction::LowerIsBetter, kSource},
-      {"level_changes_per_px", "Changes of level per pixel", "1/px", Direction::Neither, kSource}};
+  return {{"level_step_max", "Largest step between levels", "", Direction::Neither, kSource},
+          {"level_step_p99", "99th percentile of steps between levels", "", Direction::Neither, kSource},
+          {"level_step_mean", "Mean step between levels", "", Direction::Neither, kSource},
+          {"level_changes_per_px", "Changes of level per pixel", "1/px", Direction::Neither, kSource}};
 }
 
 }  // namespace limen::techniques
