@@ -50,8 +50,8 @@ std::string tableText(const ResultTable& table) {
 
 }  // namespace
 
-std::string cellText(const Column& column, const Cell& cell) {
-  const Cell::Value& value = cell.value();
+std::string cellText(const Column& column, const ResultCell& cell) {
+  const ResultCell::Value& value = cell.value();
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return join(*texts);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
