@@ -277,9 +277,11 @@ Result resultOf(const std::vector<FitAnswer>& answers) {
   Result out;
   out.command = "fit";
   for (const FitAnswer& answer : answers) out.sections.push_back(sectionOf(answer));
-  std::vector<std::string> libraries = {"limen " + projectVersion(), "commit " + buildCommit()};
-  for (const auto& [name, version] : fitLibraries()) libraries.push_back(name + " " + version);
-  out.head.fact(forData(list("versions")), libraries);
+  std::vector<std::array<std::string, 2>> versions = fitLibraries();
+  versions.insert(versions.begin(), {{"limen", projectVersion()}, {"commit", buildCommit()}});
+  out.head.add(TableOf("versions", "", versions)
+                   .add(forData(text("name")), [](const auto& one) { return one[0]; })
+                   .add(forData(text("version")), [](const auto& one) { return one[1]; }));
   out.notes.push_back("limen-analyse " + projectVersion() + ", commit " + buildCommit());
   return out;
 }

@@ -45,6 +45,7 @@ std::string tableText(const ResultTable& table) {
     for (size_t row = 0; row < table.rows(); ++row)
       lines[row + 1].push_back(cellText(column, column.cells[row]));
   }
+  if (lines[0].empty()) return {};
   return "\n" + (table.title.empty() ? "" : "  " + table.title + "\n") + alignedText(lines, left);
 }
 
