@@ -88,6 +88,14 @@ ResultTable parameterTable(const FitAnswer& answer) {
            [](const ParameterRow& row) { return row.bound < 0   ? "low"
                                                 : row.bound > 0 ? "high"
                                                                 : ""; })
+      .add(forData(text("interval_method")),
+           [&](const ParameterRow& row) {
+             return row.interval ? ResultCell(nameOf(answer.intervals->method)) : ResultCell();
+           })
+      .add(forData(number("level")),
+           [&](const ParameterRow& row) {
+             return row.interval ? ResultCell(answer.intervals->confidence) : ResultCell();
+           })
       .add(forData(flag("shared")), &ParameterRow::shared)
       .add(forData(interval("bound")), &ParameterRow::bounds)
       .add(ifAny(text("prior")), &ParameterRow::prior);
