@@ -64,11 +64,14 @@ std::vector<ParameterRow> parameterRows(const FitAnswer& answer) {
 
 ResultTable parameterTable(const FitAnswer& answer) {
   const std::vector<ParameterRow> rows = parameterRows(answer);
-  Column bounds = interval("", answer.intervals ? fmt::format("{:.4g} %", 100.0 * answer.intervals->confidence) : "95 %");
+  Column bounds =
+      interval("", answer.intervals ? fmt::format("{:.4g} %", 100.0 * answer.intervals->confidence) : "95 %");
   bounds.kind = Kind::Significant;
   bounds.digits = 7;
   const auto open = [](bool FitInterval::*side) {
-    return [side](const ParameterRow& row) { return row.interval ? Cell((*row.interval).*side) : Cell(); };
+    return [side](const ParameterRow& row) {
+      return row.interval ? ResultCell((*row.interval).*side) : ResultCell();
+    };
   };
   return TableOf("parameters", "", rows)
       .add(ifAny(text("condition")), &ParameterRow::condition)
@@ -76,13 +79,23 @@ ResultTable parameterTable(const FitAnswer& answer) {
       .add(significant("estimate", "", 8), &ParameterRow::value)
       .add(ifAny(bounds),
            [](const ParameterRow& row) {
-             return row.interval ? Cell(Interval{row.interval->low, row.interval->high}) : Cell();
+             return row.interval ? ResultCell(Interval{row.interval->low, row.interval->high}) : ResultCell();
            })
       .add(ifAny(flag("low_open", "low at bound")), open(&FitInterval::lowOpen))
       .add(ifAny(flag("high_open", "high at bound")), open(&FitInterval::highOpen))
       .add(flag("fitted"), &ParameterRow::fitted)
       .add(ifAny(text("at_bound")),
-           [](const ParameterRow& row) { return row.bound < 0 ? "low" : row.bound > 0 ? "high" : ""; })
+           [](const ParameterRow& row) { return row.bound < 0   ? "low"
+                                                : row.bound > 0 ? "high"
+                                                                : ""; })
+      .add(forData(text("interval_method")),
+           [&](const ParameterRow& row) {
+             return row.interval ? ResultCell(nameOf(answer.intervals->method)) : ResultCell();
+           })
+      .add(forData(number("level")),
+           [&](const ParameterRow& row) {
+             return row.interval ? ResultCell(answer.intervals->confidence) : ResultCell();
+           })
       .add(forData(flag("shared")), &ParameterRow::shared)
       .add(forData(interval("bound")), &ParameterRow::bounds)
       .add(ifAny(text("prior")), &ParameterRow::prior);
@@ -91,7 +104,9 @@ ResultTable parameterTable(const FitAnswer& answer) {
 ResultTable conditionTable(const FitAnswer& answer) {
   const FitSettings& settings = answer.fit.settings;
   const bool map = settings.method == FitMethod::MaximumPosterior;
-  const auto sigmoid = [&](auto of) { return [&, of](const ConditionFit& fit) { return of(fit.sigmoid(settings)); }; };
+  const auto sigmoid = [&](auto of) {
+    return [&, of](const ConditionFit& fit) { return of(fit.sigmoid(settings)); };
+  };
   using psychometrics::Sigmoid;
   return TableOf("conditions", "", answer.fit.conditions)
       .add(ifAny(text("condition")), &ConditionFit::name)
@@ -101,11 +116,12 @@ ResultTable conditionTable(const FitAnswer& answer) {
       .add(significant("log_likelihood", "", 8), &ConditionFit::logLikelihood)
       // Priors of a parameter that conditions share have no condition of their own.
       .add(forData(number("log_posterior")),
-           [=](const ConditionFit& fit) { return map ? Cell(fit.logLikelihood + fit.logPrior) : Cell(); })
+           [=](const ConditionFit& fit) {
+             return map ? ResultCell(fit.logLikelihood + fit.logPrior) : ResultCell();
+           })
       // Of x, where the sigmoid is one of -x or 1/x.
-      .add(forData(number("location")), sigmoid([&](const Sigmoid& one) {
-             return settings.falling ? -one.location() : one.location();
-           }))
+      .add(forData(number("location")),
+           sigmoid([&](const Sigmoid& one) { return settings.falling ? -one.location() : one.location(); }))
       .add(forData(number("scale")), sigmoid([](const Sigmoid& one) { return one.scale(); }))
       .add(forData(number("alpha")), sigmoid([&](const Sigmoid& one) {
              if (!settings.falling) return one.alpha();
@@ -139,27 +155,33 @@ void addGoodness(const FitAnswer& answer, Section& out) {
                         goodness.residuals.values[i], goodness.influences[i]});
   }
   if (tests.empty()) return;
-  out.add(TableOf("goodness", fmt::format("goodness of fit: {} samples, seed {}", answer.samples, answer.seed), tests)
+  out.add(TableOf("goodness",
+                  fmt::format("goodness of fit: {} samples, seed {}", answer.samples, answer.seed), tests)
               .add(ifAny(text("condition")), &TestRow::condition)
               .add(text("statistic"), &TestRow::name)
               .add(significant("value"), [](const TestRow& row) { return row.test.value; })
               .add(significant("limit_low", "95 % of samples from"),
-                   [](const TestRow& row) { return row.upperOnly ? Cell() : Cell(row.test.low); })
+                   [](const TestRow& row) { return row.upperOnly ? ResultCell() : ResultCell(row.test.low); })
               .add(significant("limit_high", "to"), [](const TestRow& row) { return row.test.high; })
               .add(probability(), [](const TestRow& row) { return row.test.p; }));
   const auto without = [](double BlockInfluence::*member) {
-    return [member](const BlockRow& row) { return row.influence.refused ? Cell() : Cell(row.influence.*member); };
+    return [member](const BlockRow& row) {
+      return row.influence.refused ? ResultCell() : ResultCell(row.influence.*member);
+    };
   };
-  out.add(TableOf("blocks", "residuals of blocks, and the fit without each", blocks)
-              .add(ifAny(text("condition")), &BlockRow::condition)
-              .add(significant("level", "", 6),
-                   [](const BlockRow& row) { return std::isfinite(row.level) ? Cell(row.level) : Cell(); })
-              .add(forData(flag("no_stimulus")), [](const BlockRow& row) { return !std::isfinite(row.level); })
-              .add(number("predicted", "", 4), &BlockRow::predicted)
-              .add(number("deviance_residual", "residual"), &BlockRow::residual)
-              .add(significant("threshold_without", "threshold", 6), without(&BlockInfluence::threshold))
-              .add(significant("width_without", "width", 6), without(&BlockInfluence::width))
-              .add(flag("influential"), [](const BlockRow& row) { return row.influence.influential; }));
+  out.add(
+      TableOf("blocks", "residuals of blocks, and the fit without each", blocks)
+          .add(ifAny(text("condition")), &BlockRow::condition)
+          .add(significant("level", "", 6),
+               [](const BlockRow& row) {
+                 return std::isfinite(row.level) ? ResultCell(row.level) : ResultCell();
+               })
+          .add(forData(flag("no_stimulus")), [](const BlockRow& row) { return !std::isfinite(row.level); })
+          .add(number("predicted", "", 4), &BlockRow::predicted)
+          .add(number("deviance_residual", "residual"), &BlockRow::residual)
+          .add(significant("threshold_without", "threshold", 6), without(&BlockInfluence::threshold))
+          .add(significant("width_without", "width", 6), without(&BlockInfluence::width))
+          .add(flag("influential"), [](const BlockRow& row) { return row.influence.influential; }));
 }
 
 void addModels(const FitAnswer& answer, Section& out) {
@@ -178,8 +200,9 @@ void addModels(const FitAnswer& answer, Section& out) {
               .add(significant("deviance", "", 7), of(&Fit::deviance))
               .add(significant("aic", "AIC", 7), of(&Fit::aic))
               .add(significant("bic", "BIC", 7), of(&Fit::bic))
-              .add(ifAny(significant("log_posterior", "", 7)),
-                   [=](const ModelRow& row) { return map ? Cell(row.fit->logPosterior()) : Cell(); }));
+              .add(ifAny(significant("log_posterior", "", 7)), [=](const ModelRow& row) {
+                return map ? ResultCell(row.fit->logPosterior()) : ResultCell();
+              }));
   if (!answer.ratio) return;
   out.add(TableOf("likelihood_ratio", "likelihood ratio, shared within not shared",
                   std::vector<LikelihoodRatio>{*answer.ratio})
@@ -191,7 +214,7 @@ void addModels(const FitAnswer& answer, Section& out) {
 
 void addSettings(const FitAnswer& answer, Section& out) {
   const FitSettings& settings = answer.fit.settings;
-  out.fact(key(text("part")), answer.part.empty() ? Cell() : Cell(answer.part));
+  out.fact(key(text("part")), answer.part.empty() ? ResultCell() : ResultCell(answer.part));
   out.fact(forData(text("x")), answer.level);
   out.fact(text("task"), nameOf(settings.task));
   out.fact(text("sigmoid"), psychometrics::nameOf(settings.sigmoid));
@@ -199,7 +222,8 @@ void addSettings(const FitAnswer& answer, Section& out) {
   out.fact(text("direction"), settings.falling ? "falling" : "rising");
   out.fact(text("method"), settings.method == FitMethod::MaximumLikelihood ? "ml" : "map");
   out.fact(significant("threshold_level", "threshold at F ="), settings.thresholdLevel);
-  out.fact(significant("width_from", settings.logarithmic() ? "width in ln x, from F =" : "width from F ="), 0.05);
+  out.fact(significant("width_from", settings.logarithmic() ? "width in ln x, from F =" : "width from F ="),
+           0.05);
   out.fact(significant("width_to", "to F ="), 0.95);
   out.fact(forData(flag("overdispersion")), settings.overdispersion);
   if (!answer.intervals) return;
@@ -236,8 +260,8 @@ std::vector<std::string> remarksOn(const FitAnswer& answer) {
 
 Section sectionOf(const FitAnswer& answer) {
   Section out;
-  out.title = "psychometric function of " + answer.level + (answer.part.empty() ? "" : ", part " + answer.part) +
-              ": P = guess + (1 - guess - lapse) F";
+  out.title = "psychometric function of " + answer.level +
+              (answer.part.empty() ? "" : ", part " + answer.part) + ": P = guess + (1 - guess - lapse) F";
   addSettings(answer, out);
   out.add(parameterTable(answer));
   out.add(conditionTable(answer));
@@ -246,7 +270,8 @@ Section sectionOf(const FitAnswer& answer) {
   std::vector<std::string> held, shared;
   const FitSettings& settings = answer.fit.settings;
   for (size_t i = 0; i < kFitParameters; ++i) {
-    if (settings.fixed[i]) held.push_back(fitParameterNames()[i] + " = " + shortestNumber(*settings.fixed[i]));
+    if (settings.fixed[i])
+      held.push_back(fitParameterNames()[i] + " = " + shortestNumber(*settings.fixed[i]));
     if (settings.shared[i]) shared.push_back(fitParameterNames()[i]);
   }
   if (!held.empty()) out.notes.push_back("fixed: " + join(held));
@@ -260,9 +285,11 @@ Result resultOf(const std::vector<FitAnswer>& answers) {
   Result out;
   out.command = "fit";
   for (const FitAnswer& answer : answers) out.sections.push_back(sectionOf(answer));
-  std::vector<std::string> libraries = {"limen " + projectVersion(), "commit " + buildCommit()};
-  for (const auto& [name, version] : fitLibraries()) libraries.push_back(name + " " + version);
-  out.head.fact(forData(list("versions")), libraries);
+  std::vector<std::array<std::string, 2>> versions = fitLibraries();
+  versions.insert(versions.begin(), {{"limen", projectVersion()}, {"commit", buildCommit()}});
+  out.head.add(TableOf("versions", "", versions)
+                   .add(forData(text("name")), [](const auto& one) { return one[0]; })
+                   .add(forData(text("version")), [](const auto& one) { return one[1]; }));
   out.notes.push_back("limen-analyse " + projectVersion() + ", commit " + buildCommit());
   return out;
 }

@@ -21,7 +21,7 @@ ResultTable coefficientTable(const Relation& relation, const Correlations& all) 
   const std::string level = levelText(all.setting.bootstrap.level);
   const auto of = [](auto member) {
     return [member](const RelationCoefficient& one) {
-      return one.coefficient ? Cell((*one.coefficient).*member) : Cell();
+      return one.coefficient ? ResultCell((*one.coefficient).*member) : ResultCell();
     };
   };
   return TableOf("coefficients",
@@ -36,12 +36,14 @@ ResultTable coefficientTable(const Relation& relation, const Correlations& all) 
       .add(interval("", level), of(&Coefficient::interval))
       .add(forData(number("standard_error")), of(&Coefficient::standardError))
       .add(probability(), &RelationCoefficient::p)
-      .add(flag("p_exact", "exact"), [](const auto& one) { return one.p ? Cell(one.exact) : Cell(); })
+      .add(flag("p_exact", "exact"),
+           [](const auto& one) { return one.p ? ResultCell(one.exact) : ResultCell(); })
       .add(ifAny(probability("p_holm", "p (Holm)")), &RelationCoefficient::holm)
       .add(ifAny(interval("bootstrap", level + " bootstrap")),
            [](const auto& one) { return boundsOf(one.bootstrap); })
-      .add(forData(integer("bootstrap_undefined")),
-           [](const auto& one) { return one.bootstrap ? Cell(one.bootstrap->undefined) : Cell(); })
+      .add(
+          forData(integer("bootstrap_undefined")),
+          [](const auto& one) { return one.bootstrap ? ResultCell(one.bootstrap->undefined) : ResultCell(); })
       .add(ifAny(text("reason", "none because")), &RelationCoefficient::reason);
 }
 
@@ -67,8 +69,9 @@ Section sectionOf(const CorrelationGroup& group, const Correlations& all) {
   Section out;
   out.title = group.name;
   out.fact(key(text("group")), group.name);
-  out.fact(all.cluster.empty() ? forData(integer("clusters")) : integer("clusters", "different " + all.cluster),
-           group.clusters);
+  out.fact(
+      all.cluster.empty() ? forData(integer("clusters")) : integer("clusters", "different " + all.cluster),
+      group.clusters);
   for (const Relation& relation : group.relations) out.add(coefficientTable(relation, all));
   ResultTable clamps = TableOf("clamps", "", group.relations)
                            .add(text("x"), &Relation::x)
@@ -93,9 +96,11 @@ Result resultOf(const Correlations& correlations) {
     out.sections.push_back(sectionOf(group, correlations));
   out.notes = correlations.notes;
   out.notes.push_back(
-      "intervals: Kendall's value +- z error (tau_a after Samara and Randles 1988, tau_b and tau_c after Brown "
+      "intervals: Kendall's value +- z error (tau_a after Samara and Randles 1988, tau_b and tau_c after "
+      "Brown "
       "and Benedetti 1977), Spearman's and Pearson's by Fisher's z. They and the two-sided p take " +
-      correlations.unit + " as independent; p (Holm): adjusted for the pairs of a group, each coefficient apart");
+      correlations.unit +
+      " as independent; p (Holm): adjusted for the pairs of a group, each coefficient apart");
   if (!correlations.cluster.empty()) {
     out.notes.push_back(bootstrapNote(correlations.cluster));
     out.notes.push_back("no bootstrap for tau_a and tau_c, which rows drawn twice pull towards 0");

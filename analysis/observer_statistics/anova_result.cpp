@@ -31,11 +31,13 @@ ResultTable effectTable(const PartAnova& part) {
   const auto of = [](auto member) { return [member](const EffectRow& row) { return row.own->*member; }; };
   const auto sphericity = [](auto member) {
     return [member](const EffectRow& row) {
-      return row.own->sphericity ? Cell(row.own->sphericity.value().*member) : Cell();
+      return row.own->sphericity ? ResultCell(row.own->sphericity.value().*member) : ResultCell();
     };
   };
   const auto published = [](auto member) {
-    return [member](const EffectRow& row) { return *row.published ? Cell(row.published->value().*member) : Cell(); };
+    return [member](const EffectRow& row) {
+      return *row.published ? ResultCell(row.published->value().*member) : ResultCell();
+    };
   };
   TableOf out("effects", "", rows);
   out.add(text("effect"), of(&AnovaEffect::name))
@@ -99,7 +101,9 @@ void addLevels(const PartAnova& part, size_t f, Section& out) {
 void addPairs(const PartAnova& part, size_t f, Section& out) {
   const FactorComparison& comparison = part.comparisons[f];
   const NamedFactor& factor = part.factors[f];
-  const auto level = [&](auto member) { return [&, member](const auto& pair) { return factor.levels[pair.*member]; }; };
+  const auto level = [&](auto member) {
+    return [&, member](const auto& pair) { return factor.levels[pair.*member]; };
+  };
   out.add(TableOf("pairs", "pairs of levels of " + factor.name + ", first minus second, paired t tests",
                   comparison.pairs)
               .add(forData(text("factor")), [&](const auto&) { return factor.name; })
@@ -127,7 +131,9 @@ void addPairs(const PartAnova& part, size_t f, Section& out) {
                    [&](const auto& test) { return df * (static_cast<double>(test.subjects) - 1.0); })
               .add(probability("p_f", "p (F)"), &FriedmanTest::fP)
               .add(number("kendall_w", "Kendall's W"), &FriedmanTest::kendallW));
-  const auto test = [](auto member) { return [member](const RankComparison& pair) { return pair.test.*member; }; };
+  const auto test = [](auto member) {
+    return [member](const RankComparison& pair) { return pair.test.*member; };
+  };
   out.add(TableOf("rank_pairs", "pairs of levels of " + factor.name + ", Wilcoxon's signed ranks",
                   comparison.rankPairs)
               .add(forData(text("factor")), [&](const auto&) { return factor.name; })
@@ -158,7 +164,8 @@ void addNotes(const PartAnova& part, Section& out) {
     if (!effect.note.empty()) out.notes.push_back(effect.name + ": " + effect.note);
     const std::optional<PublishedEffect>& published = part.published[i];
     if (!published) continue;
-    if (!published->remark.empty()) out.notes.push_back("published " + effect.name + ": " + published->remark);
+    if (!published->remark.empty())
+      out.notes.push_back("published " + effect.name + ": " + published->remark);
     source = "published: " + published->source + ", without correction for sphericity";
   }
   if (!source.empty()) out.notes.push_back(source);
@@ -169,13 +176,14 @@ void addNotes(const PartAnova& part, Section& out) {
 Section sectionOf(const PartAnova& part) {
   Section out;
   out.title = (part.part.empty() ? "" : "part " + part.part + ", ") + part.measure;
-  out.fact(key(text("part")), part.part.empty() ? Cell() : Cell(part.part));
+  out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(text("measure")), part.measure);
-  out.fact(forData(text("rate_of")), part.rates ? Cell(part.of) : Cell());
+  out.fact(forData(text("rate_of")), part.rates ? ResultCell(part.of) : ResultCell());
   out.fact(text("transform"), part.transform == RateTransform::Arcsine ? "arcsine" : "none");
   out.fact(integer("observers"), part.result ? part.result->subjects : 0);
-  out.fact(part.rates && part.transform == RateTransform::None ? share("grand_mean") : significant("grand_mean"),
-           part.result ? Cell(part.result->grandMean) : Cell());
+  out.fact(
+      part.rates && part.transform == RateTransform::None ? share("grand_mean") : significant("grand_mean"),
+      part.result ? ResultCell(part.result->grandMean) : ResultCell());
   out.fact(forData(list("incomplete_observers")), part.incomplete);
   out.fact(forData(flag("unequal_replicates")), part.unequalReplicates);
   out.fact(forData(text("note")), part.note);
@@ -201,14 +209,17 @@ Result resultOf(const std::vector<PartAnova>& parts) {
     for (size_t i = 0; part.result && i < part.result->effects.size(); ++i)
       sphericity = sphericity || part.result->effects[i].sphericity;
   }
-  out.notes = {"partial η² with its 95 % interval; p (Holm): adjusted over the pairs of a factor; d_z: mean "
-               "difference over its sd"};
+  out.notes = {
+      "partial η² with its 95 % interval; p (Holm): adjusted over the pairs of a factor; d_z: mean "
+      "difference over its sd"};
   if (sphericity)
-    out.notes.push_back("p (GG), p (HF): of F with the degrees of freedom times that epsilon; p (W): Mauchly's test");
+    out.notes.push_back(
+        "p (GG), p (HF): of F with the degrees of freedom times that epsilon; p (W): Mauchly's test");
   if (ranks)
-    out.notes.push_back("V: Wilcoxon's sum of signed ranks where first is larger, of the subjects who differ; r: "
-                        "rank-biserial correlation; p not exact: normal approximation (ties, equal pairs or more than "
-                        "50 pairs)");
+    out.notes.push_back(
+        "V: Wilcoxon's sum of signed ranks where first is larger, of the subjects who differ; r: "
+        "rank-biserial correlation; p not exact: normal approximation (ties, equal pairs or more than "
+        "50 pairs)");
   return out;
 }
 

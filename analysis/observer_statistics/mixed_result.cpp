@@ -9,7 +9,7 @@ namespace limen::analysis {
 namespace {
 
 /// What the optimiser leaves of an estimate of 0 is far below its error.
-Cell shown(double value, double error) { return std::abs(value) < 1e-8 * error ? 0.0 : value; }
+ResultCell shown(double value, double error) { return std::abs(value) < 1e-8 * error ? 0.0 : value; }
 
 struct RandomRow {
   std::string name;
@@ -32,22 +32,24 @@ Result resultOf(const MixedModel& model) {
   out.fact(significant("log_likelihood", "", 6), fit.logLikelihood);
   out.fact(significant("aic", "AIC", 6), fit.aic);
   out.fact(forData(flag("singular")), fit.singular);
-  out.fact(forData(text("slope")), model.slope.empty() ? Cell() : Cell(model.slope));
+  out.fact(forData(text("slope")), model.slope.empty() ? ResultCell() : ResultCell(model.slope));
   out.fact(forData(text("note")), fit.note);
-  out.add(TableOf("columns", "", model.columns)
-              .add(text("name", "column"), &ModelColumn::name)
-              .add(forData(flag("numeric")), &ModelColumn::numeric)
-              .add(ifAny(list("levels")), &ModelColumn::levels)
-              .add(ifAny(text("reference")),
-                   [](const ModelColumn& one) { return one.numeric ? Cell() : Cell(one.levels[0]); })
-              .add(forData(flag("logarithm")),
-                   [](const ModelColumn& one) { return one.numeric ? Cell(one.logarithmic) : Cell(); })
-              .add(ifAny(significant("centre", "minus (mean over rows)", 6)),
-                   [](const ModelColumn& one) { return one.centred ? Cell(one.centre) : Cell(); })
-              .add(forPeople(text("", "coded as")), [](const ModelColumn& one) {
-                return one.numeric ? std::string(one.logarithmic ? "numbers, natural logarithm" : "numbers")
-                                   : one.levels[0] + " is 0";
-              }));
+  out.add(
+      TableOf("columns", "", model.columns)
+          .add(text("name", "column"), &ModelColumn::name)
+          .add(forData(flag("numeric")), &ModelColumn::numeric)
+          .add(ifAny(list("levels")), &ModelColumn::levels)
+          .add(ifAny(text("reference")),
+               [](const ModelColumn& one) { return one.numeric ? ResultCell() : ResultCell(one.levels[0]); })
+          .add(
+              forData(flag("logarithm")),
+              [](const ModelColumn& one) { return one.numeric ? ResultCell(one.logarithmic) : ResultCell(); })
+          .add(ifAny(significant("centre", "minus (mean over rows)", 6)),
+               [](const ModelColumn& one) { return one.centred ? ResultCell(one.centre) : ResultCell(); })
+          .add(forPeople(text("", "coded as")), [](const ModelColumn& one) {
+            return one.numeric ? std::string(one.logarithmic ? "numbers, natural logarithm" : "numbers")
+                               : one.levels[0] + " is 0";
+          }));
   const auto ratio = [](double logOdds) { return std::exp(logOdds); };
   out.add(TableOf("fixed", "fixed effects", fit.fixed)
               .add(text("name", "effect"), &FixedEffect::name)
@@ -75,7 +77,8 @@ Result resultOf(const MixedModel& model) {
               .add(number("intercept"), &GroupEffect::intercept)
               .addIf(!model.slope.empty(), number("slope"), &GroupEffect::slope));
   if (!fit.note.empty()) out.notes.push_back("note: " + fit.note);
-  out.notes.push_back("ln(p / (1 - p)) = fixed effects + what each " + model.group + " adds to the intercept" +
+  out.notes.push_back("ln(p / (1 - p)) = fixed effects + what each " + model.group +
+                      " adds to the intercept" +
                       (model.slope.empty() ? "" : " and to the slope along " + model.slope));
   out.notes.push_back("maximum likelihood by Laplace's approximation; z tests and 95 % intervals after Wald");
   Result result;

@@ -9,21 +9,26 @@ namespace {
 /// Columns of an estimate of yes/no answers and of its interval.
 void addEstimate(TableOf<SensitivityRow>& table, const std::string& name, const std::string& title,
                  double YesNoSensitivity::*value, Interval YesNoSensitivity::*bounds) {
-  table.add(number(name, title),
-            [=](const SensitivityRow& row) { return row.yesNo ? Cell((*row.yesNo).*value) : Cell(); });
-  table.add(interval(name),
-            [=](const SensitivityRow& row) { return row.yesNo ? Cell((*row.yesNo).*bounds) : Cell(); });
+  table.add(number(name, title), [=](const SensitivityRow& row) {
+    return row.yesNo ? ResultCell((*row.yesNo).*value) : ResultCell();
+  });
+  table.add(interval(name), [=](const SensitivityRow& row) {
+    return row.yesNo ? ResultCell((*row.yesNo).*bounds) : ResultCell();
+  });
 }
 
 ResultTable rowTable(const PartSensitivity& part) {
   TableOf out("rows", "", part.rows);
-  out.add(forData(text("observer")),
-          [](const SensitivityRow& row) { return row.observer.empty() ? Cell() : Cell(row.observer); });
+  out.add(forData(text("observer")), [](const SensitivityRow& row) {
+    return row.observer.empty() ? ResultCell() : ResultCell(row.observer);
+  });
   out.add(forPeople(text("", part.subjects ? "observer" : "rows")),
           [](const SensitivityRow& row) { return row.observer.empty() ? "all together" : row.observer; });
   if (!part.yesNo) {
     const auto of = [](auto member) {
-      return [member](const SensitivityRow& row) { return row.mAfc ? Cell((*row.mAfc).*member) : Cell(); };
+      return [member](const SensitivityRow& row) {
+        return row.mAfc ? ResultCell((*row.mAfc).*member) : ResultCell();
+      };
     };
     return out
         .add(count("correct", "trials"),
@@ -37,9 +42,9 @@ ResultTable rowTable(const PartSensitivity& part) {
         .add(forData(number("proportion_correct")), of(&MAfcSensitivity::proportionCorrect))
         .add(number("d_prime", "d′"), of(&MAfcSensitivity::dPrime))
         .add(interval("d_prime"), [](const SensitivityRow& row) {
-          return row.mAfc
-                     ? Cell(Interval{row.mAfc->low.value_or(-INFINITY), row.mAfc->high.value_or(INFINITY)})
-                     : Cell();
+          return row.mAfc ? ResultCell(Interval{row.mAfc->low.value_or(-INFINITY),
+                                                row.mAfc->high.value_or(INFINITY)})
+                          : ResultCell();
         });
   }
   out.add(count("hits", "signal_trials"), [](const SensitivityRow& row) {
@@ -51,7 +56,7 @@ ResultTable rowTable(const PartSensitivity& part) {
   for (const auto& [name, member] : {std::pair{"hit_rate", &YesNoSensitivity::hitRate},
                                      std::pair{"false_alarm_rate", &YesNoSensitivity::falseAlarmRate}})
     out.add(forData(number(name)), [member = member](const SensitivityRow& row) {
-      return row.yesNo ? Cell((*row.yesNo).*member) : Cell();
+      return row.yesNo ? ResultCell((*row.yesNo).*member) : ResultCell();
     });
   addEstimate(out, "d_prime", "d′", &YesNoSensitivity::dPrime, &YesNoSensitivity::dPrimeInterval);
   addEstimate(out, "criterion", "c", &YesNoSensitivity::criterion, &YesNoSensitivity::criterionInterval);
@@ -90,7 +95,7 @@ ResultTable meanTable(const PartSensitivity& part) {
 Section sectionOf(const PartSensitivity& part) {
   Section out;
   out.title = part.title;
-  out.fact(key(text("part")), part.part.empty() ? Cell() : Cell(part.part));
+  out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(flag("yes_no")), part.yesNo);
   out.fact(forData(integer("alternatives")), part.alternatives);
   out.fact(forData(text("correction")), part.correction == RateCorrection::kLogLinear ? "loglinear" : "none");

@@ -29,24 +29,24 @@ Column bounds(const std::string& name, const std::string& title, Kind kind, int 
 
 }  // namespace
 
-Cell::Cell() = default;
-Cell::~Cell() = default;
-Cell::Cell(const Cell& other) = default;
-Cell::Cell(Cell&& other) noexcept = default;
-Cell& Cell::operator=(const Cell& other) = default;
-Cell& Cell::operator=(Cell&& other) noexcept = default;
-Cell::Cell(const char* text) : value_(std::string(text)) {}
-Cell::Cell(std::string text) : value_(std::move(text)) {}
-Cell::Cell(std::vector<std::string> texts) : value_(std::move(texts)) {}
-Cell::Cell(CountOf count) : value_(count) {}
-Cell::Cell(Interval interval) : value_(interval) {}
-Cell::Cell(bool value) : value_(value) {}
-Cell::Cell(int64_t value) : value_(value) {}
-Cell::Cell(double value) : value_(value) {}
+ResultCell::ResultCell() = default;
+ResultCell::~ResultCell() = default;
+ResultCell::ResultCell(const ResultCell& other) = default;
+ResultCell::ResultCell(ResultCell&& other) noexcept = default;
+ResultCell& ResultCell::operator=(const ResultCell& other) = default;
+ResultCell& ResultCell::operator=(ResultCell&& other) noexcept = default;
+ResultCell::ResultCell(const char* text) : value_(std::string(text)) {}
+ResultCell::ResultCell(std::string text) : value_(std::move(text)) {}
+ResultCell::ResultCell(std::vector<std::string> texts) : value_(std::move(texts)) {}
+ResultCell::ResultCell(CountOf count) : value_(count) {}
+ResultCell::ResultCell(Interval interval) : value_(interval) {}
+ResultCell::ResultCell(bool value) : value_(value) {}
+ResultCell::ResultCell(int64_t value) : value_(value) {}
+ResultCell::ResultCell(double value) : value_(value) {}
 
 bool Column::shownToPeople() const {
   if (audience == Audience::Data) return false;
-  return !optional || std::any_of(cells.begin(), cells.end(), [](const Cell& cell) {
+  return !optional || std::any_of(cells.begin(), cells.end(), [](const ResultCell& cell) {
     const auto* text = std::get_if<std::string>(&cell.value());
     const auto* texts = std::get_if<std::vector<std::string>>(&cell.value());
     return !cell.empty() && !(text && text->empty()) && !(texts && texts->empty());
@@ -98,7 +98,7 @@ Column key(Column column) {
   return column;
 }
 
-void Section::fact(Column column, Cell value) {
+void Section::fact(Column column, ResultCell value) {
   column.cells = {std::move(value)};
   facts.push_back(std::move(column));
 }

@@ -14,10 +14,12 @@
 
 namespace limen::analysis {
 
-// What an analysis found, as tables of typed columns. Every command and every section of a study's page builds one;
-// renderers (result_text.h, result_data.h, the page writer) print it. Names are the same in JSON and CSV:
+// What an analysis found, as tables of typed columns. Every command and every section of a study's page
+// builds one; renderers (result_text.h, result_data.h, the page writer) print it. Names are the same in JSON
+// and CSV:
 //
-//     estimate, low, high   what was estimated and its interval; with several estimates in a row each has its own
+//     estimate, low, high   what was estimated and its interval; with several estimates in a row each has its
+//     own
 //                           name and NAME_low, NAME_high (d_prime, d_prime_low, d_prime_high)
 //     level                 confidence level of the intervals, 0 to 1
 //     standard_error, sd, p, p_holm (adjusted after Holm), bootstrap_low, bootstrap_high
@@ -45,31 +47,31 @@ struct CountOf {
 };
 
 /// A value, or none. Numbers that are not finite are printed as inf and -inf for people, as none elsewhere.
-class Cell {
+class ResultCell {
  public:
   using Value = std::variant<std::monostate, std::string, std::vector<std::string>, bool, int64_t, double,
                              CountOf, Interval>;
 
   // Out of line: many are made, and GCC 12 warns of inlined moves of such a variant.
-  Cell();
-  ~Cell();
-  Cell(const Cell& other);
-  Cell(Cell&& other) noexcept;
-  Cell& operator=(const Cell& other);
-  Cell& operator=(Cell&& other) noexcept;
-  Cell(const char* text);
-  Cell(std::string text);
-  Cell(std::vector<std::string> texts);
-  Cell(CountOf count);
-  Cell(Interval interval);
-  Cell(bool value);
-  Cell(int64_t value);
-  Cell(double value);
+  ResultCell();
+  ~ResultCell();
+  ResultCell(const ResultCell& other);
+  ResultCell(ResultCell&& other) noexcept;
+  ResultCell& operator=(const ResultCell& other);
+  ResultCell& operator=(ResultCell&& other) noexcept;
+  ResultCell(const char* text);
+  ResultCell(std::string text);
+  ResultCell(std::vector<std::string> texts);
+  ResultCell(CountOf count);
+  ResultCell(Interval interval);
+  ResultCell(bool value);
+  ResultCell(int64_t value);
+  ResultCell(double value);
   template <class T, class = std::enable_if_t<std::is_integral_v<T>>>
-  Cell(T value) : Cell(static_cast<int64_t>(value)) {}
+  ResultCell(T value) : ResultCell(static_cast<int64_t>(value)) {}
   template <class T>
-  Cell(const std::optional<T>& value) : Cell() {
-    if (value) *this = Cell(*value);
+  ResultCell(const std::optional<T>& value) : ResultCell() {
+    if (value) *this = ResultCell(*value);
   }
 
   bool empty() const { return std::holds_alternative<std::monostate>(value_); }
@@ -90,7 +92,7 @@ struct Column {
   Audience audience = Audience::Everybody;
   bool optional = false;    ///< left out for people where no cell has a value
   bool identifies = false;  ///< a fact that stands in each of a section's rows of CSV
-  std::vector<Cell> cells;
+  std::vector<ResultCell> cells;
 
   bool isNumber() const { return kind != Kind::Text && kind != Kind::List && kind != Kind::Flag; }
   bool shownToPeople() const;
@@ -123,7 +125,8 @@ struct ResultTable {
   size_t rows() const { return columns.empty() ? 0 : columns.front().cells.size(); }
 };
 
-/// A table with a row for each element: add(column, what is in it), the latter a function or member of the element.
+/// A table with a row for each element: add(column, what is in it), the latter a function or member of the
+/// element.
 template <class Row>
 class TableOf {
  public:
@@ -133,7 +136,7 @@ class TableOf {
   }
   template <class Value>
   TableOf& add(Column column, const Value& value) {
-    for (const Row& row : rows_) column.cells.push_back(Cell(std::invoke(value, row)));
+    for (const Row& row : rows_) column.cells.push_back(ResultCell(std::invoke(value, row)));
     table_.columns.push_back(std::move(column));
     return *this;
   }
@@ -156,7 +159,7 @@ struct Section {
   std::vector<ResultTable> tables;
   std::vector<std::string> notes;
 
-  void fact(Column column, Cell value);
+  void fact(Column column, ResultCell value);
   /// A table without rows is left out for people.
   void add(ResultTable table) { tables.push_back(std::move(table)); }
   const ResultTable& table(const std::string& name) const;  ///< that there is

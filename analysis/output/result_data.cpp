@@ -15,9 +15,9 @@ namespace {
 using nlohmann::json;
 
 /// The one or two named values of a cell.
-using Values = std::vector<std::pair<std::string, Cell>>;
+using Values = std::vector<std::pair<std::string, ResultCell>>;
 
-Values valuesOf(const Column& column, const Cell& cell) {
+Values valuesOf(const Column& column, const ResultCell& cell) {
   if (column.second.empty()) return {{column.name, cell}};
   if (const auto* count = std::get_if<CountOf>(&cell.value()))
     return {{column.name, count->number}, {column.second, count->of}};
@@ -26,8 +26,8 @@ Values valuesOf(const Column& column, const Cell& cell) {
   return {{column.name, {}}, {column.second, {}}};
 }
 
-json valueJson(const Cell& cell) {
-  const Cell::Value& value = cell.value();
+json valueJson(const ResultCell& cell) {
+  const ResultCell::Value& value = cell.value();
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return *texts;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag;
@@ -37,8 +37,8 @@ json valueJson(const Cell& cell) {
   return {};
 }
 
-std::string valueField(const Cell& cell) {
-  const Cell::Value& value = cell.value();
+std::string valueField(const ResultCell& cell) {
+  const ResultCell::Value& value = cell.value();
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return join(*texts);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "1" : "0";
@@ -50,7 +50,7 @@ std::string valueField(const Cell& cell) {
 
 bool isData(const Column& column) { return column.audience != Column::Audience::People; }
 
-void addJson(json& out, const Column& column, const Cell& cell) {
+void addJson(json& out, const Column& column, const ResultCell& cell) {
   if (!isData(column)) return;
   for (const auto& [name, value] : valuesOf(column, cell)) out[name] = valueJson(value);
 }
@@ -80,7 +80,7 @@ class CsvWriter {
     rows_.back().resize(header_.size());
     rows_.back()[places_.at(name)] = value;
   }
-  void set(const Column& column, const Cell& cell) {
+  void set(const Column& column, const ResultCell& cell) {
     if (!isData(column)) return;
     for (const auto& [name, value] : valuesOf(column, cell)) set(name, valueField(value));
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/output/text_table.h"
@@ -10,6 +11,8 @@
 
 namespace limen::analysis {
 namespace {
+
+constexpr size_t kTextWidth = 120;  // letters of a line of a table
 
 std::string numberText(const Column& column, double value) {
   if (std::isnan(value)) return "-";
@@ -34,24 +37,48 @@ std::string intervalCell(const Column& column, const Interval& interval) {
          (column.kind == Kind::ShareInterval ? " %" : "");
 }
 
+using Lines = std::vector<std::vector<std::string>>;  ///< heading, then rows
+
+size_t widthOf(const std::vector<std::string>& cells) {
+  size_t out = 0;
+  for (const std::string& cell : cells) out = std::max(out, textWidth(cell));
+  return out + 2;
+}
+
+/// Columns that do not fit beside the others follow below, with the first column again.
 std::string tableText(const ResultTable& table) {
   if (table.rows() == 0) return {};
-  std::vector<std::vector<std::string>> lines(table.rows() + 1);
-  std::vector<size_t> left;
+  std::vector<std::vector<std::string>> columns;
+  std::vector<bool> isLeft;
   for (const Column& column : table.columns) {
     if (!column.shownToPeople()) continue;
-    if (!column.isNumber()) left.push_back(lines[0].size());
-    lines[0].push_back(column.title);
-    for (size_t row = 0; row < table.rows(); ++row)
-      lines[row + 1].push_back(cellText(column, column.cells[row]));
+    columns.push_back({column.title});
+    isLeft.push_back(!column.isNumber());
+    for (const ResultCell& cell : column.cells) columns.back().push_back(cellText(column, cell));
   }
-  return "\n" + (table.title.empty() ? "" : "  " + table.title + "\n") + alignedText(lines, left);
+  if (columns.empty()) return {};
+  std::string out = "\n" + (table.title.empty() ? "" : "  " + table.title + "\n");
+  for (size_t from = 1, block = 0; block == 0 || from < columns.size(); ++block) {
+    Lines lines(table.rows() + 1);
+    std::vector<size_t> left;
+    size_t width = 2, count = 0;
+    const auto add = [&](size_t i) {
+      if (isLeft[i]) left.push_back(count);
+      for (size_t row = 0; row < lines.size(); ++row) lines[row].push_back(columns[i][row]);
+      width += widthOf(columns[i]);
+      ++count;
+    };
+    add(0);
+    while (from < columns.size() && (count < 2 || width + widthOf(columns[from]) <= kTextWidth)) add(from++);
+    out += (block > 0 ? "\n" : "") + alignedText(lines, left);
+  }
+  return out;
 }
 
 }  // namespace
 
-std::string cellText(const Column& column, const Cell& cell) {
-  const Cell::Value& value = cell.value();
+std::string cellText(const Column& column, const ResultCell& cell) {
+  const ResultCell::Value& value = cell.value();
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return join(*texts);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";

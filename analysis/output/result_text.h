@@ -8,7 +8,7 @@
 namespace limen::analysis {
 
 /// A cell of a column as people read it; "-" for a number that is missing.
-std::string cellText(const Column& column, const Cell& cell);
+std::string cellText(const Column& column, const ResultCell& cell);
 
 /// What a terminal shows.
 std::string toText(const Result& result);

@@ -7,15 +7,11 @@
 #include <cmath>
 
 namespace limen::analysis {
-namespace {
 
-/// Characters, not bytes: codes and levels may hold letters of other alphabets.
-size_t widthOf(const std::string& text) {
+size_t textWidth(const std::string& text) {
   return static_cast<size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
-
-}  // namespace
 
 std::string alignedText(const std::vector<std::vector<std::string>>& rows, const std::vector<size_t>& left,
                         const std::string& indent) {
@@ -23,13 +19,13 @@ std::string alignedText(const std::vector<std::vector<std::string>>& rows, const
   for (const auto& row : rows)
     for (size_t i = 0; i < row.size(); ++i) {
       if (widths.size() <= i) widths.push_back(0);
-      widths[i] = std::max(widths[i], widthOf(row[i]));
+      widths[i] = std::max(widths[i], textWidth(row[i]));
     }
   std::string out;
   for (const auto& row : rows) {
     std::string line = indent;
     for (size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - widthOf(row[i]), ' ');
+      const std::string blanks(widths[i] - textWidth(row[i]), ' ');
       const bool isLeft = std::find(left.begin(), left.end(), i) != left.end();
       line += (i > 0 ? "  " : "") + (isLeft ? row[i] + blanks : blanks + row[i]);
     }

@@ -9,6 +9,8 @@
 
 namespace limen::analysis {
 
+/// Characters, not bytes: codes and levels may hold letters of other alphabets.
+size_t textWidth(const std::string& text);
 /// Lines of text with columns of even width; the first is the heading. Columns listed in `left` are flush
 /// left, the others right. Trailing blanks are cut.
 std::string alignedText(const std::vector<std::vector<std::string>>& rows, const std::vector<size_t>& left,

@@ -27,13 +27,17 @@ ResultTable itemTable(const ItemScale& scale, const ScaleSetting& setting) {
   const std::string level = levelText(setting.bootstrap.level);
   return TableOf("items", "", scale.items)
       .add(text("item"), &ScaledItem::name)
-      .add(count("chosen", "judged"), [](const ScaledItem& one) { return CountOf{one.chosen, one.judged}; })
+      .add(count("chosen", "judged"),
+           [](const ScaledItem& one) {
+             return CountOf{one.chosen, one.judged};
+           })
       .add(number("estimate", "value"), &ScaledItem::value)
       .add(interval("", level), &ScaledItem::interval)
       .add(number("standard_error", "error"), &ScaledItem::standardError)
       .add(ifAny(interval("bootstrap", level + " bootstrap")), kDrawn)
       .add(ifAny(share("preferred", "over " + setting.reference)), &ScaledItem::preferred)
-      .add(ifAny(shareInterval("preferred", scale.bootstrap == ScaleBootstrap::None ? level : level + " bootstrap")),
+      .add(ifAny(shareInterval("preferred",
+                               scale.bootstrap == ScaleBootstrap::None ? level : level + " bootstrap")),
            &ScaledItem::preferredInterval);
 }
 
@@ -50,22 +54,27 @@ ResultTable stepTable(const ItemScale& scale, const ScaleSetting& setting) {
       .add(ifAny(probability("p_holm", "p (Holm)")), &ItemStep::holm)
       .add(share("preferred"), &ItemStep::preferred)
       .add(ifAny(count("chosen", "judged")),
-           [](const ItemStep& one) { return CountOf{one.chosen, one.judged}; })
+           [](const ItemStep& one) {
+             return CountOf{one.chosen, one.judged};
+           })
       .add(ifAny(interval("bootstrap", level + " bootstrap")), kDrawn);
 }
 
 ResultTable consistencyTable(const ItemScale& scale) {
   const auto items = static_cast<int64_t>(scale.items.size());
   const auto ifJudged = [](double SubjectConsistency::*member) {
-    return [member](const SubjectConsistency& one) { return one.rounds > 0 ? Cell(one.*member) : Cell(); };
+    return [member](const SubjectConsistency& one) {
+      return one.rounds > 0 ? ResultCell(one.*member) : ResultCell();
+    };
   };
-  return TableOf("consistency",
-                 scale.consistency.empty()
-                     ? ""
-                     : fmt::format("circular triads (Kendall and Babington Smith 1940): at most {}, {:.4g} of "
-                                   "answers at random",
-                                   mostCircularTriads(items), expectedCircularTriads(items)),
-                 scale.consistency)
+  return TableOf(
+             "consistency",
+             scale.consistency.empty()
+                 ? ""
+                 : fmt::format("circular triads (Kendall and Babington Smith 1940): at most {}, {:.4g} of "
+                               "answers at random",
+                               mostCircularTriads(items), expectedCircularTriads(items)),
+             scale.consistency)
       .add(text("subject"), &SubjectConsistency::subject)
       .add(integer("rounds"), &SubjectConsistency::rounds)
       .add(significant("circular_triads"), ifJudged(&SubjectConsistency::triads))
@@ -75,10 +84,11 @@ ResultTable consistencyTable(const ItemScale& scale) {
 void addNotes(const ItemScale& scale, Section& out) {
   if (!scale.fit.note.empty()) out.notes.push_back("penalised: " + scale.fit.note);
   if (scale.penalised > 0)
-    out.notes.push_back(fmt::format("{} samples of the bootstrap were unbounded, and penalised", scale.penalised));
+    out.notes.push_back(
+        fmt::format("{} samples of the bootstrap were unbounded, and penalised", scale.penalised));
   if (scale.skipped > 0)
-    out.notes.push_back(fmt::format("{} samples of the bootstrap did not connect all items, and were left out",
-                                    scale.skipped));
+    out.notes.push_back(fmt::format(
+        "{} samples of the bootstrap did not connect all items, and were left out", scale.skipped));
   if (scale.fit.df == 0) out.notes.push_back("as many values as pairs: no goodness of fit");
   if (!scale.consistency.empty() &&
       std::none_of(scale.consistency.begin(), scale.consistency.end(),
@@ -132,14 +142,16 @@ Result resultOf(const Scales& scales) {
   out.command = "scale";
   out.head.fact(forData(text("model")), modelName(setting.model));
   out.head.fact(forData(number("level")), setting.bootstrap.level);
-  out.head.fact(forData(text("reference")), setting.reference.empty() ? Cell() : Cell(setting.reference));
+  out.head.fact(forData(text("reference")),
+                setting.reference.empty() ? ResultCell() : ResultCell(setting.reference));
   for (const ItemScale& scale : scales.groups) out.sections.push_back(sectionOf(scale, setting));
   out.notes.push_back(modelText(setting));
   out.notes.insert(out.notes.end(), scales.notes.begin(), scales.notes.end());
-  out.notes.push_back(levelText(setting.bootstrap.level) +
-                      " beside an error: value +- z error, from the inverse Hessian (least squares: delta "
-                      "method), which takes judgements as independent. Those of one subject are not: a bootstrap "
-                      "over subjects is the one to report then");
+  out.notes.push_back(
+      levelText(setting.bootstrap.level) +
+      " beside an error: value +- z error, from the inverse Hessian (least squares: delta "
+      "method), which takes judgements as independent. Those of one subject are not: a bootstrap "
+      "over subjects is the one to report then");
   out.notes.push_back(
       "p (Holm): adjusted for the neighbours of a scale, whose order comes of the same judgements");
   out.notes.push_back(kDashNote);

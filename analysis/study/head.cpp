@@ -8,7 +8,7 @@
 namespace limen::analysis {
 
 ResultTable ruleTable(const StudyAnswers& study) {
-  const auto leftOut = [&](const AppliedRule& rule, bool observers) -> Cell {
+  const auto leftOut = [&](const AppliedRule& rule, bool observers) -> ResultCell {
     if (!rule.applied) return {};
     std::set<std::string> who;
     size_t answers = 0;

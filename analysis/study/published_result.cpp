@@ -29,8 +29,12 @@ Result resultOf(const std::vector<PublishedComparison>& comparisons) {
     std::vector<ValueRow> rows;
     for (const ComparedStatistic& statistic : one.statistics)
       for (const ComparedValue& value : statistic.values) rows.push_back({&statistic, &value});
-    const auto of = [](auto member) { return [member](const ValueRow& row) { return row.statistic->*member; }; };
-    const auto value = [](auto member) { return [member](const ValueRow& row) { return row.value->*member; }; };
+    const auto of = [](auto member) {
+      return [member](const ValueRow& row) { return row.statistic->*member; };
+    };
+    const auto value = [](auto member) {
+      return [member](const ValueRow& row) { return row.value->*member; };
+    };
     own.add(TableOf("statistics", "", rows)
                 .add(text("part"), of(&ComparedStatistic::part))
                 .add(text("statistic"), of(&ComparedStatistic::statistic))
@@ -40,7 +44,7 @@ Result resultOf(const std::vector<PublishedComparison>& comparisons) {
                 .add(text("estimate_text", "ours"), value(&ComparedValue::oursText))
                 .add(forData(number("estimate")), value(&ComparedValue::ours))
                 .add(forData(number("difference")),
-                     [](const ValueRow& row) -> Cell {
+                     [](const ValueRow& row) -> ResultCell {
                        if (!row.value->ours || !row.value->printed) return {};
                        return *row.value->ours - *row.value->printed;
                      })

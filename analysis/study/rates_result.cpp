@@ -33,7 +33,9 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
     return [member](const RateRow& row) { return row.overObservers.*member; };
   };
   const auto published = [](auto member) {
-    return [member](const RateRow& row) { return row.published ? Cell((*row.published).*member) : Cell(); };
+    return [member](const RateRow& row) {
+      return row.published ? ResultCell((*row.published).*member) : ResultCell();
+    };
   };
   TableOf out("rates", "", rows);
   out.add(forData(text("scope")), [](const RateRow& row) { return scopeText(row.scope); })
@@ -41,7 +43,7 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
   for (const auto& [factor, used] : factors)
     out.add(forData(text(factor)), [factor = factor](const RateRow& row) {
       const auto level = row.condition.find(factor);
-      return level == row.condition.end() ? Cell() : Cell(level->second);
+      return level == row.condition.end() ? ResultCell() : ResultCell(level->second);
     });
   return out.add(forData(flag("change")), &RateRow::change)
       .add(forData(text("rate_of")), &RateRow::of)
@@ -112,12 +114,12 @@ ResultTable scenarioTable(const StudyRates& rates, const std::string& part) {
   }
   const auto of = [](auto member) {
     return [member](const Row& row) {
-      return row.quantity == "rate" || row.own->severity ? Cell(row.spread.*member) : Cell();
+      return row.quantity == "rate" || row.own->severity ? ResultCell(row.spread.*member) : ResultCell();
     };
   };
   const auto known = [](auto member) {
     return [member](const Row& row) {
-      return row.own->published ? Cell((*row.own->published).*member) : Cell();
+      return row.own->published ? ResultCell((*row.own->published).*member) : ResultCell();
     };
   };
   return TableOf("over_scenarios", "over scenarios with a change: means, and sd by their number", rows)

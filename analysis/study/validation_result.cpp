@@ -14,13 +14,16 @@ ResultTable scenarioTable(const PartValidation& part) {
       .add(text("presentation"), &Scenario::presentation)
       .add(text("stimulus_hash"), &Scenario::stimulusHash)
       .add(text("display_hash"), &Scenario::displayHash)
-      .add(count("yes", "trials"), [](const Scenario& one) { return CountOf{one.yes, one.trials}; })
+      .add(count("yes", "trials"),
+           [](const Scenario& one) {
+             return CountOf{one.yes, one.trials};
+           })
       .add(share("rate"), &Scenario::rate)
       .add(number("mean_severity"), &Scenario::meanSeverity);
   for (const PredictorName& predictor : studyPredictors())
     out.add(number(predictor.name), [&](const Scenario& one) {
       const auto value = one.predictors.find(predictor.name);
-      return value == one.predictors.end() ? Cell() : Cell(value->second);
+      return value == one.predictors.end() ? ResultCell() : ResultCell(value->second);
     });
   ResultTable table = out;
   for (Column& column : table.columns) column = forData(column);
@@ -30,12 +33,16 @@ ResultTable scenarioTable(const PartValidation& part) {
 ResultTable agreementTable(const std::vector<Agreement>& agreements, bool severity) {
   const auto kendall = [](auto of) { return [of](const Agreement& one) { return of(one.kendall); }; };
   const auto pearson = [](auto of) { return [of](const Agreement& one) { return of(one.pearson); }; };
-  const auto clamped = [](auto of) { return [of](const Agreement& one) { return of(one.clamped.correlation); }; };
+  const auto clamped = [](auto of) {
+    return [of](const Agreement& one) { return of(one.clamped.correlation); };
+  };
   const auto value = [](const auto& coefficient) { return valueOf(coefficient); };
   const auto bounds = [](const auto& coefficient) { return intervalOf(coefficient); };
   const auto p = [](const auto& correlation) { return pOf(correlation); };
   const auto published = [](auto member) {
-    return [member](const Agreement& one) { return one.published ? Cell((*one.published).*member) : Cell(); };
+    return [member](const Agreement& one) {
+      return one.published ? ResultCell((*one.published).*member) : ResultCell();
+    };
   };
   TableOf out("agreement", severity ? "with mean severity of what was noticed" : "with detection rates",
               agreements);
@@ -68,7 +75,9 @@ ResultTable agreementTable(const std::vector<Agreement>& agreements, bool severi
 
 ResultTable areaTable(const PartValidation& part) {
   const auto against = [](auto member) {
-    return [member](const TrialArea& one) { return one.againstRating ? Cell((*one.againstRating).*member) : Cell(); };
+    return [member](const TrialArea& one) {
+      return one.againstRating ? ResultCell((*one.againstRating).*member) : ResultCell();
+    };
   };
   return TableOf("areas", "area under the ROC curve of single trials with a change", part.areas)
       .add(text("predictor"), &TrialArea::predictor)
@@ -141,7 +150,8 @@ Section sectionOf(const PartValidation& part) {
   out.fact(key(text("part")), part.part);
   const LinkReport& link = part.link;
   out.fact(integer("catch_trials"), link.catchTrials);
-  out.fact(link.catchTrials > 0 ? share("guess_from_catch", "rate in catch trials") : forData(share("guess_from_catch")),
+  out.fact(link.catchTrials > 0 ? share("guess_from_catch", "rate in catch trials")
+                                : forData(share("guess_from_catch")),
            link.guessFromCatch);
   if (link.intervals) {
     out.fact(forData(number("level")), 0.95);
@@ -171,10 +181,12 @@ Result resultOf(const StudyValidation& validation) {
   out.head.fact(list("predicted_for", "for display"), validation.displays);
   for (const PartValidation& part : validation.parts) out.sections.push_back(sectionOf(part));
   out.notes = validation.notes;
-  out.notes.push_back("clamped: predictions above the least that everybody noticed are lowered to it (Schwarz 2009, "
-                      "section 10.4.1)");
-  out.notes.push_back("areas and calibration take trials of one observer as independent: their intervals are too "
-                      "narrow. Those of the link are percentiles over samples of whole observers");
+  out.notes.push_back(
+      "clamped: predictions above the least that everybody noticed are lowered to it (Schwarz 2009, "
+      "section 10.4.1)");
+  out.notes.push_back(
+      "areas and calibration take trials of one observer as independent: their intervals are too "
+      "narrow. Those of the link are percentiles over samples of whole observers");
   out.notes.push_back(kDashNote);
   return out;
 }

@@ -54,20 +54,24 @@ void addExclusions(const StudyPage& page, PageWriter& out) {
   const auto own = [&](auto member) {
     return [&, member](const RateRow& row) {
       const RateRow* analysed = wholePart(page.rates, row);
-      return analysed ? Cell(analysed->overObservers.*member) : Cell();
+      return analysed ? ResultCell(analysed->overObservers.*member) : ResultCell();
     };
   };
-  const auto all = [](auto member) { return [member](const RateRow& row) { return row.overObservers.*member; }; };
+  const auto all = [](auto member) {
+    return [member](const RateRow& row) { return row.overObservers.*member; };
+  };
   out.table(TableOf("exclusions", "", rows)
                 .add(text("part"), &RateRow::part)
-                .add(text("rate_of"), [](const RateRow& row) { return row.change ? row.of : row.of + ", no change"; })
+                .add(text("rate_of"),
+                     [](const RateRow& row) { return row.change ? row.of : row.of + ", no change"; })
                 .add(integer("observers"), own(&MeanOverSubjects::subjects))
                 .add(share("estimate", "as analysed"), own(&MeanOverSubjects::mean))
                 .add(share("sd", "SD"), own(&MeanOverSubjects::standardDeviation))
                 .add(integer("all_observers", "observers"), all(&MeanOverSubjects::subjects))
                 .add(share("all_estimate", "nothing excluded"), all(&MeanOverSubjects::mean))
                 .add(share("all_sd", "SD"), all(&MeanOverSubjects::standardDeviation)),
-            "Detection rates as analysed and with nothing excluded: mean over observers of their own rates, SD over "
+            "Detection rates as analysed and with nothing excluded: mean over observers of their own rates, "
+            "SD over "
             "observers.");
   out.file("tables/rates_nothing_excluded.csv", toCsv(resultOf(page.allRates).sections),
            "detection rates with nothing excluded");
