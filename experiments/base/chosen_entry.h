@@ -31,7 +31,7 @@ struct EntryOptions {
   std::vector<std::string> names;  ///< as registered
   std::function<const std::vector<Parameter>&(const std::string& name)> parametersOf;
   /// Throws Error if the values of an entry do not go together, `where` being a path within them.
-  std::function<void(const std::string& name, const ParameterValues& values)> check;
+  std::function<void(const std::string& name, const ParameterValues& values)> check = {};
 };
 
 class EntryAccess : public MemberAccess {
