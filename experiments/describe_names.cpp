@@ -32,7 +32,8 @@ class Describer {
       addParameters("technique", entry.name, catalogue_.techniques);
     for (const Entry& entry : descriptor_.scenes) addParameters("scene", entry.name, catalogue_.scenes);
     if (descriptor_.reference) addParameters("reference", descriptor_.reference->name, catalogue_.techniques);
-    for (const Choice& metric : descriptor_.metrics) addParameters("metric", metric.name, catalogue_.metrics);
+    for (const Configuration& metric : descriptor_.metrics)
+      addParameters("metric", metric.name, catalogue_.metrics);
     for (const char* side : {"width", "height"}) {
       store::ParameterRow row;
       row.subject = "image";
@@ -53,7 +54,7 @@ class Describer {
 
   void addMetrics() {
     for (size_t i = 0; i < descriptor_.metrics.size(); ++i) {
-      const Choice& metric = descriptor_.metrics[i];
+      const Configuration& metric = descriptor_.metrics[i];
       const CatalogueEntry& entry = catalogue_.metrics.at(metric.name);
       const Quantity& quantity = entry.quantity;
       // A metric that says neither its own name nor a title is called by the name it is registered under.

@@ -214,7 +214,7 @@ class Reader {
       marks.push_back(item.mark);
     }
     for (size_t i = 0; i < out_.metrics.size(); ++i) {
-      const Choice& metric = out_.metrics[i];
+      const Configuration& metric = out_.metrics[i];
       const std::string name =
           measurementName(metric, out_.metrics, catalogue_.metrics.at(metric.name).parameters);
       if (std::find(out_.metricNames.begin(), out_.metricNames.end(), name) != out_.metricNames.end())

@@ -31,7 +31,7 @@ struct ImageAxes {
 /// `width` and `height`.
 using Selection = std::map<std::string, ParameterValue>;
 
-/// A statement about measured values that the sweep judges when it ends.
+/// A statement about measured values that the sweep evaluates when it ends.
 struct ExpectationStatement {
   enum class Relation { Below, Above, Equals };
   std::string metric;
@@ -41,10 +41,10 @@ struct ExpectationStatement {
   double bound = 0.0;  ///< with `relativeTo`, a factor on that run's value
 
   /// The run to compare with: the same scene and image size but for what is said here; of several runs of
-  /// another technique the one that has the judged run's values of the parameters that both have.
+  /// another technique the one that has the evaluated run's values of the parameters that both have.
   struct Baseline {
-    std::string technique;  ///< "" for the judged run's own
-    std::string scene;      ///< "" for the judged run's own
+    std::string technique;  ///< "" for the evaluated run's own
+    std::string scene;      ///< "" for the evaluated run's own
     Selection where;
   };
   std::optional<Baseline> relativeTo;
@@ -82,7 +82,7 @@ struct Descriptor {
   std::vector<ImageAxes> images;
   Timing timing;
   Artefacts artefacts;
-  std::vector<Choice> metrics;
+  std::vector<Configuration> metrics;
   std::vector<std::string> metricNames;  ///< of the measurements that `metrics` give, in the same order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;

@@ -14,7 +14,7 @@
 namespace limen::experiments {
 
 /// A registered name with a complete set of values.
-struct Choice {
+struct Configuration {
   std::string name;
   int version = 1;
   ParameterValues values;
@@ -44,12 +44,12 @@ struct ImageSize {
 struct PlannedRun {
   std::string key;  ///< SHA-256 over everything that decides the result
   int position = 0;
-  Choice technique, scene;
-  Choice reference;  ///< empty name: none
+  Configuration technique, scene;
+  Configuration reference;  ///< empty name: none
   int widthPx = 0, heightPx = 0;
   Timing timing;
   Artefacts artefacts;
-  std::vector<Choice> metrics;
+  std::vector<Configuration> metrics;
   std::string label;    ///< "pattern=regular_8, occluder=micropatch": what varies among this technique's runs
   std::string setting;  ///< "light_size=2, 640x480": what varies among the scene's runs and image sizes
   nlohmann::json parameters;  ///< as store::Run::parameters

@@ -23,28 +23,28 @@ bool agree(const ParameterValues& a, const ParameterValues& b, const Selection& 
   });
 }
 
-/// Runs that `judged` may be compared with: same scene and size but for what either side pins. Another
-/// technique may differ in its parameters, but where it is planned several times, those that share the judged
-/// run's values are meant.
-std::vector<size_t> baselinesOf(const PlannedRun& judged, const std::vector<PlannedRun>& runs,
+/// Runs that `evaluated` may be compared with: same scene and size but for what either side pins. Another
+/// technique may differ in its parameters, but where it is planned several times, those that share the
+/// evaluated run's values are meant.
+std::vector<size_t> baselinesOf(const PlannedRun& evaluated, const std::vector<PlannedRun>& runs,
                                 const ExpectationStatement& statement) {
   const Baseline& baseline = *statement.relativeTo;
-  const std::string& technique = baseline.technique.empty() ? judged.technique.name : baseline.technique;
-  const std::string& scene = baseline.scene.empty() ? judged.scene.name : baseline.scene;
+  const std::string& technique = baseline.technique.empty() ? evaluated.technique.name : baseline.technique;
+  const std::string& scene = baseline.scene.empty() ? evaluated.scene.name : baseline.scene;
   Selection pinned = baseline.where;
   pinned.insert(statement.where.begin(), statement.where.end());
   std::vector<size_t> loose, close;
   for (size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& candidate = runs[i];
-    const bool sameSize = (pinned.count("width") || candidate.widthPx == judged.widthPx) &&
-                          (pinned.count("height") || candidate.heightPx == judged.heightPx);
+    const bool sameSize = (pinned.count("width") || candidate.widthPx == evaluated.widthPx) &&
+                          (pinned.count("height") || candidate.heightPx == evaluated.heightPx);
     if (!sameSize || !matches(candidate, technique, scene, baseline.where) ||
-        !agree(judged.scene.values, candidate.scene.values, pinned))
+        !agree(evaluated.scene.values, candidate.scene.values, pinned))
       continue;
     loose.push_back(i);
-    if (agree(judged.technique.values, candidate.technique.values, pinned)) close.push_back(i);
+    if (agree(evaluated.technique.values, candidate.technique.values, pinned)) close.push_back(i);
   }
-  const bool strict = technique == judged.technique.name || (loose.size() > 1 && !close.empty());
+  const bool strict = technique == evaluated.technique.name || (loose.size() > 1 && !close.empty());
   return strict ? close : loose;
 }
 
@@ -105,9 +105,9 @@ bool holds(Relation relation, double value, double bound) {
 }
 
 /// "" if the case holds, else what broke it.
-std::string judgeCase(const ExpectationStatement& statement, const ResolvedExpectation::Case& one,
-                      const std::vector<PlannedRun>& runs,
-                      const std::map<std::string, const store::Run*>& measured) {
+std::string evaluateCase(const ExpectationStatement& statement, const ResolvedExpectation::Case& one,
+                         const std::vector<PlannedRun>& runs,
+                         const std::map<std::string, const store::Run*>& measured) {
   const PlannedRun& run = runs[one.run];
   const Reading own = read(run, statement.metric, measured);
   if (!own.value) return describe(run) + " " + own.problem;
@@ -165,15 +165,15 @@ std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>
   return out;
 }
 
-std::vector<store::Expectation> judge(const std::vector<ResolvedExpectation>& expectations,
-                                      const std::vector<PlannedRun>& runs,
-                                      const std::map<std::string, const store::Run*>& measured) {
+std::vector<store::Expectation> evaluate(const std::vector<ResolvedExpectation>& expectations,
+                                         const std::vector<PlannedRun>& runs,
+                                         const std::map<std::string, const store::Run*>& measured) {
   std::vector<store::Expectation> out;
   for (const ResolvedExpectation& expectation : expectations) {
     size_t broken = 0;
     std::string first;
     for (const ResolvedExpectation::Case& one : expectation.cases) {
-      const std::string problem = judgeCase(*expectation.statement, one, runs, measured);
+      const std::string problem = evaluateCase(*expectation.statement, one, runs, measured);
       if (problem.empty()) continue;
       if (broken++ == 0) first = problem;
     }

@@ -28,10 +28,10 @@ struct ResolvedExpectation {
 std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>& statements,
                                          const std::vector<PlannedRun>& runs, Problems& problems);
 
-/// Judges against what was measured, by run key. A run that failed, is missing or gave no number breaks every
-/// expectation about it. `below` and `above` are strict, `equals` is exact.
-std::vector<store::Expectation> judge(const std::vector<ResolvedExpectation>& expectations,
-                                      const std::vector<PlannedRun>& runs,
-                                      const std::map<std::string, const store::Run*>& measured);
+/// Evaluates against what was measured, by run key. A run that failed, is missing or gave no number breaks
+/// every expectation about it. `below` and `above` are strict, `equals` is exact.
+std::vector<store::Expectation> evaluate(const std::vector<ResolvedExpectation>& expectations,
+                                         const std::vector<PlannedRun>& runs,
+                                         const std::map<std::string, const store::Run*>& measured);
 
 }  // namespace limen::experiments

@@ -15,7 +15,7 @@
 #include "experiments/gpu_clock.h"
 #include "experiments/measured_quantities.h"
 #include "experiments/product.h"
-#include "experiments/product_judge.h"
+#include "experiments/product_evaluation.h"
 #include "experiments/reference_cache.h"
 #include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
@@ -49,13 +49,13 @@ struct BuiltScene {
   nlohmann::json facts;
 };
 
-BuiltScene build(const Choice& choice) {
+BuiltScene build(const Configuration& choice) {
   BuiltScene out{scene::buildScene(choice.name, choice.values), {}};
   out.facts = sceneFacts(out.scene);
   return out;
 }
 
-std::string keyOf(const Choice& scene) { return scene.name + scene.values.toJson().dump(); }
+std::string keyOf(const Configuration& scene) { return scene.name + scene.values.toJson().dump(); }
 
 /// A scene as all runs of a batch share it, with what they share of one view.
 struct SharedScene {
@@ -214,7 +214,7 @@ class GlExecutor : public Executor {
     return *scene_;
   }
 
-  /// Prepares a run, renders it once and judges the product.
+  /// Prepares a run, renders it once and evaluates the product.
   void begin(LiveRun& run) {
     const PlannedRun& plan = *run.plan;
     run.info = &techniques::TechniqueRegistry::instance().get(plan.technique.name);
@@ -242,13 +242,14 @@ class GlExecutor : public Executor {
     std::vector<std::pair<std::string, Image>> maps;
     {
       const Stopwatch watch(seconds_["metrics"]);
-      const perception::ComparisonInput judged{&run.technique->product(),
-                                               referenceTexture ? &*referenceTexture : nullptr,
-                                               &product,
-                                               reference.get(),
-                                               judgedEverywhere(run.info->product) ? nullptr : &on.view->mask,
-                                               &metricGpu_};
-      for (store::Measurement& measurement : judge(plan, judged, maps))
+      const perception::ComparisonInput evaluated{
+          &run.technique->product(),
+          referenceTexture ? &*referenceTexture : nullptr,
+          &product,
+          reference.get(),
+          evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
+          &metricGpu_};
+      for (store::Measurement& measurement : evaluate(plan, evaluated, maps))
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
     }

@@ -8,9 +8,9 @@ namespace {
 
 /// What tells this one from others of the same metric: the values that are not its defaults; none if there
 /// are no others.
-std::vector<std::string> distinctions(const Choice& metric, const std::vector<Choice>& all,
+std::vector<std::string> distinctions(const Configuration& metric, const std::vector<Configuration>& all,
                                       const std::vector<Parameter>& declared) {
-  const auto sameName = [&](const Choice& other) { return other.name == metric.name; };
+  const auto sameName = [&](const Configuration& other) { return other.name == metric.name; };
   std::vector<std::string> out;
   if (std::count_if(all.begin(), all.end(), sameName) < 2) return out;
   for (const DeclaredAt& at : chosen(declared, metric.values)) {
@@ -22,15 +22,15 @@ std::vector<std::string> distinctions(const Choice& metric, const std::vector<Ch
 
 }  // namespace
 
-std::string measurementName(const Choice& metric, const std::vector<Choice>& all,
+std::string measurementName(const Configuration& metric, const std::vector<Configuration>& all,
                             const std::vector<Parameter>& declared) {
   std::string name = metric.name;
   for (const std::string& value : distinctions(metric, all, declared)) name += "_" + value;
   return name;
 }
 
-std::string measurementTitle(const std::string& title, const Choice& metric, const std::vector<Choice>& all,
-                             const std::vector<Parameter>& declared) {
+std::string measurementTitle(const std::string& title, const Configuration& metric,
+                             const std::vector<Configuration>& all, const std::vector<Parameter>& declared) {
   std::string out = title;
   for (const std::string& value : distinctions(metric, all, declared)) out += ", " + value;
   return out;

@@ -21,7 +21,7 @@ namespace {
 
 /// One cell of an entry's axes.
 struct Variant {
-  Choice choice;
+  Configuration choice;
   nlohmann::json values;    ///< as reports show them: files as the descriptor names them
   nlohmann::json identity;  ///< what the key is made from: files by content
   std::string label;
@@ -126,7 +126,7 @@ class Planner {
 
   nlohmann::json metrics() const {
     nlohmann::json out = nlohmann::json::array();
-    for (const Choice& metric : descriptor_.metrics) {
+    for (const Configuration& metric : descriptor_.metrics) {
       nlohmann::json one = metric.values.toJson();
       one["name"] = metric.name;
       one["version"] = metric.version;
@@ -167,7 +167,7 @@ class Planner {
       if (info.check) info.check(values);
       return true;
     } catch (const Error& error) {
-      problems_.add(mark, error.message(), error.mend());
+      problems_.add(mark, error.message(), error.hint());
       return false;
     }
   }

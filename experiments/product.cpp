@@ -43,7 +43,7 @@ double mapWhite(const std::string& mapName) {
   return mapName == "absolute_error" || mapName == "relative_error" ? kErrorScale : 1.0;
 }
 
-bool judgedEverywhere(techniques::ProductKind kind) {
+bool evaluatedEverywhere(techniques::ProductKind kind) {
   return kind == techniques::ProductKind::Threshold || kind == techniques::ProductKind::JndMap;
 }
 

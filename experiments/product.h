@@ -22,7 +22,7 @@ Image productPicture(techniques::ProductKind kind, const Image& product, const I
 double mapWhite(const std::string& mapName);
 
 /// What a viewer sees has no mask: the background adapts the eye too.
-bool judgedEverywhere(techniques::ProductKind kind);
+bool evaluatedEverywhere(techniques::ProductKind kind);
 
 /// SHA-256 over the exact values and the size: equal for equal products.
 std::string productHash(const Image& product);

@@ -209,18 +209,18 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   return results.putExperiment(experiment, entries, plan.descriptions);
 }
 
-std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,
-                                                  int64_t experiment, const std::string& device,
-                                                  store::Store& results) {
+std::vector<store::Expectation> evaluateExpectations(const Descriptor& descriptor, const Plan& plan,
+                                                     int64_t experiment, const std::string& device,
+                                                     store::Store& results) {
   Problems problems(descriptor.path);
   const auto resolved = resolve(descriptor.expectations, plan.runs, problems);
   const std::vector<store::Run> rows = results.runs(experiment);
   std::map<std::string, const store::Run*> measured;
   for (const store::Run& row : rows)
     if (row.device == device) measured[row.key] = &row;
-  std::vector<store::Expectation> judged = judge(resolved, plan.runs, measured);
-  results.putExpectations(experiment, judged);
-  return judged;
+  std::vector<store::Expectation> evaluated = evaluate(resolved, plan.runs, measured);
+  results.putExpectations(experiment, evaluated);
+  return evaluated;
 }
 
 }  // namespace limen::experiments

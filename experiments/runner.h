@@ -51,10 +51,10 @@ SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
 /// its names mean. Returns its id.
 int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
 
-/// Judges the descriptor's expectations over everything that the store holds of this plan for `device`, and
-/// stores the judgement.
-std::vector<store::Expectation> judgeExpectations(const Descriptor& descriptor, const Plan& plan,
-                                                  int64_t experiment, const std::string& device,
-                                                  store::Store& results);
+/// Evaluates the descriptor's expectations over everything that the store holds of this plan for `device`,
+/// and stores the result.
+std::vector<store::Expectation> evaluateExpectations(const Descriptor& descriptor, const Plan& plan,
+                                                     int64_t experiment, const std::string& device,
+                                                     store::Store& results);
 
 }  // namespace limen::experiments

@@ -56,7 +56,7 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
 }
 
 Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                 const Choice& technique) {
+                 const Configuration& technique) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
   requireTraits(info, onGpu.scene);
   const auto made = info.make(technique.values);

@@ -30,6 +30,6 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
 /// The product of a technique made for this one frame. Throws what the technique throws, and where the driver
 /// reported a mistake.
 Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                 const Choice& technique);
+                 const Configuration& technique);
 
 }  // namespace limen::experiments

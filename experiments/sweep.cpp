@@ -204,8 +204,8 @@ class Sweeper {
     const bool whole = options_.shardCount == 1 && tally.left == 0;
     std::vector<store::Expectation> expectations;
     if (whole)
-      expectations = judgeExpectations(sweep.descriptor, sweep.plan, experiment,
-                                       executor->environment().device, results);
+      expectations = evaluateExpectations(sweep.descriptor, sweep.plan, experiment,
+                                          executor->environment().device, results);
     const std::string report = whole && !options_.noReport ? writeReport(sweep) : "";
     return summarise(sweep, tally, expectations, executor->account(), report);
   }

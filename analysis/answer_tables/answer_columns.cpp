@@ -48,10 +48,10 @@ std::string AnswerReader::meaning() const {
          (kind_ == Kind::Counts ? " in '" + table_.header()[trials_] + "'" : std::string());
 }
 
-int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& mend) {
+int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& hint) {
   const double value = table.number(row, column);
   if (value != 0.0 && value != 1.0)
-    throw Error("'" + table.text(row, column) + "' is neither 0 nor 1", table.place(row, column), mend);
+    throw Error("'" + table.text(row, column) + "' is neither 0 nor 1", table.place(row, column), hint);
   return value == 1.0 ? 1 : 0;
 }
 

@@ -46,7 +46,7 @@ class AnswerReader {
 };
 
 /// 0 or 1. Throws Error with line and column.
-int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& mend);
+int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& hint);
 /// `correct` of `trials`, with trials. Throws Error with line and column.
 AnswerCount readCounts(const Table& table, size_t row, size_t correct, size_t trials);
 /// Text that is not empty. Throws Error with line and column.

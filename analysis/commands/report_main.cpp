@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-report: pages of sweeps. Links nothing that fits or tests, so that a first sweep has not to wait for it to
-// be compiled; the pages of studies are those of `limen analyse report`.
+// limen-report: pages of sweeps. Links nothing that fits or tests, so that a first sweep has not to wait for
+// it to be compiled; the pages of studies are those of `limen analyse report`.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "analysis/commands/sweep_reports.h"
 #include "experiments/base/build_facts.h"
+#include "experiments/base/error.h"
 #include "experiments/base/program.h"
 
 namespace {
@@ -30,9 +31,8 @@ int main(int argc, char** argv) {
   app.add_flag("--sweeps", sweepsOnly, "leave out studies that the store holds beside sweeps");
   app.callback([&] {
     // Options that are unknown here are those on sessions, or mistakes that limen-analyse explains.
-    const bool study =
-        app.remaining_size() > 0 ||
-        (!sweepsOnly && options.experiment.empty() && limen::analysis::holdsSessions(options.storePath));
+    const bool study = app.remaining_size() > 0 || (!sweepsOnly && options.experiment.empty() &&
+                                                    limen::analysis::holdsSessions(options.storePath));
     if (study) {
       std::fprintf(stderr, "limen-report: for studies and their options use limen analyse report\n");
       exitCode = kExitHoldsStudy;

@@ -55,7 +55,7 @@ Section sectionOf(const AreaGroup& group, const Areas& all) {
 
 Result resultOf(const Areas& areas) {
   Result out;
-  out.command = "areas";
+  out.command = "correlate";
   addBootstrapFacts(out.head, areas.cluster, areas.setting.bootstrap);
   out.head.fact(forData(text("outcome")), areas.outcome);
   for (const AreaGroup& group : areas.groups) out.sections.push_back(sectionOf(group, areas));

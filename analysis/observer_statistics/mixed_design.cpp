@@ -142,7 +142,7 @@ Coded code(const MixedRows& rows, const std::string& name, const MixedTerms& ter
   const bool forced = names(terms.categorical, name);
   if (text < values.size() && !numbers.empty() && !forced)
     throw Error("'" + values[text] + "' is no number, other rows have numbers", rows.place(text, name),
-                "mend it, or take the column as names of levels with --categorical " + name);
+                "fix it, or take the column as names of levels with --categorical " + name);
   const bool numeric = numbers.size() == values.size() && !forced;
   const auto reference = references.find(name);
   if (numeric) {

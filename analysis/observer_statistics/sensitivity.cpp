@@ -16,7 +16,7 @@ void analyseRow(SensitivityRow& row, const PartSensitivity& part) {
   } catch (const Error& error) {
     throw Error(error.message(),
                 (row.observer.empty() ? "all together" : "'" + row.observer + "'") + ", " + error.where(),
-                error.mend());
+                error.hint());
   }
 }
 

@@ -17,15 +17,19 @@ void addEstimate(TableOf<SensitivityRow>& table, const std::string& name, const 
 
 ResultTable rowTable(const PartSensitivity& part) {
   TableOf out("rows", "", part.rows);
-  out.add(text("observer", part.subjects ? "observer" : "rows"),
+  out.add(forData(text("observer")),
+          [](const SensitivityRow& row) { return row.observer.empty() ? Cell() : Cell(row.observer); });
+  out.add(forPeople(text("", part.subjects ? "observer" : "rows")),
           [](const SensitivityRow& row) { return row.observer.empty() ? "all together" : row.observer; });
-  out.add(forData(flag("pooled")), [](const SensitivityRow& row) { return row.observer.empty(); });
   if (!part.yesNo) {
     const auto of = [](auto member) {
       return [member](const SensitivityRow& row) { return row.mAfc ? Cell((*row.mAfc).*member) : Cell(); };
     };
     return out
-        .add(count("correct", "trials"), [](const SensitivityRow& row) { return CountOf{row.correct, row.trials}; })
+        .add(count("correct", "trials"),
+             [](const SensitivityRow& row) {
+               return CountOf{row.correct, row.trials};
+             })
         .add(forPeople(share("", "share")),
              [](const SensitivityRow& row) {
                return static_cast<double>(row.correct) / static_cast<double>(row.trials);
@@ -33,14 +37,17 @@ ResultTable rowTable(const PartSensitivity& part) {
         .add(forData(number("proportion_correct")), of(&MAfcSensitivity::proportionCorrect))
         .add(number("d_prime", "d′"), of(&MAfcSensitivity::dPrime))
         .add(interval("d_prime"), [](const SensitivityRow& row) {
-          return row.mAfc ? Cell(Interval{row.mAfc->low.value_or(-INFINITY), row.mAfc->high.value_or(INFINITY)})
-                          : Cell();
+          return row.mAfc
+                     ? Cell(Interval{row.mAfc->low.value_or(-INFINITY), row.mAfc->high.value_or(INFINITY)})
+                     : Cell();
         });
   }
-  out.add(count("hits", "signal_trials"),
-          [](const SensitivityRow& row) { return CountOf{row.counts.hits, row.counts.signalTrials}; });
-  out.add(count("false_alarms", "noise_trials"),
-          [](const SensitivityRow& row) { return CountOf{row.counts.falseAlarms, row.counts.noiseTrials}; });
+  out.add(count("hits", "signal_trials"), [](const SensitivityRow& row) {
+    return CountOf{row.counts.hits, row.counts.signalTrials};
+  });
+  out.add(count("false_alarms", "noise_trials"), [](const SensitivityRow& row) {
+    return CountOf{row.counts.falseAlarms, row.counts.noiseTrials};
+  });
   for (const auto& [name, member] : {std::pair{"hit_rate", &YesNoSensitivity::hitRate},
                                      std::pair{"false_alarm_rate", &YesNoSensitivity::falseAlarmRate}})
     out.add(forData(number(name)), [member = member](const SensitivityRow& row) {

@@ -96,7 +96,7 @@ class GroupScale {
       out_.fit = scalePairs(wins_, group.items.size(), options);
     } catch (const Error& error) {
       throw Error(error.message(), group.name.empty() ? "judgements" : "judgements of " + group.name,
-                  error.mend());
+                  error.hint());
     }
     draws_ = drawSamples(group, options, setting, out_.fit, out_.notes);
     out_.bootstrap = draws_.of;

@@ -13,11 +13,11 @@ namespace {
 
 std::string shareText(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
-ComparedValue share(const std::string& quantity, double printed, const std::optional<double>& ours) {
+ComparedValue comparedShare(const std::string& quantity, double printed, const std::optional<double>& ours) {
   return {quantity, shareText(printed), printed, ours, ours ? shareText(*ours) : "-"};
 }
-ComparedValue number(const std::string& quantity, double printed, const std::optional<double>& ours,
-                     int digits) {
+ComparedValue comparedNumber(const std::string& quantity, double printed, const std::optional<double>& ours,
+                             int digits) {
   return {quantity, fixedText(printed, digits), printed, ours, fixedText(ours, digits)};
 }
 
@@ -54,13 +54,13 @@ class Comparer {
       out_.statistics.push_back(
           {"",
            "observers",
-           {number("count", static_cast<double>(one.observers), static_cast<double>(observers), 0)},
+           {comparedNumber("count", static_cast<double>(one.observers), static_cast<double>(observers), 0)},
            "",
            one.source});
       const double each = static_cast<double>(answers) / static_cast<double>(observers);
       out_.statistics.push_back({"",
                                  "trials of each observer",
-                                 {number("count", static_cast<double>(one.trialsEach), each, 0)},
+                                 {comparedNumber("count", static_cast<double>(one.trialsEach), each, 0)},
                                  answers % observers == 0 ? "" : "ours: a mean, since answers are missing",
                                  one.source});
       return;
@@ -78,7 +78,7 @@ class Comparer {
     out_.statistics.push_back(
         {one.part,
          one.change ? "detection rate, trials with a change" : "detection rate, catch trials",
-         {share("mean", one.rate.mean, mean), share("sd", one.rate.sd, sd)},
+         {comparedShare("mean", one.rate.mean, mean), comparedShare("sd", one.rate.sd, sd)},
          "",
          one.rate.source});
   }
@@ -95,17 +95,18 @@ class Comparer {
     }
     const PublishedScenarios& known = one.scenarios;
     const std::string of = " of " + one.presentation + " scenarios";
-    out_.statistics.push_back({one.part,
-                               "detection rate" + of,
-                               {share("mean", known.meanRate, rate), share("sd", known.sdRate, rateSd)},
-                               known.remark,
-                               known.source});
     out_.statistics.push_back(
         {one.part,
-         "mean severity" + of,
-         {number("mean", known.meanSeverity, severity, 2), number("sd", known.sdSeverity, severitySd, 2)},
-         "",
+         "detection rate" + of,
+         {comparedShare("mean", known.meanRate, rate), comparedShare("sd", known.sdRate, rateSd)},
+         known.remark,
          known.source});
+    out_.statistics.push_back({one.part,
+                               "mean severity" + of,
+                               {comparedNumber("mean", known.meanSeverity, severity, 2),
+                                comparedNumber("sd", known.sdSeverity, severitySd, 2)},
+                               "",
+                               known.source});
     leastScores(one);
   }
 
@@ -159,8 +160,8 @@ class Comparer {
     out_.statistics.push_back(
         {one.part,
          "variance by " + join(one.factors, " x "),
-         {number("F", known.f, f, 3), number("df", known.df, degrees(own ? own->df : 0.0), 0),
-          number("df error", known.dfError, degrees(own ? own->dfError : 0.0), 0), pValue},
+         {comparedNumber("F", known.f, f, 3), comparedNumber("df", known.df, degrees(own ? own->df : 0.0), 0),
+          comparedNumber("df error", known.dfError, degrees(own ? own->dfError : 0.0), 0), pValue},
          note,
          known.source});
     // F was worked out of p, and nothing else but p was printed.
@@ -188,13 +189,14 @@ class Comparer {
       note = "ours: too few scenarios of this kind";
     else if (!tauC || !r)
       note = "ours: predictions or answers do not vary";
-    out_.statistics.push_back({one.part,
-                               fmt::format("{} with {}, {}", one.predictor,
-                                           one.severity ? "mean severity" : "detection rate", one.set),
-                               {number("tau_c", one.agreement.tauC, tauC, 3),
-                                number(one.agreement.clamped ? "r clamped" : "r", one.agreement.r, r, 3)},
-                               note,
-                               one.agreement.source});
+    out_.statistics.push_back(
+        {one.part,
+         fmt::format("{} with {}, {}", one.predictor, one.severity ? "mean severity" : "detection rate",
+                     one.set),
+         {comparedNumber("tau_c", one.agreement.tauC, tauC, 3),
+          comparedNumber(one.agreement.clamped ? "r clamped" : "r", one.agreement.r, r, 3)},
+         note,
+         one.agreement.source});
   }
 
   void notes() {

@@ -29,7 +29,9 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
       rows.push_back(row);
       for (const auto& [factor, level] : row.condition) factors[factor] = true;
     }
-  const auto of = [](auto member) { return [member](const RateRow& row) { return row.overObservers.*member; }; };
+  const auto of = [](auto member) {
+    return [member](const RateRow& row) { return row.overObservers.*member; };
+  };
   const auto published = [](auto member) {
     return [member](const RateRow& row) { return row.published ? Cell((*row.published).*member) : Cell(); };
   };
@@ -46,13 +48,16 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
       .add(forPeople(text("", "rate of")), ofText)
       .add(integer("observers"), of(&MeanOverSubjects::subjects))
       .add(share("estimate", "mean"), of(&MeanOverSubjects::mean))
-      .add(shareInterval("", "95 % over observers"), of(&MeanOverSubjects::interval))
       .add(share("sd"), of(&MeanOverSubjects::standardDeviation))
+      .add(shareInterval("", "95 % over observers"), of(&MeanOverSubjects::interval))
       .add(count("positive", "trials", "pooled"),
-           [](const RateRow& row) { return CountOf{row.pooled.successes, row.pooled.trials}; })
+           [](const RateRow& row) {
+             return CountOf{row.pooled.successes, row.pooled.trials};
+           })
       .add(forData(share("pooled_rate")), [](const RateRow& row) { return row.pooled.rate; })
       .add(shareInterval("wilson", "95 % (Wilson)"), [](const RateRow& row) { return row.pooled.wilson; })
-      .add(forData(shareInterval("clopper_pearson")), [](const RateRow& row) { return row.pooled.clopperPearson; })
+      .add(forData(shareInterval("clopper_pearson")),
+           [](const RateRow& row) { return row.pooled.clopperPearson; })
       .add(ifAny(share("published", "published mean")), published(&PublishedRate::mean))
       .add(ifAny(share("published_sd", "published sd")), published(&PublishedRate::sd))
       .add(forData(text("published_source")), published(&PublishedRate::source));
@@ -77,7 +82,9 @@ ResultTable observerTable(const StudyRates& rates, const std::string& part) {
       .add(forPeople(text("", "trials")), [](const Row& row) { return row.change ? "change" : "no change"; })
       .add(text("rate_of"), [](const Row& row) { return row.own->of; })
       .add(count("positive", "trials", "answers"),
-           [](const Row& row) { return CountOf{row.rate.successes, row.rate.trials}; })
+           [](const Row& row) {
+             return CountOf{row.rate.successes, row.rate.trials};
+           })
       .add(share("estimate", "rate"), of(&Rate::rate))
       .add(shareInterval("wilson", "95 % (Wilson)"), of(&Rate::wilson))
       .add(forData(shareInterval("clopper_pearson")), of(&Rate::clopperPearson));
@@ -100,8 +107,8 @@ ResultTable scenarioTable(const StudyRates& rates, const std::string& part) {
     rows.push_back({&one, "rate", one.rate, printed(&PublishedScenarios::meanRate),
                     printed(&PublishedScenarios::sdRate)});
     if (one.severity || known)
-      rows.push_back({&one, "severity", one.severity.value_or(Spread{}), printed(&PublishedScenarios::meanSeverity),
-                      printed(&PublishedScenarios::sdSeverity)});
+      rows.push_back({&one, "severity", one.severity.value_or(Spread{}),
+                      printed(&PublishedScenarios::meanSeverity), printed(&PublishedScenarios::sdSeverity)});
   }
   const auto of = [](auto member) {
     return [member](const Row& row) {
@@ -146,7 +153,8 @@ Result resultOf(const StudyRates& rates) {
   }
   out.notes = rates.notes;
   out.notes.push_back(
-      "over observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials of one "
+      "over observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials of "
+      "one "
       "observer are not independent: their interval is too narrow");
   return out;
 }

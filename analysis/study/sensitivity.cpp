@@ -6,7 +6,7 @@
 namespace limen::analysis {
 namespace {
 
-void count(SensitivityRow& row, const StudyAnswer& answer) {
+void countAnswer(SensitivityRow& row, const StudyAnswer& answer) {
   const int positive = answer.outcome == 1 ? 1 : 0;
   if (answer.change) {
     row.counts.hits += positive;
@@ -30,8 +30,8 @@ void sensitivityOf(PartSensitivity& out, const StudyAnswers& study, size_t index
   }
   for (const StudyAnswer& answer : study.answers) {
     if (answer.part != index) continue;
-    count(rows[answer.observer], answer);
-    count(rows.back(), answer);
+    countAnswer(rows[answer.observer], answer);
+    countAnswer(rows.back(), answer);
   }
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(out.rows),
                [](const SensitivityRow& row) { return row.trials > 0; });

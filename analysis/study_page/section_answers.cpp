@@ -47,8 +47,8 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out) {
       least = std::min(least, *answer.severity);
     }
   if (groups.empty()) return;
-  const PartText* text = page.text.part(part.name);
-  const std::vector<std::string> labels = text ? text->severityLabels : std::vector<std::string>{};
+  const PartText* words = page.text.part(part.name);
+  const std::vector<std::string> labels = words ? words->severityLabels : std::vector<std::string>{};
   most = std::max(most, static_cast<int>(labels.size()));
   const auto labelOf = [&](int step) {
     return step >= 1 && step <= static_cast<int>(labels.size()) ? labels[static_cast<size_t>(step - 1)]
@@ -66,7 +66,7 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out) {
   figure.settings =
       namedTics("x", tics) + fmt::format("set xrange [{}:{}]\nset yrange [0:100]\n", least - 0.5, most + 0.5);
   const double width = 0.8 / static_cast<double>(groups.size());
-  size_t number = 0;
+  size_t series = 0;
   for (const auto& [name, counts] : groups) {
     double all = 0.0, sum = 0.0;
     for (const auto& [step, count] : counts)
@@ -77,20 +77,20 @@ void addSeverity(const StudyPage& page, size_t index, PageWriter& out) {
       const auto found = counts.find(step);
       const size_t count = found == counts.end() ? 0 : found->second;
       const double share = 100.0 * static_cast<double>(count) / all;
-      rows.push_back({step + (static_cast<double>(number) + 0.5) * width - 0.4, share, width * 0.9,
+      rows.push_back({step + (static_cast<double>(series) + 0.5) * width - 0.4, share, width * 0.9,
                       static_cast<double>(count)});
     }
     figure.plots.push_back(addBlock(figure, name + ": drawn at, share in %, width, answers", rows) +
-                           " using 1:2:3 with boxes fs solid 0.6 lw 1 " + seriesColour(number) + " title " +
+                           " using 1:2:3 with boxes fs solid 0.6 lw 1 " + seriesColour(series) + " title " +
                            gnuplotQuoted(name));
-    ++number;
+    ++series;
   }
   out.figure(
       std::move(figure),
       fmt::format(
           "Part {}: severity of what was noticed, as shares of the answers that were asked for it.{}",
           part.name,
-          text && !text->severityQuestion.empty() ? " Question: “" + text->severityQuestion + "”" : ""));
+          words && !words->severityQuestion.empty() ? " Question: “" + words->severityQuestion + "”" : ""));
   TableOf table("severity", "", lines);
   table.add(forData(text("part")), [&](const SeverityRow&) { return part.name; })
       .add(text("trials"), &SeverityRow::group);
@@ -134,7 +134,7 @@ void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out) {
       "1000)\n" +
       fmt::format("set xrange [{}:{}]\n", shortestNumber(least * 0.9), shortestNumber(most * 1.1));
   std::vector<TimesRow> lines;
-  size_t number = 0;
+  size_t series = 0;
   for (const auto& [name, times] : groups) {
     std::vector<std::vector<double>> rows;
     const double step = std::log(most / least) / kBins;
@@ -147,25 +147,24 @@ void addReactionTimes(const StudyPage& page, size_t index, PageWriter& out) {
         rows.push_back({least * std::exp(end * step), static_cast<double>(counts[static_cast<size_t>(bin)])});
     figure.plots.push_back(addBlock(figure, name + ": time in s, answers in its bin", rows) +
                            " using 1:2 with lines title " + gnuplotQuoted(name) + " " +
-                           seriesColour(number++) + " lw 1.5");
+                           seriesColour(series++) + " lw 1.5");
     lines.push_back({name, times});
   }
   out.figure(std::move(figure),
              fmt::format("Part {}: time from question to answer, in {} bins that are even in the logarithm.",
                          part.name, kBins));
   const auto at = [](double p) { return [p](const TimesRow& row) { return quantile(row.times, p); }; };
-  const ResultTable made = TableOf("reaction_times", "", lines)
-                               .add(forData(text("part")), [&](const TimesRow&) { return part.name; })
-                               .add(text("answer"), &TimesRow::answer)
-                               .add(integer("answers"), [](const TimesRow& row) { return row.times.size(); })
-                               .add(number("median_s", "median", 2),
-                                    [](const TimesRow& row) { return summarise(row.times).median; })
-                               .add(number("quartile_1_s", "25 %", 2), at(0.25))
-                               .add(number("quartile_3_s", "75 %", 2), at(0.75))
-                               .add(number("p95_s", "95 %", 2),
-                                    [](const TimesRow& row) { return summarise(row.times).p95; })
-                               .add(number("mean_s", "mean", 2),
-                                    [](const TimesRow& row) { return summarise(row.times).mean; });
+  const ResultTable made =
+      TableOf("reaction_times", "", lines)
+          .add(forData(text("part")), [&](const TimesRow&) { return part.name; })
+          .add(text("answer"), &TimesRow::answer)
+          .add(integer("answers"), [](const TimesRow& row) { return row.times.size(); })
+          .add(number("median_s", "median", 2),
+               [](const TimesRow& row) { return summarise(row.times).median; })
+          .add(number("quartile_1_s", "25 %", 2), at(0.25))
+          .add(number("quartile_3_s", "75 %", 2), at(0.75))
+          .add(number("p95_s", "95 %", 2), [](const TimesRow& row) { return summarise(row.times).p95; })
+          .add(number("mean_s", "mean", 2), [](const TimesRow& row) { return summarise(row.times).mean; });
   const std::string file = "tables/reaction_times_" + page.stem(part.name) + ".csv";
   out.table(made, "Time from question to answer in part " + part.name + ", in seconds.", file);
   out.file(file, toCsv(made), "reaction times by answer, part " + part.name);

@@ -21,14 +21,18 @@ constexpr const char* kFitFile = "tables/psychometric.csv";
 
 void addTables(const FitAnswer& answer, const Section& section, PageWriter& out) {
   const FitSettings& settings = answer.fit.settings;
-  out.table(section.table("parameters"),
-            fmt::format("Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, "
-                        "slope dF/dx at the threshold, 95 % profile intervals. At bound: of the fit, the data set no "
-                        "limit on that side.",
-                        answer.level, answer.part, shortestNumber(settings.thresholdLevel),
-                        settings.logarithmic() ? " in units of ln " + answer.level : ""),
+  ResultTable parameters = section.table("parameters");
+  for (Column& column : parameters.columns) column.digits = std::min(column.digits, 4);
+  out.table(parameters,
+            fmt::format(
+                "Psychometric functions of {}, part {}: threshold at F = {}, width from F = 0.05 to 0.95{}, "
+                "slope dF/dx at the threshold, 95 % profile intervals. At bound: of the fit, the data set no "
+                "limit on that side.",
+                answer.level, answer.part, shortestNumber(settings.thresholdLevel),
+                settings.logarithmic() ? " in units of ln " + answer.level : ""),
             kFitFile, kOpenParameters);
-  out.table(section.table("conditions"), "Trials and goodness of the fits of part " + answer.part + ".", kFitFile);
+  out.table(section.table("conditions"), "Trials and goodness of the fits of part " + answer.part + ".",
+            kFitFile);
   out.list(remarksOn(answer));
 }
 
@@ -150,8 +154,7 @@ void addFits(const StudyPage& page, PageWriter& out) {
     sections.push_back(sectionOf(*part.answer));
     addTables(*part.answer, sections.back(), out);
   }
-  if (!sections.empty())
-    out.file(kFitFile, toCsv(sections), "parameters of the psychometric functions");
+  if (!sections.empty()) out.file(kFitFile, toCsv(sections), "parameters of the psychometric functions");
   out.closeSection();
 }
 

@@ -32,7 +32,7 @@ void EntryAccess::read(const Parameter& stated, void* settings, const ParameterV
   try {
     options_.check(chosen.name, chosen.values);
   } catch (const Error& error) {
-    throw Error(error.message(), joinPath(stated.name, error.where()), error.mend());
+    throw Error(error.message(), joinPath(stated.name, error.where()), error.hint());
   }
 }
 

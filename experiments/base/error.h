@@ -6,22 +6,22 @@
 
 namespace limen {
 
-/// An error that a user can cause and mend. `what` names the thing, `where` the file and line (or the
-/// command-line option), `mend` what to do about it. Programmer errors are assertions, never this.
+/// An error that a user can cause and fix. `what` names the thing, `where` the file and line (or the
+/// command-line option), `hint` what to do about it. Programmer errors are assertions, never this.
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& what, const std::string& where = {}, const std::string& mend = {})
-      : std::runtime_error((where.empty() ? what : where + ": " + what) + (mend.empty() ? "" : "; " + mend)),
+  explicit Error(const std::string& what, const std::string& where = {}, const std::string& hint = {})
+      : std::runtime_error((where.empty() ? what : where + ": " + what) + (hint.empty() ? "" : "; " + hint)),
         message_(what),
         where_(where),
-        mend_(mend) {}
+        hint_(hint) {}
 
   const std::string& message() const { return message_; }
   const std::string& where() const { return where_; }
-  const std::string& mend() const { return mend_; }
+  const std::string& hint() const { return hint_; }
 
  private:
-  std::string message_, where_, mend_;
+  std::string message_, where_, hint_;
 };
 
 /// Exit codes of every program.

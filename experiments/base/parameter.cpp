@@ -113,10 +113,10 @@ std::string describeRange(const Parameter& parameter) {
 }
 
 ParameterValue validate(const Parameter& parameter, const ParameterValue& value, const std::string& where) {
-  const auto refuse = [&](const std::string& mend = {}) -> Error {
+  const auto refuse = [&](const std::string& hint = {}) -> Error {
     const std::string allowed = "allowed: " + describeRange(parameter);
     return Error("'" + parameter.name + "' is " + toText(value), where,
-                 mend.empty() ? allowed : mend + "; " + allowed);
+                 hint.empty() ? allowed : hint + "; " + allowed);
   };
   ParameterValue result = value;
   switch (parameter.type) {

@@ -14,7 +14,7 @@ class Problems {
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
   /// The same problem at the same place counts once.
-  void add(Mark mark, const std::string& what, const std::string& mend = {});
+  void add(Mark mark, const std::string& what, const std::string& hint = {});
   bool empty() const { return lines_.empty(); }
   size_t size() const { return lines_.size(); }
   const std::string& file() const { return file_; }

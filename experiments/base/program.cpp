@@ -30,15 +30,15 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
     std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), error.what());
     return;
   }
-  std::string mend = "quote a pattern, so that the shell leaves it alone";
+  std::string hint = "quote a pattern, so that the shell leaves it alone";
   if (rest.front().rfind("-", 0) == 0) {
     std::vector<std::string> known;
     for (const CLI::Option* option : parsedCommand(&app)->get_options())
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    mend = suggest(rest.front(), known);
+    hint = suggest(rest.front(), known);
   }
   std::fprintf(stderr, "%s: unknown argument '%s'; %s\n", program.c_str(), rest.front().c_str(),
-               mend.c_str());
+               hint.c_str());
 }
 
 }  // namespace

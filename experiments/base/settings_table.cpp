@@ -13,7 +13,7 @@ void readBelow(const std::string& prefix, const Read& read) {
     read();
   } catch (const Error& error) {
     throw Error(error.message(), error.where().empty() ? prefix : joinPath(prefix, error.where()),
-                error.mend());
+                error.hint());
   }
 }
 

@@ -66,17 +66,17 @@ std::string sentence(const YamlNode& node, const Parameter& parameter) {
   return "'" + parameter.name + "' " + is;
 }
 
-std::string mendFor(const YamlNode& node, const Parameter& parameter) {
-  std::string mend = "allowed: " + describeRange(parameter);
+std::string hintFor(const YamlNode& node, const Parameter& parameter) {
+  std::string hint = "allowed: " + describeRange(parameter);
   YamlNode unquoted = node;
   unquoted.quoted = false;
-  if (node.quoted && convert(unquoted, parameter.type)) mend = "write it without quotes; " + mend;
+  if (node.quoted && convert(unquoted, parameter.type)) hint = "write it without quotes; " + hint;
   const std::string& text = node.text;
   if (parameter.type == ParameterType::Boolean && (text == "yes" || text == "on" || text == "True"))
-    mend = "did you mean 'true'? " + mend;
+    hint = "did you mean 'true'? " + hint;
   if (parameter.type == ParameterType::Boolean && (text == "no" || text == "off" || text == "False"))
-    mend = "did you mean 'false'? " + mend;
-  return mend;
+    hint = "did you mean 'false'? " + hint;
+  return hint;
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ std::optional<std::string> FileFinder::find(const std::string& named, Mark mark,
 std::optional<ParameterValue> ValueReader::value(const YamlNode& node, const Parameter& parameter) {
   const auto converted = convert(node, parameter.type);
   if (!converted) {
-    problems_.add(node.mark, sentence(node, parameter), mendFor(node, parameter));
+    problems_.add(node.mark, sentence(node, parameter), hintFor(node, parameter));
     return {};
   }
   try {
@@ -129,7 +129,7 @@ std::optional<ParameterValue> ValueReader::value(const YamlNode& node, const Par
     if (!path) return {};
     return ParameterValue(*std::move(path));
   } catch (const Error& error) {
-    problems_.add(node.mark, node.origin.empty() ? error.message() : sentence(node, parameter), error.mend());
+    problems_.add(node.mark, node.origin.empty() ? error.message() : sentence(node, parameter), error.hint());
     return {};
   }
 }

@@ -79,8 +79,8 @@ class TreeBuilder : public YAML::EventHandler {
     std::set<std::string> keys;
   };
 
-  Error refuse(const std::string& what, const YAML::Mark& mark, const std::string& mend) const {
-    return Error(what, location(file_, toMark(mark)), mend);
+  Error refuse(const std::string& what, const YAML::Mark& mark, const std::string& hint) const {
+    return Error(what, location(file_, toMark(mark)), hint);
   }
 
   YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
@@ -250,7 +250,7 @@ YamlNode parseYaml(const std::string& text, const std::string& file) {
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    throw Error("not readable as YAML: " + error.msg, location(file, toMark(error.mark)), "mend the syntax");
+    throw Error("not readable as YAML: " + error.msg, location(file, toMark(error.mark)), "fix the syntax");
   }
   return builder.take();
 }

@@ -91,7 +91,7 @@ void insertRun(sqlite3* database, const Run& run, const std::optional<int64_t>& 
   writeDetails(database, find.integer(0), run);
 }
 
-// Shards of one sweep judge the same expectations on their own runs: held means held in all of them.
+// Shards of one sweep evaluate the same expectations on their own runs: held means held in all of them.
 std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
                                           const std::vector<Expectation>& theirs) {
   for (const Expectation& expectation : theirs) {

@@ -54,7 +54,7 @@ class EvaluationThread::Work {
     const std::string identity = identityOf(request.setup, step);
     if (identity == identity_) return reference_;
     viewed_.show(completeScene(request.setup.scene));
-    const experiments::Choice choice = completeTechnique(step);
+    const experiments::Configuration choice = completeTechnique(step);
     const CancelScope scope(cancelled);
     auto product = std::make_shared<Image>(
         experiments::renderOnce(context_, viewed_.get(), request.setup.sizePx, choice));
@@ -69,7 +69,7 @@ class EvaluationThread::Work {
   }
 
   void evaluate(const EvaluationRequest& request, EvaluationResult& out) {
-    const bool everywhere = experiments::judgedEverywhere(request.kind);
+    const bool everywhere = experiments::evaluatedEverywhere(request.kind);
     for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
       if (!info.needsReference) continue;
       const ParameterValues defaults(info.parameters, {});

@@ -37,7 +37,7 @@ std::string entryText(const Entry& entry, const std::vector<Parameter>& declared
 
 std::string techniqueText(const Entry& entry) { return entryText(entry, techniqueParameters(entry.name)); }
 
-Entry entryOf(const experiments::Choice& choice, const std::vector<Parameter>& declared) {
+Entry entryOf(const experiments::Configuration& choice, const std::vector<Parameter>& declared) {
   return {choice.name, withoutDefaults(declared, choice.values.all())};
 }
 

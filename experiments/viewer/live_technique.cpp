@@ -27,7 +27,7 @@ double median(std::vector<double>& values) {
 }  // namespace
 
 LiveTechnique::LiveTechnique(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                             const experiments::Choice& choice)
+                             const experiments::Configuration& choice)
     : info_(techniques::TechniqueRegistry::instance().get(choice.name)),
       frame_(context, onGpu, sizePx),
       clock_(context.device().software || info_.onCpu ? gl::Clock::Wall : gl::Clock::Gpu) {

@@ -26,7 +26,7 @@ class LiveTechnique {
  public:
   /// Makes, prepares and renders one frame, as a sweep does. Throws what the technique throws.
   LiveTechnique(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                const experiments::Choice& choice);
+                const experiments::Configuration& choice);
 
   /// Renders and times up to `frames` frames, at least one, no more than fit `seconds`; the camera is where
   /// the scene's is.

@@ -117,7 +117,7 @@ class RenderThread::Work {
     out.number = request.number;
     out.setup = request.setup;
     try {
-      const experiments::Choice scene = completeScene(request.setup.scene);
+      const experiments::Configuration scene = completeScene(request.setup.scene);
       if (viewed_.empty() || !(scene.name == scene_.name && scene.values.all() == scene_.values.all())) {
         // Whoever holds on to a scene goes before it does.
         scene_ = {};
@@ -146,7 +146,7 @@ class RenderThread::Work {
     return out;
   }
 
-  bool needsBuilding(const experiments::Choice& scene) const { return viewed_.needsBuilding(scene); }
+  bool needsBuilding(const experiments::Configuration& scene) const { return viewed_.needsBuilding(scene); }
 
   /// Keeps the techniques that the setup still asks for.
   void dropStale(const ViewSetup& setup) {
@@ -227,7 +227,7 @@ class RenderThread::Work {
   gl::Context& context_;
   std::atomic<int64_t>& frames_;
   ViewedScene viewed_;
-  experiments::Choice scene_;
+  experiments::Configuration scene_;
   glm::ivec2 sizePx_{0};
   std::unique_ptr<Presenter> presenter_;
   std::vector<Entry> entries_;

@@ -86,7 +86,7 @@ class ViewsReader {
     try {
       if (!view.camera.empty()) scene::parseCamera(view.camera);
     } catch (const Error& error) {
-      problems_.add(item.find("camera")->mark, error.message(), error.mend());
+      problems_.add(item.find("camera")->mark, error.message(), error.hint());
     }
     const auto [first, fresh] = names_.emplace(view.name, item.mark.line);
     if (!fresh && !view.name.empty())

@@ -49,15 +49,16 @@ Values takeBelow(Values& values, const std::string& path) {
 
 }  // namespace
 
-experiments::Choice completeScene(const Entry& entry) {
+experiments::Configuration completeScene(const Entry& entry) {
   const scene::SceneInfo& info = scene::SceneRegistry::instance().get(entry.name, "scene");
   return {entry.name, info.version, {info.allParameters(), entry.given, "scene '" + entry.name + "'"}};
 }
 
-experiments::Choice completeTechnique(const Entry& entry) {
+experiments::Configuration completeTechnique(const Entry& entry) {
   const TechniqueInfo& info = techniqueNamed(entry.name);
-  experiments::Choice out{entry.name, info.version,
-                          ParameterValues(info.parameters, entry.given, "technique '" + entry.name + "'")};
+  experiments::Configuration out{
+      entry.name, info.version,
+      ParameterValues(info.parameters, entry.given, "technique '" + entry.name + "'")};
   if (info.check) info.check(out.values);
   return out;
 }

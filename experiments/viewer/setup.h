@@ -29,8 +29,8 @@ struct ViewSetup {
 };
 
 /// With all values. Throws Error: unknown name, bad or missing value, values that conflict.
-experiments::Choice completeScene(const Entry& entry);
-experiments::Choice completeTechnique(const Entry& entry);
+experiments::Configuration completeScene(const Entry& entry);
+experiments::Configuration completeTechnique(const Entry& entry);
 
 std::vector<Parameter> sceneParameters(const std::string& name);
 const std::vector<Parameter>& techniqueParameters(const std::string& name);

@@ -7,7 +7,7 @@ namespace limen::viewer {
 namespace {
 
 /// What the scene is without what moves its camera.
-ParameterValues stillValues(const experiments::Choice& scene) {
+ParameterValues stillValues(const experiments::Configuration& scene) {
   std::map<std::string, ParameterValue> still = scene.values.all();
   scene::setCamera(still, scene::BuiltInCamera());
   return {scene::SceneRegistry::instance().get(scene.name).allParameters(), still};
@@ -15,11 +15,11 @@ ParameterValues stillValues(const experiments::Choice& scene) {
 
 }  // namespace
 
-std::string ViewedScene::keyOf(const experiments::Choice& scene) {
+std::string ViewedScene::keyOf(const experiments::Configuration& scene) {
   return scene.name + stillValues(scene).toJson().dump();
 }
 
-bool ViewedScene::show(const experiments::Choice& scene) {
+bool ViewedScene::show(const experiments::Configuration& scene) {
   const bool build = needsBuilding(scene);
   if (build) {
     onGpu_.reset();

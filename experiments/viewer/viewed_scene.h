@@ -15,17 +15,19 @@ class ViewedScene {
  public:
   /// Builds the scene if it differs from the one before in more than its camera, and moves the camera. True
   /// if it was built. Throws Error; then there is no scene.
-  bool show(const experiments::Choice& scene);
+  bool show(const experiments::Configuration& scene);
   /// What show() has left; there must be one.
   const frame::SceneOnGpu& get() const { return *onGpu_; }
   bool empty() const { return !onGpu_; }
   /// Whether show() would build a scene, and end the one there is.
-  bool needsBuilding(const experiments::Choice& scene) const { return !onGpu_ || keyOf(scene) != key_; }
+  bool needsBuilding(const experiments::Configuration& scene) const {
+    return !onGpu_ || keyOf(scene) != key_;
+  }
   /// Of the camera, from its own time 0 whatever time is shown.
   const scene::CameraPath& path() const { return path_; }
 
  private:
-  static std::string keyOf(const experiments::Choice& scene);
+  static std::string keyOf(const experiments::Configuration& scene);
 
   std::string key_;
   std::unique_ptr<frame::SceneOnGpu> onGpu_;

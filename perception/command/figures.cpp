@@ -57,9 +57,10 @@ std::vector<std::string> exceeded(const Figures& figures, const std::vector<Limi
     const auto figure =
         std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == limit.figure; });
     if (figure == figures.end() || (!figure->value && !figure->reason.empty()))
-      throw Error(
-          "'" + limit.figure + "' cannot be judged" + (figure == figures.end() ? "" : ": " + figure->reason),
-          limit.below ? "--fail-below" : "--fail-above", "leave this limit out, or mend what is missing");
+      throw Error("'" + limit.figure + "' cannot be evaluated" +
+                      (figure == figures.end() ? "" : ": " + figure->reason),
+                  limit.below ? "--fail-below" : "--fail-above",
+                  "leave this limit out, or supply what is missing");
     if (!figure->value) continue;
     if (limit.below ? *figure->value < limit.value : *figure->value > limit.value)
       out.push_back(fmt::format("{} is {}{}, {} {}", figure->name, numberText(*figure->value),

@@ -52,7 +52,7 @@ std::string countText(int64_t count, const char* one, const char* many) {
 }
 
 /// Counts what the display cannot show, into warnings too.
-void judgeRange(InputImage& input) {
+void checkRange(InputImage& input) {
   const auto channels = static_cast<size_t>(input.linear.channels);
   int64_t above = 0, below = 0;
   for (size_t pixel = 0; pixel < input.linear.pixels(); ++pixel) {
@@ -166,11 +166,11 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
       }
     }
   }
-  judgeRange(out);
+  checkRange(out);
   if (out.width() > display.resolutionPx.x || out.height() > display.resolutionPx.y)
     out.warnings.push_back(
-        fmt::format("{} x {} pixels do not fit the display's {} x {}; judged at its pixel pitch", out.width(),
-                    out.height(), display.resolutionPx.x, display.resolutionPx.y));
+        fmt::format("{} x {} pixels do not fit the display's {} x {}; evaluated at its pixel pitch",
+                    out.width(), out.height(), display.resolutionPx.x, display.resolutionPx.y));
   if (values == "luminance")
     for (float& value : light.data)
       if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
@@ -194,7 +194,7 @@ Image readMap(const std::string& path, const std::string& option, int channels, 
   try {
     map = readImage(path);
   } catch (const Error& error) {
-    throw Error(error.message(), option, error.mend());
+    throw Error(error.message(), option, error.hint());
   }
   if (map.width != like.width() || map.height != like.height())
     throw Error(fmt::format("'{}' is {} x {}, the images are {} x {}", path, map.width, map.height,

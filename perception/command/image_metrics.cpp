@@ -47,7 +47,7 @@ struct ImageMetrics::Entry {
 };
 
 std::vector<std::string> defaultMetrics() {
-  // The others registered judge visibility alone.
+  // The others registered evaluate visibility alone.
   return {"rmse", "mae",  "signed_error", "largest_error", "p99_error",
           "psnr", "ssim", "de94",         "flip",          "non_finite"};
 }

@@ -12,7 +12,7 @@
 
 namespace limen::perception {
 
-/// Metrics that `compare` runs if none are named: those that judge any image.
+/// Metrics that `compare` runs if none are named: those that evaluate any image.
 std::vector<std::string> defaultMetrics();
 /// Groups of the parameters of these metrics, for --set. flip's pixels_per_degree is the display's unless
 /// set. Throws Error on an unknown metric.

@@ -126,7 +126,7 @@ void addCsfErrorCommand(CLI::App& app) {
                    "comma-separated values with columns luminance, s_frequency, sensitivity, and if known "
                    "t_frequency, area or ge_sigma, orientation, eccentricity, dataset")
       ->required();
-  command->add_option("--model", options->models, "model to judge; may be repeated; else all of luminance")
+  command->add_option("--model", options->models, "model to evaluate; may be repeated; else all of luminance")
       ->take_all();
   command->add_option("--least-velocity", options->leastVelocity, "slower stimuli count as this [deg/s]")
       ->capture_default_str();

@@ -35,7 +35,7 @@ Figures allFigures() {
 /// Sequences of the call, in the order of FrameSet::paths.
 enum Role : size_t { kOld, kNew, kMotion, kOldMotion, kFirstWeight };
 
-/// Leaves out maps of frames that are not judged, such as the first one of all.
+/// Leaves out maps of frames that are not evaluated, such as the first one of all.
 void keepNumbersOf(const ImageSequence& frames, ImageSequence& maps) {
   if (frames.single || maps.single || maps.frames.empty() || !frames.frames.front().number ||
       !maps.frames.front().number)

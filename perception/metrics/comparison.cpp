@@ -58,17 +58,17 @@ Comparison::Comparison(const ComparisonInput& input, const std::string& metric, 
   if (const double bad = sumRows(height(), static_cast<size_t>(width()), badIn); bad > 0.0)
     throw Error("metric '" + metric + "': the reference holds " + std::to_string(static_cast<int64_t>(bad)) +
                     " non-finite values",
-                {}, "nothing can be judged against it: mend the reference");
-  judgedPixels_ = static_cast<int64_t>(sumRows(height(), static_cast<size_t>(width()), [&](int y) {
-    double judged = 0.0;
-    for (int x = 0; x < width(); ++x) judged += judges(x, y) ? 1.0 : 0.0;
-    return judged;
+                {}, "nothing can be evaluated against it: fix the reference");
+  evaluatedPixels_ = static_cast<int64_t>(sumRows(height(), static_cast<size_t>(width()), [&](int y) {
+    double evaluated = 0.0;
+    for (int x = 0; x < width(); ++x) evaluated += evaluates(x, y) ? 1.0 : 0.0;
+    return evaluated;
   }));
 }
 
 void Comparison::requireVisibility(const std::string& metric) const {
   if (channels() != 1)
-    throw Error("metric '" + metric + "' judges visibility only, not colour", {},
+    throw Error("metric '" + metric + "' evaluates visibility only, not colour", {},
                 "remove it for techniques whose product is a colour image");
 }
 

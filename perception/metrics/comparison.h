@@ -43,9 +43,9 @@ class Comparison {
   int channels() const { return test_.channels < 3 ? 1 : 3; }
   const Image& test() const { return test_; }
   const Image& reference() const { return reference_; }
-  int64_t judgedPixels() const { return judgedPixels_; }
+  int64_t evaluatedPixels() const { return evaluatedPixels_; }
 
-  bool judges(int x, int y) const {
+  bool evaluates(int x, int y) const {
     if (region_ == Region::All) return true;
     if (mask_ && !(mask_->at(x, y) > 0.5F)) return false;
     return region_ == Region::Receivers || (reference_.at(x, y) > 0.0F && reference_.at(x, y) < 1.0F);
@@ -66,7 +66,7 @@ class Comparison {
   const Image& reference_;
   const Image* mask_;
   Region region_;
-  int64_t judgedPixels_ = 0;
+  int64_t evaluatedPixels_ = 0;
 };
 
 }  // namespace limen::perception

@@ -30,14 +30,14 @@ struct De94Settings {
 MetricResult measure(const ComparisonInput& input, const De94Settings& settings) {
   const Comparison pair(input, "de94", settings.region.region);
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   std::vector<double> differences(pair.test().pixels());
   const auto index = [&](int x, int y) { return static_cast<size_t>(y) * pair.width() + x; };
   Image map(pair.width(), pair.height(), 1);
   const double sum = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
     CompensatedSum row;
     for (int x = 0; x < pair.width(); ++x) {
-      if (!pair.judges(x, y)) continue;
+      if (!pair.evaluates(x, y)) continue;
       const double difference = differenceCie94(labFromLinearRgb(pair.shownReference(x, y)),
                                                 labFromLinearRgb(pair.shownTest(x, y)));
       differences[index(x, y)] = difference;
@@ -46,18 +46,18 @@ MetricResult measure(const ComparisonInput& input, const De94Settings& settings)
     }
     return row.value();
   });
-  if (result.judgedPixels > 0) {
+  if (result.evaluatedPixels > 0) {
     if (settings.statistic == Statistic::Mean) {
-      result.value = sum / static_cast<double>(result.judgedPixels);
+      result.value = sum / static_cast<double>(result.evaluatedPixels);
     } else if (settings.statistic == Statistic::Max) {
       result.value = *std::max_element(differences.begin(), differences.end());
     } else {
-      std::vector<double> judged;
-      judged.reserve(static_cast<size_t>(result.judgedPixels));
+      std::vector<double> evaluated;
+      evaluated.reserve(static_cast<size_t>(result.evaluatedPixels));
       for (int y = 0; y < pair.height(); ++y)
         for (int x = 0; x < pair.width(); ++x)
-          if (pair.judges(x, y)) judged.push_back(differences[index(x, y)]);
-      result.value = nearestRank(judged, 0.99);
+          if (pair.evaluates(x, y)) evaluated.push_back(differences[index(x, y)]);
+      result.value = nearestRank(evaluated, 0.99);
     }
   }
   result.map = std::move(map);

@@ -39,8 +39,8 @@ struct MetricResult {
   /// Per-pixel map (1 channel, larger is worse), where the metric has one.
   std::optional<Image> map;
   std::string mapName;  ///< "absolute_error", "flip", ...
-  /// Pixels that were judged. With none (an empty region) `value` is what a perfect product would get.
-  int64_t judgedPixels = 0;
+  /// Pixels that were evaluated. With none (an empty region) `value` is what a perfect product would get.
+  int64_t evaluatedPixels = 0;
 };
 
 /// Registration of a metric: `compare` evaluates a test product against a reference. It throws Error where
@@ -57,7 +57,7 @@ struct MetricInfo {
   std::string unit = {};   ///< "" for pure numbers
   Direction direction = Direction::LowerIsBetter;
   bool needsGl = false;
-  bool needsReference = true;  ///< false: judges the test product alone (non-finite count)
+  bool needsReference = true;  ///< false: evaluates the test product alone (non-finite count)
   ParameterList parameters = {};
   std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare = {};
 

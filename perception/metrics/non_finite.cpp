@@ -19,7 +19,7 @@ MetricResult countNonFinite(const ComparisonInput& input, const NoMetricSettings
     for (size_t i = 0; i < perRow; ++i) bad += std::isfinite(row[i]) ? 0.0 : 1.0;
     return bad;
   });
-  result.judgedPixels = static_cast<int64_t>(test.pixels());
+  result.evaluatedPixels = static_cast<int64_t>(test.pixels());
   return result;
 }
 

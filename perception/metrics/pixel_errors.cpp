@@ -16,19 +16,19 @@ namespace {
 /// Equal images have no finite PSNR; this is what they get, as does any error below 1e-10.
 constexpr double kPsnrCapDb = 200.0;
 
-/// Mean of function(error) over judged pixels and channels; 0 for an empty region.
+/// Mean of function(error) over evaluated pixels and channels; 0 for an empty region.
 template <class Function>
 double meanOverErrors(const Comparison& pair, Function function) {
-  if (pair.judgedPixels() == 0) return 0.0;
+  if (pair.evaluatedPixels() == 0) return 0.0;
   const double sum = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
     CompensatedSum row;
     for (int x = 0; x < pair.width(); ++x) {
-      if (!pair.judges(x, y)) continue;
+      if (!pair.evaluates(x, y)) continue;
       for (int c = 0; c < pair.channels(); ++c) row.add(function(pair.error(x, y, c)));
     }
     return row.value();
   });
-  return sum / (static_cast<double>(pair.judgedPixels()) * pair.channels());
+  return sum / (static_cast<double>(pair.evaluatedPixels()) * pair.channels());
 }
 
 double pixelError(const Comparison& pair, int x, int y) {
@@ -37,12 +37,12 @@ double pixelError(const Comparison& pair, int x, int y) {
   return largest;
 }
 
-std::vector<double> judgedErrors(const Comparison& pair) {
+std::vector<double> evaluatedErrors(const Comparison& pair) {
   std::vector<double> errors;
-  errors.reserve(static_cast<size_t>(pair.judgedPixels()));
+  errors.reserve(static_cast<size_t>(pair.evaluatedPixels()));
   for (int y = 0; y < pair.height(); ++y)
     for (int x = 0; x < pair.width(); ++x)
-      if (pair.judges(x, y)) errors.push_back(pixelError(pair, x, y));
+      if (pair.evaluates(x, y)) errors.push_back(pixelError(pair, x, y));
   return errors;
 }
 
@@ -50,7 +50,7 @@ Image absoluteErrorMap(const Comparison& pair) {
   Image map(pair.width(), pair.height(), 1);
   forEachRow(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
     for (int x = 0; x < pair.width(); ++x)
-      if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(pixelError(pair, x, y));
+      if (pair.evaluates(x, y)) map.at(x, y) = static_cast<float>(pixelError(pair, x, y));
   });
   return map;
 }
@@ -68,12 +68,12 @@ double meanSigned(const Comparison& pair) {
 }
 
 double largest(const Comparison& pair) {
-  const std::vector<double> errors = judgedErrors(pair);
+  const std::vector<double> errors = evaluatedErrors(pair);
   return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
 }
 
 double percentile99(const Comparison& pair) {
-  std::vector<double> errors = judgedErrors(pair);
+  std::vector<double> errors = evaluatedErrors(pair);
   return nearestRank(errors, 0.99);
 }
 
@@ -89,7 +89,7 @@ RegisteredMetric<ComparedRegion> pixelMetric(MetricInfo info, double (*measure)(
             const Comparison pair(input, name, s.region);
             MetricResult result;
             result.value = measure(pair);
-            result.judgedPixels = pair.judgedPixels();
+            result.evaluatedPixels = pair.evaluatedPixels();
             if (withMap) {
               result.map = absoluteErrorMap(pair);
               result.mapName = "absolute_error";

@@ -33,11 +33,11 @@ MetricResult measureSeamStep(const ComparisonInput& input, const StepSettings& s
   const Comparison pair(input, "seam_step", settings.region.region);
   pair.requireVisibility("seam_step");
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   Image map(pair.width(), pair.height(), 1);
   std::vector<double> steps;
   const auto visit = [&](int x, int y, int neighbourX, int neighbourY) {
-    if (!pair.judges(neighbourX, neighbourY)) return;
+    if (!pair.evaluates(neighbourX, neighbourY)) return;
     const double step = std::abs(pair.error(x, y, 0) - pair.error(neighbourX, neighbourY, 0));
     steps.push_back(step);
     for (float* value : {&map.at(x, y), &map.at(neighbourX, neighbourY)})
@@ -45,7 +45,7 @@ MetricResult measureSeamStep(const ComparisonInput& input, const StepSettings& s
   };
   for (int y = 0; y < pair.height(); ++y)
     for (int x = 0; x < pair.width(); ++x) {
-      if (!pair.judges(x, y)) continue;
+      if (!pair.evaluates(x, y)) continue;
       if (x + 1 < pair.width()) visit(x, y, x + 1, y);
       if (y + 1 < pair.height()) visit(x, y, x, y + 1);
     }

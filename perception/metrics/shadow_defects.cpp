@@ -26,12 +26,12 @@ MetricResult shareWith(const ComparisonInput& input, const std::string& metric, 
   const Comparison pair(input, metric, Region::Receivers);
   pair.requireVisibility(metric);
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   Image map(pair.width(), pair.height(), 1);
   const double count = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
     double found = 0.0;
     for (int x = 0; x < pair.width(); ++x) {
-      if (!pair.judges(x, y)) continue;
+      if (!pair.evaluates(x, y)) continue;
       const bool finite = std::isfinite(pair.test().at(x, y));
       const double reference = pair.reference().at(x, y);
       const double error = finite ? pair.error(x, y, 0) : reference < 0.5 ? 1.0 : -1.0;
@@ -41,7 +41,7 @@ MetricResult shareWith(const ComparisonInput& input, const std::string& metric, 
     }
     return found;
   });
-  if (result.judgedPixels > 0) result.value = count / static_cast<double>(result.judgedPixels);
+  if (result.evaluatedPixels > 0) result.value = count / static_cast<double>(result.evaluatedPixels);
   result.map = std::move(map);
   result.mapName = metric;
   return result;
@@ -53,9 +53,9 @@ MetricResult measureContactGap(const ComparisonInput& input, const NoMetricSetti
   const Comparison pair(input, "contact_gap", Region::Receivers);
   pair.requireVisibility("contact_gap");
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   const auto isGap = [&](int x, int y) {
-    if (!pair.judges(x, y) || !(pair.reference().at(x, y) < kShadowBelow)) return false;
+    if (!pair.evaluates(x, y) || !(pair.reference().at(x, y) < kShadowBelow)) return false;
     return !std::isfinite(pair.test().at(x, y)) || pair.error(x, y, 0) > kGapAbove;
   };
   int longest = 0;
@@ -74,16 +74,16 @@ MetricResult measureContactGap(const ComparisonInput& input, const NoMetricSetti
   return result;
 }
 
-/// Largest step of `value` between neighbours (right and below) that are both judged.
+/// Largest step of `value` between neighbours (right and below) that are both evaluated.
 template <class Value>
 double largestStep(const Comparison& pair, Value value) {
   double largest = 0.0;
   for (int y = 0; y < pair.height(); ++y)
     for (int x = 0; x < pair.width(); ++x) {
-      if (!pair.judges(x, y)) continue;
-      if (x + 1 < pair.width() && pair.judges(x + 1, y))
+      if (!pair.evaluates(x, y)) continue;
+      if (x + 1 < pair.width() && pair.evaluates(x + 1, y))
         largest = std::max(largest, std::abs(value(x + 1, y) - value(x, y)));
-      if (y + 1 < pair.height() && pair.judges(x, y + 1))
+      if (y + 1 < pair.height() && pair.evaluates(x, y + 1))
         largest = std::max(largest, std::abs(value(x, y + 1) - value(x, y)));
     }
   return largest;
@@ -95,7 +95,7 @@ MetricResult measureBandStep(const ComparisonInput& input, const ComparedRegion&
   const auto reference = [&](int x, int y) { return double{pair.reference().at(x, y)}; };
   const auto test = [&](int x, int y) { return reference(x, y) + pair.error(x, y, 0); };
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   result.value = largestStep(pair, test) - largestStep(pair, reference);
   return result;
 }

@@ -13,8 +13,8 @@
 namespace limen::perception {
 namespace {
 
-/// |test - reference| / max(|reference|, least) of each judged pixel, worst channel; non-finite test values
-/// count as 1. Where that divisor is 0 the error itself counts.
+/// |test - reference| / max(|reference|, least) of each evaluated pixel, worst channel; non-finite test
+/// values count as 1. Where that divisor is 0 the error itself counts.
 double relativeError(const Comparison& pair, int x, int y, double least) {
   double largest = 0.0;
   for (int c = 0; c < pair.channels(); ++c) {
@@ -28,10 +28,10 @@ double relativeError(const Comparison& pair, int x, int y, double least) {
 
 std::vector<double> relativeErrors(const Comparison& pair, double least) {
   std::vector<double> out;
-  out.reserve(static_cast<size_t>(pair.judgedPixels()));
+  out.reserve(static_cast<size_t>(pair.evaluatedPixels()));
   for (int y = 0; y < pair.height(); ++y)
     for (int x = 0; x < pair.width(); ++x)
-      if (pair.judges(x, y)) out.push_back(relativeError(pair, x, y, least));
+      if (pair.evaluates(x, y)) out.push_back(relativeError(pair, x, y, least));
   return out;
 }
 
@@ -69,11 +69,11 @@ RegisteredMetric<RelativeErrorSettings> relativeMetric(MetricInfo info,
             std::vector<double> errors = relativeErrors(pair, least);
             MetricResult result;
             result.value = pool(errors);
-            result.judgedPixels = pair.judgedPixels();
+            result.evaluatedPixels = pair.evaluatedPixels();
             Image map(pair.width(), pair.height(), 1);
             for (int y = 0; y < pair.height(); ++y)
               for (int x = 0; x < pair.width(); ++x)
-                if (pair.judges(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y, least));
+                if (pair.evaluates(x, y)) map.at(x, y) = static_cast<float>(relativeError(pair, x, y, least));
             result.map = std::move(map);
             result.mapName = "relative_error";
             return result;
@@ -101,15 +101,15 @@ MetricResult countFlips(const ComparisonInput& input, const FlipSettings& settin
                 "remove it for techniques whose product is a colour image");
   const double difference = settings.differenceCdM2;
   MetricResult result;
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   const double flips = sumRows(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
     double count = 0.0;
     for (int x = 0; x < pair.width(); ++x)
-      if (pair.judges(x, y))
+      if (pair.evaluates(x, y))
         count += (difference > pair.test().at(x, y)) != (difference > pair.reference().at(x, y)) ? 1.0 : 0.0;
     return count;
   });
-  if (result.judgedPixels > 0) result.value = flips / static_cast<double>(result.judgedPixels);
+  if (result.evaluatedPixels > 0) result.value = flips / static_cast<double>(result.evaluatedPixels);
   return result;
 }
 
@@ -132,7 +132,7 @@ MetricResult measureBlocks(const ComparisonInput& input, const BlockSettings& se
   }
   MetricResult result;
   result.value = blockMetric(plane, settings.level).medianRatio();
-  result.judgedPixels = static_cast<int64_t>(test.pixels());
+  result.evaluatedPixels = static_cast<int64_t>(test.pixels());
   return result;
 }
 

@@ -297,8 +297,8 @@ DisplayProfile profileOf(const std::string& text, const std::string& path) {
   } catch (const Error& error) {
     for (const std::string& key : keys())
       if (error.message().rfind("'" + key + "'", 0) == 0)
-        throw Error(error.message(), file.where(key.c_str()), error.mend());
-    throw Error(error.message(), file.where(file.has("size_m") ? "size_m" : "diagonal_in"), error.mend());
+        throw Error(error.message(), file.where(key.c_str()), error.hint());
+    throw Error(error.message(), file.where(file.has("size_m") ? "size_m" : "diagonal_in"), error.hint());
   }
   return out;
 }

@@ -10,7 +10,7 @@
 namespace limen::frame {
 
 LayerAverages::LayerAverages(gl::Context& context, const Form& form, const std::string& name,
-                             const std::string& mend)
+                             const std::string& hint)
     : resolution_(form.resolution), layers_(form.layers) {
   if (form.prefilter == Prefilter::Sums) {
     sums_.emplace(context, form.resolution, form.layers, form.channels, form.sums);
@@ -21,7 +21,7 @@ LayerAverages::LayerAverages(gl::Context& context, const Form& form, const std::
                   static_cast<int>(std::bit_width(static_cast<unsigned>(form.resolution))), form.layers,
                   gl::Sampling::Linear);
   } catch (const Error& error) {
-    throw Error(name + " does not fit: " + error.message(), {}, mend);
+    throw Error(name + " does not fit: " + error.message(), {}, hint);
   }
   reduce_ =
       &context.programs().compute("renderer/frame/average_pyramid.comp.glsl", {{"TEXEL", form.texelLayout}});

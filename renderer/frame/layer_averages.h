@@ -29,9 +29,9 @@ class LayerAverages {
     gl::Format texel = gl::Format::R32F;  ///< of the pyramid
     const char* texelLayout = "r32f";     ///< the same as image layouts name it
   };
-  /// `name` of the array ("the occlusion textures") and `mend` are for the Error that it throws where the
+  /// `name` of the array ("the occlusion textures") and `hint` are for the Error that it throws where the
   /// device has no room.
-  LayerAverages(gl::Context& context, const Form& form, const std::string& name, const std::string& mend);
+  LayerAverages(gl::Context& context, const Form& form, const std::string& name, const std::string& hint);
   /// Before build(): level 0 holds the values, to be written by a shader as an image.
   const gl::Texture& texture() const { return sums_ ? sums_->texture() : *mips_; }
   /// Makes the sums or averages of the values. Work that wrote these needs no barrier of its own.

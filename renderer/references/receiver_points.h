@@ -18,10 +18,10 @@ struct ReceiverPoint {
   glm::dvec3 normal;      ///< unit, of the triangle, on the camera's side
 };
 
-/// Reads back what the GPU found at each pixel (frame::TriangleIds, Position and Receivers): references judge
-/// the very points that techniques shade. Positions are then put onto the plane of their triangle in double
-/// precision, so that the float error of the position cannot place a point beneath its own surface. Waits for
-/// the GPU. Call outside passes.
+/// Reads back what the GPU found at each pixel (frame::TriangleIds, Position and Receivers): references
+/// evaluate the very points that techniques shade. Positions are then put onto the plane of their triangle in
+/// double precision, so that the float error of the position cannot place a point beneath its own surface.
+/// Waits for the GPU. Call outside passes.
 std::vector<ReceiverPoint> readReceiverPoints(frame::Frame& frame, const Triangles& triangles);
 
 }  // namespace limen::references

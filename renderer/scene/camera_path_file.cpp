@@ -84,7 +84,7 @@ class PathReader {
     try {
       checkCamera(key.camera, {});
     } catch (const Error& error) {
-      problems_.add(item.mark, error.message(), error.mend());
+      problems_.add(item.mark, error.message(), error.hint());
       return {};
     }
     return key;

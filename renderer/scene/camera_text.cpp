@@ -94,8 +94,8 @@ class CameraReader {
 }  // namespace
 
 void checkCamera(const Camera& camera, const std::string& where) {
-  const auto refuse = [&](const std::string& what, const std::string& mend) {
-    return Error("camera '" + toText(camera) + "': " + what, where, mend);
+  const auto refuse = [&](const std::string& what, const std::string& hint) {
+    return Error("camera '" + toText(camera) + "': " + what, where, hint);
   };
   if (!isFinite(camera.eye) || !isFinite(camera.target) || !isFinite(camera.up) ||
       !std::isfinite(camera.verticalFovDeg))

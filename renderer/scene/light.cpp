@@ -43,24 +43,24 @@ bool segmentsMeet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
 }
 
 void checkOutline(const std::vector<glm::dvec2>& outline, const std::string& where) {
-  const std::string mend = "give a simple polygon, counter-clockwise, in [0,1]^2";
+  const std::string hint = "give a simple polygon, counter-clockwise, in [0,1]^2";
   const size_t n = outline.size();
-  if (n < 3) throw Error("a light's outline has " + std::to_string(n) + " vertices", where, mend);
+  if (n < 3) throw Error("a light's outline has " + std::to_string(n) + " vertices", where, hint);
   for (const glm::dvec2 vertex : outline)
     if (!(vertex.x >= 0.0 && vertex.x <= 1.0 && vertex.y >= 0.0 && vertex.y <= 1.0))
-      throw Error("a light's outline leaves its bounding rectangle", where, mend);
+      throw Error("a light's outline leaves its bounding rectangle", where, hint);
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];
-    if (a == b) throw Error("a light's outline repeats a vertex", where, mend);
+    if (a == b) throw Error("a light's outline repeats a vertex", where, hint);
     if (orientation(a, b, c) == 0 && glm::dot(b - a, c - b) <= 0.0)
-      throw Error("a light's outline turns back on itself", where, mend);
+      throw Error("a light's outline turns back on itself", where, hint);
     for (size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i) continue;
       if (segmentsMeet(a, b, outline[j], outline[(j + 1) % n]))
-        throw Error("a light's outline crosses itself", where, mend);
+        throw Error("a light's outline crosses itself", where, hint);
     }
   }
-  if (!(signedArea(outline) > 0.0)) throw Error("a light's outline is clockwise or has no area", where, mend);
+  if (!(signedArea(outline) > 0.0)) throw Error("a light's outline is clockwise or has no area", where, hint);
 }
 
 }  // namespace

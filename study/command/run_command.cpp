@@ -66,7 +66,7 @@ void checkMonitor(const std::string& option, int number) {
   try {
     all = gl::monitors();
   } catch (const Error& error) {
-    throw Error(error.message(), error.where(), error.mend() + "; limen study simulate needs no window");
+    throw Error(error.message(), error.where(), error.hint() + "; limen study simulate needs no window");
   }
   if (number < 0 || number >= static_cast<int>(all.size()))
     throw Error(fmt::format("there is no monitor {}", number), option,

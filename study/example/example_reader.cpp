@@ -123,7 +123,7 @@ class ExampleReader {
       perception::readDisplay(display);
     } catch (const Error& error) {
       problems_.add(node.mark, (error.where().empty() ? "" : error.where() + ": ") + error.message(),
-                    error.mend());
+                    error.hint());
     }
   }
 
@@ -155,7 +155,7 @@ class ExampleReader {
     try {
       out.observer = chooseObserver(*kind, given);
     } catch (const Error& error) {
-      problems_.add(node->mark, error.message(), error.mend());
+      problems_.add(node->mark, error.message(), error.hint());
     }
   }
 

@@ -53,20 +53,20 @@ std::map<std::string, Known> knownSessions(const std::string& path) {
 void checkSame(const Protocol& protocol, const SimulationRequest& request, const Known& known,
                const store::SessionReader& reader) {
   const store::StudySession& session = known.session;
-  const std::string mend = "give another --store or --participant-prefix";
+  const std::string hint = "give another --store or --participant-prefix";
   if (session.protocol != protocol.hash)
-    throw Error("participant " + session.participant + " was asked another protocol", request.store, mend);
+    throw Error("participant " + session.participant + " was asked another protocol", request.store, hint);
   const nlohmann::json facts = reader.environment(session.environment).facts;
   const nlohmann::json frontEnd = facts.value("front_end", nlohmann::json::object());
   if (!frontEnd.value("simulated", false))
-    throw Error("participant " + session.participant + " is no simulated one", request.store, mend);
+    throw Error("participant " + session.participant + " is no simulated one", request.store, hint);
   if (session.seed != sessionSeed(request.seed, session.participant))
     throw Error("participant " + session.participant + " was simulated with another --seed", request.store,
-                mend);
+                hint);
   if (frontEnd["observer"] != toJson(request.observer) || frontEnd["invalid_rate"] != request.invalidRate)
     throw Error("participant " + session.participant +
                     " was simulated as another observer: " + frontEnd["observer"].dump(),
-                request.store, mend);
+                request.store, hint);
 }
 
 // Lets sessions begin in the order of their participants, so that each gets its own number.

@@ -52,8 +52,8 @@ class Layer {
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& what,
-                         const std::string& mend = {}) const {
-    throw Error(what, placeOf(key), mend);
+                         const std::string& hint = {}) const {
+    throw Error(what, placeOf(key), hint);
   }
   std::string placeOf(const std::string& key) const {
     Path path = path_;

@@ -98,7 +98,7 @@ json trace(const json& settings, uint64_t seed, const std::vector<TraceAnswer>& 
     try {
       procedure->update(stimulus, answer.outcome);
     } catch (const Error& error) {
-      throw Error("trial " + std::to_string(trial) + ": " + error.message(), where, error.mend());
+      throw Error("trial " + std::to_string(trial) + ": " + error.message(), where, error.hint());
     }
     trials.push_back({{"trial", trial},
                       {"stimulus", stimulus},

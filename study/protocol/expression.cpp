@@ -34,9 +34,9 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what, const std::string& mend = {}) const {
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
     throw Error("in '=" + text_ + "' " + what, where_,
-                mend.empty() ? "an expression has numbers, names of variables, + - * / and brackets" : mend);
+                hint.empty() ? "an expression has numbers, names of variables, + - * / and brackets" : hint);
   }
 
   void skipBlanks() {

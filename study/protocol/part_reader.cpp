@@ -184,7 +184,7 @@ void PartReader::readProcedure(const YamlNode& node, Part& out) {
       if (at) mark = at->mark;
       begin = end;
     }
-    problems.add(mark, error.where() + ": " + error.message(), error.mend());
+    problems.add(mark, error.where() + ": " + error.message(), error.hint());
     return;
   }
   const int outcomes = out.task.type == Task::Rating ? static_cast<int>(out.task.answers.size()) : 2;

@@ -97,7 +97,7 @@ class ProtocolReader {
       resolutionPx_ = display.resolutionPx;
     } catch (const Error& error) {
       problems_.add(node->mark, (error.where().empty() ? "" : error.where() + ": ") + error.message(),
-                    error.mend());
+                    error.hint());
     }
   }
 

@@ -44,7 +44,7 @@ std::optional<YamlNode> StimulusReader::resolved(const YamlNode& node) {
       out.quoted = false;
       return out;
     } catch (const Error& error) {
-      reader_.problems().add(node.mark, error.message(), error.mend());
+      reader_.problems().add(node.mark, error.message(), error.hint());
       return {};
     }
   }

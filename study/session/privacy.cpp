@@ -67,18 +67,18 @@ nlohmann::json formAnswers(const Protocol& protocol, const nlohmann::json& answe
 }  // namespace
 
 void checkCode(const std::string& code, const std::string& thing) {
-  const std::string mend = "give a code that names nobody, such as p01: letters, digits, - and _, at most " +
+  const std::string hint = "give a code that names nobody, such as p01: letters, digits, - and _, at most " +
                            std::to_string(kLongestCode);
-  if (code.empty()) throw Error("the " + thing + " has no code", "--" + thing, mend);
+  if (code.empty()) throw Error("the " + thing + " has no code", "--" + thing, hint);
   if (code.find('@') != std::string::npos)
-    throw Error("the " + thing + "'s code looks like an e-mail address", "--" + thing, mend);
+    throw Error("the " + thing + "'s code looks like an e-mail address", "--" + thing, hint);
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
   if (code.size() > kLongestCode || !std::all_of(code.begin(), code.end(), allowed))
     throw Error("the " + thing + "'s code has characters that it may not have, or too many", "--" + thing,
-                mend);
-  if (looksLikeDate(code)) throw Error("the " + thing + "'s code looks like a date", "--" + thing, mend);
+                hint);
+  if (looksLikeDate(code)) throw Error("the " + thing + "'s code looks like a date", "--" + thing, hint);
 }
 
 nlohmann::json screenData(const Protocol& protocol, const Screen& screen, const ScreenResult& result) {

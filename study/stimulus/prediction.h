@@ -59,7 +59,8 @@ class PredictionCache {
 /// The pictures are those that are shown, byte for byte: the first frame after the change, and the same frame
 /// with what was before it. In a dynamic sequence displacements, disocclusion and flicker are those of the
 /// window's pixel centres, the frame before being one of the display's frames earlier; a static one has none.
-/// Where a technique changes there is no flicker weight, since it has no shading of its own to judge it by.
+/// Where a technique changes there is no flicker weight, since it has no shading of its own to evaluate it
+/// by.
 class Predictor {
  public:
   /// `popping`: values of perception::PoppingSettings; what is left out takes its default. Throws Error.

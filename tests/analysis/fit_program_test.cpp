@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/analysis/result_rows.h"
 #include "tests/analysis/synthetic_store.h"
 #include "tests/run_program.h"
 
@@ -55,20 +57,22 @@ TEST_F(FitProgram, SaysTheClassicAnswerInJson) {
       file + columns_ + "--by condition --task 2afc --sigmoid normal --method ml --json --intervals profile");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
-  const json& a = answer.at("conditions").at(0);
-  EXPECT_EQ(a.at("name"), "a");
-  EXPECT_NEAR(a.at("threshold").get<double>(), 0.0046478171, 2e-10);
-  EXPECT_NEAR(a.at("width").get<double>(), 0.0046590718, 2e-10);
-  EXPECT_NEAR(a.at("deviance").get<double>(), 5.9328130, 5e-8);
-  EXPECT_EQ(a.at("guess"), 0.5);
-  EXPECT_EQ(a.at("eta"), 0.0);
-  EXPECT_EQ(a.at("settings").at("sigmoid"), "normal");
-  EXPECT_EQ(a.at("intervals").at("method"), "profile");
-  EXPECT_EQ(a.at("intervals").at("level"), 0.95);
-  EXPECT_LT(a.at("intervals").at("threshold").at(0), a.at("threshold"));
-  EXPECT_GT(a.at("intervals").at("threshold").at(1), a.at("threshold"));
-  EXPECT_TRUE(a.at("warnings").is_array());
-  EXPECT_TRUE(answer.at("versions").contains("ceres"));
+  const json& a = answer.at("sections").at(0);
+  const auto parameter = [&](const char* name) {
+    return rowWith(a.at("parameters"), {{"condition", "a"}, {"parameter", name}});
+  };
+  EXPECT_NEAR(parameter("threshold").at("estimate").get<double>(), 0.0046478171, 2e-10);
+  EXPECT_NEAR(parameter("width").at("estimate").get<double>(), 0.0046590718, 2e-10);
+  EXPECT_NEAR(a.at("conditions").at(0).at("deviance").get<double>(), 5.9328130, 5e-8);
+  EXPECT_EQ(parameter("guess").at("estimate"), 0.5);
+  EXPECT_EQ(parameter("eta").at("estimate"), 0.0);
+  EXPECT_EQ(a.at("sigmoid"), "normal");
+  EXPECT_EQ(a.at("interval_method"), "profile");
+  EXPECT_EQ(a.at("level"), 0.95);
+  EXPECT_LT(parameter("threshold").at("low"), parameter("threshold").at("estimate"));
+  EXPECT_GT(parameter("threshold").at("high"), parameter("threshold").at("estimate"));
+  EXPECT_TRUE(a.at("notes").is_array());
+  EXPECT_THAT(answer.at("versions").dump(), HasSubstr("ceres"));
   EXPECT_EQ(answer.at("sha256").get<std::string>().size(), 64u);
 }
 
@@ -86,8 +90,11 @@ TEST_F(FitProgram, TakesSingleTrialsAsItTakesCounts) {
       fit(write("trials.tsv", rows) + " --x level --outcome right --order when --json");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
-  EXPECT_NEAR(answer.at("conditions").at(0).at("threshold").get<double>(), 0.0046478171, 2e-10);
-  EXPECT_EQ(answer.at("conditions").at(0).at("trials"), 1170);
+  EXPECT_NEAR(rowWith(answer.at("sections").at(0).at("parameters"), {{"parameter", "threshold"}})
+                  .at("estimate")
+                  .get<double>(),
+              0.0046478171, 2e-10);
+  EXPECT_EQ(answer.at("sections").at(0).at("conditions").at(0).at("trials"), 1170);
 }
 
 TEST_F(FitProgram, SharesComparesAndDraws) {
@@ -97,11 +104,15 @@ TEST_F(FitProgram, SharesComparesAndDraws) {
       fit(file + columns_ + "--by condition --share lapse,width --json --plot " + picture);
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const json answer = json::parse(outcome.text);
-  EXPECT_EQ(answer.at("all").at("parameters"), 4);
-  EXPECT_EQ(answer.at("unshared").at("parameters"), 6);
+  const json& section = answer.at("sections").at(0);
+  EXPECT_EQ(section.at("models").at(0).at("parameters"), 4);
+  EXPECT_EQ(section.at("models").at(1).at("parameters"), 6);
   // The same answers twice: nothing is lost by sharing.
-  EXPECT_NEAR(answer.at("likelihood_ratio").at("statistic").get<double>(), 0.0, 1e-6);
-  EXPECT_NEAR(answer.at("conditions").at(1).at("threshold").get<double>(), 0.0046478171, 1e-9);
+  EXPECT_NEAR(section.at("likelihood_ratio").at(0).at("statistic").get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(rowWith(section.at("parameters"), {{"condition", "b"}, {"parameter", "threshold"}})
+                  .at("estimate")
+                  .get<double>(),
+              0.0046478171, 1e-9);
   EXPECT_TRUE(std::filesystem::exists(picture));
 }
 
@@ -111,9 +122,14 @@ TEST_F(FitProgram, RepeatsItselfAndWritesTablesForPeopleAndPrograms) {
   const ProgramRun one = fit(call + "--threads 1"), two = fit(call + "--threads 2");
   ASSERT_EQ(one.code, 0) << one.text;
   EXPECT_EQ(one.text, two.text);
-  EXPECT_THAT(one.text, HasSubstr("threshold       0.004647817"));
+  EXPECT_THAT(one.text, testing::ContainsRegex("threshold +0.004647817"));
   EXPECT_THAT(one.text, HasSubstr("residuals with order"));
-  EXPECT_THAT(fit(file + columns_ + "--csv").text, HasSubstr("\n,threshold,0.004647817"));
+  const std::string csv = folder_.path("out.csv");
+  EXPECT_EQ(fit(file + columns_ + "--csv " + csv).code, 0);
+  std::ifstream stream(csv);
+  const std::string table{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(table, HasSubstr("table,part,condition,parameter,estimate,low,high,"));
+  EXPECT_THAT(table, HasSubstr("\nparameters,,,threshold,0.004647817"));
   EXPECT_THAT(fit(file + columns_ + "--method map --fix lapse=0.01").text, HasSubstr("fixed: lapse = 0.01"));
 }
 

@@ -40,8 +40,7 @@ std::vector<fs::path> sourcesUnder(const fs::path& root, bool withTests) {
 
 bool isPublicHeader(const Module& module, const std::string& path) {
   // Parts of a module that others name one by one.
-  for (const std::string part :
-       {"perception/metrics/", "perception/popping/", "perception/threshold_maps/"})
+  for (const std::string part : {"perception/metrics/", "perception/popping/", "perception/threshold_maps/"})
     if (path.rfind(part, 0) == 0) return path.find('/', part.size()) == std::string::npos;
   return path.find('/', module.folder.size() + 1) == std::string::npos;
 }
@@ -58,7 +57,7 @@ std::string trim(const std::string& text) {
 }
 
 // "" or what is wrong with `user`, a file in folder `folder`, including `name`.
-std::string judgeInclude(const Module& user, const std::string& folder, const std::string& name) {
+std::string checkInclude(const Module& user, const std::string& folder, const std::string& name) {
   if (!user.mayUseGl && namesGl(name)) return user.folder + " must not know OpenGL";
   // Includes are written from the root; one that names no module from there is relative to its file or a
   // library's.
@@ -98,7 +97,7 @@ Violations checkIncludes(const fs::path& root) {
         violations.push_back(where + "the file lies in no known module");
         continue;
       }
-      const std::string wrong = judgeInclude(*user, fs::path(path).parent_path().generic_string(), match[1]);
+      const std::string wrong = checkInclude(*user, fs::path(path).parent_path().generic_string(), match[1]);
       if (!wrong.empty()) violations.push_back(where + wrong);
     }
   }

@@ -153,9 +153,9 @@ TEST_F(SweepCli, ShardsMergedEqualTheWhole) {
   };
   EXPECT_EQ(content("merged.sqlite").size(), 20U);
   EXPECT_EQ(content("merged.sqlite"), content("whole.sqlite"));
-  const CallResult judged = call({"d.yaml", "--no-report", "--store", "merged.sqlite"});
-  EXPECT_EQ(judged.exitCode, 0);
-  EXPECT_THAT(judged.out, AllOf(HasSubstr("0 measured, 20 done before"), HasSubstr("held: ")));
+  const CallResult evaluated = call({"d.yaml", "--no-report", "--store", "merged.sqlite"});
+  EXPECT_EQ(evaluated.exitCode, 0);
+  EXPECT_THAT(evaluated.out, AllOf(HasSubstr("0 measured, 20 done before"), HasSubstr("held: ")));
 }
 
 TEST_F(SweepCli, MergeRefusesItsOwnOutput) {

@@ -48,7 +48,7 @@ TEST(Descriptor, ReadsEveryKey) {
   EXPECT_EQ(descriptor.report["panels"], "scene");
 }
 
-TEST(Descriptor, NeedsNoReferenceForMetricsThatJudgeOneImage) {
+TEST(Descriptor, NeedsNoReferenceForMetricsThatEvaluateOneImage) {
   const Descriptor descriptor = parse(
       "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: colour/lambert}, {name: "
       "soft/pcss}]\n"

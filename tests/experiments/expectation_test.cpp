@@ -15,10 +15,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Plans the valid descriptor with one expectation, gives each run the value of `measure`, and judges.
-store::Expectation judged(const std::string& expectation,
-                          const std::function<std::optional<double>(const PlannedRun&)>& measure,
-                          const std::string& failedLabel = "none") {
+/// Plans the valid descriptor with one expectation, gives each run the value of `measure`, and evaluates.
+store::Expectation evaluated(const std::string& expectation,
+                             const std::function<std::optional<double>(const PlannedRun&)>& measure,
+                             const std::string& failedLabel = "none") {
   const Catalogue catalogue = fakeCatalogue();
   const Descriptor descriptor =
       parseDescriptor(validDescriptor() + "expect: [" + expectation + "]\n", "d.yaml", catalogue, {});
@@ -34,25 +34,25 @@ store::Expectation judged(const std::string& expectation,
   Problems problems("d.yaml");
   const auto resolved = resolve(descriptor.expectations, plan.runs, problems);
   EXPECT_TRUE(problems.empty());
-  return judge(resolved, plan.runs, measured).at(0);
+  return evaluate(resolved, plan.runs, measured).at(0);
 }
 
 TEST(Expectation, BoundsAreStrictAndEqualityIsExact) {
   const auto half = [](const PlannedRun&) { return 0.5; };
-  EXPECT_TRUE(judged("{metric: rmse, below: 0.51}", half).held);
-  EXPECT_FALSE(judged("{metric: rmse, below: 0.5}", half).held);
-  EXPECT_TRUE(judged("{metric: rmse, above: 0.49}", half).held);
-  EXPECT_FALSE(judged("{metric: rmse, above: 0.5}", half).held);
-  EXPECT_TRUE(judged("{metric: rmse, equals: 0.5}", half).held);
-  EXPECT_FALSE(judged("{metric: rmse, equals: 0.5000001}", half).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, below: 0.51}", half).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, below: 0.5}", half).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, above: 0.49}", half).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, above: 0.5}", half).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, equals: 0.5}", half).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, equals: 0.5000001}", half).held);
 }
 
 TEST(Expectation, IsAboutTheSelectedRunsAlone) {
   const auto value = [](const PlannedRun& run) { return run.label == "samples=8" ? 9.0 : 1.0; };
-  EXPECT_TRUE(judged("{metric: rmse, of: soft/pcss, below: 2}", value).held);
-  EXPECT_FALSE(judged("{metric: rmse, of: soft/bitmask, below: 2}", value).held);
-  EXPECT_TRUE(judged("{metric: rmse, where: {samples: 16}, below: 2}", value).held);
-  EXPECT_FALSE(judged("{metric: rmse, where: {samples: 8, light_size: 0.5}, below: 2}", value).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, of: soft/pcss, below: 2}", value).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, of: soft/bitmask, below: 2}", value).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, where: {samples: 16}, below: 2}", value).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, where: {samples: 8, light_size: 0.5}, below: 2}", value).held);
 }
 
 TEST(Expectation, MayBeAboutWhatATechniqueCounts) {
@@ -71,7 +71,7 @@ TEST(Expectation, MayBeAboutWhatATechniqueCounts) {
 
 TEST(Expectation, SaysWhichRunBrokeItAndHowMany) {
   const store::Expectation broken =
-      judged("{metric: rmse, of: soft/bitmask, below: 2}", [](const PlannedRun&) { return 3.0; });
+      evaluated("{metric: rmse, of: soft/bitmask, below: 2}", [](const PlannedRun&) { return 3.0; });
   EXPECT_THAT(broken.detail,
               HasSubstr("soft/bitmask samples=8, grid light_size=0.5: rmse is 3, not below 2"));
   EXPECT_THAT(broken.detail, HasSubstr("and 5 more of 6 runs"));
@@ -79,12 +79,12 @@ TEST(Expectation, SaysWhichRunBrokeItAndHowMany) {
 
 TEST(Expectation, AFailedRunOrNoNumberBreaksIt) {
   const auto one = [](const PlannedRun&) { return 1.0; };
-  EXPECT_THAT(judged("{metric: rmse, below: 2}", one, "samples=16").detail,
+  EXPECT_THAT(evaluated("{metric: rmse, below: 2}", one, "samples=16").detail,
               HasSubstr("failed: out of memory"));
-  EXPECT_FALSE(judged("{metric: rmse, below: 2}", one, "samples=16").held);
+  EXPECT_FALSE(evaluated("{metric: rmse, below: 2}", one, "samples=16").held);
   EXPECT_FALSE(
-      judged("{metric: rmse, below: 2}", [](const PlannedRun&) { return std::optional<double>(); }).held);
-  EXPECT_FALSE(judged("{metric: rmse, below: 2}", [](const PlannedRun&) { return std::nan(""); }).held);
+      evaluated("{metric: rmse, below: 2}", [](const PlannedRun&) { return std::optional<double>(); }).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, below: 2}", [](const PlannedRun&) { return std::nan(""); }).held);
 }
 
 TEST(Expectation, ComparesRunsOfTheSameSceneAndSize) {
@@ -95,9 +95,9 @@ TEST(Expectation, ComparesRunsOfTheSameSceneAndSize) {
     return scene * (run.technique.name == "soft/pcss" ? 10.0 : 1.0);
   };
   const std::string baseline = "relative_to: {of: soft/pcss, where: {radius: 0.02}}";
-  EXPECT_TRUE(judged("{metric: rmse, of: soft/bitmask, below: 0.11, " + baseline + "}", value).held);
-  EXPECT_TRUE(judged("{metric: rmse, of: soft/bitmask, above: 0.09, " + baseline + "}", value).held);
-  EXPECT_FALSE(judged("{metric: rmse, of: soft/bitmask, below: 0.09, " + baseline + "}", value).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, of: soft/bitmask, below: 0.11, " + baseline + "}", value).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, of: soft/bitmask, above: 0.09, " + baseline + "}", value).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, of: soft/bitmask, below: 0.09, " + baseline + "}", value).held);
 }
 
 TEST(Expectation, ComparesRunsOfOneTechniqueThatDifferInOneParameter) {
@@ -105,12 +105,12 @@ TEST(Expectation, ComparesRunsOfOneTechniqueThatDifferInOneParameter) {
   // 1/32 against 1/8: a quarter.
   const std::string common =
       "metric: rmse, of: soft/bitmask, where: {samples: 32}, relative_to: {where: {samples: 8}}";
-  EXPECT_TRUE(judged("{" + common + ", equals: 0.25}", value).held);
-  EXPECT_FALSE(judged("{" + common + ", below: 0.25}", value).held);
+  EXPECT_TRUE(evaluated("{" + common + ", equals: 0.25}", value).held);
+  EXPECT_FALSE(evaluated("{" + common + ", below: 0.25}", value).held);
   // Two lights, the same bitmask: the scene's parameter alone differs.
   EXPECT_TRUE(
-      judged("{metric: rmse, where: {light_size: 1}, relative_to: {where: {light_size: 0.5}}, equals: 1}",
-             value)
+      evaluated("{metric: rmse, where: {light_size: 1}, relative_to: {where: {light_size: 0.5}}, equals: 1}",
+                value)
           .held);
 }
 
@@ -141,8 +141,8 @@ TEST(Expectation, AnotherTechniqueIsMatchedByWhatBothHave) {
 TEST(Expectation, ABaselineOfZeroNeedsNoDivision) {
   const auto zero = [](const PlannedRun&) { return 0.0; };
   const std::string baseline = "relative_to: {of: soft/pcss, where: {radius: 0.02}}";
-  EXPECT_TRUE(judged("{metric: rmse, of: soft/bitmask, equals: 1, " + baseline + "}", zero).held);
-  EXPECT_FALSE(judged("{metric: rmse, of: soft/bitmask, below: 1, " + baseline + "}", zero).held);
+  EXPECT_TRUE(evaluated("{metric: rmse, of: soft/bitmask, equals: 1, " + baseline + "}", zero).held);
+  EXPECT_FALSE(evaluated("{metric: rmse, of: soft/bitmask, below: 1, " + baseline + "}", zero).held);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST_F(FlipMetric, ReportsMeanAndMapForAnyChannelCountWithOrWithoutTextures) {
   const MetricResult fromImages = measure("flip", input);
   EXPECT_NEAR(fromImages.value, expected.mean, 1e-5);
   EXPECT_EQ(fromImages.mapName, "flip");
-  EXPECT_EQ(fromImages.judgedPixels, 31 * 18);
+  EXPECT_EQ(fromImages.evaluatedPixels, 31 * 18);
   ASSERT_TRUE(fromImages.map);
   EXPECT_EQ(fromImages.map->width, 31);
 
@@ -72,7 +72,7 @@ TEST_F(FlipMetric, KeepsItsObjectsBetweenCalls) {
   EXPECT_EQ(gpu.kept("flip").get(), kept);
 }
 
-TEST_F(FlipMetric, RefusesWhatItCannotJudge) {
+TEST_F(FlipMetric, RefusesWhatItCannotEvaluate) {
   MetricGpu gpu(*context_);
   const Image a(4, 4, 1, 0.5F), wider(5, 4, 1, 0.5F);
   EXPECT_THROW(measure("flip", pairOf(a, a)), Error);  // no GL context

@@ -73,21 +73,21 @@ TEST(PixelErrors, RegionsSelectPixels) {
   const MetricResult all = measure("mae", input, {{"region", region("all")}});
   const MetricResult receivers = measure("mae", input);
   const MetricResult penumbra = measure("mae", input, {{"region", region("penumbra")}});
-  EXPECT_EQ(all.judgedPixels, 4);
+  EXPECT_EQ(all.evaluatedPixels, 4);
   EXPECT_DOUBLE_EQ(all.value, 1.75 / 4.0);
-  EXPECT_EQ(receivers.judgedPixels, 3);
+  EXPECT_EQ(receivers.evaluatedPixels, 3);
   EXPECT_DOUBLE_EQ(receivers.value, 1.25 / 3.0);
   EXPECT_EQ(receivers.map->data, (std::vector<float>{1.0F, 0.25F, 0.0F, 0.0F}));
-  EXPECT_EQ(penumbra.judgedPixels, 2);
+  EXPECT_EQ(penumbra.evaluatedPixels, 2);
   EXPECT_DOUBLE_EQ(penumbra.value, 0.125);
 }
 
-TEST(PixelErrors, EmptyRegionIsJudgedPerfectAndSaysSo) {
+TEST(PixelErrors, EmptyRegionIsEvaluatedPerfectAndSaysSo) {
   const Image mask(2, 2, 1, 0.0F), reference(2, 2, 1, 1.0F), test(2, 2, 1, 0.0F);
   for (const std::string& name : kErrors) {
     const MetricResult result = measure(name, pairOf(test, reference, &mask));
     EXPECT_EQ(result.value, 0.0) << name;
-    EXPECT_EQ(result.judgedPixels, 0) << name;
+    EXPECT_EQ(result.evaluatedPixels, 0) << name;
   }
   EXPECT_EQ(measure("psnr", pairOf(test, reference, &mask)).value, 200.0);
   EXPECT_EQ(measure("de94", pairOf(test, reference, &mask)).value, 0.0);

@@ -19,7 +19,7 @@ TEST(Leaks, CountsLightInFullShadowOnly) {
   const Image mask = makeImage(6, 1, 1, {1, 1, 1, 1, 1, 0});
   const MetricResult result = measure("leaks", pairOf(test, reference, &mask));
   EXPECT_DOUBLE_EQ(result.value, 2.0 / 5.0);
-  EXPECT_EQ(result.judgedPixels, 5);
+  EXPECT_EQ(result.evaluatedPixels, 5);
   EXPECT_EQ(result.map->at(1, 0), 0.0F);
   EXPECT_FLOAT_EQ(result.map->at(0, 0), 0.1F);
 }
@@ -61,7 +61,7 @@ TEST(ShadowDefects, NoReceiversNoDefects) {
   for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "seam_step"}) {
     const MetricResult result = measure(name, pairOf(test, reference, &mask));
     EXPECT_EQ(result.value, 0.0) << name;
-    EXPECT_EQ(result.judgedPixels, 0) << name;
+    EXPECT_EQ(result.evaluatedPixels, 0) << name;
   }
 }
 
@@ -115,7 +115,7 @@ TEST(SeamStep, IsTheChangeOfTheErrorBetweenNeighbours) {
 
 // Band_step takes both figures from wherever they are largest, so that a large step of the reference hides a
 // seam elsewhere; seam_step compares pair by pair, down columns too, and leaves out what has no receiver.
-TEST(SeamStep, IsJudgedPairByPair) {
+TEST(SeamStep, IsEvaluatedPairByPair) {
   const Image reference = makeImage(2, 3, 1, {0.0F, 1.0F, 0.0F, 1.0F, 0.0F, 1.0F});
   const Image test = makeImage(2, 3, 1, {0.0F, 1.0F, 0.25F, 1.0F, 0.25F, 1.0F});
   EXPECT_DOUBLE_EQ(valueOf("seam_step", test, reference), 0.25);

@@ -61,7 +61,7 @@ MetricResult measure(const ComparisonInput& input, const FlipMetricSettings& set
   MetricResult result;
   result.value =
       flip->compute(test ? *test : *input.testTexture, reference ? *reference : *input.referenceTexture);
-  result.judgedPixels = pair.judgedPixels();
+  result.evaluatedPixels = pair.evaluatedPixels();
   result.map = flip->map().read();
   result.mapName = "flip";
   return result;

@@ -20,7 +20,7 @@ struct SwitchImages {
 
 /// The views of a change of level that a viewer is shown (SP-39). The frame is a window of the display, pixel
 /// for pixel; its pictures are supersampled and clamped to the display's range. Displacement, depth and what
-/// flicker is judged by are those of the pixels' centres.
+/// flicker is evaluated by are those of the pixels' centres.
 class SwitchViews {
  public:
   /// Throws Error as SwitchSetting::levels().

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the thesis printed, checked against itself, and set beside answers.
 #include "analysis/study/published.h"
+#include "analysis/output/result_data.h"
+#include "analysis/output/result_text.h"
 
 #include <gmock/gmock.h>
 
@@ -221,9 +223,11 @@ TEST_F(PublishedComparisonTest, SaysWhyOursIsMissing) {
   EXPECT_FALSE(effect.values[0].ours);
   EXPECT_THAT(effect.note, HasSubstr("ours: "));
   EXPECT_THAT(statistic(out, "rating with detection rate, static").note, HasSubstr("no predictions"));
-  const std::string csv = toCsv({out}), text = toText({out});
-  EXPECT_THAT(csv, HasSubstr("experiment_1,main,variance by lod_change,F,98.926,98.926,,,people,"));
-  for (const std::string& all : {csv, text, toJson({out}).dump()}) {
+  const Result result = resultOf(std::vector<PublishedComparison>{out});
+  const std::string csv = toCsv(result.sections), shown = toText(result);
+  EXPECT_THAT(csv,
+              HasSubstr("\nstatistics,experiment_1,people,main,variance by lod_change,F,98.926,98.926,-,,,"));
+  for (const std::string& all : {csv, shown, toJson(result).dump()}) {
     EXPECT_EQ(all.find("nan"), std::string::npos);
     EXPECT_EQ(all.find("inf"), std::string::npos);
   }

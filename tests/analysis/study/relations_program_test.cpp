@@ -53,7 +53,7 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
       runProgram("limen-study simulate quality_pairs --observers 10 --seed 5 --quiet --store " + store);
   ASSERT_EQ(simulated.code, 0) << simulated.text;
   const std::string model = " --model thurstone --no-exclusions --json ";
-  const json group = call("scale " + store + model + "--samples 500").at("scale").at("groups").at(0);
+  const json group = call("scale " + store + model + "--samples 500").at("sections").at(0);
 
   // What the protocol's `simulation` block says. An observer chooses by Phi((b - a) / sqrt 2), values
   // differing between observers with an SD of 0.3 each, so that over observers the difference of two
@@ -67,19 +67,22 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
   for (const auto& [name, value] : truth) mean += value / 7.0;
   EXPECT_EQ(group.at("judgements"), 10 * 84);
   EXPECT_EQ(group.at("subjects"), 10);
-  EXPECT_EQ(group.at("bootstrap").at("over"), "subjects");
+  EXPECT_EQ(group.at("bootstrap_over"), "subjects");
   ASSERT_EQ(group.at("items").size(), 7U);
   int held = 0, heldByBootstrap = 0;
   std::vector<std::pair<double, double>> found;
   for (const json& item : group.at("items")) {
     const double expected = (truth.at(item.at("item")) - mean) / std::sqrt(2.18);
-    const auto holds = [&](const json& interval) {
-      return interval[0].get<double>() <= expected && expected <= interval[1].get<double>() ? 1 : 0;
+    const auto holds = [&](const std::string& name) {
+      return item.at(name + "low").get<double>() <= expected &&
+                     expected <= item.at(name + "high").get<double>()
+                 ? 1
+                 : 0;
     };
-    held += holds(item.at("interval"));
-    heldByBootstrap += holds(item.at("bootstrap_interval"));
-    found.emplace_back(item.at("value"), truth.at(item.at("item")));
-    EXPECT_NEAR(item.at("value").get<double>(), expected, 4.0 * item.at("standard_error").get<double>());
+    held += holds("");
+    heldByBootstrap += holds("bootstrap_");
+    found.emplace_back(item.at("estimate"), truth.at(item.at("item")));
+    EXPECT_NEAR(item.at("estimate").get<double>(), expected, 4.0 * item.at("standard_error").get<double>());
   }
   // Observers differ, which the errors do not know: of 100 such studies 90 % of these intervals held the
   // truth, 91 % of the bootstrap's. Two of seven may miss it (chance of more: 3 %).
@@ -95,7 +98,7 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
   // Every pair once in each order and scene: four rounds each.
   ASSERT_EQ(group.at("consistency").size(), 10U);
   for (const json& one : group.at("consistency")) EXPECT_EQ(one.at("rounds"), 4);
-  EXPECT_EQ(group.at("first_chosen").at("judged"), 840);
+  EXPECT_EQ(group.at("first_judged"), 840);
 
   // The same answers, exported and put into columns of names.
   const std::string exported = folder.path("export"), csv = folder.path("pairs.csv");
@@ -115,8 +118,7 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
       call("scale " + csv +
            " --first left --second right --chosen chosen --subject who --round round --model thurstone "
            "--samples 500 --json")
-          .at("scale")
-          .at("groups")
+          .at("sections")
           .at(0);
   EXPECT_EQ(table.at("first_chosen"), group.at("first_chosen"));
   const auto triads = [](const json& from) {
@@ -129,13 +131,12 @@ TEST(AnalyseRelationsProgram, ScaleOfASimulatedStudy) {
     const json &a = group.at("items")[i], &b = table.at("items")[i];
     EXPECT_EQ(a.at("item"), b.at("item"));
     EXPECT_EQ(a.at("chosen"), b.at("chosen"));
-    EXPECT_NEAR(a.at("value").get<double>(), b.at("value").get<double>(), 1e-9);
-    for (size_t side : {0U, 1U})
-      EXPECT_NEAR(a.at("bootstrap_interval")[side].get<double>(),
-                  b.at("bootstrap_interval")[side].get<double>(), 1e-9);
+    EXPECT_NEAR(a.at("estimate").get<double>(), b.at("estimate").get<double>(), 1e-9);
+    for (const char* side : {"bootstrap_low", "bootstrap_high"})
+      EXPECT_NEAR(a.at(side).get<double>(), b.at(side).get<double>(), 1e-9);
   }
 
-  const json scenes = call("scale " + store + model + "--by scene --samples 0").at("scale").at("groups");
+  const json scenes = call("scale " + store + model + "--by scene --samples 0").at("sections");
   ASSERT_EQ(scenes.size(), 2U);
   EXPECT_EQ(scenes[0].at("judgements"), 420);
   EXPECT_EQ(scenes[0].at("group"), "scene=bunny") << "as the protocol writes them";
@@ -177,8 +178,9 @@ TEST(AnalyseRelationsProgram, MeasuresOfAHandMadeStudy) {
   const auto relations = [&] {
     std::map<std::string, json> out;
     const json result = call("correlate --json " + store);
-    for (const json& one : result.at("correlate").at("groups").at(0).at("relations"))
-      out[one.at("x").get<std::string>() + " / " + one.at("y").get<std::string>()] = one;
+    for (const json& one : result.at("sections").at(0).at("coefficients"))
+      out[one.at("x").get<std::string>() + " / " + one.at("y").get<std::string>()][one.at("coefficient")] =
+          one;
     return out;
   };
   auto found = relations();
@@ -186,18 +188,16 @@ TEST(AnalyseRelationsProgram, MeasuresOfAHandMadeStudy) {
   // Mean rates: static 1, 5/8, 1/8; dynamic 3/4, 1/2, 1/8. From the deviations by hand: static (10, 1, -11) /
   // 24, dynamic (7, 1, -8) / 24, so r = (70 + 1 + 88) / sqrt((100 + 1 + 121) (49 + 1 + 64)).
   const json& still = found.at("detection_rate, static / detection_rate, dynamic");
-  EXPECT_EQ(still.at("n"), 3);
-  EXPECT_NEAR(still.at("coefficients").at("pearson").at("value").get<double>(),
-              159.0 / std::sqrt(222.0 * 114.0), 1e-9);
+  EXPECT_EQ(still.at("pearson").at("n"), 3);
+  EXPECT_NEAR(still.at("pearson").at("estimate").get<double>(), 159.0 / std::sqrt(222.0 * 114.0), 1e-9);
   // Six conditions. Severity is 4, 3, 2 and reaction time 1.15, 2.15, 3.15 by distance alone.
   const json& severity = found.at("median_reaction_time_s / mean_severity");
-  EXPECT_EQ(severity.at("n"), 6);
-  EXPECT_NEAR(severity.at("coefficients").at("pearson").at("value").get<double>(), -1.0, 1e-9);
+  EXPECT_EQ(severity.at("pearson").at("n"), 6);
+  EXPECT_NEAR(severity.at("pearson").at("estimate").get<double>(), -1.0, 1e-9);
   // The nearer, the larger each rate: 12 of 15 pairs. The other 3 are tied by distance, one of them in rate
   // too.
   const json& time = found.at("median_reaction_time_s / detection_rate");
-  EXPECT_NEAR(time.at("coefficients").at("kendall_tau_b").at("value").get<double>(),
-              -12.0 / std::sqrt(12.0 * 14.0), 1e-9);
+  EXPECT_NEAR(time.at("kendall_tau_b").at("estimate").get<double>(), -12.0 / std::sqrt(12.0 * 14.0), 1e-9);
 
   // A predictor that is the reverse of distance, for all six stimuli.
   for (int d = 0; d < 3; ++d)
@@ -209,9 +209,8 @@ TEST(AnalyseRelationsProgram, MeasuresOfAHandMadeStudy) {
     }
   found = relations();
   const json& rating = found.at("rating / detection_rate");
-  EXPECT_EQ(rating.at("n"), 6);
-  EXPECT_NEAR(rating.at("coefficients").at("kendall_tau_b").at("value").get<double>(),
-              12.0 / std::sqrt(12.0 * 14.0), 1e-9);
+  EXPECT_EQ(rating.at("pearson").at("n"), 6);
+  EXPECT_NEAR(rating.at("kendall_tau_b").at("estimate").get<double>(), 12.0 / std::sqrt(12.0 * 14.0), 1e-9);
   EXPECT_THAT(runProgram("limen-analyse correlate --clamp " + store).text, HasSubstr("Pearson, clamped"));
 }
 

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/analysis/result_rows.h"
 #include "tests/analysis/study/hand_made.h"
 #include "tests/analysis/synthetic_store.h"
 #include "tests/run_program.h"
@@ -51,10 +53,14 @@ json fitted(const std::string& arguments) {
 
 /// Of eight and more intervals all hold the truth: with 99.9 % each that fails once in a hundred times, for
 /// other seeds.
-void expectHeld(const json& condition, const std::string& quantity, double truth) {
-  const json& interval = condition.at("intervals").at(quantity);
-  EXPECT_LE(interval.at(0).get<double>(), truth) << condition.at("name") << " " << quantity;
-  EXPECT_GE(interval.at(1).get<double>(), truth) << condition.at("name") << " " << quantity;
+void expectHeld(const json& part, const json& condition, const std::string& quantity, double truth) {
+  const json row = rowWith(part.at("parameters"), {{"condition", condition}, {"parameter", quantity}});
+  EXPECT_LE(row.at("low").get<double>(), truth) << condition << " " << quantity;
+  EXPECT_GE(row.at("high").get<double>(), truth) << condition << " " << quantity;
+}
+
+double estimate(const json& part, const json& condition, const std::string& quantity) {
+  return rowWith(part.at("parameters"), {{"condition", condition}, {"parameter", quantity}}).at("estimate");
 }
 
 TEST(StoreFit, IntervalsHoldWhatExperimentOneSimulates) {
@@ -64,8 +70,8 @@ TEST(StoreFit, IntervalsHoldWhatExperimentOneSimulates) {
   const json out =
       fitted(store + " --no-exclusions --intervals profile --confidence 0.999 --plot " + picture);
   EXPECT_EQ(out.at("observers").size(), 20U);
-  ASSERT_EQ(out.at("fits").size(), 1U);
-  const json& part = out.at("fits").at(0);
+  ASSERT_EQ(out.at("sections").size(), 1U);
+  const json& part = out.at("sections").at(0);
   EXPECT_EQ(part.at("part"), "main");
   EXPECT_EQ(part.at("x"), "switch_distance");
   const std::map<std::string, double> thresholds = {{"lod_change=2_to_3, presentation=dynamic", 29.0},
@@ -74,29 +80,30 @@ TEST(StoreFit, IntervalsHoldWhatExperimentOneSimulates) {
                                                     {"lod_change=3_to_9, presentation=static", 20.0}};
   ASSERT_EQ(part.at("conditions").size(), thresholds.size());
   for (const json& condition : part.at("conditions")) {
-    const json& settings = condition.at("settings");
-    EXPECT_EQ(settings.at("sigmoid"), "logistic");
-    EXPECT_EQ(settings.at("axis"), "log");
-    EXPECT_EQ(settings.at("direction"), "falling");
-    EXPECT_EQ(settings.at("task"), "yesno");
+    const json& name = condition.at("condition");
+    EXPECT_EQ(part.at("sigmoid"), "logistic");
+    EXPECT_EQ(part.at("axis"), "log");
+    EXPECT_EQ(part.at("direction"), "falling");
+    EXPECT_EQ(part.at("task"), "yesno");
     // Of each distance 20 x 3 changes, and a catch trial to each.
     EXPECT_EQ(condition.at("trials"), 20 * 7 * 4);
     EXPECT_EQ(condition.at("blocks"), 8);
-    EXPECT_LT(condition.at("slope"), 0.0);
-    expectHeld(condition, "threshold", thresholds.at(condition.at("name")));
-    expectHeld(condition, "width", 2.5);
-    expectHeld(condition, "guess", 0.0446);
-    expectHeld(condition, "lapse", 0.02);
+    EXPECT_LT(estimate(part, name, "slope"), 0.0);
+    expectHeld(part, name, "threshold", thresholds.at(name));
+    expectHeld(part, name, "width", 2.5);
+    expectHeld(part, name, "guess", 0.0446);
+    expectHeld(part, name, "lapse", 0.02);
   }
   EXPECT_TRUE(std::filesystem::exists(picture));
 
   // A guess rate held at that of all catch trials, and one condition for each observer.
   const json held = fitted(store + " --no-exclusions --guess catch");
-  const double guess = held.at("fits").at(0).at("conditions").at(0).at("guess");
+  const json& first = held.at("sections").at(0);
+  const double guess = estimate(first, first.at("conditions").at(0).at("condition"), "guess");
   EXPECT_NEAR(guess, 0.0446, 4.0 * std::sqrt(0.0446 * 0.9554 / 560.0));
-  EXPECT_EQ(held.at("fits").at(0).at("conditions").at(0).at("trials"), 20 * 7 * 3);
+  EXPECT_EQ(held.at("sections").at(0).at("conditions").at(0).at("trials"), 20 * 7 * 3);
   EXPECT_EQ(fitted(store + " --no-exclusions --by observer --share width,lapse")
-                .at("fits")
+                .at("sections")
                 .at(0)
                 .at("conditions")
                 .size(),
@@ -107,27 +114,30 @@ TEST(StoreFit, IntervalsHoldWhatQuestPlusWasGiven) {
   const TemporaryFolder folder;
   const std::string store = simulate(folder, withoutSpread(folder, "threshold_2ifc"), 10, "ideal");
   const json out = fitted(store + " --no-exclusions --intervals profile --confidence 0.999");
-  const json& part = out.at("fits").at(0);
+  const json& part = out.at("sections").at(0);
   EXPECT_EQ(part.at("x"), "nearness");
   ASSERT_EQ(part.at("conditions").size(), 4U);
   for (const json& condition : part.at("conditions")) {
-    EXPECT_EQ(condition.at("settings").at("sigmoid"), "weibull");
-    EXPECT_EQ(condition.at("settings").at("direction"), "rising");
-    EXPECT_EQ(condition.at("settings").at("task"), "2afc");
+    const json& name = condition.at("condition");
+    EXPECT_EQ(part.at("sigmoid"), "weibull");
+    EXPECT_EQ(part.at("direction"), "rising");
+    EXPECT_EQ(part.at("task"), "2afc");
     EXPECT_EQ(condition.at("trials"), 400);
-    const bool fine = condition.at("name").get<std::string>().find("fine") != std::string::npos;
-    expectHeld(condition, "threshold", fine ? 0.12 : 0.07);
-    expectHeld(condition, "width", 1.356);
-    expectHeld(condition, "lapse", 0.0);
+    const bool fine = name.get<std::string>().find("fine") != std::string::npos;
+    expectHeld(part, name, "threshold", fine ? 0.12 : 0.07);
+    expectHeld(part, name, "width", 1.356);
+    expectHeld(part, name, "lapse", 0.0);
   }
   // The rows that the session's own export would fit the same way: none is lost.
-  const ProgramRun csv = fit(store + " --no-exclusions --by none --csv");
-  EXPECT_EQ(csv.code, 0) << csv.text;
-  EXPECT_THAT(csv.text, HasSubstr("\nmain,,threshold,"));
+  const std::string csv = folder.path("fit.csv");
+  EXPECT_EQ(fit(store + " --no-exclusions --by none --csv " + csv).code, 0);
+  std::ifstream stream(csv);
+  const std::string table{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(table, HasSubstr("\nparameters,main,,threshold,"));
 
   // What the protocol says may be overruled.
   const json other = fitted(store + " --no-exclusions --sigmoid normal --axis linear --level 0.5");
-  EXPECT_EQ(other.at("fits").at(0).at("conditions").at(0).at("settings").at("axis"), "linear");
+  EXPECT_EQ(other.at("sections").at(0).at("axis"), "linear");
   const ProgramRun text = fit(store + " --direction falling");
   EXPECT_THAT(text.text, HasSubstr("better with the level"));
   EXPECT_THAT(text.text, HasSubstr("simulated observers"));
@@ -168,7 +178,7 @@ TEST(StoreFit, RefusesWhatMakesNoSense) {
   const auto threshold = [&](const std::string& options) {
     const ProgramRun run = fit(table + columns + options + " --json");
     EXPECT_EQ(run.code, 0) << run.text;
-    return json::parse(run.text).at("conditions").at(0).at("threshold").get<double>();
+    return estimate(json::parse(run.text).at("sections").at(0), "", "threshold");
   };
   EXPECT_NEAR(threshold("--direction falling"), 2.0, 0.01);  // the answers are symmetric
   EXPECT_EQ(threshold("--direction auto"), threshold("--direction falling"));

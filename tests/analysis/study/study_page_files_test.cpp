@@ -60,8 +60,8 @@ TEST_F(StudyPageTest, FilesAreWholeAndLinksLeadSomewhere) {
   std::smatch found;
   EXPECT_FALSE(std::regex_search(text, found, noNumber))
       << found.prefix().str().substr(std::max<size_t>(found.prefix().length(), 80) - 80) << found.str();
-  for (const char* table : {"rates", "anova", "comparisons", "sensitivity", "scenarios", "agreement",
-                            "severity", "reaction_times", "left_out", "sessions"})
+  for (const char* table : {"rates", "anova", "sensitivity", "validation", "severity_main",
+                            "reaction_times_main", "left_out", "sessions"})
     EXPECT_GT(file(std::string("tables/") + table + ".csv").size(), 20U) << table;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "analysis/answer_tables/table.h"
 #include "tests/analysis/study/study_page_fixture.h"
 
 namespace limen::analysis {
@@ -108,7 +109,7 @@ TEST_F(StudyPageTest, SensitivityIsThatOfTheRows) {
     const Moments own = momentsOf(values);
     EXPECT_NEAR(blockWith(data, "mean over observers").front().at(1), own.mean, 1e-9);
     EXPECT_NEAR(blockWith(data, "interval of the mean").front().at(1), own.mean - kT3 * own.sd / 2.0, 1e-6);
-    EXPECT_THAT(page, HasSubstr(fmt::format("<td class=\"num\">4</td><td class=\"num\">{}{:.2f}</td>",
+    EXPECT_THAT(page, HasSubstr(fmt::format("<td class=\"num\">4</td><td class=\"num\">{}{:.3f}</td>",
                                             own.mean < 0.0 ? "−" : "", std::abs(own.mean))));
   }
 }
@@ -130,18 +131,20 @@ TEST_F(StudyPageTest, VarianceAndPairsAreThoseOfTheRows) {
     return own.mean / (own.sd / 2.0);
   };
   const double t = pairedT("presentation", "dynamic", "static");
-  EXPECT_THAT(page, HasSubstr(fmt::format(
-                        "presentation</th><td class=\"num\">{:.3f}</td><td class=\"num\">1, 3</td>", t * t)));
+  EXPECT_THAT(
+      page,
+      HasSubstr(fmt::format(
+          "presentation</th><td class=\"num\">{:.3f}</td><td class=\"num\">1</td><td class=\"num\">3</td>",
+          t * t)));
   EXPECT_THAT(page, HasSubstr("Greenhouse"));
-  const std::string csv = file("tables/comparisons.csv");
-  std::istringstream lines(csv);
+  const Table csv = Table::parse(file("tables/anova.csv"), "anova.csv");
+  const auto cell = [&](size_t row, const char* column) { return csv.text(row, csv.column(column)); };
   size_t seen = 0;
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> cells;
-    std::istringstream parts(line);
-    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-    if (cells[0] != "main") continue;
-    EXPECT_NEAR(std::stod(cells[7]), pairedT(cells[1], cells[2], cells[3]), 1e-6) << line;
+  for (size_t row = 0; row < csv.rows(); ++row) {
+    if (cell(row, "table") != "pairs") continue;
+    EXPECT_EQ(cell(row, "part"), "main");
+    EXPECT_NEAR(std::stod(cell(row, "t")),
+                pairedT(cell(row, "factor"), cell(row, "first"), cell(row, "second")), 1e-6);
     ++seen;
   }
   EXPECT_EQ(seen, 3U + 1U) << "pairs of three distances and of two presentations";

@@ -18,7 +18,8 @@ TEST_F(StudyPageTest, SaysWhatTheDataAreAndWhatWasLeftOut) {
   EXPECT_THAT(page, HasSubstr("guesser</th><td>catch_rate_above</td><td class=\"num\">36</td><td>yes in 12 "
                               "of 12 catch trials</td>"));
   EXPECT_THAT(page, HasSubstr("<td>reaction_time_below_s</td><td class=\"num\">1</td>"));
-  EXPECT_THAT(page, HasSubstr("no: this program does not know it"));
+  EXPECT_THAT(page, HasSubstr("<td>no</td><td class=\"num\">–</td><td class=\"num\">–</td><td>this program "
+                              "does not know it</td>"));
   // Nothing excluded: five observers, the guesser's rates among them.
   const Moments own = momentsOf(ratesOf([](const AnswerRow& row) { return !row.change; }));
   const double all = (4.0 * own.mean + 1.0) / 5.0;
@@ -30,7 +31,7 @@ TEST_F(StudyPageTest, SaysWhatTheDataAreAndWhatWasLeftOut) {
   everything.choice.exclusions = false;
   const std::string other = readFileBytes(writeStudyPages(everything).at(0).page);
   EXPECT_THAT(other, HasSubstr("exclusion rules are not applied"));
-  EXPECT_THAT(other, HasSubstr("no: --no-exclusions"));
+  EXPECT_THAT(other, HasSubstr("<td>--no-exclusions</td>"));
 }
 
 TEST_F(StudyPageTest, SimulatedObserversAreNoPeople) {

@@ -116,7 +116,7 @@ TEST_F(CompareCli, LimitsDecideTheExitCode) {
 TEST_F(CompareCli, ALimitOnWhatCannotBeToldIsNoPass) {
   save("a.exr", flat(8, 8, {0.5F}), {OIIO::TypeDesc::FLOAT, {}, {}});
   expectRefused({"compare", "a.exr", "a.exr", "--metrics", "rmse", "--fail-above", "rmse_coded=1"},
-                {"cannot be judged", "coded values"});
+                {"cannot be evaluated", "coded values"});
 }
 
 TEST_F(CompareCli, FlipIsAFigureOrHasAReason) {

@@ -19,7 +19,7 @@ inline scene::Scene builtScene(const std::string& name,
 }
 
 /// Nearest triangle along a ray, in double precision and without any acceleration: what rasterisation is
-/// judged by.
+/// evaluated by.
 struct Hit {
   uint32_t triangle = 0xffffffffU;
   double t = std::numeric_limits<double>::infinity();

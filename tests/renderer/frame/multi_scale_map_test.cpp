@@ -149,7 +149,7 @@ TEST_F(MultiScaleMapTest, WhatDoesNotFitIsRefusedWithAWayOut) {
   } catch (const Error& error) {
     EXPECT_NE(error.message().find("65536 x 65536 x 16 texels (524288 MiB)"), std::string::npos)
         << error.what();
-    EXPECT_NE(error.mend().find("ysm"), std::string::npos) << error.what();
+    EXPECT_NE(error.hint().find("ysm"), std::string::npos) << error.what();
   }
   context().takeDebugMessages();  // the driver's own words for it
 }

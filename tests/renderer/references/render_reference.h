@@ -17,7 +17,7 @@ inline scene::Scene builtScene(const std::string& name, const Given& given = {})
   return scene::buildScene(name, ParameterValues(info.allParameters(), given));
 }
 
-/// What a reference made of a scene, and the points it judged.
+/// What a reference made of a scene, and the points it evaluated.
 struct Rendered {
   Image visibility;
   Image receivers;  ///< frame::Receivers

@@ -27,7 +27,7 @@ class Import : public testing::Test {
       read(name, content);
     } catch (const Error& error) {
       EXPECT_THAT(error.where(), HasSubstr(name));
-      EXPECT_FALSE(error.mend().empty());
+      EXPECT_FALSE(error.hint().empty());
       return error.message();
     }
     return {};

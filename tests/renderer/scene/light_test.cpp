@@ -28,7 +28,7 @@ bool refused(const AreaLight& light) {
     checkLight(light, "here");
   } catch (const Error& error) {
     EXPECT_EQ(error.where(), "here");
-    EXPECT_FALSE(error.mend().empty());
+    EXPECT_FALSE(error.hint().empty());
     return true;
   }
   return false;

@@ -74,7 +74,7 @@ TEST_F(OccluderKinds, ConflictsAreRefused) {
     const std::optional<Error> error = refusal(one.technique, one.given);
     ASSERT_TRUE(error) << one.where;
     EXPECT_EQ(error->where(), one.where) << error->what();
-    EXPECT_FALSE(error->mend().empty());
+    EXPECT_FALSE(error->hint().empty());
     const TechniqueInfo& info = TechniqueRegistry::instance().get(one.technique);
     EXPECT_THROW((void)info.make(ParameterValues(info.parameters, one.given)), Error);
   }
@@ -138,7 +138,7 @@ TEST_F(OccluderKinds, LoopsThatTheDriverLeavesEarlyAreNoResult) {
       render(scene, kind.first, given, {16, 12}, true);
       ADD_FAILURE() << kind.first << " counts";
     } catch (const Error& error) {
-      EXPECT_NE(error.mend().find("'budget'"), std::string::npos);
+      EXPECT_NE(error.hint().find("'budget'"), std::string::npos);
     }
   }
 }

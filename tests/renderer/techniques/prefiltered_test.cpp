@@ -222,7 +222,7 @@ TEST_F(Prefiltered, SumsOfMoreThan32BitsAreRefused) {
   const std::optional<Error> error = sums(13);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->where(), "prefilter.form.bits");
-  EXPECT_FALSE(error->mend().empty());
+  EXPECT_FALSE(error->hint().empty());
 }
 
 TEST_F(Prefiltered, ValuesOfWhatIsNotThereCannotBeWritten) {

@@ -90,9 +90,9 @@ TEST_F(SoftShadows, HalfPlanePenumbraIsTheLinearRampOfTheClosedForm) {
 }
 
 TEST_F(SoftShadows, BitmasksFuseWhatAreasCountTwice) {
-  // Judged by the exact union of the cards' projections, where it is neither full nor empty. The sum of areas
-  // may count each card's overlap with the next; the bitmask must stay at its own resolution of 1/16 per
-  // edge.
+  // Evaluated by the exact union of the cards' projections, where it is neither full nor empty. The sum of
+  // areas may count each card's overlap with the next; the bitmask must stay at its own resolution of 1/16
+  // per edge.
   std::map<std::string, std::vector<double>> largest, total;
   for (const int64_t cards : {1, 2, 4, 8}) {
     const scene::Scene scene =

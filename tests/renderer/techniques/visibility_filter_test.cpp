@@ -48,7 +48,7 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
     return std::abs(height) < 1e-3;
   };
   double plainStep = 0.0, filteredExcess = 0.0;
-  int judged = 0;
+  int evaluated = 0;
   constexpr int kMargin = kRadius + 1;
   for (int y = kMargin; y < plain.height - kMargin; ++y)
     for (int x = kMargin; x < plain.width - kMargin; ++x) {
@@ -63,14 +63,14 @@ TEST_F(VisibilityFilterTest, LeavesOfAStepWhatItsWidthAllows) {
                             std::abs(truth.product.at(x + i, y + j + 1) - here)});
         }
       if (!inside) continue;
-      ++judged;
+      ++evaluated;
       for (const auto& [i, j] : {std::pair(1, 0), {0, 1}}) {
         plainStep = std::max(plainStep, std::abs(double(plain.at(x + i, y + j)) - plain.at(x, y)));
         filteredExcess =
             std::max(filteredExcess, std::abs(double(filtered.at(x + i, y + j)) - filtered.at(x, y)) - slope);
       }
     }
-  EXPECT_GT(judged, 500);
+  EXPECT_GT(evaluated, 500);
   EXPECT_GE(plainStep, 1.0 / kRows - 1e-6);
   EXPECT_LE(filteredExcess, 1.0 / kRows / (2 * kRadius + 1) + 1e-6);
 }

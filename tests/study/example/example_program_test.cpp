@@ -66,7 +66,7 @@ TEST_F(ExampleProgram, FromEndToEndAndKilledOnTheWay) {
   const std::string csv = readTextFile(whole + "/comparison.csv");
   const json summary = json::parse(readTextFile(whole + "/summary.json"));
   EXPECT_EQ(summary.at("studies").at(0).at("window_px"), json({48, 36}));
-  EXPECT_EQ(summary.at("comparison").at("published").size(), 2U);
+  EXPECT_EQ(summary.at("comparison").at("sections").size(), 2U);
   for (const char* name : {"experiment_1_rates", "experiment_1_anova", "experiment_1_sdt",
                            "experiment_2_rates", "experiment_2_anova", "experiment_2_sdt"}) {
     const json one = json::parse(readTextFile(whole + "/" + name + ".json"));
@@ -77,9 +77,9 @@ TEST_F(ExampleProgram, FromEndToEndAndKilledOnTheWay) {
   EXPECT_EQ(store::readPredictions(whole + "/experiment_1.sqlite").size(), 28U);
   // Correlations come from the predictions: those of the patch are there, those of the rest are not.
   int withPredictions = 0, without = 0;
-  for (const json& study : summary.at("comparison").at("published"))
+  for (const json& study : summary.at("comparison").at("sections"))
     for (const json& statistic : study.at("statistics"))
-      if (statistic.at("values").at(0).at("quantity") == "tau_c")
+      if (statistic.at("quantity") == "tau_c")
         ++(statistic.at("note").get<std::string>().find("no predictions") == std::string::npos
                ? withPredictions
                : without);

@@ -81,7 +81,7 @@ TEST(Calibration, BadReadingsAreRefused) {
     try {
       fitTransfer(bad);
     } catch (const Error& error) {
-      return !error.mend().empty();
+      return !error.hint().empty();
     }
     return false;
   };

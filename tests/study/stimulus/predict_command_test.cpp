@@ -64,7 +64,7 @@ TEST_F(PredictCommand, PredictsWhatWasShownOnce) {
 
   const ProgramRun validated = runProgram("limen-analyse validate --json " + store());
   ASSERT_EQ(validated.code, 0) << validated.text;
-  const json part = json::parse(validated.text).at("validation").at("parts").at(0);
+  const json part = json::parse(validated.text).at("sections").at(0);
   EXPECT_EQ(part.at("scenarios").size(), 2U);
 }
 

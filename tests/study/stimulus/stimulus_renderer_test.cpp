@@ -239,7 +239,7 @@ TEST_F(StimulusRendererTest, WhatCannotBeShownIsRefused) {
     try {
       StimulusRenderer(context(), stimulus, kStimulusSize, studyDisplay());
     } catch (const Error& error) {
-      return !error.mend().empty();
+      return !error.hint().empty();
     }
     return false;
   };

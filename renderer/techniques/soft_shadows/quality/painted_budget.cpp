@@ -63,7 +63,7 @@ class PaintedBudgetDriver : public BudgetDriver {
     try {
       weights = paintedWeights(greyOf(readImageFile(settings_.file.path)), frame.sizePx(), settings_.fit);
     } catch (const Error& error) {
-      throw Error(error.message(), error.where().empty() ? settings_.file.path : error.where(), error.mend());
+      throw Error(error.message(), error.where().empty() ? settings_.file.path : error.where(), error.hint());
     }
     const double least = std::sqrt(static_cast<double>(settings_.black)),
                  most = std::sqrt(static_cast<double>(settings_.white));

@@ -13,8 +13,8 @@
 namespace limen::experiments {
 
 /// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
-std::vector<store::Measurement> judge(const PlannedRun& run, const perception::ComparisonInput& input,
-                                      std::vector<std::pair<std::string, Image>>& maps);
+std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
+                                         std::vector<std::pair<std::string, Image>>& maps);
 
 /// Writes the run's pictures below `folder`/artefacts and returns them with their hashes; paths are relative
 /// to `folder`. `views` (Technique::pictures()) become artefacts of kind "view_NAME_png".

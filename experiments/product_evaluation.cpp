@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/product_judge.h"
+#include "experiments/product_evaluation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@
 
 namespace limen::experiments {
 
-std::vector<store::Measurement> judge(const PlannedRun& run, const perception::ComparisonInput& input,
-                                      std::vector<std::pair<std::string, Image>>& maps) {
+std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
+                                         std::vector<std::pair<std::string, Image>>& maps) {
   std::vector<store::Measurement> out;
-  for (const Choice& metric : run.metrics) {
+  for (const Configuration& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
     perception::MetricResult result = info.compare(input, metric.values);
     const std::string name = measurementName(metric, run.metrics, info.parameters);
