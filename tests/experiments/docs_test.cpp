@@ -63,7 +63,7 @@ class Docs : public SweepCli {
 /// An info string "yaml" marks a whole descriptor; "yaml part" a piece of one. Files that descriptors name
 /// lie in the folder that readers call from.
 TEST_F(Docs, ShownDescriptorsPlan) {
-  write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("vase.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   size_t descriptors = 0;
   for (const std::string& page : pages())

@@ -35,9 +35,9 @@ const SettingsTable<ByError>& ByError::table() {
   return kTable;
 }
 
-const SettingsTable<FixedLevel>& FixedLevel::table() {
-  static const SettingsTable<FixedLevel> kTable = {
-      Binding(&FixedLevel::level, "level", Range{0, 15}, "", "0 the finest; past an object's last: its last")
+const SettingsTable<ByLevel>& ByLevel::table() {
+  static const SettingsTable<ByLevel> kTable = {
+      Binding(&ByLevel::level, "level", Range{0, 15}, "", "0 the finest; past an object's last: its last")
           .formerly({"level"})};
   return kTable;
 }
@@ -61,7 +61,7 @@ scene::LodSelection LevelControl::choose(const scene::Scene& scene, const scene:
     return levelsByScreenExtent(scene, view, by->finestPx, by->ratio);
   if (const auto* by = std::get_if<ByError>(&control))
     return levelsByScreenError(scene, view, by->tolerancePx);
-  return uniformLevels(scene, std::get<FixedLevel>(control).level);
+  return uniformLevels(scene, std::get<ByLevel>(control).level);
 }
 
 int64_t LevelControl::switchesOnPath(const scene::Scene& scene, int heightPx) const {

@@ -31,14 +31,14 @@ struct ByError {
   static const SettingsTable<ByError>& table();
 };
 
-struct FixedLevel {
+struct ByLevel {
   static constexpr const char *kKind = "fixed", *kSummary = "one level for all objects";
   int level = 0;  ///< 0 the finest; past an object's last: its last
-  static const SettingsTable<FixedLevel>& table();
+  static const SettingsTable<ByLevel>& table();
 };
 
 struct LevelControlSettings {
-  std::variant<ByDistance, ByExtent, ByError, FixedLevel> control;
+  std::variant<ByDistance, ByExtent, ByError, ByLevel> control;
   double frameRateHz = 60.0;  ///< at which switches are counted
   static const SettingsTable<LevelControlSettings>& table();
 };
