@@ -144,11 +144,11 @@ void main() {
 #endif
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = first + ivec2(0, i);
-    vec2 judged = judge(contrasts[i], adaptation[i]);
+    vec2 evaluated = evaluate(contrasts[i], adaptation[i]);
     if (any(greaterThanEqual(at, size))) continue;
-    imageStore(threshold, at, vec4(run.rule.z * judged.y * judged.x));
+    imageStore(threshold, at, vec4(run.rule.z * evaluated.y * evaluated.x));
 #if STAGES
-    imageStore(stages, at, vec4(adaptation[i], judged.x, 0.0, 0.0));
+    imageStore(stages, at, vec4(adaptation[i], evaluated.x, 0.0, 0.0));
 #endif
   }
 }

@@ -55,7 +55,7 @@ float wardTvi(float l) {  // l = lg luminance, above -4
 #endif
 
 // Threshold elevation S of contrasts c and, in .y, the TVI [cd/m2].
-vec2 judge(float c[BANDS + 1], float luminance) {
+vec2 evaluate(float c[BANDS + 1], float luminance) {
   const float kLgOf2 = 0.30102999566;
   float l = clamp(log2(max(luminance, 1e-4)) * kLgOf2, -4.0, 6.0);
   float position = (l - kLgLow) * kCellsPerDecade;

@@ -10,7 +10,7 @@
 namespace limen::perception {
 namespace {
 
-constexpr double kLeastCdM2 = 1e-6, kLargestCdM2 = 1e12;
+constexpr double kLeastAdaptedCdM2 = 1e-6, kLargestAdaptedCdM2 = 1e12;
 constexpr double kMatchedCdM2 = 100.0;  ///< where TVI of CSFs are scaled to Ward's
 constexpr double kLargestFactor = 1e12;
 
@@ -34,7 +34,8 @@ double lgTviBranch(size_t branch, double l) {
 }
 
 double lgLuminance(double luminanceCdM2) {
-  return std::log10(luminanceCdM2 > 0.0 ? std::clamp(luminanceCdM2, kLeastCdM2, kLargestCdM2) : kLeastCdM2);
+  return std::log10(luminanceCdM2 > 0.0 ? std::clamp(luminanceCdM2, kLeastAdaptedCdM2, kLargestAdaptedCdM2)
+                                        : kLeastAdaptedCdM2);
 }
 
 size_t branchOf(double l) {
@@ -61,8 +62,9 @@ double tviWardSmoothed(double luminanceCdM2) {
 }
 
 double tviFromCsf(const Csf& csf, CsfPoint point) {
-  point.luminanceCdM2 =
-      point.luminanceCdM2 > 0.0 ? std::clamp(point.luminanceCdM2, kLeastCdM2, kLargestCdM2) : kLeastCdM2;
+  point.luminanceCdM2 = point.luminanceCdM2 > 0.0
+                            ? std::clamp(point.luminanceCdM2, kLeastAdaptedCdM2, kLargestAdaptedCdM2)
+                            : kLeastAdaptedCdM2;
   // Where nothing is visible no increment is; a finite one stands for that.
   return std::min(point.luminanceCdM2 / std::max(csf.peak(point).sensitivity, 1.0 / kLargestFactor), 1e24);
 }

@@ -99,14 +99,14 @@ TEST_F(PlantedTree, AMissingLicenceLineIsFound) {
 TEST(TargetRules, ALinkAgainstTheDirectionIsFoundInsideGeneratorExpressions) {
   const auto targets = readTargets(
       "limen_options|.|\n"
-      "limen_base|base|limen_options;fmt::fmt\n"
+      "limen_base|experiments/base|limen_options;fmt::fmt\n"
       "limen_gl|renderer/gl|limen_base;$<LINK_ONLY:PkgConfig::EPOXY>\n"
       "limen_scene|renderer/scene|limen_base;$<LINK_ONLY:limen_gl>\n"
       "limen-sweep|experiments|$<LINK_LIBRARY:WHOLE_ARCHIVE,limen_scene,limen_gl>\n"
       "test_scene|tests/renderer|limen_scene;limen-sweep\n");
   EXPECT_THAT(
       checkTargets(targets),
-      UnorderedElementsAre(HasSubstr("limen_scene links limen_gl; renderer/scene may use base"),
+      UnorderedElementsAre(HasSubstr("limen_scene links limen_gl; renderer/scene may use experiments/base"),
                            HasSubstr("limen_scene links limen_gl; renderer/scene must not know OpenGL"),
                            HasSubstr("limen_scene links PkgConfig::EPOXY")));
 }
@@ -114,7 +114,7 @@ TEST(TargetRules, ALinkAgainstTheDirectionIsFoundInsideGeneratorExpressions) {
 TEST(TargetRules, OpenGlThatReachesAnalysisThroughAnotherTargetIsFound) {
   const auto targets = readTargets(
       "limen_store|experiments/store|SQLite::SQLite3;limen_charts\n"
-      "limen_charts|base|/usr/lib/libGL.so\n"
+      "limen_charts|experiments/base|/usr/lib/libGL.so\n"
       "limen-analyse|analysis|limen_store\n");
   EXPECT_THAT(checkTargets(targets), SizeIs(3)) << "one for each module that GL reaches";
 }

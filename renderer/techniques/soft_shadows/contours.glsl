@@ -58,8 +58,8 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const vec2 fromTexel = vec2(x, y) + mix(vec2(offsets[side]), vec2(offsets[next]), outwards) + 0.5;
         const vec2 toTexel = vec2(x, y) + mix(vec2(offsets[last]), vec2(offsets[before]), outwards) + 0.5;
         ++occluderCount;
-        accumulateEdge(throwOf(depths[side], p.z) * (scale * fromTexel + shift) + 0.5,
-                       throwOf(depths[last], p.z) * (scale * toTexel + shift) + 0.5);
+        accumulateEdge(projectionScale(depths[side], p.z) * (scale * fromTexel + shift) + 0.5,
+                       projectionScale(depths[last], p.z) * (scale * toTexel + shift) + 0.5);
       }
     }
   }

@@ -38,18 +38,18 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #endif
       if (blocks(z, ivec2(x, y), level, depth)) {
         const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
-        const float k = throwOf(z, p.z);
+        const float k = projectionScale(z, p.z);
         vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
         const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
         if (blocks(left, ivec2(x - 1, y), level, depth))
-          start.x = min(start.x, throwOf(left, p.z) * edgesX.x + eyeOnLight.x);
+          start.x = min(start.x, projectionScale(left, p.z) * edgesX.x + eyeOnLight.x);
         if (blocks(below, ivec2(x, y - 1), level, depth))
-          start.y = min(start.y, throwOf(below, p.z) * edgesY.x + eyeOnLight.y);
+          start.y = min(start.y, projectionScale(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
         if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, depth)) {
-          const float corner = throwOf(lowerLeft, p.z);
+          const float corner = projectionScale(lowerLeft, p.z);
           start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
         }
 #endif

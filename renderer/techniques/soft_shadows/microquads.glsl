@@ -53,7 +53,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
         // Precise, so that a vertex has one place for all cells that share it.
         precise vec2 place = vec2(0.0);
         const bool blocking = blocks(z, texel, level, depth);
-        if (blocking) place = throwOf(z, p.z) * (scale * (vec2(texel) + 0.5) + shift) + eyeOnLight;
+        if (blocking) place = projectionScale(z, p.z) * (scale * (vec2(texel) + 0.5) + shift) + eyeOnLight;
         corners[1 + i] = Vertex(place, blocking);
       }
       if (x < cells.low.x) continue;

@@ -58,15 +58,15 @@ float gatherOccluders(vec4 p, Area area, int level) {
       if (z < depth) {
         const ivec4 bounds = rectBounds(ivec2(x, y), level);
         const vec2 lowEdge = scale * vec2(bounds.xy) + shift, highEdge = scale * vec2(bounds.zw) + shift;
-        const float k = throwOf(z, p.z);
+        const float k = projectionScale(z, p.z);
         vec2 start = k * lowEdge + eyeOnLight;
         const vec2 end = k * highEdge + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (left < depth) start.x = min(start.x, throwOf(left, p.z) * lowEdge.x + eyeOnLight.x);
-        if (below < depth) start.y = min(start.y, throwOf(below, p.z) * lowEdge.y + eyeOnLight.y);
+        if (left < depth) start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
+        if (below < depth) start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (lowerLeft < depth) start = min(start, throwOf(lowerLeft, p.z) * lowEdge + eyeOnLight);
+        if (lowerLeft < depth) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
         accumulateOnLight(start, end);
       }

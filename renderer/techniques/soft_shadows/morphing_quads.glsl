@@ -38,7 +38,7 @@ MovingVertex vertexAt(ivec2 texel, int level, vec4 p, float depth, vec2 scale, v
   }
   precise vec2 place = vec2(0.0);
   if (z < depth)
-    place = throwOf(z, p.z) * (scale * mix(vec2(texel) + 0.5, 2.0 * vec2(parent) + 1.0, way) + shift) + eyeOnLight;
+    place = projectionScale(z, p.z) * (scale * mix(vec2(texel) + 0.5, 2.0 * vec2(parent) + 1.0, way) + shift) + eyeOnLight;
   return MovingVertex(place, z < depth);
 }
 

@@ -102,7 +102,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
 }
 
 // z / (p_z - z): how far depth z throws from the receiver onto the light. `depth` < p_z is what z has undercut.
-float throwOf(float z, float pz) { return z / (pz - z); }
+float projectionScale(float z, float pz) { return z / (pz - z); }
 
 #ifdef BIAS_STORED
 layout(binding = 9) uniform sampler2D texelBiases;
