@@ -40,7 +40,7 @@ json valueJson(const ResultCell& cell) {
 std::string valueField(const ResultCell& cell) {
   const ResultCell::Value& value = cell.value();
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return join(*texts);
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return join(*texts, "; ");
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "1" : "0";
   if (const auto* whole = std::get_if<int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value))
