@@ -107,9 +107,10 @@ Section sectionOf(const PartSensitivity& part) {
     method += "; rates ";
     method += part.correction == RateCorrection::kLogLinear ? "k of n as (k + 1/2) / (n + 1)" : "as they are";
     out.notes.push_back(method);
-    if (part.rows.size() > 1)
-      out.notes.push_back(
-          "all together: answers pooled; d′ comes out too small where rows differ, report the mean");
+    // GCC 12 misreads the length of a literal that becomes a string here (GCC bug 105329).
+    static const std::string kPooled =
+        "all together: answers pooled; d′ comes out too small where rows differ, report the mean";
+    if (part.rows.size() > 1) out.notes.push_back(kPooled);
   }
   if (!part.note.empty()) out.notes.push_back(part.note);
   return out;

@@ -30,7 +30,7 @@ void EntryAccess::read(const Parameter& stated, void* settings, const ParameterV
     if (kindOf(name) == kind) chosen.name = name;
   chosen.values = values.below(path);
   try {
-    options_.check(chosen.name, chosen.values);
+    if (options_.check) options_.check(chosen.name, chosen.values);
   } catch (const Error& error) {
     throw Error(error.message(), joinPath(stated.name, error.where()), error.hint());
   }
