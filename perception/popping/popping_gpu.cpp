@@ -180,11 +180,11 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       counters_(8, nullptr),
       mean_(8, nullptr),
       regions_(context, sizePx, settings) {
-  stageDefines_ = defines_;
-  stageDefines_["SHOW_STAGES"] = "1";
   defineEnum(defines_, "EYE_MOVEMENT", settings.eyeModel());
   defineEnum(defines_, "ADAPTATION", sourceOf(settings));
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
+  stageDefines_ = defines_;
+  stageDefines_["SHOW_STAGES"] = "1";
   const glm::dvec3 black = lmsFromXyz(display.xyz({0, 0, 0}));
   conesOfBlack_ = black;
   conesOfLight_ =

@@ -151,7 +151,7 @@ class ExampleReader {
     AxisPoint given;
     EntryReader entry(reader_, "give one value");
     for (const Axis& axis : entry.axes(*node, kind->parameters, "observer '" + name + "'", {"kind"}))
-      given.insert(axis.points.front().begin(), axis.points.front().end());
+      if (!axis.points.empty()) given.insert(axis.points.front().begin(), axis.points.front().end());
     try {
       out.observer = chooseObserver(*kind, given);
     } catch (const Error& error) {

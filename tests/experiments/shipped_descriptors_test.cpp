@@ -35,8 +35,8 @@ class ShippedDescriptors : public SweepCli {
   static std::string tiny(const std::string& timing = "{warmup: 0, frames: 2, rounds: 2, batch: 1}") {
     return "title: Tiny\nquestion: Does everything hold together?\nfeatures: [SS-12]\n"
            "scenes: [{name: parallel_rectangle, height: [0.5, 1]}]\n"
-           "techniques:\n  - {name: soft_shadows/hard, resolution: \"128\"}\n"
-           "  - {name: soft_shadows/bitmask, resolution: \"128\", pattern: [regular_8, jittered_16]}\n"
+           "techniques:\n  - {name: soft_shadows/hard, resolution: 128}\n"
+           "  - {name: soft_shadows/bitmask, resolution: 128, pattern: [regular_8, jittered_16]}\n"
            "reference: {name: soft_shadows/exact_union}\nimage: {width: 48, height: 36}\n"
            "artefacts: {exr: true}\nmetrics: [rmse, largest_error]\ntiming: " +
            timing + "\nexpect: [{metric: non_finite_count, equals: 0}]\n";

@@ -30,7 +30,7 @@ class ShaderReload : public ViewerTest {
   /// The tree's shaders in a place of their own.
   fs::path copyShaders() {
     const fs::path root = folder_ / "shaders", source = LIMEN_SOURCE_DIR;
-    for (const char* folder : {"renderer", "perception", "viewer", "experiments"})
+    for (const char* folder : {"renderer", "perception", "experiments"})
       for (const auto& entry : fs::recursive_directory_iterator(source / folder))
         if (entry.path().extension() == ".glsl") {
           const fs::path to = root / fs::relative(entry.path(), source);

@@ -264,19 +264,19 @@ TEST_F(Microquads, TableTendsToTheExactMask) {
   // The finer the table, the less it differs from the twin; how little is asked of the masks themselves.
   for (const auto& [name, scene] : scenes()) {
     int last = 1 << 30;
-    for (const char* size : {"64", "256", "1024"}) {
+    for (const int64_t size : {64, 256, 1024}) {
       const Compared result = compare(
           scene, "soft_shadows/bitmask",
           {{"occluders", std::string("microquads_microtris")},
            {"occluders.mask", std::string("half_space_table")},
-           {"occluders.mask.size", std::string(size)},
+           {"occluders.mask.size", size},
            {"pattern", std::string("jittered_16")}},
           [&](const MeshTwin& twin, const Image& receivers, int x, int y) {
             return hullVisibility(twin, receivers, x, y, true);
           },
           2.5 / 256.0);
-      std::printf("%s, table of %s: %d of %d pixels differ by 3 samples or more, largest difference %f\n",
-                  name.c_str(), size, result.differing, result.compared, result.largest);
+      std::printf("%s, table of %d: %d of %d pixels differ by 3 samples or more, largest difference %f\n",
+                  name.c_str(), int(size), result.differing, result.compared, result.largest);
       EXPECT_LE(result.differing, last) << name;
       last = result.differing;
     }

@@ -61,7 +61,7 @@ TEST_F(ExampleProgram, FromEndToEndAndKilledOnTheWay) {
   const std::string whole = path("whole"), broken = path("broken");
   const ProgramRun run = runProgram("limen-study example schwarz_2009_quick --quiet -o " + whole);
   ASSERT_EQ(run.code, 0) << run.text;
-  EXPECT_THAT(run.text, HasSubstr("F(1,7) = 98.926"));
+  EXPECT_THAT(run.text, HasSubstr("98.926"));
   EXPECT_THAT(run.text, HasSubstr("no evidence about people"));
   const std::string csv = readTextFile(whole + "/comparison.csv");
   const json summary = json::parse(readTextFile(whole + "/summary.json"));

@@ -77,7 +77,7 @@ TEST_F(PredictCommand, RefusesWhatItCannotDo) {
   EXPECT_THAT(protocol.text, testing::HasSubstr("quick"));
   const ProgramRun setting = runProgram("limen-study predict --set region_treshold_jnd=1 " + store());
   EXPECT_EQ(setting.code, 2);
-  EXPECT_THAT(setting.text, testing::HasSubstr("region_threshold_jnd"));
+  EXPECT_THAT(setting.text, testing::HasSubstr("'regions.threshold_jnd'"));
   const ProgramRun validated = runProgram("limen-analyse validate " + store());
   EXPECT_EQ(validated.code, 2);
   EXPECT_THAT(validated.text, testing::HasSubstr("limen study predict"));
