@@ -31,74 +31,6 @@ std::string describeType(ParameterType type) {
   return {};
 }
 
-Parameter booleanParameter(std::string name, bool defaultValue, std::string description, std::string source) {
-  Parameter out;
-  out.name = std::move(name);
-  out.type = ParameterType::Boolean;
-  out.defaultValue = defaultValue;
-  out.description = std::move(description);
-  out.source = std::move(source);
-  return out;
-}
-
-Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minimum, int64_t maximum,
-                           std::string unit, std::string description, std::string source) {
-  Parameter out;
-  out.name = std::move(name);
-  out.type = ParameterType::Integer;
-  out.defaultValue = defaultValue;
-  out.minimum = static_cast<double>(minimum);
-  out.maximum = static_cast<double>(maximum);
-  out.unit = std::move(unit);
-  out.description = std::move(description);
-  out.source = std::move(source);
-  return out;
-}
-
-Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum,
-                        std::string unit, std::string description, std::string source) {
-  Parameter out =
-      integerParameter(std::move(name), 0, 0, 0, std::move(unit), std::move(description), std::move(source));
-  out.type = ParameterType::Real;
-  out.defaultValue = defaultValue;
-  out.minimum = minimum;
-  out.maximum = maximum;
-  return out;
-}
-
-Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
-                          std::string description, std::string source) {
-  assert(std::find(choices.begin(), choices.end(), defaultValue) != choices.end());
-  Parameter out =
-      textParameter(std::move(name), std::move(defaultValue), std::move(description), std::move(source));
-  out.type = ParameterType::Choice;
-  out.choices = std::move(choices);
-  return out;
-}
-
-Parameter textParameter(std::string name, std::string defaultValue, std::string description,
-                        std::string source) {
-  Parameter out;
-  out.name = std::move(name);
-  out.type = ParameterType::Text;
-  out.defaultValue = std::move(defaultValue);
-  out.description = std::move(description);
-  out.source = std::move(source);
-  return out;
-}
-
-Parameter fileParameter(std::string name, std::string description) {
-  Parameter out = optionalFileParameter(std::move(name), std::move(description));
-  out.required = true;
-  return out;
-}
-
-Parameter optionalFileParameter(std::string name, std::string description) {
-  Parameter out = textParameter(std::move(name), {}, std::move(description));
-  out.type = ParameterType::File;
-  return out;
-}
-
 std::string describeRange(const Parameter& parameter) {
   if (parameter.type == ParameterType::Choice) return "one of " + join(parameter.choices);
   std::string out = describeType(parameter.type);
@@ -274,19 +206,6 @@ ParameterValues ParameterValues::below(const std::string& prefix) const {
     out.values_.emplace(entry->first.substr(prefix.size() + 1), entry->second);
   }
   return out;
-}
-
-const ParameterValue& ParameterValues::at(const std::string& path) const {
-  const auto entry = values_.find(path);
-  assert(entry != values_.end() && "parameter was never declared");
-  return entry->second;
-}
-
-bool ParameterValues::boolean(const std::string& name) const { return std::get<bool>(at(name)); }
-int64_t ParameterValues::integer(const std::string& name) const { return std::get<int64_t>(at(name)); }
-double ParameterValues::real(const std::string& name) const { return std::get<double>(at(name)); }
-const std::string& ParameterValues::text(const std::string& name) const {
-  return std::get<std::string>(at(name));
 }
 
 nlohmann::json ParameterValues::toJson() const {

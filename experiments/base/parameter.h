@@ -75,22 +75,6 @@ struct DeclaredAt {
 /// alternatives.
 std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared);
 
-Parameter booleanParameter(std::string name, bool defaultValue, std::string description,
-                           std::string source = {});
-Parameter integerParameter(std::string name, int64_t defaultValue, int64_t minimum, int64_t maximum,
-                           std::string unit, std::string description, std::string source = {});
-Parameter realParameter(std::string name, double defaultValue, double minimum, double maximum,
-                        std::string unit, std::string description, std::string source = {});
-Parameter choiceParameter(std::string name, std::string defaultValue, std::vector<std::string> choices,
-                          std::string description, std::string source = {});
-/// A line of free text; whoever declares it says in which form.
-Parameter textParameter(std::string name, std::string defaultValue, std::string description,
-                        std::string source = {});
-/// A file that must be given.
-Parameter fileParameter(std::string name, std::string description);
-/// A file that may be given; "" if it is not.
-Parameter optionalFileParameter(std::string name, std::string description);
-
 /// "whole number from 1 to 4096", "one of a, b, c", "number from 0 to 1 (m)".
 std::string describeRange(const Parameter& parameter);
 
@@ -109,10 +93,6 @@ class ParameterValues {
   ParameterValues(const std::vector<Parameter>& declared, const std::map<std::string, ParameterValue>& given,
                   const std::string& where = {});
 
-  bool boolean(const std::string& path) const;
-  int64_t integer(const std::string& path) const;
-  double real(const std::string& path) const;
-  const std::string& text(const std::string& path) const;  ///< Choice, Text and File
   bool has(const std::string& path) const { return values_.count(path) != 0; }
   /// Null if no parameter with that path exists under the choices made.
   const ParameterValue* find(const std::string& path) const;
@@ -126,7 +106,6 @@ class ParameterValues {
   friend bool operator==(const ParameterValues&, const ParameterValues&) = default;
 
  private:
-  const ParameterValue& at(const std::string& path) const;
   std::map<std::string, ParameterValue> values_;
 };
 

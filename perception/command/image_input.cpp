@@ -82,15 +82,19 @@ void checkRange(InputImage& input) {
 
 }  // namespace
 
+const SettingsTable<InputSettings>& InputSettings::table() {
+  static const SettingsTable<InputSettings> kTable = {
+      {&InputSettings::values, "values",
+       "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is the "
+       "display's "
+       "white; luminance: light in cd/m2; auto: integers are coded, floating-point numbers linear"},
+      {&InputSettings::alpha, "alpha",
+       "over_black: in front of black, in light; ignore: colours as the file has them"}};
+  return kTable;
+}
+
 const std::vector<Parameter>& inputParameters() {
-  static const std::vector<Parameter> kParameters = {
-      choiceParameter(
-          "values", "auto", {"auto", "coded", "linear", "luminance"},
-          "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is "
-          "the display's white; luminance: light in cd/m2; auto: integers are coded, "
-          "floating-point numbers linear"),
-      choiceParameter("alpha", "over_black", {"over_black", "ignore"},
-                      "over_black: in front of black, in light; ignore: colours as the file has them")};
+  static const std::vector<Parameter> kParameters = InputSettings::table().parameters();
   return kParameters;
 }
 
@@ -131,8 +135,10 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
   out.kind = file.kind();
   out.sha256 = sha256File(path);
   out.warnings = file.remarks;
-  const std::string& asked = input.text("values");
-  const std::string values = asked != "auto" ? asked : file.integer ? "coded" : "linear";
+  const InputSettings settings = InputSettings::table().read(input);
+  const std::string values = settings.values != FileValues::Auto ? toText(settings.values)
+                             : file.integer                      ? "coded"
+                                                                 : "linear";
   if (values == "luminance" && file.integer)
     throw Error("'" + path + "' holds integers, which are no cd/m2", "--scene-luminance",
                 "give EXR, HDR or floating-point TIFF");
@@ -155,7 +161,7 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
         std::all_of(file.alpha.data.begin(), file.alpha.data.end(), [](float a) { return a == 1.0F; });
     if (opaque) {
       out.alpha = "alpha is 1 everywhere";
-    } else if (input.text("alpha") == "ignore") {
+    } else if (settings.alpha == AlphaHandling::Ignore) {
       out.alpha =
           file.premultiplied ? "alpha ignored, colours are multiplied by it in the file" : "alpha ignored";
     } else {

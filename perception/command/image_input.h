@@ -7,10 +7,30 @@
 #include <vector>
 
 #include "experiments/base/image_file.h"
-#include "experiments/base/parameter.h"
+#include "experiments/base/settings_table.h"
 #include "perception/vision/display.h"
 
 namespace limen::perception {
+
+/// What the numbers in image files mean.
+enum class FileValues { Auto, Coded, Linear, Luminance };
+constexpr EnumNames<FileValues, 4> enumNames(FileValues) {
+  return {{{{FileValues::Auto, "auto"},
+            {FileValues::Coded, "coded"},
+            {FileValues::Linear, "linear"},
+            {FileValues::Luminance, "luminance"}}}};
+}
+enum class AlphaHandling { OverBlack, Ignore };
+constexpr EnumNames<AlphaHandling, 2> enumNames(AlphaHandling) {
+  return {{{{AlphaHandling::OverBlack, "over_black"}, {AlphaHandling::Ignore, "ignore"}}}};
+}
+
+/// How image files are read.
+struct InputSettings {
+  FileValues values = FileValues::Auto;
+  AlphaHandling alpha = AlphaHandling::OverBlack;
+  static const SettingsTable<InputSettings>& table();
+};
 
 /// Declaration of how files are read: "values", "alpha".
 const std::vector<Parameter>& inputParameters();

@@ -74,9 +74,9 @@ ImageMetrics::ImageMetrics(std::vector<std::string> names, std::vector<Parameter
     const MetricInfo& info = MetricRegistry::instance().get(names[i], "--metrics");
     entries_.push_back({names[i], &info, values[i], false});
     // The mean says little of a small area; the largest difference is the popping predictor's comparator.
-    if (names[i] == "de94" && values[i].text("statistic") == "mean")
+    std::map<std::string, ParameterValue> given = values[i].all();
+    if (names[i] == "de94" && given.at("statistic") == ParameterValue("mean"))
       for (const char* statistic : {"p99", "max"}) {
-        std::map<std::string, ParameterValue> given = values[i].all();
         given["statistic"] = std::string(statistic);
         entries_.push_back({"de94_" + std::string(statistic), &info, {info.parameters, given}, false});
       }

@@ -146,18 +146,28 @@ struct MaskingOptions {
   std::string plot;
 };
 
+struct ExtendedMaskingSettings {
+  double alpha = 0.7, a = 1.0;
+  static const SettingsTable<ExtendedMaskingSettings>& table() {
+    using S = ExtendedMaskingSettings;
+    static const char* const kSource = "JPEG 2000 Part 2, reconstructed; Schwarz 2009, section 9.1.2";
+    static const SettingsTable<S> kTable = {
+        {&S::alpha, "alpha", {0.05, 1.0}, "", "exponent", kSource},
+        {&S::a, "a", {0.0, 1e6}, "", "weight of the neighbours", kSource}};
+    return kTable;
+  }
+};
+
 /// "extended" needs a second argument, which is why it is no point-wise model of the registry.
 MaskingInfo extendedInfo(double neighbourMean) {
   const char* const source = "JPEG 2000 Part 2, reconstructed; Schwarz 2009, section 9.1.2";
   return {"extended",
           "Point-wise extended masking: sign(c) |c|^alpha / (1 + a mean), mean of |x|^beta over neighbours.",
-          source,
-          {realParameter("alpha", 0.7, 0.05, 1.0, "", "exponent", source),
-           realParameter("a", 1.0, 0.0, 1e6, "", "weight of the neighbours", source)},
+          source, ExtendedMaskingSettings::table().parameters(),
           [neighbourMean](const ParameterValues& values) {
-            const double alpha = values.real("alpha"), a = values.real("a");
+            const ExtendedMaskingSettings settings = ExtendedMaskingSettings::table().read(values);
             const auto transducer = [=](double c) {
-              return pointwiseExtendedMask(c, neighbourMean, alpha, a);
+              return pointwiseExtendedMask(c, neighbourMean, settings.alpha, settings.a);
             };
             return Masking{[=](double c) { return c == 0.0 ? 0.0 : c / transducer(c); }, transducer};
           }};

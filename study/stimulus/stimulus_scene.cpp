@@ -9,10 +9,12 @@
 namespace limen::study {
 
 void checkFiles(const NamedEntry& entry, const std::string& where) {
-  for (const auto& [parameter, hash] : entry.fileHashes)
-    if (entry.values.has(parameter) && sha256File(entry.values.text(parameter)) != hash)
-      throw Error("'" + entry.values.text(parameter) + "' has changed since the stimulus was made", where,
+  for (const auto& [path, hash] : entry.fileHashes) {
+    const ParameterValue* file = entry.values.find(path);
+    if (file && sha256File(std::get<std::string>(*file)) != hash)
+      throw Error("'" + limen::toText(*file) + "' has changed since the stimulus was made", where,
                   "put the file back, or read the protocol anew");
+  }
 }
 
 std::shared_ptr<const frame::SceneOnGpu> buildStimulusScene(const NamedEntry& scene) {

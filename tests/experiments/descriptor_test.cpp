@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {

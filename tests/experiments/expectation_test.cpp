@@ -8,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/plan.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {
@@ -91,7 +92,7 @@ TEST(Expectation, ComparesRunsOfTheSameSceneAndSize) {
   // The filtered map has ten times the bitmask's error in either scene; across scenes the ratio would be
   // wrong.
   const auto value = [](const PlannedRun& run) {
-    const double scene = run.scene.values.real("light_size") < 0.75 ? 100.0 : 1.0;
+    const double scene = realOf(run.scene.values, "light_size") < 0.75 ? 100.0 : 1.0;
     return scene * (run.technique.name == "soft/pcss" ? 10.0 : 1.0);
   };
   const std::string baseline = "relative_to: {of: soft/pcss, where: {radius: 0.02}}";

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "experiments/base/interrupt.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::experiments {
 namespace {
@@ -67,8 +68,8 @@ FakeExecutor::FakeExecutor(std::string device) {
 
 double fakeRmse(const PlannedRun& run) {
   if (run.technique.name == "soft/bitmask")
-    return 1.0 / static_cast<double>(run.technique.values.integer("samples"));
-  return run.technique.values.has("radius") ? run.technique.values.real("radius") : 0.5;
+    return 1.0 / static_cast<double>(integerOf(run.technique.values, "samples"));
+  return run.technique.values.has("radius") ? realOf(run.technique.values, "radius") : 0.5;
 }
 
 void FakeExecutor::execute(std::span<const PlannedRun> batch,
@@ -79,15 +80,15 @@ void FakeExecutor::execute(std::span<const PlannedRun> batch,
     const PlannedRun& run = batch[i];
     if (before) before(run);
     std::this_thread::sleep_for(
-        std::chrono::duration<double, std::milli>(run.technique.values.real("sleep_ms")));
+        std::chrono::duration<double, std::milli>(realOf(run.technique.values, "sleep_ms")));
     executed.push_back(run.key);
     RunOutcome outcome;
     outcome.sceneFacts = {{"triangles", 12}};
-    if (run.technique.values.boolean("fail")) {
+    if (booleanOf(run.technique.values, "fail")) {
       outcome.error = "asked to fail";
     } else {
       const double samples = run.technique.values.has("samples")
-                                 ? static_cast<double>(run.technique.values.integer("samples"))
+                                 ? static_cast<double>(integerOf(run.technique.values, "samples"))
                                  : 10.0;
       outcome.measurements = {{"gpu_ms", samples / 10.0, "ms", "time"},
                               {"rmse", fakeRmse(run), "", "error"},

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "experiments/base/error.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {
@@ -52,7 +53,7 @@ TEST(Plan, IsTheFullGridWithTechniquesByTurns) {
                   "soft/pcss radius=0.05, grid light_size=1", "soft/bitmask samples=32, grid light_size=1"));
   EXPECT_THAT(plan.groups, ElementsAre(std::pair<size_t, size_t>(0, 5), std::pair<size_t, size_t>(5, 10)));
   EXPECT_EQ(keysOf(plan).size(), 10U);
-  for (const PlannedRun& run : plan.runs) EXPECT_EQ(run.reference.values.integer("samples"), 256);
+  for (const PlannedRun& run : plan.runs) EXPECT_EQ(integerOf(run.reference.values, "samples"), 256);
 }
 
 TEST(Plan, AxesOfOneEntryMultiplyAndTheLastChangesFastest) {
@@ -180,7 +181,7 @@ TEST(Plan, AParameterDeclaredLaterLeavesTheKeysOfOlderResults) {
 TEST(Plan, ScenesWhoseValuesDoNotGoTogetherAreRefusedWithTheirPlace) {
   Catalogue catalogue = fakeCatalogue();
   catalogue.scenes["grid"].check = [](const ParameterValues& values) {
-    if (values.integer("bars") == 3) throw Error("three bars", "", "take four");
+    if (integerOf(values, "bars") == 3) throw Error("three bars", "", "take four");
   };
   const std::string start = "title: a\nquestion: b\nscenes:\n  - {name: grid, bars: ",
                     end = "}\ntechniques: [{name: soft/pcss}]\n";
@@ -228,7 +229,7 @@ TEST(Plan, CountsWithoutOverflowBeforeExpanding) {
 TEST(Plan, RefusesValuesThatDoNotGoTogetherWithLineAndMend) {
   Catalogue catalogue = fakeCatalogue();
   catalogue.techniques["soft/bitmask"].check = [](const ParameterValues& values) {
-    if (values.text("pattern") == "jittered_16" && values.integer("samples") == 16)
+    if (textOf(values, "pattern") == "jittered_16" && integerOf(values, "samples") == 16)
       throw Error("16 samples cannot be jittered", "pattern", "give more samples");
   };
   EXPECT_EQ(planOf(validDescriptor(), catalogue).runs.size(), 10U);

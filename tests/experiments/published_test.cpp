@@ -6,6 +6,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/plan.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/experiments/fake_bench.h"
 
 namespace limen::experiments {
@@ -43,7 +44,7 @@ TEST(Published, ARowMeansOneRunOfEachScene) {
   const nlohmann::json& rows = plan.published[0].at("rows");
   std::vector<std::string> wanted;
   for (const PlannedRun& run : plan.runs)
-    if (run.technique.name == "soft/bitmask" && run.technique.values.integer("samples") == 8)
+    if (run.technique.name == "soft/bitmask" && integerOf(run.technique.values, "samples") == 8)
       wanted.push_back(run.key);
   ASSERT_EQ(wanted.size(), plan.groups.size());
   EXPECT_EQ(rows[0].at("runs").get<std::vector<std::string>>(), wanted);

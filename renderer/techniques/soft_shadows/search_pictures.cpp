@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 namespace limen::techniques {
 namespace {
@@ -46,7 +47,14 @@ Image picture(const PixelCounts& counted, HeatOf heatOf) {
 }  // namespace
 
 Image searchAreaPicture(const PixelCounts& counted) {
-  return picture(counted, [&](size_t i) { return areaHeat(counted.search[4 * i]); });
+  // Areas are whole numbers, and all from kMostTexels on look the same.
+  static const std::vector<double> kHeats = [] {
+    std::vector<double> out;
+    for (double texels = 0.0; texels <= kMostTexels; texels += 1.0) out.push_back(areaHeat(texels));
+    return out;
+  }();
+  return picture(
+      counted, [&](size_t i) { return kHeats[std::min<size_t>(counted.search[4 * i], kHeats.size() - 1)]; });
 }
 
 Image levelPicture(const PixelCounts& counted) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "experiments/base/error.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen {
 namespace {
@@ -30,10 +31,10 @@ std::string messageOf(const std::map<std::string, ParameterValue>& given) {
 
 TEST(ParameterValues, TakesDefaultsAndOverrides) {
   const ParameterValues values(kDeclared, {{"samples", int64_t{16}}, {"bias", int64_t{0}}});
-  EXPECT_EQ(values.integer("samples"), 16);
-  EXPECT_EQ(values.real("bias"), 0.0);
-  EXPECT_EQ(values.text("pattern"), "regular_8");
-  EXPECT_TRUE(values.boolean("fill"));
+  EXPECT_EQ(integerOf(values, "samples"), 16);
+  EXPECT_EQ(realOf(values, "bias"), 0.0);
+  EXPECT_EQ(textOf(values, "pattern"), "regular_8");
+  EXPECT_TRUE(booleanOf(values, "fill"));
   EXPECT_EQ(values.toJson().dump(), R"({"bias":0.0,"fill":true,"pattern":"regular_8","samples":16})");
 }
 

@@ -6,6 +6,7 @@
 #include "experiments/base/chosen_entry.h"
 #include "experiments/base/error.h"
 #include "experiments/base/parameter_list.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::settings_table_test {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/study/observers/example.h"
+#include "tests/experiments/base/declare.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

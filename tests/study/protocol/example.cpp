@@ -2,6 +2,7 @@
 #include "tests/study/protocol/example.h"
 
 #include "experiments/base/error.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::study {
 

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "tests/experiments/base/declare.h"
 #include "tests/study/protocol/example.h"
 
 namespace limen::study {
@@ -19,8 +20,8 @@ std::map<std::map<std::string, std::string>, int> drawn(const PlannedBlock& bloc
 
 TEST(Practice, DrawsEvenlyFromTheConditions) {
   for (const int trials : {1, 5, 12, 24, 31}) {
-    const Protocol protocol =
-        exampleProtocol(kYesNo + kBox + kPracticeFactors + "practice: {trials: " + std::to_string(trials) + "}\n");
+    const Protocol protocol = exampleProtocol(kYesNo + kBox + kPracticeFactors +
+                                              "practice: {trials: " + std::to_string(trials) + "}\n");
     for (uint64_t seed = 0; seed < 20; ++seed) {
       const PlannedBlock block = makePracticeRound(protocol, 0, seed, 0);
       ASSERT_EQ(block.trials.size(), static_cast<size_t>(trials));
@@ -36,8 +37,8 @@ TEST(Practice, DrawsEvenlyFromTheConditions) {
 }
 
 TEST(Practice, HasCatchTrialsInProportion) {
-  const Protocol protocol =
-      exampleProtocol(kYesNo + kBox + kPracticeFactors + "trials: {change: 3, catch: 1}\npractice: {trials: 8}\n");
+  const Protocol protocol = exampleProtocol(kYesNo + kBox + kPracticeFactors +
+                                            "trials: {change: 3, catch: 1}\npractice: {trials: 8}\n");
   std::set<size_t> places;
   for (uint64_t seed = 0; seed < 100; ++seed) {
     const PlannedBlock block = makePracticeRound(protocol, 0, seed, 0);
@@ -100,7 +101,7 @@ practice: {trials: 4, stimuli: [{distance: 2}, {distance: 3}]}
   std::multiset<double> distances;
   for (const PlannedTrial& trial : makePracticeRound(protocol, 0, 1, 0).trials) {
     EXPECT_EQ(trial.procedure, -1);
-    distances.insert(stimuliOf(protocol, trial)[0].scene.values.real("distance"));
+    distances.insert(realOf(stimuliOf(protocol, trial)[0].scene.values, "distance"));
   }
   EXPECT_EQ(distances, (std::multiset<double>{2, 2, 3, 3}));
 }

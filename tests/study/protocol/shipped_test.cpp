@@ -11,6 +11,7 @@
 #include "renderer/catalogue.h"
 #include "renderer/scene/scene.h"
 #include "study/protocol/design.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::study {
 namespace {
@@ -155,7 +156,7 @@ TEST(ShippedProtocols, ExperimentTwoMarksTheTileThatChanges) {
     EXPECT_EQ(s.cue.radiusPx, 50.0);
     EXPECT_EQ(s.cue.durationS, 2.0);
     EXPECT_NEAR(glm::distance(scene.camera.at(s.sceneStartS + s.changeAtS).eye, tile),
-                s.scene.values.real("distance"), 1e-9);
+                realOf(s.scene.values, "distance"), 1e-9);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/study/protocol/example.h"
 
 namespace limen::study {
@@ -42,15 +43,15 @@ order: fixed
   const Stimulus& s = stimuli[0];
   EXPECT_EQ(s.scene.name, "box");
   EXPECT_EQ(s.scene.version, 3);
-  EXPECT_EQ(s.scene.values.real("distance"), 8.5);
-  EXPECT_EQ(s.scene.values.integer("tile"), 12);
-  EXPECT_EQ(s.scene.values.text("kind"), "stone");
-  EXPECT_FALSE(s.scene.values.boolean("textured"));
+  EXPECT_EQ(realOf(s.scene.values, "distance"), 8.5);
+  EXPECT_EQ(integerOf(s.scene.values, "tile"), 12);
+  EXPECT_EQ(textOf(s.scene.values, "kind"), "stone");
+  EXPECT_FALSE(booleanOf(s.scene.values, "textured"));
   EXPECT_EQ(s.levels->object, 3);
   EXPECT_EQ(s.levels->before, 2);
   EXPECT_EQ(s.levels->after, 1);
   EXPECT_EQ(s.levels->others, "omitted");
-  EXPECT_EQ(s.shading.real("ambient"), 0.25);
+  EXPECT_EQ(realOf(s.shading, "ambient"), 0.25);
   EXPECT_EQ(s.presentation, Presentation::Static);
   EXPECT_EQ(s.durationS, 4.5);
   EXPECT_EQ(s.changeAtS, 2.25);
@@ -69,8 +70,8 @@ order: fixed
 TEST(Stimuli, WhatIsLeftOutHasItsDefault) {
   const Protocol protocol = exampleProtocol(kYesNo + kBox);
   const Stimulus s = stimuliOf(protocol, firstTrial(protocol))[0];
-  EXPECT_EQ(s.scene.values.real("distance"), 5.0);
-  EXPECT_EQ(s.shading.real("ambient"), 0.2);
+  EXPECT_EQ(realOf(s.scene.values, "distance"), 5.0);
+  EXPECT_EQ(realOf(s.shading, "ambient"), 0.2);
   EXPECT_EQ(s.changeAtS, s.durationS / 2);
 }
 
@@ -103,7 +104,7 @@ order: fixed
     ASSERT_EQ(stimuli.size(), 2U);
     EXPECT_EQ(stimuli[static_cast<size_t>(trial.target)].before->name, "exact");
     EXPECT_EQ(stimuli[static_cast<size_t>(1 - trial.target)].before->name, "fast");
-    EXPECT_EQ(stimuli[static_cast<size_t>(1 - trial.target)].before->values.integer("quality"), 1);
+    EXPECT_EQ(integerOf(stimuli[static_cast<size_t>(1 - trial.target)].before->values, "quality"), 1);
     EXPECT_FALSE(stimuli[0].changes);
   }
 }
@@ -114,8 +115,9 @@ TEST(Stimuli, AxesOfTheProcedureAreVariables) {
   levels: {before: 1, after: 0}
 procedure: {type: constant, stimulus: {name: nearness, values: [0.05, 0.25]}, repetitions: 2}
 )");
-  EXPECT_EQ(stimuliOf(protocol, firstTrial(protocol), {{"nearness", 0.125}})[0].scene.values.real("distance"),
-            8.0);
+  EXPECT_EQ(
+      realOf(stimuliOf(protocol, firstTrial(protocol), {{"nearness", 0.125}})[0].scene.values, "distance"),
+      8.0);
   EXPECT_THROW(stimuliOf(protocol, firstTrial(protocol)), Error);
 }
 
@@ -126,7 +128,7 @@ TEST(Stimuli, AChangeOfTechniqueIsOne) {
   const Stimulus s = stimuliOf(protocol, firstTrial(protocol))[0];
   EXPECT_TRUE(s.changes);
   EXPECT_EQ(s.before->version, 2);
-  EXPECT_EQ(s.before->values.text("pattern"), "16");
+  EXPECT_EQ(textOf(s.before->values, "pattern"), "16");
   EXPECT_EQ(s.after->name, "exact");
   EXPECT_FALSE(s.levels);
 }
@@ -143,7 +145,7 @@ TEST(Stimuli, FilesAreFoundBesideTheProtocol) {
   EXPECT_EQ(s.scene.fileHashes.at("file"), sha256("v 0 0 0\n"));
   ASSERT_EQ(protocol.fileHashes.size(), 1U);
   EXPECT_EQ(protocol.fileHashes.begin()->second, sha256("v 0 0 0\n"));
-  EXPECT_EQ(s.scene.values.text("file"), protocol.fileHashes.begin()->first);
+  EXPECT_EQ(textOf(s.scene.values, "file"), protocol.fileHashes.begin()->first);
 }
 
 }  // namespace

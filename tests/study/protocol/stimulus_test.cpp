@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/base/error.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::study {
 namespace {
@@ -41,10 +42,10 @@ TEST(Stimulus, ComesBackFromJsonAsItWas) {
     EXPECT_EQ(stimulusHash(back), stimulusHash(stimulus));
   }
   const Stimulus back = stimulusFromJson(json::parse(toJson(with).dump()));
-  EXPECT_EQ(back.scene.values.real("distance"), 4.0);
-  EXPECT_EQ(back.scene.values.integer("tile"), 7);
-  EXPECT_EQ(back.scene.values.text("kind"), "wood");
-  EXPECT_TRUE(back.scene.values.boolean("textured"));
+  EXPECT_EQ(realOf(back.scene.values, "distance"), 4.0);
+  EXPECT_EQ(integerOf(back.scene.values, "tile"), 7);
+  EXPECT_EQ(textOf(back.scene.values, "kind"), "wood");
+  EXPECT_TRUE(booleanOf(back.scene.values, "textured"));
   EXPECT_EQ(back.levels->others, "distance");
   EXPECT_EQ(back.cue.kind, Cue::Kind::Circle);
 }

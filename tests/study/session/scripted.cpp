@@ -7,6 +7,7 @@
 
 #include "experiments/base/catalogue.h"
 #include "perception/psychometrics/random.h"
+#include "tests/experiments/base/declare.h"
 
 namespace limen::study {
 namespace {

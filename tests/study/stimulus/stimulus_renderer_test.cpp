@@ -13,6 +13,7 @@
 #include "renderer/scene/shapes.h"
 #include "study/stimulus/state_view.h"
 #include "study/stimulus/stimulus_renderer.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/study/stimulus/stimulus_fixture.h"
 
 namespace limen::study {

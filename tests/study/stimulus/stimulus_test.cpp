@@ -8,6 +8,7 @@
 #include "experiments/base/error.h"
 #include "study/stimulus/display_coding.h"
 #include "study/stimulus/timeline.h"
+#include "tests/experiments/base/declare.h"
 #include "tests/study/stimulus/stimulus_fixture.h"
 
 namespace limen::study {
@@ -23,7 +24,7 @@ TEST(StimulusForm, ReadsBackFromText) {
   EXPECT_EQ(toJson(back), form);
   EXPECT_EQ(stimulusHash(back), stimulusHash(stimulus));
   // A real value that happens to be whole stays one.
-  EXPECT_EQ(back.shading.real("ambient"), 1.0);
+  EXPECT_EQ(realOf(back.shading, "ambient"), 1.0);
   EXPECT_EQ(back.scene.values.all(), stimulus.scene.values.all());
   EXPECT_EQ(back.levels->after, 0);
   EXPECT_EQ(back.cue.xPx, 10.5);
