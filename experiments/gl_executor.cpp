@@ -92,9 +92,6 @@ store::Measurement measurementOf(const techniques::Counter& counter, const techn
   if (declared == info.counters.end())
     throw std::logic_error("technique '" + info.name + "' counts '" + counter.name +
                            "', which it does not declare");
-  // A counter that is declared by its name alone says unit and kind with each value.
-  if (declared->title.empty())
-    return {counter.name, counter.value, counter.unit, counter.isCost ? "counter" : "fact"};
   return {counter.name, counter.value, declared->unit,
           declared->direction == Direction::Neither ? "fact" : "counter"};
 }

@@ -31,12 +31,11 @@ enum class ProductKind {
 };
 std::string toText(ProductKind kind);
 
-/// A machine-independent figure that a technique counts.
+/// A machine-independent figure that a technique counts. Title, unit and direction are in the Quantity that
+/// the technique declares under the same name.
 struct Counter {
   std::string name;  ///< snake_case with unit: "micro_occluders_per_px"
   double value = 0.0;
-  std::string unit = {};
-  bool isCost = true;  ///< work done; otherwise a fact about how the product came about
 };
 
 /// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each

@@ -58,7 +58,7 @@ TEST(ShadowDefects, NonFiniteValuesAreDefects) {
 
 TEST(ShadowDefects, NoReceiversNoDefects) {
   const Image test(2, 2, 1, 0.5F), reference(2, 2, 1, 0.0F), mask(2, 2, 1, 0.0F);
-  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "seam_step"}) {
+  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "discontinuity"}) {
     const MetricResult result = measure(name, pairOf(test, reference, &mask));
     EXPECT_EQ(result.value, 0.0) << name;
     EXPECT_EQ(result.evaluatedPixels, 0) << name;
@@ -67,7 +67,7 @@ TEST(ShadowDefects, NoReceiversNoDefects) {
 
 TEST(ShadowDefects, ColourProductsAreRefused) {
   const Image colour(2, 2, 4, 0.5F);
-  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "seam_step"})
+  for (const char* name : {"leaks", "acne", "contact_gap", "band_step", "discontinuity"})
     EXPECT_THROW(valueOf(name, colour, colour), Error) << name;
 }
 
@@ -101,30 +101,31 @@ TEST(BandStep, StepsAcrossTheEdgeOfTheRegionDoNotCount) {
 }
 
 // Errors 0, 1/8, 1/8, -1/4, -1/4 along a ramp whose own steps of 1/4 do not count: changes 1/8, 0, 3/8, 0.
-TEST(SeamStep, IsTheChangeOfTheErrorBetweenNeighbours) {
+TEST(Discontinuity, IsTheChangeOfTheErrorBetweenNeighbours) {
   const Image reference = makeImage(5, 1, 1, {0.0F, 0.25F, 0.5F, 0.75F, 1.0F});
   const Image test = makeImage(5, 1, 1, {0.0F, 0.375F, 0.625F, 0.5F, 0.75F});
-  const MetricResult result = measure("seam_step", pairOf(test, reference));
+  const MetricResult result = measure("discontinuity", pairOf(test, reference));
   EXPECT_DOUBLE_EQ(result.value, 0.375);
   const std::vector<float> map = {0.125F, 0.125F, 0.375F, 0.375F, 0.0F};
   EXPECT_EQ(result.map->data, map);
   // Three of four changes are at most 1/8, two are 0.
-  EXPECT_DOUBLE_EQ(valueOf("seam_step", test, reference, {{"share", 0.75}}), 0.125);
-  EXPECT_DOUBLE_EQ(valueOf("seam_step", test, reference, {{"share", 0.5}}), 0.0);
+  EXPECT_DOUBLE_EQ(valueOf("discontinuity", test, reference, {{"share", 0.75}}), 0.125);
+  EXPECT_DOUBLE_EQ(valueOf("discontinuity", test, reference, {{"share", 0.5}}), 0.0);
 }
 
 // Band_step takes both figures from wherever they are largest, so that a large step of the reference hides a
-// seam elsewhere; seam_step compares pair by pair, down columns too, and leaves out what has no receiver.
-TEST(SeamStep, IsEvaluatedPairByPair) {
+// discontinuity elsewhere; discontinuity compares pair by pair, down columns too, and leaves out what has no
+// receiver.
+TEST(Discontinuity, IsEvaluatedPairByPair) {
   const Image reference = makeImage(2, 3, 1, {0.0F, 1.0F, 0.0F, 1.0F, 0.0F, 1.0F});
   const Image test = makeImage(2, 3, 1, {0.0F, 1.0F, 0.25F, 1.0F, 0.25F, 1.0F});
-  EXPECT_DOUBLE_EQ(valueOf("seam_step", test, reference), 0.25);
+  EXPECT_DOUBLE_EQ(valueOf("discontinuity", test, reference), 0.25);
   EXPECT_DOUBLE_EQ(valueOf("band_step", test, reference), 0.0);
   const Image mask = makeImage(2, 3, 1, {1, 1, 0, 0, 1, 1});
   // The pair in the last row is left with its own change.
-  EXPECT_DOUBLE_EQ(measure("seam_step", pairOf(test, reference, &mask)).value, 0.25);
+  EXPECT_DOUBLE_EQ(measure("discontinuity", pairOf(test, reference, &mask)).value, 0.25);
   const Image top = makeImage(2, 3, 1, {1, 1, 0, 0, 0, 0});
-  EXPECT_DOUBLE_EQ(measure("seam_step", pairOf(test, reference, &top)).value, 0.0);
+  EXPECT_DOUBLE_EQ(measure("discontinuity", pairOf(test, reference, &top)).value, 0.0);
 }
 
 }  // namespace

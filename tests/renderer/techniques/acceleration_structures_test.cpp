@@ -191,7 +191,8 @@ scene::Scene rectangleAmidItsMap() {
 
 // Figures 4.8 and 4.9 of the thesis. A processed pixel next to a lit one can be darker than it by the
 // penumbra's slope over the distance between the two, and by no more, whatever the level: coarse
-// micro-occluders are larger rectangles at the same depth. The seam is what it is darker beyond that.
+// micro-occluders are larger rectangles at the same depth. The discontinuity is what it is darker beyond
+// that.
 TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels) {
   const scene::Scene scene = rectangleAmidItsMap();
   const double H = scene.lights[0].centre.y, h = 0.7;
@@ -211,7 +212,7 @@ TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels
         const float* p = &searched.receivers.data[4 * i];
         return glm::dvec3(fromLight * glm::dvec4(p[0], p[1], p[2], 1.0));
       };
-      double seam = -1.0;
+      double discontinuity = -1.0;
       int pairs = 0;
       const Image& v = searched.visibility;
       for (int y = 1; y + 1 < v.height; ++y)
@@ -225,15 +226,16 @@ TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels
             if (std::max(from.y, to.y) > 1e-3 || std::max(std::abs(to.x), std::abs(to.z)) > 1.2) continue;
             EXPECT_EQ(searched.counted.work[4 * dark + 3], 4U);
             const double allowed = std::abs(to.x - from.x) * slope.x + std::abs(to.z - from.z) * slope.y;
-            seam = std::max(seam, 1.0 - v.data[dark] - allowed);
+            discontinuity = std::max(discontinuity, 1.0 - v.data[dark] - allowed);
             ++pairs;
           }
-      RecordProperty(std::string(structure) + (growth ? "_grown" : "_not_grown"), std::to_string(seam));
+      RecordProperty(std::string(structure) + (growth ? "_grown" : "_not_grown"),
+                     std::to_string(discontinuity));
       EXPECT_GT(pairs, 50) << structure;
       if (growth) {
-        EXPECT_LT(seam, 1e-3) << structure;
+        EXPECT_LT(discontinuity, 1e-3) << structure;
       } else {
-        EXPECT_GT(seam, 0.1) << structure;
+        EXPECT_GT(discontinuity, 0.1) << structure;
       }
     }
 }

@@ -2,8 +2,8 @@
 // Steps of a visibility image where its reference has none. Where methods change from pixel to pixel how
 // coarsely they work, their error changes there from one pixel to the next; but it also changes wherever the
 // occluders do, and the more the coarser all of the work is. So this ranks choices of levels by what they
-// spend as much as by their seams; what a change of level does by itself is counted by the techniques that
-// choose levels (level_step_max and its like).
+// spend as much as by their discontinuities; what a change of level does by itself is counted by the
+// techniques that choose levels (level_step_max and others).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -29,9 +29,9 @@ struct StepSettings {
   }
 };
 
-MetricResult measureSeamStep(const ComparisonInput& input, const StepSettings& settings) {
-  const Comparison pair(input, "seam_step", settings.region.region);
-  pair.requireVisibility("seam_step");
+MetricResult measureDiscontinuity(const ComparisonInput& input, const StepSettings& settings) {
+  const Comparison pair(input, "discontinuity", settings.region.region);
+  pair.requireVisibility("discontinuity");
   MetricResult result;
   result.evaluatedPixels = pair.evaluatedPixels();
   Image map(pair.width(), pair.height(), 1);
@@ -51,16 +51,16 @@ MetricResult measureSeamStep(const ComparisonInput& input, const StepSettings& s
     }
   result.value = nearestRank(steps, settings.share);
   result.map = std::move(map);
-  result.mapName = "seam_step";
+  result.mapName = "discontinuity";
   return result;
 }
 
 const RegisteredMetric<StepSettings> kRegistered{
-    {.name = "seam_step",
+    {.name = "discontinuity",
      .summary = "change of the error from a pixel to its neighbour (level discontinuities and all else of it "
                 "that is not smooth), the largest or one that a share of all pairs does not exceed",
      .title = "Step of the error between neighbours"},
-    &measureSeamStep};
+    &measureDiscontinuity};
 
 }  // namespace
 }  // namespace limen::perception
