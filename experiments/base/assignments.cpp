@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/base/assignments.h"
 
+#include <algorithm>
+
 #include <charconv>
 #include <optional>
 
@@ -80,13 +82,14 @@ std::map<std::string, ParameterValue> readAssignments(const std::vector<std::str
     std::string path = text.substr(0, split);
     if (!isKnown(path) && path.ends_with(kKindSuffix)) path.resize(path.size() - kKindSuffix.size());
     if (!isKnown(path)) {
-      std::vector<std::string> names;
+      std::vector<std::string> names, present;
       for (const DeclaredAt& at : known) {
         names.push_back(at.path);
-        for (const std::string& former : at.parameter->formerNames)
-          if (former == path) throw Error("no setting '" + path + "'", where, "it is now '" + at.path + "'");
+        const std::vector<std::string>& former = at.parameter->formerNames;
+        if (std::count(former.begin(), former.end(), path) > 0) present.push_back("'" + at.path + "'");
       }
-      throw Error("no setting '" + path + "'", where, suggest(path, names));
+      throw Error("no setting '" + path + "'", where,
+                  present.empty() ? suggest(path, names) : "it is now " + join(present, ", or "));
     }
     const Assignment one = assign(path, text.substr(split + 1), known);
     if (!out.emplace(one.path, one.value).second)

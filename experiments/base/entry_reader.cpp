@@ -131,15 +131,16 @@ void EntryReader::readMap(const YamlNode& map, const Level& level, std::vector<A
 
 void EntryReader::refuseKey(const YamlNode& key, const Level& level) {
   const std::string what = fmt::format("{} has no parameter '{}'", level.what, key.text);
-  std::vector<std::string> here;
+  std::vector<std::string> here, present;
   for (const DeclaredAt& at : flatten(*root_)) {
     const std::vector<std::string>& former = at.parameter->formerNames;
-    if (std::find(former.begin(), former.end(), key.text) != former.end())
-      return reader_.problems().add(key.mark, what, "it is now written " + spell(at));
+    if (std::count(former.begin(), former.end(), key.text) > 0) present.push_back(spell(at));
     const bool isElsewhere = at.path == joinPath(level.path, key.text);
     const bool isInside = level.path.empty() && at.path.ends_with("." + key.text);
     if (isElsewhere || isInside) here.push_back(spell(at));
   }
+  if (!present.empty())
+    return reader_.problems().add(key.mark, what, "it is now written " + join(present, ", or "));
   // Groups are no part of flatten().
   for (const Parameter& parameter : *root_)
     if (parameter.type == ParameterType::Group &&

@@ -32,7 +32,8 @@ struct Uniform {
   static constexpr const char *kKind = "uniform", *kSummary = "everywhere the same";
   int limit = 256;
   static const SettingsTable<Uniform>& table() {
-    static const SettingsTable<Uniform> kTable = {{&Uniform::limit, "limit", {0, 1 << 24}, "", "Allowed"}};
+    static const SettingsTable<Uniform> kTable = {
+        Binding(&Uniform::limit, "limit", Range{0, 1 << 24}, "", "Allowed").formerly({"old_count"})};
     return kTable;
   }
 };
@@ -41,7 +42,7 @@ struct Radial {
   int centre = 256, rim = 25;
   static const SettingsTable<Radial>& table() {
     static const SettingsTable<Radial> kTable = {
-        {&Radial::centre, "centre", {1, 1 << 24}, "", "In the middle"},
+        Binding(&Radial::centre, "centre", Range{1, 1 << 24}, "", "In the middle").formerly({"old_count"}),
         {&Radial::rim, "rim", {1, 1 << 24}, "", "At the rim"}};
     return kTable;
   }
@@ -142,6 +143,10 @@ TEST(EntryReader, WhatIsReadMakesTheSettings) {
 }
 
 TEST(EntryReader, AFormerNameIsAnsweredWithThePresentForm) {
+  EXPECT_THAT(
+      Reading("{old_count: 64}").message,
+      HasSubstr(
+          "it is now written budget: {kind: uniform, limit: ...}, or budget: {kind: radial, centre: ...}"));
   EXPECT_THAT(Reading("{ysm_base: 64}").message,
               HasSubstr("it is now written structure: {kind: ysm, base: ...}"));
 }
