@@ -1,6 +1,6 @@
 # Headers that are read once and not in every file: what nearly all of Limen includes, none of its own, so that no change
 # of Limen makes everything compile again. Sources still name every header that they use; the presets that
-# leave this off (debug, asan, clang) find those that do not.
+# leave this off (debug, and clang for groups of sources) find those that do not.
 set(limen_headers
     <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <sstream>
     <string> <vector> <nlohmann/json.hpp>)

@@ -1,5 +1,5 @@
 # Several sources compiled as one file, which saves half of the time: what they instantiate is instantiated once. The
-# presets without it (debug, asan, clang) find sources that lean on an include or a name of a neighbour.
+# preset without it (debug) finds sources that lean on an include or a name of a neighbour.
 
 # Targets whose files repeat names.
 set(limen_separate_targets limen_metrics_cpu limen_ui)
