@@ -98,6 +98,17 @@ TEST_F(ShippedDescriptors, CoverTheSoftShadowFeaturesThatAreBuilt) {
     EXPECT_TRUE(covered.count(id)) << id;
 }
 
+TEST_F(ShippedDescriptors, NothingHasMoreThanSixteenParametersOnItsOwnLevel) {
+  const CallResult result = call({"--list", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  size_t entries = 0;
+  for (const nlohmann::json& entry : jsonLines(result.out)) {
+    EXPECT_LE(entry.at("parameters").size(), 16U) << entry.at("name");
+    ++entries;
+  }
+  EXPECT_GT(entries, 80U);  // scenes, techniques and metrics
+}
+
 TEST_F(ShippedDescriptors, SweepRunsFromDescriptorToReportAndTheSameBytesTwice) {
   write("d.yaml", tiny());
   const CallResult first = call({"d.yaml", "--json"});
