@@ -42,6 +42,9 @@ class Runner {
       }
     }
     observer_.begin(tally_.planned, tally_.skipped);
+    // A run that was stopped is not one that killed its process.
+    const AtForcedEnd giveBack(
+        [path = results_.path()] { store::Store(path, store::Access::ReadWrite).releaseClaims(); });
     try {
       std::erase_if(groups, [](const std::vector<size_t>& group) { return group.empty(); });
       for (size_t i = 0; i < groups.size(); ++i) {

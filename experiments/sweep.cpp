@@ -47,10 +47,10 @@ class Sweeper {
     int exitCode = kExitSuccess;
     for (const PlannedSweep& sweep : sweeps) {
       exitCode = std::max(exitCode, measure(sweep));
-      if (interruptSignal() != 0) return 128 + interruptSignal();
+      if (interruptSignal() != 0) break;
       if (options_.failFast && exitCode != kExitSuccess) break;
     }
-    return exitCode;
+    return exitCodeAfter(exitCode);
   }
 
  private:

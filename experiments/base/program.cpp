@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/base/text.h"
 
 namespace limen {
@@ -60,6 +61,8 @@ int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
     if (error.get_exit_code() == 0) return app.exit(error);
     explain(app, error);
     return kExitBadInput;
+  } catch (const Interrupted&) {
+    return exitCodeAfter(kExitFailedRuns);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
     return kExitBadInput;
@@ -67,7 +70,7 @@ int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
     std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
     return kExitFailedRuns;
   }
-  return exitCode;
+  return exitCodeAfter(exitCode);
 }
 
 }  // namespace limen

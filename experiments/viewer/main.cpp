@@ -241,13 +241,7 @@ int viewMain(int argc, char** argv) {
   app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.callback([&] {
-    try {
-      exitCode = view(options);
-    } catch (const Interrupted&) {
-      exitCode = 128 + interruptSignal();
-    }
-  });
+  app.callback([&] { exitCode = view(options); });
   return runProgram(app, argc, argv, exitCode);
 }
 

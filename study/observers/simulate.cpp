@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/store/sessions.h"
 #include "perception/psychometrics/random.h"
 #include "study/observers/simulated_front_end.h"
@@ -126,6 +127,9 @@ class Simulator {
     for (int i = next_++; i < request_.observers && !stopped_; i = next_++) {
       try {
         runOne(i);
+      } catch (const Interrupted&) {
+        stopped_ = true;
+        turns_.stop();
       } catch (...) {
         const std::scoped_lock lock(guard_);
         if (!failure_) failure_ = std::current_exception();

@@ -151,5 +151,23 @@ TEST_F(SweepCli, InterruptEndsInOrderAndSaysHowToGoOn) {
   }
 }
 
+// A call into a driver or a library asks nobody.
+TEST_F(SweepCli, InterruptDoesNotWaitForALongRun) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(folder_ / "results");
+    write("d.yaml",
+          "title: a\nquestion: b\nscenes: [{name: grid}]\n"
+          "techniques: [{name: soft/bitmask, samples: [1], sleep_ms: 10000}]\n");
+    const pid_t child = start({"d.yaml", "--no-report"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    ::kill(child, signal);
+    const auto sent = std::chrono::steady_clock::now();
+    EXPECT_EQ(wait(child).exitCode, 128 + signal);
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::milliseconds(1500));
+    EXPECT_TRUE(store::Store(path("results/d.sqlite"), store::Access::ReadOnly).allRuns().empty())
+        << "a claim was left behind";
+  }
+}
+
 }  // namespace
 }  // namespace limen::experiments
