@@ -169,5 +169,38 @@ TEST_F(SweepCli, InterruptDoesNotWaitForALongRun) {
   }
 }
 
+TEST_F(SweepCli, ARunThatKillsItsProcessTwiceFailsAndTheSweepGoesOn) {
+  write("box.obj", "v 0 0 0\n");
+  write("d.yaml",
+        "title: a\nquestion: b\nscenes: [{name: mesh, file: box.obj}]\ntiming: {batch: 4}\n"
+        "techniques: [{name: soft/bitmask, samples: [1, 2, 3]}, {name: soft/pcss, die: [false, true]}]\n");
+  const auto run = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"d.yaml", "--no-report"};
+    words.insert(words.end(), more.begin(), more.end());
+    return wait(start(words));
+  };
+  run();
+  run();
+  // A batch died with it at first; it alone is blamed.
+  const CallResult third = run();
+  EXPECT_EQ(third.exitCode, 1) << third.err;
+  EXPECT_EQ(doneKeys(path("results/d.sqlite")).size(), 4U) << third.out;
+  EXPECT_THAT(third.out, HasSubstr("died twice"));
+  EXPECT_THAT(third.out, HasSubstr("box.obj"));
+  const CallResult fourth = run();
+  EXPECT_EQ(fourth.exitCode, 1) << "it is not tried again";
+  EXPECT_THAT(fourth.out, HasSubstr("--retry-died"));
+  std::vector<std::string> states;
+  for (const store::Run& row : store::Store(path("results/d.sqlite"), store::Access::ReadOnly).allRuns()) {
+    states.push_back(row.status);
+    if (row.status == "failed") {
+      EXPECT_THAT(row.error, HasSubstr("soft/pcss in the scene 'mesh' of 'box.obj'"));
+    }
+  }
+  EXPECT_EQ(std::count(states.begin(), states.end(), "failed"), 1);
+  EXPECT_EQ(states.size(), 5U);
+  EXPECT_NE(run({"--retry-died"}).exitCode, 1) << "asked to, it tries, and dies";
+}
+
 }  // namespace
 }  // namespace limen::experiments
