@@ -59,15 +59,17 @@ void checkSame(const Protocol& protocol, const SimulationRequest& request, const
     throw Error("participant " + session.participant + " was asked another protocol", request.store, hint);
   const nlohmann::json facts = reader.environment(session.environment).facts;
   const nlohmann::json frontEnd = facts.value("front_end", nlohmann::json::object());
+  const nlohmann::json observer = frontEnd.value("observer", nlohmann::json());
   if (!frontEnd.value("simulated", false))
     throw Error("participant " + session.participant + " is no simulated one", request.store, hint);
   if (session.seed != sessionSeed(request.seed, session.participant))
     throw Error("participant " + session.participant + " was simulated with another --seed", request.store,
                 hint);
-  if (frontEnd["observer"] != toJson(request.observer) || frontEnd["invalid_rate"] != request.invalidRate)
-    throw Error("participant " + session.participant +
-                    " was simulated as another observer: " + frontEnd["observer"].dump(),
-                request.store, hint);
+  if (observer != toJson(request.observer) ||
+      frontEnd.value("invalid_rate", nlohmann::json()) != request.invalidRate)
+    throw Error(
+        "participant " + session.participant + " was simulated as another observer: " + observer.dump(),
+        request.store, hint);
 }
 
 // Lets sessions begin in the order of their participants, so that each gets its own number.
