@@ -301,7 +301,7 @@ class GlExecutor : public Executor {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
-    return references_.get(sha256(identity.dump()),
+    return references_.get(sha256(identity.dump()), on.sizePx.x, on.sizePx.y,
                            [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
   }
 

@@ -7,6 +7,7 @@
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
+#include "experiments/base/printable.h"
 
 namespace limen::analysis {
 namespace {
@@ -36,11 +37,12 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
   if (extension != ".svg" && extension != ".pdf" && extension != ".png")
     throw Error("no picture of the kind '" + extension + "' is drawn", path,
                 "let the name end in .svg, .pdf or .png");
+  requirePlainName(path, "--plot");
   const FitChart chart = chartOf(answer);
   const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
-                    gnuplotTerminal(extension) + "\nset output " + gnuplotQuoted(file.filename().string()) +
+                    gnuplotTerminal(extension) + "\nset output " + gnuplotFile(file.filename().string()) +
                     "\nset encoding utf8\nset border 3\nset tics nomirror out\nset key left " +
                     (chart.falling ? "bottom" : "top") + " Left reverse noenhanced samplen 2\nset xlabel " +
                     gnuplotQuoted(answer.level + (chart.blanks ? " (open points: no stimulus)" : "")) +
@@ -48,7 +50,7 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
                     "set yrange [0:1.02]\n" +
                     fmt::format("set xrange [{}:{}]\n", chart.low, chart.high) +
                     (chart.logarithmic ? "set logscale x\n" + chart.xTics : "") + "plot ";
-  const std::string data = gnuplotQuoted(stem + ".dat");
+  const std::string data = gnuplotFile(stem + ".dat");
   for (size_t c = 0; c < chart.series.size(); ++c) {
     const char* colour = kChartColours[c % kChartColours.size()];
     const std::string name = chart.series[c].name;
