@@ -310,7 +310,7 @@ class GlExecutor : public Executor {
                       std::shared_ptr<const Image> reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
-    std::map<std::string, Image> views;
+    std::map<std::string, techniques::PictureMaker> views;
     if (run.plan->artefacts.pictures) {
       const Stopwatch watch(seconds_["artefacts"]);
       views = run.technique->pictures();

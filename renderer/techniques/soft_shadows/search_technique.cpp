@@ -155,11 +155,14 @@ std::map<std::string, const gl::Texture*> SearchTechnique::debugViews() const {
   return views;
 }
 
-std::map<std::string, Image> SearchTechnique::pictures() const {
-  std::map<std::string, Image> all;
-  if (!counted_.work.empty())
-    all = {{"search_area", searchAreaPicture(counted_)}, {"levels", levelPicture(counted_)}};
-  if (budgetMap_) all["budget"] = budgetPicture(budgetMap_->read());
+std::map<std::string, PictureMaker> SearchTechnique::pictures() const {
+  std::map<std::string, PictureMaker> all;
+  if (!counted_.work.empty()) {
+    const auto counted = std::make_shared<const PixelCounts>(counted_);
+    all["search_area"] = [counted] { return searchAreaPicture(*counted); };
+    all["levels"] = [counted] { return levelPicture(*counted); };
+  }
+  if (budgetMap_) all["budget"] = [budgets = budgetMap_->read()] { return budgetPicture(budgets); };
   return all;
 }
 

@@ -29,7 +29,7 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   std::map<std::string, const gl::Texture*> debugViews() const override;
   /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran;
   /// and the budget map.
-  std::map<std::string, Image> pictures() const override;
+  std::map<std::string, PictureMaker> pictures() const override;
 
   const PixelCounts& counted() const override { return counted_; }
   /// What count() found; empty before, with several maps, and where all pixels have one level.

@@ -121,16 +121,17 @@ class Change : public Technique {
   }
 
   /// Red where light came, blue where it went, full at a quarter of the light.
-  std::map<std::string, Image> pictures() const override {
-    constexpr float kFull = 0.25F;
-    const Image change = change_->read();
-    Image picture(change.width, change.height, 3);
-    for (size_t i = 0; i < change.pixels(); ++i) {
-      const float value = change.data[i] / kFull;
-      picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
-      picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
-    }
-    return {{"signed_change", std::move(picture)}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"signed_change", [change = change_->read()] {
+               constexpr float kFull = 0.25F;
+               Image picture(change.width, change.height, 3);
+               for (size_t i = 0; i < change.pixels(); ++i) {
+                 const float value = change.data[i] / kFull;
+                 picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
+                 picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
+               }
+               return picture;
+             }}};
   }
 
  private:
