@@ -184,9 +184,11 @@ class GlExecutor : public Executor {
         run.outcome.sceneFacts["product_hash"] = std::move(done.productHash);
       }
     });
-    // GPU memory of a finished run serves nobody.
-    run.technique.reset();
-    run.frame.reset();
+    {
+      const Stopwatch watch(seconds_["rendering"]);  // releasing, as allocating is
+      run.technique.reset();
+      run.frame.reset();
+    }
     const Stopwatch watch(seconds_["storing"]);
     finished(run.index, std::move(run.outcome));
   }

@@ -40,8 +40,8 @@ struct Counter {
 
 /// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each
 /// frame.
-/// Makes one picture: display-coded, 3 channels, of the product's size. Holds what it needs: it touches neither
-/// OpenGL nor its technique, so that it may run on another thread and after the technique is gone.
+/// Makes one picture: display-coded, 3 channels, of the product's size. Holds what it needs: it touches
+/// neither OpenGL nor its technique, so that it may run on another thread and after the technique is gone.
 using PictureMaker = std::function<Image()>;
 
 class Technique {

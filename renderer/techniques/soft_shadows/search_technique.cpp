@@ -74,14 +74,14 @@ void SearchTechnique::runPasses(frame::Frame& frame, const CountImages* counts) 
   if (split_) {
     assert(maps_.maps().size() == 1);  // techniques with several refuse split passes
     split_->run(frame, pass_, *this, maps_.maps()[0], counts);
-    if (counts) counted_.add(*counts);
+    if (counts) counted_->add(*counts);
     return;
   }
   const auto scope = frame.passes().open(pass_.name());
   for (current_ = 0; current_ < maps_.maps().size(); ++current_) {
     if (!maps_.isDue(current_)) continue;
     pass_.run(frame, *this, maps_.maps()[current_], counts);
-    if (counts) counted_.add(*counts);
+    if (counts) counted_->add(*counts);
   }
   current_ = 0;
 }
@@ -97,7 +97,7 @@ void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   runPasses(frame, counts);
   // Levels of several maps stand behind one visibility, of which none has a step of its own.
   if (counts && maps_.maps().size() == 1)
-    levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, counted_);
+    levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, *counted_);
   if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
   gathering_->join(frame, pass_.visibility());
   if (last_) last_->run(frame, pass_.visibility());
@@ -127,15 +127,15 @@ std::vector<Counter> SearchTechnique::count(frame::Frame& frame) {
   levelSteps_.reset();
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                            gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
-  counted_ = {frame.sizePx(), {}, {}};
+  counted_ = std::make_shared<PixelCounts>(PixelCounts{frame.sizePx(), {}, {}});
   frame.begin();
   run(frame, &counts);
   frame.end();
-  std::vector<Counter> all = visibilityCounters(counted_);
+  std::vector<Counter> all = visibilityCounters(*counted_);
   all.push_back({"structure_bytes", static_cast<double>(search_.structureBytes())});
   all.push_back({"occluder_bytes", static_cast<double>(search_.occluderBytes())});
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
-  append(all, qualityCounters(counted_, budgets ? &*budgets : nullptr, budget_));
+  append(all, qualityCounters(*counted_, budgets ? &*budgets : nullptr, budget_));
   if (maps_.maps().size() == 1) append(all, levelStepCounters(levelSteps_.value_or(LevelSteps{})));
   append(all, budgetFacts());
   append(all, gathering_->count(frame));
@@ -157,10 +157,9 @@ std::map<std::string, const gl::Texture*> SearchTechnique::debugViews() const {
 
 std::map<std::string, PictureMaker> SearchTechnique::pictures() const {
   std::map<std::string, PictureMaker> all;
-  if (!counted_.work.empty()) {
-    const auto counted = std::make_shared<const PixelCounts>(counted_);
-    all["search_area"] = [counted] { return searchAreaPicture(*counted); };
-    all["levels"] = [counted] { return levelPicture(*counted); };
+  if (!counted_->work.empty()) {
+    all["search_area"] = [counted = counted_] { return searchAreaPicture(*counted); };
+    all["levels"] = [counted = counted_] { return levelPicture(*counted); };
   }
   if (budgetMap_) all["budget"] = [budgets = budgetMap_->read()] { return budgetPicture(budgets); };
   return all;
