@@ -139,9 +139,9 @@ double copyGbS(gl::Context& context) {
   const gl::Program& copy = context.programs().compute("perception/threshold_maps/copy.comp.glsl");
   const Times times = measure(
       [&] {
-        source.bindTexture(kCopySourceUnit);
-        target.bindImage(kCopyImage, gl::Access::Write);
-        copy.dispatch(size, {kCopyGroupX, kCopyGroupY});
+        source.bindTexture(perception::kCopySourceUnit);
+        target.bindImage(perception::kCopyImage, gl::Access::Write);
+        copy.dispatch(size, {perception::kCopyGroupX, perception::kCopyGroupY});
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
       },
       software);
