@@ -8,11 +8,10 @@
 #include "renderer/techniques/soft_shadows/quality/level_step_search.h"
 #include "renderer/techniques/soft_shadows/quality/quality_counters.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
-
-constexpr uint32_t kBudgetUnit = 12;
 
 void append(std::vector<Counter>& all, std::vector<Counter> more) {
   for (Counter& counter : more) all.push_back(std::move(counter));
@@ -59,7 +58,7 @@ const frame::LightFrustum& SearchTechnique::bindInputs(frame::Frame& frame,
                                                        const frame::ShadowMapSettings& map) {
   if (split_) split_->makeInputs(frame);
   const frame::LightFrustum& frustum = search_.bind(frame, map, current_);
-  if (budgetMap_) budgetMap_->bindTexture(kBudgetUnit);
+  if (budgetMap_) budgetMap_->bindTexture(kBudgetMapUnit);
   if (split_) split_->bindInputs(frame);
   return frustum;
 }

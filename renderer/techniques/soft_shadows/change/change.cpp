@@ -13,6 +13,8 @@
 
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
 
+#include "renderer/techniques/soft_shadows/change/change_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -94,11 +96,11 @@ class Change : public Technique {
       program_->set("sizePx", frame.sizePx());
       program_->set("isFirst", step == leadIn_ ? 1 : 0);
       program_->set("steps", static_cast<float>(steps_));
-      before.visibility->bindTexture(0);
-      after.visibility->bindTexture(1);
-      before.receivers->bindTexture(2);
-      after.receivers->bindTexture(3);
-      change_->bindImage(0, gl::Access::ReadWrite);
+      before.visibility->bindTexture(kChangeVisibilityBeforeUnit);
+      after.visibility->bindTexture(kChangeVisibilityAfterUnit);
+      before.receivers->bindTexture(kChangeReceiversBeforeUnit);
+      after.receivers->bindTexture(kChangeReceiversAfterUnit);
+      change_->bindImage(kChangeImage, gl::Access::ReadWrite);
       program_->dispatch(frame.sizePx());
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     });
