@@ -6,7 +6,7 @@
 namespace limen::frame {
 namespace {
 
-/// As struct SurfaceMaterial of surface_buffers.glsl, std430.
+/// Matches struct SurfaceMaterial of surface_buffers.glsl, std430.
 struct GpuMaterial {
   glm::vec3 albedo;
   uint32_t surface;
@@ -43,7 +43,7 @@ std::vector<uint32_t> triangleMaterialsOf(const scene::Scene& scene) {
   return out;
 }
 
-/// A vertex attribute of both meshes, or nothing where neither has it.
+/// A vertex attribute of both meshes; empty if neither has it.
 template <class Value>
 std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::Mesh::*attribute) {
   std::vector<Value> out = scene.mesh.*attribute;
