@@ -73,7 +73,7 @@ TEST(Published, RefusesWhatCannotBeCompared) {
                                      "relative_to: b}")),
               HasSubstr("'relative_to' names no row: 'b'"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_mss")),
-              HasSubstr("'gpu_mss' is no measurement"));
+              HasSubstr("'gpu_mss' is not a measurement"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "note: none")),
               HasSubstr("needs either 'measure' or 'passes'"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_ms, passes: [a]")),

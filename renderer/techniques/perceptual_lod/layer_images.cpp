@@ -12,7 +12,7 @@
 namespace limen::techniques {
 namespace {
 
-constexpr int kBatch = 5;  // layers in one dispatch: three textures each, of the 16 that are granted
+constexpr int kBatch = 5;  // layers in one dispatch: three textures each, of the 16 guaranteed
 constexpr const char* kFolder = "renderer/techniques/perceptual_lod/";
 constexpr const char* kComposite = "perceptual_lod/composite";
 

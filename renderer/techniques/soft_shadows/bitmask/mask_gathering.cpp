@@ -14,7 +14,7 @@ constexpr const char *kTables = "soft_shadows/mask_tables", *kKept = "soft_shado
                      *kJoin = "soft_shadows/join_masks";
 constexpr uint32_t kRectangleUnit = 6, kHalfSpaceUnit = 7, kLightMaskBinding = 0;
 
-/// How many samples there are, and where.
+/// Number and positions of the samples.
 gl::ShaderDefines sampleDefines(const SampleChoice& samples) {
   gl::ShaderDefines defines = {{"PATTERN", patternDefine(samples.pattern)}};
   if (isGridPattern(samples.pattern)) return defines;

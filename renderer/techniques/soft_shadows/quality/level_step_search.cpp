@@ -14,7 +14,7 @@ namespace {
 /// Of level_steps.glsl.
 constexpr uint32_t kPositionUnit = 14, kNormalUnit = 15, kWorkImage = 1, kSearchImage = 2, kStepImage = 4;
 
-/// Processed pixels do not all stand for the same levels.
+/// Processed pixels do not all use the same levels.
 bool choicesDiffer(const PixelCounts& counted, const LevelOfQuality& quality) {
   std::optional<float> first;
   for (size_t i = 0; i < counted.work.size(); i += 4) {

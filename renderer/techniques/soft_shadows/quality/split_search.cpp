@@ -11,8 +11,8 @@ namespace {
 constexpr uint32_t kAreaUnit = 13, kLevelUnit = 14, kAreaImage = 3, kLevelImage = 4, kHalfSmoothedImage = 5;
 constexpr uint32_t kBinsBinding = 5, kOrderedBinding = 6, kWorkBinding = 7;
 constexpr size_t kOrderBins = 64;  ///< as in order_work.comp.glsl
-/// Groups of 64 in a row of an indirect dispatch: a dimension has at most 65,535 of them, which this leaves
-/// to rows, and up to one row less one group finds nothing to do.
+/// Groups of 64 in a row of an indirect dispatch: a dimension has at most 65,535 of them, hence rows; up to
+/// one row minus one group is idle.
 constexpr uint32_t kGroupsPerRow = 64;
 
 gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::Format::R32F; }

@@ -10,13 +10,13 @@ namespace limen::techniques {
 
 using Corners3 = std::array<glm::vec3, 3>;
 
-/// Bounding-volume hierarchy over triangles, as shaders walk it without a stack: nodes stand depth first, so
-/// that the next node is the first child, and `skip` leads past all that hangs below. Layouts are those of
-/// std430 (triangle_bvh.glsl).
+/// Bounding-volume hierarchy over triangles, as shaders walk it without a stack: nodes are stored depth
+/// first, so that the next node is the first child, and `skip` leads past the whole subtree. Layouts are
+/// those of std430 (triangle_bvh.glsl).
 struct TriangleBvh {
   struct Node {
     glm::vec3 low;
-    uint32_t skip;  ///< next node where this box is of no interest
+    uint32_t skip;  ///< next node if this box is missed
     glm::vec3 high;
     uint32_t leaf;  ///< first triangle * 8 + number of triangles (1 to kLeaf); 0: inner node
   };
