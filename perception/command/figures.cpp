@@ -34,7 +34,7 @@ Limit parseLimit(const std::string& text, bool below, const Figures& known, cons
   const char* const end = number.data() + number.size();
   const auto [stop, code] = std::from_chars(number.data(), end, limit.value);
   if (code != std::errc{} || stop != end || !std::isfinite(limit.value))
-    throw Error("'" + number + "' is no number", option, "write " + limit.figure + "=0.5");
+    throw Error("'" + number + "' is not a number", option, "write " + limit.figure + "=0.5");
   // A limit on the good side would pass anything bad.
   if (figure->higherIsBetter != below)
     throw Error(fmt::format("'{}' is better the {} it is", limit.figure, below ? "lower" : "higher"), option,

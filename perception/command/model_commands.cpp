@@ -74,7 +74,7 @@ std::vector<double> readNumbers(const std::string& text, const std::string& opti
       continue;
     }
     if (ends.size() != 3 || !parse(ends[0], low) || !parse(ends[1], high) || !parse(ends[2], count))
-      throw Error("'" + part + "' is no number", option, hint);
+      throw Error("'" + part + "' is not a number", option, hint);
     if (!(low > 0.0) || !(high > low) || count != std::trunc(count) || count < 2.0 ||
         count > static_cast<double>(kMostNumbers))
       throw Error("range '" + part + "' is empty", option, "give 0 < low < high and a count from 2 to 10000");

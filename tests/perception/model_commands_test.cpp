@@ -220,8 +220,8 @@ TEST_F(Perceive, SlipsAreRefusedWithAnAnswer) {
   refuses({"csf", "daly98", "--c0", "x"}, "allowed: number from 0 to 100");
   refuses({"csf", "daly98", "--set", "c0"}, "name=value");
   refuses({"csf", "daly98", "--frequency", "1:0:3"}, "--frequency");
-  refuses({"csf", "daly98", "--frequency", "1,,2"}, "is no number");
-  refuses({"csf", "daly98", "--frequency", "nan"}, "is no number");
+  refuses({"csf", "daly98", "--frequency", "1,,2"}, "is not a number");
+  refuses({"csf", "daly98", "--frequency", "nan"}, "is not a number");
   refuses({"csf", "daly98", "--json", "--csv"}, "exclude");
   refuses({"csf", "daly98", "--frequency", "1:2:100000"}, "10000");
   refuses({"csf", "daly98", "--luminance", "1:2:200", "--velocity", "1:2:200"}, "too many");
