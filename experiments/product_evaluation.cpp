@@ -35,7 +35,7 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
                                             const std::vector<std::pair<std::string, Image>>& maps,
                                             const std::map<std::string, techniques::PictureMaker>& views) {
   const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
-  // Side by side: compressing one picture takes as long as many frames of a fast technique.
+  // In parallel: compressing one picture takes as long as many frames of a fast technique.
   std::vector<std::future<store::Artefact>> files;
   const auto picture = [&](const std::string& kind, std::function<Image()> make) {
     files.push_back(std::async(std::launch::async, [kind, make = std::move(make), base, folder] {

@@ -12,7 +12,7 @@
 
 namespace limen::experiments {
 
-/// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
+/// Applies the run's metrics. Maps for pictures are added to `maps` (name, image).
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
                                          std::vector<std::pair<std::string, Image>>& maps);
 

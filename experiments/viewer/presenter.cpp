@@ -60,7 +60,7 @@ ScreenPicture Presenter::picture(techniques::ProductKind kind, const gl::Texture
 ScreenPicture Presenter::shaded(bool isShare, const gl::Texture& product) {
   const gl::Program& program = context_.programs().compute("experiments/viewer/present.comp.glsl");
   if (isShare) {
-    // Before any is bound, since making them binds textures too.
+    // Before any is bound, since creating them binds textures too.
     frame::Frame& frame = view();
     const gl::Texture* inputs[] = {&frame.get<frame::Receivers>().texture(),
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture(),

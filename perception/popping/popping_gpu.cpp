@@ -30,9 +30,9 @@ const std::string kFolder = "perception/popping/gpu/";
 // between them for an error below 1e-3 of their value.
 constexpr double kNodesPerDecade = 65.0;
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
-constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
+constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is clamped to this range
 
-/// What adaptation luminance is read from, as response.glsl tells them apart.
+/// Sources of adaptation luminance, as distinguished in response.glsl.
 enum class AdaptationSource { Level, Mean, Fixed };
 constexpr EnumNames<AdaptationSource, 3> enumNames(AdaptationSource) {
   return {{{{AdaptationSource::Level, "level"},
@@ -48,7 +48,7 @@ AdaptationSource sourceOf(const PoppingSettings& settings) {
 
 PoppingModel modelOf(glm::ivec2 sizePx, const DisplayProfile& display, const PoppingSettings& settings) {
   if (settings.bands.isStack())
-    throw Error("decomposition 'stack' does not run on the GPU", "popping", "take pyramid, or the CPU");
+    throw Error("decomposition 'stack' does not run on the GPU", "popping", "use pyramid, or the CPU");
   return poppingModel(sizePx.x, sizePx.y, display, settings);
 }
 
@@ -78,10 +78,10 @@ gl::ShaderDefines maskingDefines(const ChosenEntry& masking) {
   }
   if (name == "self") return {{"MASKING_ALPHA", number(SelfMasking::table().read(values).alpha)}};
   throw Error("masking model '" + name + "' does not run on the GPU", "popping",
-              "take none, daly, lubin, schwarz or self");
+              "use none, daly, lubin, schwarz or self");
 }
 
-/// Velocity of the table's first node: the least that the eye model leaves on the retina.
+/// Velocity of the table's first node: the smallest retinal velocity of the eye model.
 double slowest(const PoppingSettings& settings) {
   const EyeMovement model = settings.eyeModel();
   const bool hasFloor = model == EyeMovement::Floor || model == EyeMovement::Monotone;
@@ -130,8 +130,8 @@ Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& disp
   return table;
 }
 
-/// Tables take a tenth of a second and more and are the same for all runs of a sweep on one display: the last
-/// few are kept. The key is all that makeSensitivityTable() reads.
+/// Tables take a tenth of a second or more and are the same for all runs of a sweep on one display: the last
+/// few are cached. The key is everything that makeSensitivityTable() reads.
 std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
                                               const PoppingSettings& settings, const TableGrid& grid) {
   constexpr size_t kKept = 8;
@@ -356,7 +356,7 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
   if (name == "jnd" || name == "weight" || name == "signed_jnd") {
     if (name == "signed_jnd" && settings_.collapse == Collapse::Magnitude)
       throw Error("no stage 'signed_jnd' on the GPU with collapse: magnitude", "popping",
-                  "take collapse: signed");
+                  "use collapse: signed");
     const gl::Texture target(Format::R32F, sizePx_);
     collapse(input, target, name == "jnd" ? 1 : name == "weight" ? 2 : 3);
     restoreCounts();

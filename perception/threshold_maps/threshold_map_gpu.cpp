@@ -20,10 +20,11 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
-/// Invocations of a group that makes a tile; on an H200 faster than smaller groups, whose tiles overlap more.
+/// Invocations of a group that computes a tile; on an H200 faster than smaller groups, whose tiles overlap
+/// more.
 constexpr int kInvocations = 512;
-/// Levels up to this size are made several at a time: a pass costs some 2 us to start, and making twice the
-/// samples that are needed costs less.
+/// Levels up to this size are computed several at a time: starting a pass costs about 2 us, computing twice
+/// the necessary samples costs less.
 constexpr int64_t kSmallLevelPx = 600'000;
 constexpr int kMostSteps = 3;
 constexpr float kLargestHalfCdM2 = 6e4F;
@@ -47,12 +48,13 @@ void checkSettings(const Settings& settings, const ThresholdMapGpuSettings& gpu)
   refuse(std::holds_alternative<MistakenDegreeAdaptation>(settings.adaptation),
          "the mistaken mean is not computed on the GPU", "adaptation",
          "use one_degree, or the technique perception/threshold_map_reference");
-  refuse(settings.expands(), "levels are brought up bilinearly on the GPU", "decomposition.upsampler",
+  refuse(settings.expands(), "levels are upsampled bilinearly on the GPU", "decomposition.upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
   refuse(gpu.direct() && (settings.csf != "barten89" || settings.tvi != "ward"),
          "only csf: barten89 and tvi: ward are computed directly", "lookup", "use lookup: tables");
-  refuse(settings.nineFetch() && settings.border != Border::Clamp, "bilinear fetches know no mirrored border",
-         "border", "use border: clamp or downsample: binomial");
+  refuse(settings.nineFetch() && settings.border != Border::Clamp,
+         "bilinear fetches do not support a mirrored border", "border",
+         "use border: clamp or downsample: binomial");
 }
 
 /// Model number in the shader and its constants.
@@ -63,7 +65,7 @@ std::pair<int, glm::vec4> maskingConstants(const std::string& name) {
   if (name == "schwarz") return {1, {0.0, SchwarzMasking{}.s, SchwarzMasking{}.b, 0.0}};
   if (name == "lubin") return {2, {lubin.n, lubin.w, 0.0, 0.0}};
   if (name == "self") return {3, {1.0 - SelfMasking{}.alpha, 0.0, 0.0, 0.0}};
-  refuse(name != "none", "this masking model has no form for the GPU", "masking", "use another one");
+  refuse(name != "none", "this masking model has no GPU version", "masking", "use another one");
   return {0, glm::vec4(0.0F)};
 }
 
@@ -152,7 +154,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"BANDS", std::to_string(model.bands())},
               {"FINEST_LUMINANCE", yes(settings.nineFetch())},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // tables know it otherwise
+              {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // with tables, they contain it
               {"FOURTH_ROOT", yes(gpu.direct() && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(std::holds_alternative<SmoothFlat>(settings.flat))},
               {"DIRECT", yes(gpu.direct())},
@@ -294,8 +296,8 @@ int64_t ThresholdMapGpu::bytesHeld() const {
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
-  // The input and the map once; what lies between is written and read again: levels by the next one and by
-  // the evaluation.
+  // The input and the map once; intermediate results are written and read again: levels by the next one and
+  // by the evaluation.
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
   if (settings_.nineFetch()) bytes += finest_.bytes();
   if (gaussian_) bytes += 3 * gaussian_->bytes();

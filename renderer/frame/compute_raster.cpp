@@ -8,7 +8,7 @@
 namespace limen::frame {
 namespace {
 
-/// Bands of rows of large triangles; more are rasterised where they are found, one invocation each.
+/// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
 constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
@@ -37,7 +37,7 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withI
       depth_(gl::Format::R32F, sizePx),
       queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
       depthBits_(int64_t{4} * sizePx.x * sizePx.y, nullptr) {
-  // Every frame leaves the buffers cleared for the next; the first needs them so, too.
+  // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
   queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (!withIds) return;
@@ -53,7 +53,7 @@ int64_t ComputeRaster::bytes() const {
 }
 
 void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const {
-  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
+  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
   const int triangles = static_cast<int>(triangleCount);
   small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -39,13 +39,13 @@ gl::ShaderDefines channelDefines(Channel channel) {
   return {};
 }
 
-/// Defines of a channel in a frame that may have been given what it sees.
+/// Defines of a channel, depending on whether the frame was given what it sees.
 gl::ShaderDefines definesOf(const Frame& frame, gl::ShaderDefines defines) {
   if (frame.seen()) defines["GIVEN_PLACES"] = "1";
   return defines;
 }
 
-/// Works a channel out of the triangle ids; `out` gets every pixel.
+/// Computes a channel from the triangle ids; `out` gets every pixel.
 void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);

@@ -25,7 +25,7 @@ std::vector<glm::uvec3> joinedIndices(const scene::Scene& scene) {
   return out;
 }
 
-/// One RGBA8-packed albedo a triangle: constant over it, so no vertex has to carry it.
+/// One RGBA8-packed albedo per triangle: constant over it, so vertices need none.
 std::vector<uint32_t> albedos(const scene::Scene& scene) {
   std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
   const auto fill = [&](const scene::TriangleRange& range, uint32_t material) {
@@ -59,7 +59,7 @@ GpuScene::GpuScene(const scene::Scene& scene)
   glVertexArrayAttribFormat(vertexArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(vertexArray_, 0, 0);
   glEnableVertexArrayAttrib(vertexArray_, 0);
-  // One value a draw: an instanced attribute starts at the draw's base instance.
+  // One value per draw: an instanced attribute starts at the draw's base instance.
   glVertexArrayAttribIFormat(vertexArray_, 1, 1, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(vertexArray_, 1, 1);
   glVertexArrayBindingDivisor(vertexArray_, 1, 1);

@@ -25,7 +25,7 @@ void Motion::make(Frame& frame) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open("frame/motion");
   const scene::Camera now = frame.camera(), then = frame.scene().camera.at(frame.timeS() - setting_.dtS);
-  // Both views about the present eye: a still camera then gives exactly the identity, wherever it stands.
+  // Both views relative to the current eye: a still camera then gives exactly the identity, wherever it is.
   const auto view = [&](const scene::Camera& camera) {
     return glm::lookAt(camera.eye - now.eye, camera.target - now.eye, camera.up);
   };

@@ -25,11 +25,11 @@ gl::Texture allocate(int resolution, int layers) {
     return {gl::Format::RG32F, glm::ivec2(resolution), 1, layers};
   } catch (const Error& error) {
     throw Error("the multi-scale layers do not fit: " + error.message(), {},
-                "choose a smaller map, or structure ysm, which needs them at its base resolution only");
+                "choose a smaller map, or structure ysm, which needs them only at its base resolution");
   }
 }
 
-/// Where, along an axis, the two windows of the layer below lie that make up one of layer `layer`.
+/// Positions along an axis of the two windows of the layer below that make up one of layer `layer`.
 glm::ivec2 sourceOffsets(WindowAnchor anchor, int layer) {
   if (anchor == WindowAnchor::Corner) return {0, 1 << (layer - 1)};
   return layer == 1 ? glm::ivec2(-1, 0) : glm::ivec2(-(1 << (layer - 2)), 1 << (layer - 2));

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kRasterPass = "frame/occlusion_slices_raster";
 constexpr const char* kFilterPass = "frame/occlusion_slices";
 
-/// Light-space z of the farthest point of what casts shadows; 0 if none is before the light.
+/// Light-space z of the farthest point of the casters; 0 if none is in front of the light.
 double farthestCaster(const scene::Scene& scene) {
   const glm::dmat4 toLight = scene.lights.at(0).toLightSpace();
   double farthest = 0.0;
@@ -50,7 +50,7 @@ OcclusionSlices::OcclusionSlices(Frame& frame, OcclusionSliceSettings settings)
                 "the array of occlusion textures", "choose a smaller map, or fewer slices") {
   frustum_ = LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution);
   begin_ = frustum_.near;
-  // The farthest caster itself, for all rounding, belongs to the last slice.
+  // The farthest caster belongs to the last slice despite rounding.
   const double end = std::max(farthestCaster(frame.scene()), begin_) * (1.0 + 1e-5);
   depth_ = (end - begin_) / settings.slices;
   frame.passes().setBytesHeld(kRasterPass, bits_.bytes() + target_.bytes());

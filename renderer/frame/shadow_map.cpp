@@ -110,7 +110,8 @@ ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
 void ShadowDepth::make(Frame& frame) {
   DepthPeel peel;
   if (settings_.layer > 0) {
-    // The layers of a smaller frustum are peeled off one another too, so that texels have one ray throughout.
+    // The layers of a smaller frustum are peeled from each other too, so that a texel has the same ray in all
+    // of them.
     ShadowMapSettings nearer = settings_;
     --nearer.layer;
     peel = {&frame.get<ShadowDepth>(nearer).depth(), settings_.peelBias};
@@ -179,7 +180,7 @@ void MinMaxPyramid::make(Frame& frame) {
       program.set("sourceLevel", base);
     }
     for (int i = 0; i < 3; ++i) {
-      // Levels past the last are bound to the last and never written.
+      // Image units past the last level are bound to the last level and never written.
       minimum_.bindImage(kPyramidMinimum1Image + static_cast<uint32_t>(i), gl::Access::Write,
                          std::min(base + 1 + i, count - 1));
       maximum_.bindImage(kPyramidMaximum1Image + static_cast<uint32_t>(i), gl::Access::Write,

@@ -46,7 +46,7 @@ gl::ShaderDefines SummedAreaTable::defines(SumForm form) {
   return {};
 }
 
-// Along each axis log2(kSumsTile) additions within a tile, and the tiles before it one after another.
+// Along each axis log2(kSumsTile) additions within a tile, plus one for each tile before it.
 int SummedAreaTable::additions(int resolution) { return 2 * (5 + (resolution + kSumsTile - 1) / kSumsTile); }
 
 SummedAreaTable::SummedAreaTable(gl::Context& context, int resolution, int layers, int channels, SumForm form)

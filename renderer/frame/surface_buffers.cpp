@@ -41,7 +41,7 @@ std::vector<uint32_t> triangleMaterialsOf(const scene::Scene& scene) {
   return out;
 }
 
-/// A vertex attribute of both meshes, or nothing where neither has it.
+/// A vertex attribute of both meshes; empty if neither has it.
 template <class Value>
 std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::Mesh::*attribute) {
   std::vector<Value> out = scene.mesh.*attribute;

@@ -8,7 +8,7 @@ namespace limen::frame {
 
 /// What shading needs of a scene's surfaces beyond positions: vertex normals and attributes, the material of
 /// each triangle, the materials, patches' control points (relative to the anchor). Attributes that no vertex
-/// has take no memory.
+/// has use no memory.
 class SurfaceBuffers {
  public:
   SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor);

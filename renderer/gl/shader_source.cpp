@@ -34,11 +34,11 @@ std::string readShaderFile(const std::string& path, const std::string& includedF
 }
 
 void append(const std::string& path, const std::string& includedFrom, ShaderText& out) {
-  // Once per program: headers need no include guards, and a cycle ends by itself.
+  // Once per program: headers need no include guards, and a cycle terminates.
   if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) return;
   const size_t number = out.files.size();
   out.files.push_back(path);
-  out.stamps.push_back(shaderStamp(path));  // before reading, lest a change in between goes unseen
+  out.stamps.push_back(shaderStamp(path));  // before reading, so that no change in between goes unnoticed
   std::istringstream in(readShaderFile(path, includedFrom));
   std::string line;
   out.text += "#line 1 " + std::to_string(number) + "\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mean of hard shadows from many points of the light, a shadow map each: the thesis's own reference. It
-// carries the aliasing and the biases of its maps.
+// Mean of hard shadows from many points of the light, a shadow map each: the thesis's own reference. It has
+// the aliasing and the biases of its maps.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -57,8 +57,8 @@ struct SampledLightSettings {
          "slope_bias",
          {0.0, 8.0},
          "texels",
-         "Depth bias as the plane's change over so many texels; half a texel is what a plane needs, the rest "
-         "is for the curvature of depth over a texel"}};
+         "Depth bias as the plane's change over this many texels; a plane needs half a texel, the rest "
+         "allows for the curvature of depth over a texel"}};
     return kTable;
   }
   void check() const { checkSquareNumber(samples); }
@@ -122,8 +122,8 @@ class SampledLight : public techniques::Technique {
 
   const gl::Texture& product() const override { return *product_; }
 
-  /// A map that leaves casters out shows light where there may be none: the share of such maps is to be read
-  /// beside the product.
+  /// A map that misses casters shows light where there may be none: read the product together with the share
+  /// of such maps.
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto maps = double(frusta_.size());
     const auto cut = std::count_if(frusta_.begin(), frusta_.end(),
@@ -162,9 +162,9 @@ class SampledLight : public techniques::Technique {
 };
 
 /// A straight edge crosses at most 2 S - 1 of the S x S cells of a rectangular light, and only there can a
-/// cell's one point misjudge the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It holds for
-/// a convex occluder with one edge across the light; each further edge adds as much, and the maps' resolution
-/// and biases are not in it.
+/// cell's single point be wrong about the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It
+/// holds for a convex occluder with one edge across the light; each further edge adds as much, and the maps'
+/// resolution and biases are not included.
 double edgeBound(const SampledLightSettings& settings) {
   return std::min(1.0, 2.0 / std::sqrt(double(settings.samples)));
 }

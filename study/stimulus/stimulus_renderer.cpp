@@ -18,7 +18,7 @@ bool sameView(const scene::Camera& a, const scene::Camera& b) {
   return a.eye == b.eye && a.target == b.target && a.up == b.up && a.verticalFovDeg == b.verticalFovDeg;
 }
 
-/// Without alpha, as codes over 255 to the last digit, which drivers' conversions miss.
+/// Without alpha, exactly as codes over 255, which drivers' conversions do not give.
 Image codesOf(const Image& image) {
   Image out(image.width, image.height, 3);
   for (size_t i = 0; i < out.pixels(); ++i)
@@ -43,7 +43,7 @@ StimulusRenderer::StimulusRenderer(gl::Context& context, const Stimulus& stimulu
   std::copy(values.begin(), values.end(), thresholds.data.begin());
   thresholds_.write(thresholds);
 
-  // What a technique makes may depend on more than where the camera stands, say on where it came from.
+  // A technique's output may depend on more than the camera's position, for example on where it came from.
   const bool byCamera = stimulus_.levels.has_value();
   for (int frame = 0; frame < timeline_.frames; ++frame) {
     const double timeS = timeline_.sceneTimeS(frame),

@@ -16,7 +16,7 @@ namespace {
 using gl::Access;
 using gl::Format;
 
-constexpr int kRun = 8;  ///< pixels that an invocation of the column pass makes
+constexpr int kRun = 8;  ///< pixels per invocation of the column pass
 constexpr glm::ivec2 kRowGroup{kFlipRowsGroupX, kFlipRowsGroupY};
 constexpr glm::ivec2 kColumnGroup{kFlipColumnsGroupX, kFlipColumnsGroupY};
 

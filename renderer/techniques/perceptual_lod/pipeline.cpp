@@ -104,7 +104,7 @@ frame::Frame& PerceptualPipeline::versionOf(LevelView& view, LevelView* casters,
     all.levels[static_cast<size_t>(object)] = level;
   }
   if (casters) {
-    // The object casts its shadow with the level that is looked at; the others as they are.
+    // The object casts its shadow with the level under test; the others with their current levels.
     casters->show(timeS_, all);
     view.frame().setCasters(&casters->frame());
   }
@@ -161,7 +161,7 @@ void PerceptualPipeline::render(double timeS, bool wait) {
     pixels_.push_back(pixelsOf(object.bounds, images_.view()));
 
   std::vector<int> objects;
-  // With all batches under way the GPU is far behind: this frame tests nothing rather than wait.
+  // With all batches in flight the GPU is far behind: this frame tests nothing instead of waiting.
   if (counts_.ready()) objects = control_.nextTests(settings_.tests.objectsPerFrame, testable());
   std::vector<char> needed(static_cast<size_t>(images_.layers()), 0);
   for (const int layer : layerOf_)

@@ -123,7 +123,7 @@ bool TestCounts::arrived(const Batch& batch, bool wait) const {
   }
   if (wait) return true;  // reading a query waits for it
   GLuint available = GL_FALSE;
-  // Queries end in order: the last of the batch is there if all are.
+  // Queries complete in order: if the last of the batch is available, all are.
   glGetQueryObjectuiv(query(oldest_, batch.tests.size() - 1, withNext_ ? 2 : 1), GL_QUERY_RESULT_AVAILABLE,
                       &available);
   return available == GL_TRUE;

@@ -19,7 +19,7 @@ frame::LodPairSetting pairSetting(const SwitchSetting& setting) {
   return out;
 }
 
-/// Albedos are at most 1, so only these can bring a pixel above the display's white.
+/// Albedos are at most 1, so only these can raise a pixel above the display's white.
 bool mayPassWhite(const frame::ShadedSetting& shaded) {
   return shaded.specular > 0.0 || shaded.ambient + shaded.diffuse > 1.0 || shaded.background > 1.0;
 }

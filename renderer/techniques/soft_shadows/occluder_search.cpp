@@ -22,8 +22,8 @@ gl::ShaderDefines OccluderSearch::defines() const {
   gl::ShaderDefines defines = bias_.defines();
   occluders_.define(defines);
   defineStructure(structure_, defines);
-  // With one level for all pixels, what it makes of the shadow is the question: no pixel may escape it by
-  // texels that are finer.
+  // With one level for all pixels, its effect on the shadow is the question: no pixel may avoid it through
+  // finer texels.
   if (coarse_.isFixed()) defines["GROW"] = "1";
   return defines;
 }

@@ -90,11 +90,11 @@ void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   for (current_ = 0; current_ < maps_.maps().size(); ++current_)
     if (maps_.isDue(current_)) VisibilityPass::makeInputs(frame, *this, maps_.maps()[current_]);
   current_ = 0;
-  // Frames that count take longer than those they stand for.
+  // Frames that count take longer than those they represent.
   BudgetDriver* steered = counts ? nullptr : budgets_.get();
   if (steered) steered->begin();
   runPasses(frame, counts);
-  // Levels of several maps stand behind one visibility, of which none has a step of its own.
+  // Levels of several maps contribute to one visibility, so none has a step of its own.
   if (counts && maps_.maps().size() == 1)
     levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, *counted_);
   if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
@@ -121,7 +121,7 @@ std::vector<Quantity> SearchTechnique::quantities() {
 }
 
 std::vector<Counter> SearchTechnique::count(frame::Frame& frame) {
-  // Of a whole image, however few maps the last frame read.
+  // For a whole image, however few maps the last frame read.
   maps_.chooseAll();
   levelSteps_.reset();
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),

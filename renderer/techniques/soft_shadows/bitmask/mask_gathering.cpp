@@ -16,7 +16,7 @@ namespace {
 constexpr const char *kTables = "soft_shadows/mask_tables", *kKept = "soft_shadows/kept_masks",
                      *kJoin = "soft_shadows/join_masks";
 
-/// How many samples there are, and where.
+/// Number and positions of the samples.
 gl::ShaderDefines sampleDefines(const SampleChoice& samples) {
   gl::ShaderDefines defines = {{"PATTERN", patternDefine(samples.pattern)}};
   if (isGridPattern(samples.pattern)) return defines;

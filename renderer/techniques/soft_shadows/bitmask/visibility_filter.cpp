@@ -23,16 +23,15 @@ const SettingsTable<SurfaceMean>& SurfaceMean::table() {
               "Neighbours on either side over which visibility is averaged", kFilterSource)
           .formerly({"filter_radius"}),
       Binding(&SurfaceMean::step, "step", Range{0.001, 1.0}, "",
-              "Largest step of visibility between neighbours that samples are taken to explain",
-              kFilterSource)
+              "Largest step of visibility between neighbours attributed to sampling", kFilterSource)
           .formerly({"filter_step"}),
       Binding(&SurfaceMean::planeShare, "plane_share", Range{0.0, 1.0}, "",
-              "Distance of a neighbour's point from the pixel's plane, as a share of that from its point, up "
-              "to which both are of one surface",
+              "Largest distance of a neighbour's point from the pixel's plane on the same surface, as a "
+              "share of the distance between the points",
               kFilterSource)
           .formerly({"filter_plane_share"}),
       Binding(&SurfaceMean::angle, "angle", Range{0.0, 90.0}, "deg",
-              "Angle between normals up to which both are of one surface", kFilterSource)
+              "Largest angle between normals on the same surface", kFilterSource)
           .formerly({"filter_angle"})};
   return kTable;
 }

@@ -16,8 +16,8 @@ constexpr const char *kHistoryPass = "soft_shadows/history",
                      *kHistoryShader =
                          "renderer/techniques/soft_shadows/history/visibility_history.comp.glsl";
 
-/// Times of frames are sums and differences of doubles; equal steps must not differ in their last digits,
-/// since each length of step has an input of its own.
+/// Frame times are sums and differences of doubles; equal steps must not differ in their last digits, since
+/// each step length has its own input.
 double stepBetween(double fromS, double toS) {
   constexpr double kNanoseconds = 1e9;
   return std::round((toS - fromS) * kNanoseconds) / kNanoseconds;
@@ -35,7 +35,7 @@ gl::ShaderDefines historyDefines(bool moving, bool fates) {
 const SettingsTable<NeighbourhoodClamp>& NeighbourhoodClamp::table() {
   static const SettingsTable<NeighbourhoodClamp> kTable = {
       Binding(&NeighbourhoodClamp::radius, "radius", Range{1, 8}, "px",
-              "Half the side of the square that is looked at, without its middle")
+              "Half-width of the neighbourhood, excluding the centre")
           .formerly({"clamp_radius"})};
   return kTable;
 }
@@ -48,21 +48,21 @@ const SettingsTable<HistorySettings>& HistorySettings::table() {
        "alpha",
        {0.01, 1},
        "",
-       "Weight of the present frame; the past has the rest; 1: no history",
+       "Weight of the current frame, the rest going to the history; 1: no history",
        kSource},
       {&S::depthTolerance,
        "depth_tolerance",
        {0, 1},
        "",
-       "Difference of depth from the past at which it is another surface, as a share of the depth",
+       "Depth difference at which the history belongs to another surface, as a share of the depth",
        kSource},
       {&S::normalToleranceDeg,
        "normal_tolerance_deg",
        {0, 180},
        "deg",
-       "Angle between normals from which the past is another surface",
+       "Angle between normals at which the history belongs to another surface",
        kSource},
-      Binding(&S::clamp, "clamp", "Bounds of the past", "Karis 2014")};
+      Binding(&S::clamp, "clamp", "Bounds of the history", "Karis 2014")};
   return kTable;
 }
 
@@ -131,8 +131,8 @@ void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, 
 }
 
 std::vector<Quantity> VisibilityHistory::counters() {
-  return {{"history_taken_share", "Share of receivers that find a past", "", Direction::Neither},
-          {"history_bounded_share", "Share of receivers whose past is bounded", "", Direction::Neither}};
+  return {{"history_taken_share", "Share of receivers with a history", "", Direction::Neither},
+          {"history_bounded_share", "Share of receivers whose history is clamped", "", Direction::Neither}};
 }
 
 std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Texture& visibility) {

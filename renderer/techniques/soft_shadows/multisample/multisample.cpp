@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soft shadows for frames with several samples a pixel (SS-35; Schwarz 2009, section 4.6): visibility is
-// found for one sample a pixel; samples on another surface take it from the neighbour that is closest to them
-// in depth.
+// Soft shadows for frames with several samples per pixel (SS-35; Schwarz 2009, section 4.6): visibility is
+// found for one sample per pixel; samples on another surface take it from the neighbour closest in depth.
 //
 // Departures and choices: the product is the mean visibility of a pixel's samples; weights by their colours
-// are left out, since products here are visibilities. The thesis does not give the tolerance. Samples that no
-// light can reach (background, turned away) are known to and neither give nor take visibility; there, their
-// colour is 0. Every sample's depth comes from its triangle in compute instead of from a multisampled colour
-// buffer.
+// are left out, since products here are visibilities. The thesis does not give the tolerance. Samples that
+// light cannot reach (background, facing away) are recognised and neither lend nor take visibility; in the
+// thesis their colour is 0. Every sample's depth is computed from its triangle instead of read from a
+// multisampled colour buffer.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -73,9 +72,9 @@ class Multisample : public Technique {
   void render(frame::Frame& frame) override { run(frame, *resolve_, nullptr); }
   const gl::Texture& product() const override { return *visibility_; }
 
-  /// Points asked for a pixel and their micro-occluders; where one sample stands for others, also the share
-  /// of pixels that see several surfaces, and of samples that took a neighbour's visibility, or one that is
-  /// not of their surface.
+  /// Points evaluated per pixel and their micro-occluders; if one sample represents others, also the share of
+  /// pixels that see several surfaces, and of samples that took a neighbour's visibility or one from another
+  /// surface.
   std::vector<Counter> count(frame::Frame& frame) override {
     std::optional<gl::Texture> counts;
     const gl::Program* program = resolve_;
@@ -152,7 +151,7 @@ class Multisample : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  /// Writes ids and places of the points that the inner technique is asked for.
+  /// Writes ids and positions of the points for the inner technique.
   void choose(frame::Frame& frame) {
     if (ids_) {
       const auto scope = frame.passes().open(kRaster);
@@ -198,7 +197,7 @@ class Multisample : public Technique {
 const RegisteredTechnique<Multisample> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
      .version = 1,
-     .summary = "Another technique's visibility at one sample a pixel, shared by the pixel's other samples",
+     .summary = "Another technique's visibility at one sample per pixel, shared by the pixel's other samples",
      .source = "Schwarz 2009, section 4.6 (SS-35)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reference for pictures with several samples a pixel: a technique's visibility on a grid of samples over
-// each pixel's square, averaged. Samples that are no receivers count as lit, as they do in every visibility
-// image.
+// Reference for pictures with several samples per pixel: a technique's visibility on a grid of samples over
+// each pixel's square, averaged. Samples that are not receivers count as lit, as in every visibility image.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -23,7 +22,7 @@ struct SupersampledSettings {
     using S = SupersampledSettings;
     static const SettingsTable<S> kTable = {
         innerBinding(&S::inner, InnerKind::OrRayTraced),
-        {&S::samples, "samples", {1, 16}, "", "Samples a pixel along each axis, box filter"}};
+        {&S::samples, "samples", {1, 16}, "", "Samples per pixel along each axis, box filter"}};
     return kTable;
   }
 };

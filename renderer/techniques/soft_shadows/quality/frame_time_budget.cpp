@@ -123,7 +123,7 @@ std::vector<Quantity> frameTimeQuantities() {
   return {
       {"budget_scale", "Scale of the budget", "", Direction::Neither},
       {"frame_time_error_share", "Error of the frame time", "", Direction::Neither},
-      {"frame_time_oscillations", "Changes of side of the frame time's error", "", Direction::LowerIsBetter}};
+      {"frame_time_oscillations", "Sign changes of the frame time's error", "", Direction::LowerIsBetter}};
 }
 
 }  // namespace limen::techniques

@@ -12,7 +12,7 @@
 namespace limen::techniques {
 namespace {
 
-/// Processed pixels do not all stand for the same levels.
+/// Processed pixels do not all use the same levels.
 bool choicesDiffer(const PixelCounts& counted, const LevelOfQuality& quality) {
   std::optional<float> first;
   for (size_t i = 0; i < counted.work.size(); i += 4) {

@@ -18,7 +18,7 @@ const char* const kMaskingPass = "soft_shadows/budget_map";
 class MaskingBudgetDriver : public BudgetDriver {
  public:
   explicit MaskingBudgetDriver(const MaskingBudget& settings) : settings_(settings) {
-    // Albedo by cosine: contrasts of the light's part alone, whatever the scene's brightness.
+    // Albedo times cosine: contrasts of the direct light only, whatever the scene's brightness.
     picture_.ambient = 0.0;
     picture_.diffuse = 1.0;
     picture_.background = 0.0;

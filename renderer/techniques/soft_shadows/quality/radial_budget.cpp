@@ -15,7 +15,7 @@ class RadialBudgetDriver : public BudgetDriver {
  public:
   explicit RadialBudgetDriver(const RadialBudget& settings) : settings_(settings) {}
 
-  /// The map depends on nothing that a frame changes: it is made here.
+  /// The map does not depend on the frame, so it is made here.
   void prepare(frame::Frame& frame) override {
     map_.emplace(gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld("soft_shadows/budget_map", map_->bytes());

@@ -11,8 +11,8 @@
 namespace limen::techniques {
 namespace {
 
-/// Groups in a row of an indirect dispatch: a dimension has at most 65,535 of them, which this leaves
-/// to rows, and up to one row less one group finds nothing to do.
+/// Groups in a row of an indirect dispatch: a dimension has at most 65,535 of them, hence rows; up to one row
+/// minus one group is idle.
 constexpr uint32_t kGroupsPerRow = 64;
 
 gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::Format::R32F; }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soft shadow maps by scattering (SS-06): a loop over the texels of a map of casters, each of which adds the
-// share of the light that it hides to the receivers in its reach, in a map of the receivers that is then
-// projected onto the scene. Casters receive nothing. Source: Schwarz 2009, section 3.2.1 (after Atty et al.
-// 2006).
+// share of the light that it hides to the receivers within its reach, in a map of the receivers that is then
+// projected onto the scene. Casters receive no shadows. Source: Schwarz 2009, section 3.2.1 (after Atty et
+// al. 2006).
 //
-// 'front_and_back' takes the larger of what nearest front faces and farthest back faces hide: the heuristic
-// that the thesis shows to be wrong (Fig. 4.3 d); 'nearest_and_farthest' the same for surfaces whichever way
-// they face, of which two flat blockers are a case (Fig. 4.3 e). Shares are added as whole numbers, so that
+// 'front_and_back' takes the larger of what the nearest front faces and the farthest back faces hide: the
+// heuristic that the thesis shows to be wrong (Fig. 4.3 d); 'nearest_and_farthest' does the same for surfaces
+// of either orientation, for example two flat blockers (Fig. 4.3 e). Shares are added as integers, so that
 // the sum does not depend on the order.
 #include <epoxy/gl.h>
 
@@ -60,7 +60,7 @@ struct ScatterSettings {
         {&S::softResolution, "soft_resolution", kSides, "texel", "Side of the soft shadow map"},
         {&S::layers, "layers",
          "Surfaces that scatter: the nearest; or the larger of what the nearest front and the farthest back "
-         "faces hide; or of the nearest and the farthest of any side",
+         "faces hide; or of the nearest and the farthest of either orientation",
          "Schwarz 2009, section 4.2.2 (Fig. 4.3)"},
         {&S::bias,
          "bias",
@@ -102,7 +102,7 @@ class Scatter : public Technique {
         {"splats_per_caster_texel", "Splats per scattering texel", "1/texel", Direction::LowerIsBetter},
         {"splats_per_receiver", "Splats per receiver", "1/px", Direction::LowerIsBetter}};
     for (Quantity& share : pixelShares()) all.push_back(std::move(share));
-    all.push_back({"without_answer_share", "Share of pixels that the soft shadow map knows nothing of", "",
+    all.push_back({"without_answer_share", "Share of pixels not covered by the soft shadow map", "",
                    Direction::Neither});
     return all;
   }
@@ -119,7 +119,7 @@ class Scatter : public Technique {
     for (const uint32_t each : classOf) pixels.at(each) += 1.0;
     if (costs.cutShort > 0)
       throw Error(std::to_string(costs.cutShort) +
-                      " caster texels need more loop iterations than this software renderer grants",
+                      " caster texels need more loop iterations than this software renderer allows",
                   "soft_shadows/scatter", "lower 'soft_resolution', or run on a GPU");
     const auto all = static_cast<double>(classOf.size());
     const double receivers = all - pixels[NotReceiver], casterTexels = costs.casterTexels,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *kChoose = "sparse/choose", *kPull = "sparse/pull", *kPush = "sparse/push";
 constexpr const char* kSparseFolder = "renderer/techniques/soft_shadows/sparse/";
-constexpr int kTile = 8;  // pixels a side of a work group
+constexpr int kTile = 8;  // pixels per side of a work group
 
 const gl::Program& shader(gl::Context& context, const std::string& name,
                           const gl::ShaderDefines& defines = {}) {
@@ -23,7 +23,7 @@ const gl::Program& shader(gl::Context& context, const std::string& name,
 
 glm::ivec2 wholeTiles(glm::ivec2 sizePx) { return (sizePx + kTile - 1) / kTile * kTile; }
 
-/// Finest level of the pyramid: half the picture, rounded up so that every level is half of the one before.
+/// Finest level of the pyramid: half the picture, rounded up so that every level is half the previous one.
 glm::ivec2 pyramidBase(glm::ivec2 sizePx, int levels) {
   const int block = 1 << levels;
   return (sizePx + block - 1) / block * (block / 2);
@@ -37,7 +37,7 @@ class AdaptiveSampling : public SparseSampling {
         minSamples_(settings.minSamples),
         bias_(innerBias(inner)),
         coarsest_(settings.coarsestLevel),
-        // A level more than is skipped: squares without a sample find one in those around them.
+        // One level more than is skipped: squares without a sample find one in those around them.
         levels_(coarsest_ + 1),
         map_(innerMap(inner)),
         points_(frame, "sparse/inner", wholeTiles(frame.sizePx())),
@@ -158,8 +158,7 @@ const SettingsTable<AdaptiveSamplingSettings>& AdaptiveSamplingSettings::table()
   static const std::string kSource = "Schwarz 2009, section 5.1.3 (value not given there)";
   static const SettingsTable<S> kTable = {
       Binding(&S::minSamples, "min_samples", Range{1, 256}, "samples",
-              "Samples that a penumbra's width on the screen must hold before pixels are skipped (s_min)",
-              kSource)
+              "Samples that a penumbra's screen width must hold before pixels are skipped (s_min)", kSource)
           .formerly({"min_samples"}),
       Binding(&S::coarsestLevel, "coarsest_level", Range{0, 5}, "",
               "Samples are at most 2 to this power pixels apart", kSource)

@@ -60,7 +60,7 @@ class UniformSampling : public SparseSampling {
       program.set("placeStep", glm::vec2(static_cast<float>(factor_)));
       program.set("lastPlace", size - 0.5F);
     } else {
-      // Both pictures have the same vertical field of view, and square pixels about the same middle.
+      // Both pictures have the same vertical field of view and square pixels around the same centre.
       const float step = size.y / gridSize.y;
       program.set("firstPlace", 0.5F * size + (0.5F - 0.5F * gridSize) * step);
       program.set("placeStep", glm::vec2(step));
@@ -98,17 +98,15 @@ const SettingsTable<UniformSamplingSettings>& UniformSamplingSettings::table() {
   static const std::string kSection = "Schwarz 2009, section 5.1.3";
   static const SettingsTable<S> kTable = {
       Binding(&S::factor, "factor", oneOf({1, 2, 4, 8}), "px",
-              "Pixels from sample to sample, along rows and along columns",
-              kSection + " (value not given there)")
+              "Pixels between samples, along rows and columns", kSection + " (value not given there)")
           .formerly({"factor"}),
       Binding(&S::points, "points",
               "Samples are pixels of the picture, or of one rendered at lower resolution", kSection)
           .formerly({"points"}),
-      Binding(
-          &S::normalPower, "normal_power", Range{0, 64}, "",
-          "Power of the cosine between a point's normal and a sample's that weighs the sample; 0: normals "
-          "do not matter",
-          kSection + " (value not given there)")
+      Binding(&S::normalPower, "normal_power", Range{0, 64}, "",
+              "Power of the cosine between a point's normal and a sample's that weights the sample; 0: "
+              "normals do not matter",
+              kSection + " (value not given there)")
           .formerly({"normal_power"})};
   return kTable;
 }
