@@ -10,8 +10,8 @@
 
 namespace limen::experiments {
 
-/// Reference products on disk (32-bit EXR), named by a hash of all that decides them. Safe to share between
-/// processes: files appear whole.
+/// Reference products on disk (32-bit EXR), named by a hash of everything that determines them. Safe to share
+/// between processes: files appear atomically.
 class ReferenceCache {
  public:
   explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
@@ -31,7 +31,7 @@ class ReferenceCache {
 
   std::string folder_;
   size_t bytesInMemory_;
-  std::list<Held> held_;  ///< used last first
+  std::list<Held> held_;  ///< most recently used first
 };
 
 }  // namespace limen::experiments

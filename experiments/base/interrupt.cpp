@@ -26,9 +26,9 @@ std::atomic<int> wakeWatch{-1};
 std::atomic<double> grace{0.0};
 
 void handle(int signal) {
-  // Claims that a process leaves behind are taken over by the next sweep, so leaving at once loses nothing.
+  // The next sweep takes over claims that a process leaves behind, so exiting at once loses nothing.
   if (receivedSignal.exchange(signal) != 0) _exit(128 + signal);
-  constexpr char kWord[] = "\nstopping; once more to stop at once\n";
+  constexpr char kWord[] = "\nstopping; press again to stop at once\n";
   [[maybe_unused]] ssize_t written = write(STDERR_FILENO, kWord, sizeof kWord - 1);
   written = write(wakeWatch, "", 1);
 }

@@ -5,7 +5,7 @@
 
 namespace limen {
 
-/// Thrown out of long work after SIGINT or SIGTERM.
+/// Thrown from long-running work after SIGINT or SIGTERM.
 struct Interrupted {};
 
 /// From now on the first SIGINT or SIGTERM asks for an orderly end; a second one ends the process at once,
@@ -14,7 +14,7 @@ struct Interrupted {};
 /// runs, sessions, part files). The exit code is 128 plus the signal in each case.
 void installInterruptHandlers(double graceS = 0.7);
 
-/// The signal that asked for an end, or 0.
+/// The signal that requested the stop, or 0.
 int interruptSignal();
 void throwIfInterrupted();
 /// `code`, or 128 plus the signal after one.

@@ -9,12 +9,12 @@
 
 namespace limen {
 
-/// Collects what is wrong with one file, so that a user sees all of it at once.
+/// Collects the problems of one file, so that a user sees all of them at once.
 class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
-  /// The same problem at the same place counts once.
+  /// Repeats of a problem at the same place are dropped.
   void add(Mark mark, const std::string& what, const std::string& hint = {});
   /// So many that hints to more of them help nobody, and finding them would take long.
   bool crowded() const { return lines_.size() >= 1000; }
@@ -22,8 +22,8 @@ class Problems {
   size_t size() const { return lines_.size(); }
   const std::string& file() const { return file_; }
 
-  /// Throws one Error with a line for each problem (the first twenty), in the file's order; returns if there
-  /// is none.
+  /// Throws one Error with a line for each problem (the first twenty), in file order; returns if there are
+  /// none.
   void throwIfAny() const;
 
  private:

@@ -64,7 +64,7 @@ void checkFacts(const Statement& row, int column, const nlohmann::json& facts) {
   }
 }
 
-// Columns as the SELECTs below list them; the label is the experiment's where the run is read for one.
+// Columns as the SELECTs below list them; the label is the experiment's if the run is read for one.
 Run readRun(const Statement& row) {
   Run run;
   run.id = row.integer(0);

@@ -22,11 +22,11 @@ enum class JsonIs { Any, Object, Array };
 /// whoever walks it runs out of stack.
 nlohmann::json parseJson(const Statement& row, int column, JsonIs is = JsonIs::Any);
 
-/// Replaces what the store says of an experiment's names. Inside a transaction.
+/// Replaces what the store says about an experiment's names. Inside a transaction.
 void writeDescriptions(sqlite3* database, int64_t experiment, const Descriptions& descriptions);
 /// The rows as they are; none in a store of an older schema.
 Descriptions readDescriptions(sqlite3* database, int64_t experiment);
-/// What both say; where they differ, `ours`.
+/// The union of both; where they differ, `ours`.
 Descriptions joinDescriptions(Descriptions ours, const Descriptions& theirs);
 
 }  // namespace limen::store

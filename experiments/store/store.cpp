@@ -17,7 +17,7 @@ using Mode = Transaction::Mode;
 
 std::optional<int64_t> orNull(int64_t id) { return id == 0 ? std::nullopt : std::optional<int64_t>(id); }
 
-// Text from a driver may hold bytes that are no UTF-8; they must not stop a sweep.
+// Text from a driver may hold bytes that are not UTF-8; they must not stop a sweep.
 std::string dump(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -115,7 +115,7 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
       if (!dead) return Claim::HeldByOther;
       error = find.text(4).empty() ? kDied : kDiedTwice;
     }
-    // What a failed run left behind goes with its row.
+    // What a failed run left behind is deleted with its row.
     execute(database_, "DELETE FROM run WHERE id = ?", find.integer(0));
   }
   execute(database_,
@@ -151,7 +151,7 @@ void Store::finish(const Run& run) {
                  "SELECT id FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
   if (!find.bind(run.key, run.device, processIdentity()).step())
     throw Error("run " + run.key + " is no longer held by this process", path_,
-                "another process took it over; start the sweep again, what is done stays done");
+                "another process took it over; start the sweep again, finished runs are kept");
   const int64_t id = find.integer(0);
   execute(database_,
           "UPDATE run SET status = ?, error = ?, scene_facts = ?, environment = coalesce(?, environment), "

@@ -39,7 +39,7 @@ struct ImportLimits {
 /// beyond the limits, the importer's crash. Throws Interrupted after a signal (experiments/base/interrupt.h).
 ImportedMesh importMesh(const std::string& path, const ImportLimits& limits = {});
 
-/// Path of a mesh that the package glmark2-data has. Throws Error if it is not installed.
+/// Path of a mesh from the package glmark2-data. Throws Error if it is not installed.
 std::string installedModel(const std::string& file);
 
 /// Makes z-up coordinates y-up.
