@@ -7,6 +7,7 @@
 #include <cmath>
 #include <future>
 #include <map>
+#include <new>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -14,6 +15,7 @@
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
 #include "experiments/measured_quantities.h"
+#include "experiments/plan.h"
 #include "experiments/product.h"
 #include "experiments/product_evaluation.h"
 #include "experiments/reference_cache.h"
@@ -169,6 +171,9 @@ class GlExecutor : public Executor {
     try {
       work();
       context_->checkDebugMessages();
+    } catch (const std::bad_alloc&) {
+      run.outcome.error = "not enough memory to measure " + describe(*run.plan);
+      context_->takeDebugMessages();
     } catch (const std::exception& error) {
       run.outcome.error = error.what();
       context_->takeDebugMessages();

@@ -9,9 +9,9 @@ namespace limen {
 struct Interrupted {};
 
 /// From now on the first SIGINT or SIGTERM asks for an orderly end; a second one ends the process at once,
-/// and so does the first one after `graceS` seconds if the process is still there: long calls into libraries
-/// and drivers ask nobody. Whatever a process may leave behind is therefore taken over by the next (claims of
-/// runs, sessions, part files). The exit code is 128 plus the signal in each case.
+/// and so does the first one after `graceS` seconds if the process is still there: long calls into
+/// libraries and drivers cannot be asked to stop. The next process therefore takes over whatever this one may
+/// leave behind (claims of runs, sessions, part files). The exit code is 128 plus the signal in each case.
 void installInterruptHandlers(double graceS = 0.7);
 
 /// The signal that requested the stop, or 0.

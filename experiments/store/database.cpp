@@ -78,7 +78,7 @@ Error Statement::damaged(int column, const std::string& what) const {
 }
 
 int64_t Statement::integer(int column) const {
-  if (sqlite3_column_type(statement_, column) != SQLITE_INTEGER) throw damaged(column, "is no whole number");
+  if (sqlite3_column_type(statement_, column) != SQLITE_INTEGER) throw damaged(column, "is not an integer");
   return sqlite3_column_int64(statement_, column);
 }
 
@@ -103,12 +103,12 @@ bool Statement::truth(int column) const {
 
 double Statement::real(int column) const {
   const int type = sqlite3_column_type(statement_, column);
-  if (type != SQLITE_FLOAT && type != SQLITE_INTEGER) throw damaged(column, "is no number");
+  if (type != SQLITE_FLOAT && type != SQLITE_INTEGER) throw damaged(column, "is not a number");
   return sqlite3_column_double(statement_, column);
 }
 
 std::string Statement::text(int column) const {
-  if (sqlite3_column_type(statement_, column) != SQLITE_TEXT) throw damaged(column, "is no text");
+  if (sqlite3_column_type(statement_, column) != SQLITE_TEXT) throw damaged(column, "is not text");
   const unsigned char* text = sqlite3_column_text(statement_, column);
   if (text == nullptr) throw std::bad_alloc();
   return {reinterpret_cast<const char*>(text), static_cast<size_t>(sqlite3_column_bytes(statement_, column))};

@@ -122,9 +122,9 @@ void prepareFolder(const std::string& path) {
 }  // namespace
 
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
-  // SQLite keeps what it calls so in memory: gone at the end.
+  // SQLite keeps a database of this name in memory, and drops it at the end.
   if (path.empty() || path == ":memory:")
-    throw Error("'" + path + "' is no file", "store", "name a file; what is measured would be lost");
+    throw Error("'" + path + "' is not a file", "store", "name a file; what is measured would be lost");
   requirePlainName(path);
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
@@ -132,7 +132,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
     throw Error("the store cannot be opened: " + code.message(), path, "check the path");
   if (fs::is_directory(status)) throw Error("is a folder, not a result store", path, "name a file in it");
   if (fs::exists(status) && !fs::is_regular_file(status))
-    throw Error("is no file but a pipe or a device", path, "name a file");
+    throw Error("is not a file but a pipe or a device", path, "name a file");
   if (readOnly && !fs::exists(status))
     throw Error("no such result store", path, "check the path; limen sweep and limen study create stores");
   if (!readOnly) prepareFolder(path);

@@ -26,7 +26,7 @@ bool isList(const nlohmann::json& object, const char* key, bool (nlohmann::json:
 
 /// Printed tables, as experiments/published.cpp writes them.
 void checkPublished(const Statement& row, int column, const nlohmann::json& tables) {
-  if (!tables.is_array()) throw row.damaged(column, "'published' is no array");
+  if (!tables.is_array()) throw row.damaged(column, "'published' is not an array");
   for (const nlohmann::json& table : tables) {
     if (!areTexts(table, {"title", "source", "device", "note", "unit", "measure"}) ||
         !isList(table, "columns", &nlohmann::json::is_string) ||
@@ -39,7 +39,8 @@ void checkPublished(const Statement& row, int column, const nlohmann::json& tabl
                          isList(line, "values", &nlohmann::json::is_primitive);
       if (!whole) throw row.damaged(column, "a row of 'published' lacks a member");
       for (const nlohmann::json& value : line["values"])
-        if (!value.is_null() && !value.is_number()) throw row.damaged(column, "'values' holds no number");
+        if (!value.is_null() && !value.is_number())
+          throw row.damaged(column, "'values' holds something other than numbers");
       if (line["values"].size() != table["columns"].size())
         throw row.damaged(column, "'published' has " + std::to_string(line["values"].size()) +
                                       " values for " + std::to_string(table["columns"].size()) + " columns");
@@ -72,7 +73,7 @@ Run readRun(const Statement& row) {
   run.device = row.text(2);
   run.status = row.text(3);
   if (run.status != "running" && run.status != "done" && run.status != "failed")
-    throw row.damaged(3, "is no status of a run");
+    throw row.damaged(3, "is not a run status");
   run.error = row.text(4);
   run.technique = row.text(5);
   run.scene = row.text(6);
@@ -116,9 +117,9 @@ nlohmann::json parseJson(const Statement& row, int column, JsonIs is) {
   }
   if (deepest > kDeepest) throw row.damaged(column, "is JSON that is nested too deeply");
   nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw row.damaged(column, "is no JSON: " + text.substr(0, 60));
-  if (is == JsonIs::Object && !json.is_object()) throw row.damaged(column, "is no JSON object");
-  if (is == JsonIs::Array && !json.is_array()) throw row.damaged(column, "is no JSON array");
+  if (json.is_discarded()) throw row.damaged(column, "is not JSON: " + text.substr(0, 60));
+  if (is == JsonIs::Object && !json.is_object()) throw row.damaged(column, "is not a JSON object");
+  if (is == JsonIs::Array && !json.is_array()) throw row.damaged(column, "is not a JSON array");
   return json;
 }
 
@@ -188,7 +189,7 @@ std::vector<Experiment> Store::experiments() const {
     experiment.descriptor = row.text(7);
     experiment.report = parseJson(row, 8, JsonIs::Object);
     for (const auto& [key, value] : experiment.report.items())
-      if (key != "published" && !value.is_string()) throw row.damaged(8, "'" + key + "' is no text");
+      if (key != "published" && !value.is_string()) throw row.damaged(8, "'" + key + "' is not text");
     checkPublished(row, 8, experiment.report.value("published", nlohmann::json::array()));
     out.push_back(std::move(experiment));
   }

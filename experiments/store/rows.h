@@ -18,7 +18,7 @@ void readDetails(sqlite3* database, std::vector<Run>& runs, bool withFrameTimes)
 
 /// What a column that holds JSON must be.
 enum class JsonIs { Any, Object, Array };
-/// Throws Error (Statement::damaged) if the text is no JSON, another kind of JSON, or nested so deeply that
+/// Throws Error (Statement::damaged) if the text is not JSON, another kind of JSON, or nested so deeply that
 /// whoever walks it runs out of stack.
 nlohmann::json parseJson(const Statement& row, int column, JsonIs is = JsonIs::Any);
 

@@ -26,7 +26,7 @@ uint64_t seedOf(const Statement& row, int column) {
   uint64_t seed = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
   if (end.ec != std::errc{} || end.ptr != text.data() + text.size())
-    throw row.damaged(column, "is no seed: " + text.substr(0, 40));
+    throw row.damaged(column, "is not a seed: " + text.substr(0, 40));
   return seed;
 }
 
@@ -94,9 +94,9 @@ StudyTrial readTrial(const Statement& row, const Limits& limits) {
   trial.repetition = whole(row, 7);
   trial.stimuli = parseJson(row, 8, JsonIs::Array);
   for (const nlohmann::json& stimulus : trial.stimuli)
-    if (!stimulus.is_object()) throw row.damaged(8, "holds what is no stimulus");
+    if (!stimulus.is_object()) throw row.damaged(8, "holds something other than stimuli");
   trial.stimulusHashes = listOf<std::string>(row, 9, &nlohmann::json::is_string);
-  if (trial.stimulusHashes.size() != trial.stimuli.size())
+  if (trial.stimulusHashes.size() < trial.stimuli.size())
     throw row.damaged(9, "has " + std::to_string(trial.stimulusHashes.size()) + " hashes for " +
                              std::to_string(trial.stimuli.size()) + " stimuli");
   trial.procedure = wholeOrNone(row, 10);

@@ -26,11 +26,11 @@ bool isMeshFormat(const std::string& path) {
 ImportedMesh importMesh(const std::string& path, const ImportLimits& limits) {
   std::error_code code;
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    throw Error("is no file but a folder, a pipe or a device", path, "name a mesh file");
+    throw Error("is not a file but a folder, a pipe or a device", path, "name a mesh file");
   if (!std::filesystem::is_regular_file(path, code))
     throw Error("no such mesh file", path, "check the path; it is taken relative to the working folder");
   if (!isMeshFormat(path))
-    throw Error("is in no format that is imported", path,
+    throw Error("is not in a supported format", path,
                 "export it as OBJ, PLY, glTF (gltf, glb), OFF, STL, 3DS or COLLADA (dae)");
   if (!std::ifstream(path)) throw Error("cannot read the mesh file", path, "check its permissions");
   return importInProcess(path, limits);

@@ -19,19 +19,20 @@ struct ImportedMesh {
 inline constexpr std::array<const char*, 8> kMeshExtensions = {".obj", ".ply", ".gltf", ".glb",
                                                                ".off", ".stl", ".3ds",  ".dae"};
 
-/// What an import may take. Files come from anywhere, and few bytes can ask for anything.
+/// Resources that an import may use. Files come from anywhere, and a few bytes can ask for anything.
 struct ImportLimits {
-  double memoryMiB = 1024.0;    ///< to which comes
+  double memoryMiB = 1024.0;    ///< plus memoryPerByte
   double memoryPerByte = 40.0;  ///< for each byte of the files that are read
-  double seconds = 60.0;        ///< of a processor, to which comes
+  double seconds = 60.0;        ///< CPU time, plus secondsPerMiB
   double secondsPerMiB = 1.0;   ///< for each MiB of the file
-  double patience = 4.0;        ///< times as long on the clock
+  double patience = 4.0;        ///< wall-clock limit as a multiple of the CPU limit
 };
 
 /// Reads a mesh in one of the formats above. Polygons become triangles, the transforms of the node graph are
-/// applied, vertices at exactly the same place become one, diffuse colours become albedos (textures are left
-/// out). Degenerate triangles are kept; polygons with fewer than three places, points and lines are no
-/// surfaces and are left out. Besides the file itself only those are opened that referencedFiles() names.
+/// applied, vertices at exactly the same position are merged, diffuse colours become albedos (textures are
+/// ignored). Degenerate triangles are kept; polygons with fewer than three distinct corners, points and lines
+/// are not surfaces and are ignored. Besides the file itself, only those named by referencedFiles() are
+/// opened.
 ///
 /// The file is read in a process of its own (the program limen_import_mesh, beside this one), since
 /// importers of hostile or broken files crash or take all memory. Throws Error naming the file: missing,

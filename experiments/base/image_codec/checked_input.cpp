@@ -59,7 +59,7 @@ std::unique_ptr<OIIO::ImageInput> openChecked(const std::string& path, const Ima
   if (fs::is_directory(path, code))
     throw Error("'" + path + "' is a folder", {}, "name its images with a pattern: '" + path + "/*.png'");
   if (!fs::is_regular_file(path, code))
-    throw Error("'" + path + "' is no file but a pipe or a device", {}, "name an image file");
+    throw Error("'" + path + "' is not a file but a pipe or a device", {}, "name an image file");
   auto in = OIIO::ImageInput::open(path, &wish);
   if (!in)
     throw Error("cannot read image '" + path + "': " + oneLine(OIIO::geterror()), {},

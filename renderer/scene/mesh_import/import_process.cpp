@@ -160,6 +160,7 @@ ImportedMesh importInProcess(const std::string& path, const ImportLimits& limits
     if (received.refusal.empty()) return std::move(received.mesh);
     throw Error(received.refusal, path, kHint);
   } catch (const Silent&) {
+    throwIfInterrupted();
     throw explain(child.end(), path, limits, seconds);
   } catch (const Late&) {
     throw outOfTime(path, limits.patience * seconds);

@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
     return kExitBadInput;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Ctrl-C reaches all processes of a terminal; the one that asked for the mesh decides.
+  signal(SIGINT, SIG_IGN);
   // What the parent had open is none of a file format's business.
   close_range(scene::kMeshStream + 1, ~0U, 0);
   const double memoryMiB = std::strtod(argv[2], nullptr), perByte = std::strtod(argv[3], nullptr);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <string_view>
 #include <unordered_map>
@@ -231,6 +232,13 @@ void keepKnownFormats(Assimp::Importer& importer) {
   }
 }
 
+/// Assimp catches exceptions and keeps their text.
+[[noreturn]] void throwFailure(const std::string& what, const Assimp::Importer& importer) {
+  const std::string words = importer.GetErrorString();
+  if (words.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  throw Error(what + words);
+}
+
 }  // namespace
 
 ImportedMesh readMeshFile(const std::string& path, const std::function<void(uint64_t)>& opening) {
@@ -241,11 +249,11 @@ ImportedMesh readMeshFile(const std::string& path, const std::function<void(uint
   if (std::filesystem::path(path).extension() == ".ply") refuseCutPly(path);
   const aiScene* source = importer.ReadFile(path, 0);
   if (source == nullptr || source->mRootNode == nullptr)
-    throw Error(std::string("not a mesh that can be read: ") + importer.GetErrorString());
+    throwFailure("not a mesh that can be read: ", importer);
   refuseBroken(*source);
   dropDegeneratePolygons(*source);
   source = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (source == nullptr) throw Error(std::string("cannot triangulate: ") + importer.GetErrorString());
+  if (source == nullptr) throwFailure("cannot triangulate: ", importer);
 
   ImportedMesh out;
   Collector(*source, out).node(*source->mRootNode, glm::dmat4(1.0));
