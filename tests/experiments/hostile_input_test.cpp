@@ -60,7 +60,9 @@ class HostileInput : public testing::Test {
               std::to_string(static_cast<long long>(share * std::stod(count))) + "," + count + "\n";
     return write("answers.csv", text);
   }
-  static std::string columns() { return " --level level --correct correct --trials trials --by condition"; }
+  static std::string columns() {
+    return " --x level --k correct --n trials --by condition --task yesno --samples 100";
+  }
 
   fs::path folder_;
 };
@@ -99,7 +101,7 @@ TEST_F(HostileInput, TerminalsGetNoEscapeSequences) {
   const std::string evil = "\x1b[2J\x1b]0;title\x07\x7f\xc2\x9b";
   const std::string file = answers("a");
   for (const std::string& words :
-       {"limen-analyse fit " + file + " --level " + quoted(evil) + " --correct correct --trials trials",
+       {"limen-analyse fit " + file + " --x " + quoted(evil) + " --k correct --n trials",
         "limen-analyse " + quoted(evil), "limen-study protocol " + quoted(evil),
         "limen-sweep " + quoted(evil), "limen-sweep --" + quoted(evil),
         "limen-perceive compare " + quoted(evil) + " b.png", "limen-study sessions " + quoted(evil),
@@ -133,9 +135,9 @@ TEST_F(HostileInput, PathsThatAreTooLongAreRefused) {
 }
 
 TEST_F(HostileInput, HugeCountsAreFitted) {
-  for (const char* count : {"1000000", "1000000000", "1000000000000000"}) {
-    const ProgramRun run =
-        call("limen-analyse fit " + answers("a", count) + columns() + " --overdispersion --bootstrap 200");
+  for (const char* count : {"1000000", "1000000000", "1000000000000"}) {
+    const ProgramRun run = call("limen-analyse fit " + answers("a", count) + columns() +
+                                " --overdispersion --intervals bootstrap");
     EXPECT_THAT(run.text, Not(HasSubstr("nan"))) << count;
   }
 }

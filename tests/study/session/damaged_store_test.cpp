@@ -33,7 +33,7 @@ void execute(const std::string& file, const std::string& sql) {
 /// A store with two simulated sessions, made once.
 const std::string& soundStore() {
   static const std::string file = [] {
-    std::string pattern = (fs::temp_directory_path() / "limen_damaged_XXXXXX").string();
+    std::string pattern = (fs::temp_directory_path() / "limen_broken_XXXXXX").string();
     const std::string folder = mkdtemp(pattern.data());
     const std::string store = folder + "/sound.sqlite";
     const ProgramRun made = runProgram("limen-study simulate quick --observers 2 --quiet --store " + store);
@@ -47,7 +47,7 @@ const std::string& soundStore() {
 class DamagedStore : public testing::TestWithParam<Damage> {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "limen_damaged_XXXXXX").string();
+    std::string pattern = (fs::temp_directory_path() / "limen_broken_XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
     store_ = (folder_ / "s.sqlite").string();
