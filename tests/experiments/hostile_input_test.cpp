@@ -69,12 +69,12 @@ class HostileInput : public testing::Test {
 
 TEST_F(HostileInput, AChartsNameRunsNothing) {
   const std::string file = answers("a");
-  for (const std::string& name : {"a\nsystem(\"touch ran\")\n.svg", "\x1b[2J.svg", "a\r.svg"}) {
+  for (const std::string name : {"a\nsystem(\"touch ran\")\n.svg", "\x1b[2J.svg", "a\r.svg"}) {
     const ProgramRun run = call("limen-analyse fit " + file + columns() + " --plot " + quoted(path(name)));
     EXPECT_EQ(run.code, 2) << run.text;
     EXPECT_THAT(run.text, HasSubstr("control characters"));
   }
-  for (const std::string& name :
+  for (const std::string name :
        {"<touch ran;.svg", "|touch ran;.svg", "'; system('touch ran').svg", "`touch ran`.svg", "-.svg"}) {
     const ProgramRun run = call("limen-analyse fit " + file + columns() + " --plot " + quoted(path(name)));
     EXPECT_EQ(run.code, 0) << run.text;
@@ -85,7 +85,7 @@ TEST_F(HostileInput, AChartsNameRunsNothing) {
 }
 
 TEST_F(HostileInput, LabelsRunNothingAndAreDrawn) {
-  for (const std::string& label :
+  for (const std::string label :
        {"'tis", "''", "50 % of %s", "`touch ran`", "a'.system('touch ran').'", "@x \\n"}) {
     const ProgramRun run =
         call("limen-analyse fit " + answers(label) + columns() + " --plot " + path("chart.svg"));
