@@ -184,9 +184,11 @@ class GlExecutor : public Executor {
         run.outcome.sceneFacts["product_hash"] = std::move(done.productHash);
       }
     });
-    // A finished run no longer needs its GPU memory.
-    run.technique.reset();
-    run.frame.reset();
+    {
+      const Stopwatch watch(seconds_["rendering"]);  // releasing memory, as allocating it
+      run.technique.reset();
+      run.frame.reset();
+    }
     const Stopwatch watch(seconds_["storing"]);
     finished(run.index, std::move(run.outcome));
   }
@@ -310,7 +312,7 @@ class GlExecutor : public Executor {
                       std::shared_ptr<const Image> reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
-    std::map<std::string, Image> views;
+    std::map<std::string, techniques::PictureMaker> views;
     if (run.plan->artefacts.pictures) {
       const Stopwatch watch(seconds_["artefacts"]);
       views = run.technique->pictures();

@@ -22,6 +22,6 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
                                             const Image& product, const Image* reference,
                                             const Image& shading,
                                             const std::vector<std::pair<std::string, Image>>& maps,
-                                            const std::map<std::string, Image>& views);
+                                            const std::map<std::string, techniques::PictureMaker>& views);
 
 }  // namespace limen::experiments

@@ -16,6 +16,7 @@
 
 #include "experiments/base/error.h"
 #include "perception/threshold_maps/reference.h"
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
 
 namespace {
@@ -138,9 +139,9 @@ double copyGbS(gl::Context& context) {
   const gl::Program& copy = context.programs().compute("perception/threshold_maps/copy.comp.glsl");
   const Times times = measure(
       [&] {
-        source.bindTexture(0);
-        target.bindImage(0, gl::Access::Write);
-        copy.dispatch(size, {32, 8});
+        source.bindTexture(perception::kCopySourceUnit);
+        target.bindImage(perception::kCopyImage, gl::Access::Write);
+        copy.dispatch(size, {perception::kCopyGroupX, perception::kCopyGroupY});
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
       },
       software);

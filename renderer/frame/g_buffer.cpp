@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -56,10 +58,10 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   program.set("rayScale", glm::vec2(frame.tanHalfFov() * aspect, frame.tanHalfFov()));
   program.set("pictureSizePx", pictureSizePx);
   program.set("sizePx", frame.sizePx());
-  ids.bindTexture(0);
-  if (seen) seen->places->bindTexture(1);
-  out.bindImage(0, gl::Access::Write);
-  frame.geometry().bindStorage(0);
+  ids.bindTexture(kGBufferIdsUnit);
+  if (seen) seen->places->bindTexture(kGBufferPlacesUnit);
+  out.bindImage(kGBufferOutImage, gl::Access::Write);
+  frame.geometry().bindStorage();
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -5,6 +5,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -92,10 +94,10 @@ void GpuScene::draw(const TriangleRanges* ranges, const gl::Buffer* positions) c
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void GpuScene::bindStorage(uint32_t firstBinding, const gl::Buffer* positions) const {
-  (positions ? *positions : positions_).bindStorage(firstBinding);
-  indices_.bindStorage(firstBinding + 1);
-  triangleAlbedo_.bindStorage(firstBinding + 2);
+void GpuScene::bindStorage(const gl::Buffer* positions) const {
+  (positions ? *positions : positions_).bindStorage(kScenePositionsBuffer);
+  indices_.bindStorage(kSceneIndicesBuffer);
+  triangleAlbedo_.bindStorage(kSceneAlbedosBuffer);
 }
 
 }  // namespace limen::frame

@@ -32,8 +32,8 @@ class GpuScene {
   /// draw's first triangle: it and gl_PrimitiveID sum to the triangle's number. `positions`, if given,
   /// replaces the vertices' positions (same layout).
   void draw(const TriangleRanges* ranges = nullptr, const gl::Buffer* positions = nullptr) const;
-  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, materials.
-  void bindStorage(uint32_t firstBinding, const gl::Buffer* positions = nullptr) const;
+  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, albedos.
+  void bindStorage(const gl::Buffer* positions = nullptr) const;
   const gl::Buffer& positions() const { return positions_; }  ///< three floats per vertex
   /// Made on first use.
   const SurfaceBuffers& surface() const;
@@ -60,7 +60,7 @@ struct Geometry {
 
   uint32_t triangleCount() const { return ranges ? ranges->triangleCount() : scene->triangleCount(); }
   void draw() const { scene->draw(ranges, positions); }
-  void bindStorage(uint32_t firstBinding) const { scene->bindStorage(firstBinding, positions); }
+  void bindStorage() const { scene->bindStorage(positions); }
 };
 
 }  // namespace limen::frame

@@ -8,6 +8,7 @@
 #include <cassert>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 namespace {
@@ -45,15 +46,15 @@ MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowA
       texture_(allocate(resolution, layers_)) {}
 
 void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
-  texture_.bindImage(0, gl::Access::Write);
+  texture_.bindImage(kMultiScaleImage, gl::Access::Write);
   for (int layer = 1; layer <= layers_; ++layer) {
     const gl::Program& program = layer == 1 ? first_ : next_;
     if (layer == 1) {
-      minimum.bindTexture(0);
-      maximum.bindTexture(1);
+      minimum.bindTexture(kMultiScaleMinimumMapUnit);
+      maximum.bindTexture(kMultiScaleMaximumMapUnit);
       program.set("sourceLevel", level);
     } else {
-      texture_.bindTexture(0);
+      texture_.bindTexture(kMultiScaleLayersUnit);
     }
     program.set("layer", layer);
     program.set("resolution", resolution_);

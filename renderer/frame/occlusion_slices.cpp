@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -61,7 +63,7 @@ void OcclusionSlices::make(Frame& frame) {
     const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
     bits_.clearUint(glm::uvec4(0));
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    bits_.bindImage(0, gl::Access::ReadWrite);
+    bits_.bindImage(kSlicesBitsImage, gl::Access::ReadWrite);
     raster_.set("anchorToClip", glm::mat4(frustum_.clipFromLight() * toLight));
     raster_.set("near", static_cast<float>(frustum_.near));
     raster_.set("begin", static_cast<float>(begin_));
@@ -75,8 +77,8 @@ void OcclusionSlices::make(Frame& frame) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
   const auto scope = frame.passes().open(kFilterPass);
-  bits_.bindTexture(0);
-  averages_.texture().bindImage(0, gl::Access::Write);
+  bits_.bindTexture(kSlicesBitsUnit);
+  averages_.texture().bindImage(kSlicesCoveredImage, gl::Access::Write);
   unpack_.set("resolution", settings_.resolution);
   unpack_.set("slices", settings_.slices);
   unpack_.dispatch(glm::ivec2(settings_.resolution));

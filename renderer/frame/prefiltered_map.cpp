@@ -7,6 +7,8 @@
 #include <bit>
 #include <vector>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -132,8 +134,8 @@ void PrefilteredMap::make(Frame& frame) {
   const int resolution = settings_.map.resolution;
   configure(fill_);
   fill_.set("resolution", resolution);
-  map.texture().bindTexture(0);
-  texture().bindImage(0, gl::Access::Write);
+  map.texture().bindTexture(kPrefilteredDepthsUnit);
+  texture().bindImage(kPrefilteredImage, gl::Access::Write);
   fill_.dispatch(glm::ivec2(resolution));
   averages_.build();
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/base/text.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 
@@ -106,12 +107,12 @@ void Shaded::make(Frame& frame) {
     program_.set("bias", kShadowBias);
     program_.set("slopeBias", kShadowSlopeBias);
     program_.set("maxSlope", kShadowMaxSlope);
-    receivers->bindTexture(1);
-    map->texture().bindTexture(2);
+    receivers->bindTexture(kShadedReceiversUnit);
+    map->texture().bindTexture(kShadedShadowMapUnit);
   }
-  ids.bindTexture(0);
-  texture_.bindImage(0, gl::Access::Write);
-  frame.geometry().bindStorage(0);
+  ids.bindTexture(kShadedIdsUnit);
+  texture_.bindImage(kShadedOutImage, gl::Access::Write);
+  frame.geometry().bindStorage();
   frame.gpuScene().surface().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -7,6 +7,7 @@
 
 #include "renderer/frame/compute_raster.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/gl/texture.h"
 
 namespace limen::frame {
@@ -100,10 +101,7 @@ class ShadowDepth : public FrameInput {
   std::string pass_;
 };
 
-/// Light-space z of the nearest surface; kEmptyDepth where the map is empty.
-inline constexpr float kEmptyDepth = 1e30F;
-
-/// Linear shadow map: R32F.
+/// Linear shadow map, light-space z of the nearest surface; kEmptyDepth where the map is empty: R32F.
 class ShadowMap : public FrameInput {
  public:
   static constexpr const char* kName = "shadow_map";

@@ -12,7 +12,7 @@ namespace limen::frame {
 class SurfaceBuffers {
  public:
   SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor);
-  /// Storage blocks as renderer/frame/surface_buffers.glsl declares them, from binding 3.
+  /// Storage blocks as renderer/frame/surface_buffers.glsl declares them.
   void bindStorage() const;
   int64_t bytes() const;
   bool hasNormals() const { return hasNormals_; }

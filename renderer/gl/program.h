@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/gl/shader_shared.h"
 #include "renderer/gl/shader_source.h"
 
 namespace limen::gl {
@@ -41,7 +42,7 @@ class Program {
   void set(const char* name, const glm::mat4& value) const;
 
   /// Runs a compute program over at least `size` invocations, given its local size.
-  void dispatch(glm::ivec2 size, glm::ivec2 localSize = {8, 8}) const;
+  void dispatch(glm::ivec2 size, glm::ivec2 localSize = glm::ivec2(kGroupSide)) const;
 
  private:
   int location(const char* name) const;

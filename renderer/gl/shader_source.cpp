@@ -48,6 +48,8 @@ void append(const std::string& path, const std::string& includedFrom, ShaderText
     if (std::regex_match(line, match, kInclude)) {
       append(match[1], path + ":" + std::to_string(lineNumber), out);
       out.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+    } else if (line == "#pragma once") {
+      out.text += "\n";  // of a header that C++ shares
     } else {
       out.text += line + "\n";
     }

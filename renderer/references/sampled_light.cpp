@@ -10,6 +10,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/references/reference_bindings.h"
 #include "renderer/references/square_number.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/techniques/technique.h"
@@ -97,10 +98,10 @@ class SampledLight : public techniques::Technique {
       accumulate_->set("slopeBias", static_cast<float>(settings_.slopeBias));
       for (const frame::LightFrustum& frustum : frusta_) {
         raster_->draw(frame, frame.geometry(), frustum);
-        receivers.bindTexture(0);
-        normals.bindTexture(1);
-        raster_->depth().bindTexture(2);
-        counts_->bindImage(0, gl::Access::ReadWrite);
+        receivers.bindTexture(kSampledLightReceiversUnit);
+        normals.bindTexture(kSampledLightNormalsUnit);
+        raster_->depth().bindTexture(kSampledLightDepthMapUnit);
+        counts_->bindImage(kSampledLightLitCountsImage, gl::Access::ReadWrite);
         accumulate_->set("offset", glm::vec2(frustum.offset));
         accumulate_->set("low", glm::vec2(frustum.low));
         accumulate_->set("extent", glm::vec2(frustum.high - frustum.low));
@@ -112,9 +113,9 @@ class SampledLight : public techniques::Technique {
     const auto scope = frame.passes().open("sampled_light/resolve");
     resolve_->set("sizePx", frame.sizePx());
     resolve_->set("samples", static_cast<int>(frusta_.size()));
-    receivers.bindTexture(0);
-    counts_->bindImage(0, gl::Access::Read);
-    product_->bindImage(1, gl::Access::Write);
+    receivers.bindTexture(kSampledLightResolveReceiversUnit);
+    counts_->bindImage(kSampledLightResolveLitCountsImage, gl::Access::Read);
+    product_->bindImage(kSampledLightResolveVisibilityImage, gl::Access::Write);
     resolve_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

@@ -38,6 +38,10 @@ struct Counter {
   double value = 0.0;
 };
 
+/// Makes one picture: display-coded, 3 channels, of the product's size. Holds what it needs: it touches
+/// neither OpenGL nor its technique, so that it may run on another thread and after the technique is gone.
+using PictureMaker = std::function<Image()>;
+
 /// A renderer of one product. Created for each run; prepare() is called once, then render() for each frame.
 class Technique {
  public:
@@ -57,9 +61,9 @@ class Technique {
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
-  /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size.
-  /// Made outside the timed frames, after render(); may wait for the GPU.
-  virtual std::map<std::string, Image> pictures() const { return {}; }
+  /// Pictures that explain the product, for artefacts and reports; called outside the timed frames, after
+  /// render() and count(); may wait for the GPU.
+  virtual std::map<std::string, PictureMaker> pictures() const { return {}; }
 };
 
 /// Registration of a technique or a reference.

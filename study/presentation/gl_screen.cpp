@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "renderer/gl/window_system.h"
+#include "study/presentation/screen_bindings.h"
 #include "study/stimulus/display_coding.h"
 
 namespace limen::study {
@@ -124,7 +125,7 @@ void GlScreen::shape(int kind, glm::ivec2 topLeftPx, glm::ivec2 sizePx, double l
 }
 
 void GlScreen::draw(const Picture& picture, glm::ivec2 topLeftPx, glm::ivec2 sizePx) {
-  glBindTextureUnit(0, picture.texture);
+  glBindTextureUnit(kScreenPicturesUnit, picture.texture);
   program_.set("layer", picture.layer);
   shape(kPicture, topLeftPx, sizePx, 0.0);
 }

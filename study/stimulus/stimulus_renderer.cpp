@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "study/stimulus/display_coding.h"
+#include "study/stimulus/encode_bindings.h"
 #include "study/stimulus/state_view.h"
 
 namespace limen::study {
@@ -77,13 +78,13 @@ const gl::Texture& StimulusRenderer::renderState(double sceneTimeS, bool after) 
   const gl::Program& encode = context_.programs().compute("study/stimulus/encode.comp.glsl", defines);
   encode.set("samples", stimulus_.samples);
   encode.set("sizePx", sizePx_);
-  picture.lit->bindTexture(0);
+  picture.lit->bindTexture(kEncodePictureUnit);
   if (picture.visibility) {
-    picture.unlit->bindTexture(1);
-    picture.visibility->bindTexture(2);
+    picture.unlit->bindTexture(kEncodeUnlitUnit);
+    picture.visibility->bindTexture(kEncodeVisibilityUnit);
   }
-  thresholds_.bindTexture(3);
-  coded_.bindImage(0, gl::Access::Write);
+  thresholds_.bindTexture(kEncodeThresholdsUnit);
+  coded_.bindImage(kEncodeImage, gl::Access::Write);
   encode.dispatch(sizePx_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   return coded_;

@@ -5,6 +5,8 @@
 
 #include <cassert>
 
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -74,8 +76,8 @@ void TestCounts::count(const CountRequest& request) {
     program_.set("lowPx", request.pixels.low);
     program_.set("highPx", request.pixels.high);
     program_.set("test", static_cast<int>(test));
-    counts_.bindStorage(0);
-    visible_.bindImage(0, gl::Access::Write);
+    counts_.bindStorage(kLevelTestCountsBuffer);
+    visible_.bindImage(kLevelTestVisibleImage, gl::Access::Write);
     program_.dispatch(size);
     return;
   }

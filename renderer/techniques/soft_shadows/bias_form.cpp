@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/bias_form.h"
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
-constexpr uint32_t kBiasUnit = 9;
 constexpr Range kConstants{0.0, 0.1};
 constexpr const char* kConstantText =
     "Constant depth bias as a share of the receiver's distance from the light's plane";
@@ -63,7 +64,7 @@ void BiasForm::make(frame::Frame& frame, const frame::ShadowMapSettings& map) {
 }
 
 void BiasForm::bind() const {
-  if (stored_) stored_->biases().bindTexture(kBiasUnit);
+  if (stored_) stored_->biases().bindTexture(kTexelBiasesUnit);
 }
 
 void BiasForm::configure(const gl::Program& program) const {

@@ -5,15 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_pass.h"
 
 namespace limen::techniques {
-namespace {
-
-constexpr uint32_t kLayersUnit = 3;
-
-}  // namespace
-
 OccluderSearch::OccluderSearch(const SearchSettings& settings, const LevelSettings& levels,
                                const OccluderChoice& occluders)
     : budget_(mostOf(settings.budget)),
@@ -48,7 +43,7 @@ const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame
   structureBytes_.resize(std::max(structureBytes_.size(), map + 1));
   structureBytes_[map] = bytes;
   // Last, since making the inputs binds textures too.
-  if (layers) layers->texture().bindTexture(kLayersUnit);
+  if (layers) layers->texture().bindTexture(kMultiScaleMapUnit);
   coarse_.bind();
   bias_.bind();
   maxIterations_ = maxLoopIterations(frame);

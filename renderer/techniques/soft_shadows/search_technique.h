@@ -29,9 +29,9 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   std::map<std::string, const gl::Texture*> debugViews() const override;
   /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran;
   /// and the budget map.
-  std::map<std::string, Image> pictures() const override;
+  std::map<std::string, PictureMaker> pictures() const override;
 
-  const PixelCounts& counted() const override { return counted_; }
+  const PixelCounts& counted() const override { return *counted_; }
   /// What count() found; empty before, with several maps, and if all pixels have one level.
   const std::optional<LevelSteps>& levelSteps() const { return levelSteps_; }
   /// The budget driver's counters for the last frame, without waiting or rendering another one.
@@ -75,7 +75,8 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   std::unique_ptr<Gathering> gathering_;
   std::unique_ptr<ProductStage> last_;
   std::optional<SplitRunner> split_;  // empty: a single pass
-  PixelCounts counted_;
+  /// Replaced by count(), never changed after it: pictures still read it on other threads.
+  std::shared_ptr<PixelCounts> counted_ = std::make_shared<PixelCounts>();
   std::optional<LevelSteps> levelSteps_;
 };
 

@@ -15,6 +15,7 @@
 #include "renderer/frame/motion.h"
 #include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/lod/level_control.h"
+#include "renderer/techniques/lod/lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -126,10 +127,10 @@ class Blend : public Technique {
     program_->set("weight", static_cast<float>(weight()));
     program_->set("sizePx", frame.sizePx());
     program_->set("previousIsNew", newIsNow() ? 0 : 1);
-    old_->texture().bindTexture(0);
-    new_->texture().bindTexture(1);
-    if (displacement) displacement->bindTexture(2);
-    product_->bindImage(0, gl::Access::Write);
+    old_->texture().bindTexture(kBlendOldLevelUnit);
+    new_->texture().bindTexture(kBlendNewLevelUnit);
+    if (displacement) displacement->bindTexture(kBlendDisplacementUnit);
+    product_->bindImage(kBlendImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

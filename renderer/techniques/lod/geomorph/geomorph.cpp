@@ -14,6 +14,7 @@
 
 #include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/lod/level_control.h"
+#include "renderer/techniques/lod/lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -126,13 +127,13 @@ class Geomorph : public Technique {
       const auto scope = frame.passes().open(kMorphPass);
       const auto vertices = static_cast<int>(frame.gpuScene().vertexCount());
       constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
-      frame.gpuScene().positions().bindStorage(0);
-      targets_->bindStorage(1);
-      groups_->bindStorage(2);
-      shares_->bindStorage(3);
-      moved_->bindStorage(4);
+      frame.gpuScene().positions().bindStorage(kMorphPositionsBuffer);
+      targets_->bindStorage(kMorphTargetsBuffer);
+      groups_->bindStorage(kMorphGroupsBuffer);
+      shares_->bindStorage(kMorphSharesBuffer);
+      moved_->bindStorage(kMorphMovedBuffer);
       program_->set("vertexCount", frame.gpuScene().vertexCount());
-      program_->dispatch({std::min(vertices, kPerRow), (vertices + kPerRow - 1) / kPerRow}, {64, 1});
+      program_->dispatch({std::min(vertices, kPerRow), (vertices + kPerRow - 1) / kPerRow}, {kMorphGroup, 1});
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
     }
     view_->render();

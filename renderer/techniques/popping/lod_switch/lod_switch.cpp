@@ -63,8 +63,10 @@ class LodSwitch : public Technique {
                           counts.flushedInputs, counts.guardedContrasts});
   }
 
-  std::map<std::string, Image> pictures() const override {
-    return {{"regions", regionPicture(views_->read(), predictor_->readRegions())}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"regions", [views = views_->read(), regions = predictor_->readRegions()] {
+               return regionPicture(views, regions);
+             }}};
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {

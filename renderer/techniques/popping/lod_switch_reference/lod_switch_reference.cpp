@@ -41,8 +41,8 @@ class LodSwitchReference : public Technique {
         {result_.regions, result_.summary.largestJnd, result_.flushedInputs, result_.guardedContrasts});
   }
 
-  std::map<std::string, Image> pictures() const override {
-    return {{"regions", regionPicture(images_, result_.regions)}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"regions", [picture = regionPicture(images_, result_.regions)] { return picture; }}};
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -55,13 +56,13 @@ void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) {
   program_->set("maxStep", static_cast<float>(settings_.step));
   program_->set("planeShare", static_cast<float>(settings_.planeShare));
   program_->set("normalCosine", static_cast<float>(std::cos(glm::radians(settings_.angle))));
-  receivers.bindTexture(0);
-  positions.bindTexture(2);
-  normals.bindTexture(3);
+  receivers.bindTexture(kVisibilityFilterReceiversUnit);
+  positions.bindTexture(kVisibilityFilterPositionsUnit);
+  normals.bindTexture(kVisibilityFilterNormalsUnit);
   for (int axis = 0; axis < 2; ++axis) {
     program_->set("direction", glm::ivec2(1 - axis, axis));
-    (axis == 0 ? visibility : *rows_).bindTexture(1);
-    (axis == 0 ? *rows_ : *filtered_).bindImage(0, gl::Access::Write);
+    (axis == 0 ? visibility : *rows_).bindTexture(kVisibilityFilterVisibilitiesUnit);
+    (axis == 0 ? *rows_ : *filtered_).bindImage(kVisibilityFilterVisibilityImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

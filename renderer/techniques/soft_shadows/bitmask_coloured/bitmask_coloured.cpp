@@ -12,6 +12,7 @@
 #include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/coloured_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.h"
+#include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours_bindings.h"
 #include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
@@ -20,7 +21,6 @@ namespace {
 constexpr const char *kColourPass = "soft_shadows/light_colours",
                      *kColourShader =
                          "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
-constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
 /// Number of colours up to which masks pay off: each costs one operation per word of samples.
 constexpr size_t kMostColours = 64;
 
@@ -80,10 +80,10 @@ class LightColourStage : public ProductStage {
     program_->set("sets", masks_.bindMasks());
     program_->set("absent", absent_);
     program_->set("colours", colourCount_);
-    if (table_) table_->bindStorage(kTableBinding);
-    shares_->bindStorage(kSharesBinding);
-    receivers.bindTexture(0);
-    colour_->bindImage(0, gl::Access::Write);
+    if (table_) table_->bindStorage(kLightColoursTableBuffer);
+    shares_->bindStorage(kLightColoursSharesBuffer);
+    receivers.bindTexture(kLightColoursReceiversUnit);
+    colour_->bindImage(kLightColoursColourImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

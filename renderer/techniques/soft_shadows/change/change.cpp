@@ -13,6 +13,8 @@
 
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
 
+#include "renderer/techniques/soft_shadows/change/change_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -90,11 +92,11 @@ class Change : public Technique {
       program_->set("sizePx", frame.sizePx());
       program_->set("isFirst", step == leadIn_ ? 1 : 0);
       program_->set("steps", static_cast<float>(steps_));
-      before.visibility->bindTexture(0);
-      after.visibility->bindTexture(1);
-      before.receivers->bindTexture(2);
-      after.receivers->bindTexture(3);
-      change_->bindImage(0, gl::Access::ReadWrite);
+      before.visibility->bindTexture(kChangeVisibilityBeforeUnit);
+      after.visibility->bindTexture(kChangeVisibilityAfterUnit);
+      before.receivers->bindTexture(kChangeReceiversBeforeUnit);
+      after.receivers->bindTexture(kChangeReceiversAfterUnit);
+      change_->bindImage(kChangeImage, gl::Access::ReadWrite);
       program_->dispatch(frame.sizePx());
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     });
@@ -117,16 +119,17 @@ class Change : public Technique {
   }
 
   /// Red where light appeared, blue where it vanished, saturated at a quarter of the light.
-  std::map<std::string, Image> pictures() const override {
-    constexpr float kFull = 0.25F;
-    const Image change = change_->read();
-    Image picture(change.width, change.height, 3);
-    for (size_t i = 0; i < change.pixels(); ++i) {
-      const float value = change.data[i] / kFull;
-      picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
-      picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
-    }
-    return {{"signed_change", std::move(picture)}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"signed_change", [change = change_->read()] {
+               constexpr float kFull = 0.25F;
+               Image picture(change.width, change.height, 3);
+               for (size_t i = 0; i < change.pixels(); ++i) {
+                 const float value = change.data[i] / kFull;
+                 picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
+                 picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
+               }
+               return picture;
+             }}};
   }
 
  private:

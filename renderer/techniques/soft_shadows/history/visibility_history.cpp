@@ -7,6 +7,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/motion.h"
+#include "renderer/techniques/soft_shadows/history/history_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 constexpr const char *kHistoryPass = "soft_shadows/history",
                      *kHistoryShader =
                          "renderer/techniques/soft_shadows/history/visibility_history.comp.glsl";
-
-/// What the shader writes for each pixel if FATES is defined.
-enum Fate : uint32_t { NoReceiver = 0, NoPast = 1, PastTaken = 2, PastBounded = 3 };
 
 /// Frame times are sums and differences of doubles; equal steps must not differ in their last digits, since
 /// each step length has its own input.
@@ -112,21 +110,21 @@ void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, 
   program.set("depthTolerance", depthTolerance_);
   program.set("normalCosine", normalCosine_);
   program.set("clampRadius", clampRadius_);
-  receivers.bindTexture(0);
-  visibility.bindTexture(1);
-  depths.bindTexture(2);
-  normals.bindTexture(3);
-  visibility_.at(latest_)->bindTexture(4);
-  surface_.at(latest_)->bindTexture(5);
+  receivers.bindTexture(kHistoryReceiversUnit);
+  visibility.bindTexture(kHistoryPresentVisibilityUnit);
+  depths.bindTexture(kHistoryDepthsUnit);
+  normals.bindTexture(kHistoryNormalsUnit);
+  visibility_.at(latest_)->bindTexture(kHistoryPastVisibilityUnit);
+  surface_.at(latest_)->bindTexture(kHistoryPastSurfaceUnit);
   if (motion) {
-    motion->displacement().bindTexture(6);
-    motion->previousDepth().bindTexture(7);
+    motion->displacement().bindTexture(kHistoryDisplacementUnit);
+    motion->previousDepth().bindTexture(kHistoryPreviousDepthUnit);
   }
   if (fates) {
-    fates->bindImage(0, gl::Access::Write);
+    fates->bindImage(kHistoryFateImage, gl::Access::Write);
   } else {
-    visibility_.at(1 - latest_)->bindImage(0, gl::Access::Write);
-    surface_.at(1 - latest_)->bindImage(1, gl::Access::Write);
+    visibility_.at(1 - latest_)->bindImage(kHistoryVisibilityImage, gl::Access::Write);
+    surface_.at(1 - latest_)->bindImage(kHistorySurfaceImage, gl::Access::Write);
   }
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -144,9 +142,9 @@ std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Tex
   frame.end();
   double receivers = 0.0, taken = 0.0, bounded = 0.0;
   for (const uint32_t fate : fates.readUint()) {
-    receivers += fate != NoReceiver;
-    taken += fate == PastTaken || fate == PastBounded;
-    bounded += fate == PastBounded;
+    receivers += fate != kFateNoReceiver;
+    taken += fate == kFatePastTaken || fate == kFatePastBounded;
+    bounded += fate == kFatePastBounded;
   }
   const auto share = [&](double part) { return receivers > 0.0 ? part / receivers : 0.0; };
   return {{"history_taken_share", share(taken)}, {"history_bounded_share", share(bounded)}};

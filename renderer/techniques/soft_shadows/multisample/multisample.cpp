@@ -15,6 +15,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
 
@@ -132,7 +133,7 @@ class Multisample : public Technique {
     const auto scope = frame.passes().open(kResolve);
     resolve.set("sizePx", frame.sizePx());
     if (!chosen_) {
-      inner_->product().bindTexture(0);
+      inner_->product().bindTexture(kSampleSpreadVisibilityUnit);
     } else {
       resolve.set("samples", settings_.samples);
       const auto* given = std::get_if<InterpolatedSamples>(&settings_.method);
@@ -140,12 +141,12 @@ class Multisample : public Technique {
       resolve.set("neighbours", interpolation.neighbours);
       resolve.set("tolerance", static_cast<float>(interpolation.tolerance));
       resolve.set("interpolate", given ? 1 : 0);
-      sampleDepths_->bindTexture(0);
-      depths_->bindTexture(1);
-      inner_->product().bindTexture(2);
+      sampleDepths_->bindTexture(kSampleResolveSampleDepthsUnit);
+      depths_->bindTexture(kSampleResolveDepthsUnit);
+      inner_->product().bindTexture(kSampleResolveVisibilityUnit);
     }
-    visibility_->bindImage(0, gl::Access::Write);
-    if (counts) counts->bindImage(1, gl::Access::Write);
+    visibility_->bindImage(kSampleResolveVisibilityImage, gl::Access::Write);
+    if (counts) counts->bindImage(kSampleResolveCountsImage, gl::Access::Write);
     resolve.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
@@ -164,11 +165,11 @@ class Multisample : public Technique {
       choose_->set(("samplePlaces[" + std::to_string(i) + "]").c_str(),
                    ids_ ? ids_->places()[static_cast<size_t>(i)] : glm::vec2(0.5F));
     if (ids_)
-      ids_->bindTexture(0);
+      ids_->bindTexture(kSampleIdsUnit);
     else
-      frame.get<frame::TriangleIds>().texture().bindTexture(0);
-    pointIds_->bindImage(0, gl::Access::Write);
-    places_->bindImage(1, gl::Access::Write);
+      frame.get<frame::TriangleIds>().texture().bindTexture(kSampleIdsUnit);
+    pointIds_->bindImage(kSamplePointIdsImage, gl::Access::Write);
+    places_->bindImage(kSamplePlacesImage, gl::Access::Write);
     if (chosen_) {
       const glm::dmat4& toCamera = frame.anchorToCamera();
       const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
@@ -176,9 +177,9 @@ class Multisample : public Technique {
       choose_->set("anchorToCamera", glm::mat4(toCamera));
       choose_->set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
       choose_->set("depthAtCentre", chosen_->depthAt == DepthAt::Centre ? 1 : 0);
-      depths_->bindImage(2, gl::Access::Write);
-      sampleDepths_->bindImage(3, gl::Access::Write);
-      frame.geometry().bindStorage(0);
+      depths_->bindImage(kSampleChosenDepthsImage, gl::Access::Write);
+      sampleDepths_->bindImage(kSampleDepthsImage, gl::Access::Write);
+      frame.geometry().bindStorage();
     }
     choose_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);

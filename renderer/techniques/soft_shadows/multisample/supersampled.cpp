@@ -8,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -58,8 +59,8 @@ class Supersampled : public Technique {
     const auto scope = frame.passes().open(kSupersampledPass);
     mean_->set("samples", samples_);
     mean_->set("sizePx", frame.sizePx());
-    inner_->product().bindTexture(0);
-    visibility_->bindImage(0, gl::Access::Write);
+    inner_->product().bindTexture(kBoxMeanSampledUnit);
+    visibility_->bindImage(kBoxMeanVisibilityImage, gl::Access::Write);
     mean_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

@@ -7,6 +7,7 @@
 // one pass, one bit of a texel each.
 #include "renderer/frame/occlusion_slices.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
@@ -66,7 +67,7 @@ class OcclusionTextures : public VisibilityTechnique {
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
     slices_ = &frame.get<frame::OcclusionSlices>(settings_);
-    slices_->bind(2);
+    slices_->bind(kAveragesUnit);
     return slices_->frustum();
   }
 

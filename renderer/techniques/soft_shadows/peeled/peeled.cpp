@@ -7,6 +7,8 @@
 // to their neighbours, so that the remedies can be compared.
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -53,7 +55,7 @@ class Peeled : public VisibilityTechnique {
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
-    constexpr uint32_t kSecondLayerUnit = 4;
+    static_assert(kThirdLayerUnit == kSecondLayerUnit + 1 && kFourthLayerUnit == kSecondLayerUnit + 2);
     // Before any is bound, since making the inputs binds textures too.
     for (int layer = 1; layer < settings_.layers; ++layer) frame.get<frame::ShadowMap>(layerMap(layer));
     frame.get<frame::MinMaxPyramid>(mapSettings());

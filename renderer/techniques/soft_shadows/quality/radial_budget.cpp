@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -25,7 +27,7 @@ class RadialBudgetDriver : public BudgetDriver {
     program.set("outerRadius", static_cast<float>(settings_.outer));
     program.set("innerRoot", static_cast<float>(std::sqrt(static_cast<double>(settings_.centre))));
     program.set("outerRoot", static_cast<float>(std::sqrt(static_cast<double>(settings_.rim))));
-    map_->bindImage(0, gl::Access::Write);
+    map_->bindImage(kRadialBudgetImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

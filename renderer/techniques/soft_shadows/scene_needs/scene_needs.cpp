@@ -42,7 +42,7 @@ class SceneNeeds : public Technique {
     all.insert(all.end(), decision_.remarks.begin(), decision_.remarks.end());
     return all;
   }
-  std::map<std::string, Image> pictures() const override { return chosen_->pictures(); }
+  std::map<std::string, PictureMaker> pictures() const override { return chosen_->pictures(); }
 
  private:
   SceneNeedsSettings settings_;

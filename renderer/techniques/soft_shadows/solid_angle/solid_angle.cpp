@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/solid_angle/gaussian_taps.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -137,7 +138,7 @@ class SolidAngle : public VisibilityTechnique {
       program.set("taps", regular->taps);
     if (const auto* random = std::get_if<GaussianTaps>(&settings_.sampling))
       program.set("taps", random->taps);
-    if (tapBuffer_) tapBuffer_->bindStorage(0);
+    if (tapBuffer_) tapBuffer_->bindStorage(kSolidAngleTapsBuffer);
   }
 
  private:

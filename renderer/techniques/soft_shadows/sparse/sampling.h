@@ -5,6 +5,7 @@
 
 #include "experiments/base/chosen_entry.h"
 #include "renderer/techniques/soft_shadows/sparse/reconstruction.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 
@@ -45,14 +46,14 @@ class SparseSampling {
                            const gl::Texture* classes) = 0;
 };
 
-/// Where a pixel's visibility comes from, as in the shaders.
+/// Where a pixel's visibility comes from: see sparse_bindings.h.
 enum SampleClass : uint32_t {
-  NoReceiver = 0,
-  Interpolated = 1,
-  NearestInDepth = 2,  ///< no sample lies on its surface
-  NoSample = 3,        ///< no sample within reach: treated as lit
-  OwnSample = 4,       ///< it is one of the points
-  SampleClassCount = 5
+  NoReceiver = kClassNoReceiver,
+  Interpolated = kClassInterpolated,
+  NearestInDepth = kClassNearestInDepth,
+  NoSample = kClassNoSample,
+  OwnSample = kClassOwnSample,
+  SampleClassCount = kSampleClassCount
 };
 
 /// Every factor-th pixel of rows and columns (of the picture itself, or of one rendered at lower resolution),

@@ -6,6 +6,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/sparse/sampling.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -39,9 +40,9 @@ class UniformSampling : public SparseSampling {
     place_->set("pictureSizePx", frame.sizePx());
     place_->set("gridSizePx", points_.sizePx());
     place_->set("factor", factor_);
-    ids.bindTexture(0);
-    ids_->bindImage(0, gl::Access::Write);
-    places_->bindImage(1, gl::Access::Write);
+    ids.bindTexture(kSparseGridIdsUnit);
+    ids_->bindImage(kSparseGridIdsImage, gl::Access::Write);
+    places_->bindImage(kSparseGridPlacesImage, gl::Access::Write);
     place_->dispatch(points_.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
@@ -66,11 +67,11 @@ class UniformSampling : public SparseSampling {
       program.set("lastPlace", glm::vec2(std::numeric_limits<float>::max()));
     }
     program.set("gridSizePx", points_.sizePx());
-    picture.bind(0);
-    grid.bind(3);
-    sampled.bindTexture(6);
-    visibility.bindImage(0, gl::Access::Write);
-    if (classes) classes->bindImage(1, gl::Access::Write);
+    picture.bind(kSparseReceiversUnit);
+    grid.bind(kSparseUpsampleGridReceiversUnit);
+    sampled.bindTexture(kSparseUpsampleGridVisibilityUnit);
+    visibility.bindImage(kSparseReconstructVisibilityImage, gl::Access::Write);
+    if (classes) classes->bindImage(kSparseReconstructClassImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

@@ -20,6 +20,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask_bindings.h"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bvh.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -142,16 +143,16 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
   program.set("lightSamples", lightSamples_);
   program.set("triangleCount", triangleCount_);
   program.set("maxIterations", frame.context().device().software ? 60000 : 0x7fffffff);
-  receivers.bindTexture(0);
-  ids.bindTexture(1);
-  nodes_->bindStorage(0);
-  triangles_->bindStorage(1);
-  planes_->bindStorage(2);
-  lightShape_->bindStorage(3);
-  visibility_->bindImage(0, gl::Access::Write);
+  receivers.bindTexture(kTriangleBitmaskReceiversUnit);
+  ids.bindTexture(kTriangleBitmaskIdsUnit);
+  nodes_->bindStorage(kTriangleBitmaskNodesBuffer);
+  triangles_->bindStorage(kTriangleBitmaskTrianglesBuffer);
+  planes_->bindStorage(kTriangleBitmaskPlanesBuffer);
+  lightShape_->bindStorage(kTriangleBitmaskLightShapeBuffer);
+  visibility_->bindImage(kTriangleBitmaskVisibilityImage, gl::Access::Write);
   if (work) {
-    work->counts.bindImage(1, gl::Access::Write);
-    work->masks.bindStorage(4);
+    work->counts.bindImage(kTriangleBitmaskCountsImage, gl::Access::Write);
+    work->masks.bindStorage(kTriangleBitmaskMasksBuffer);
   }
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
