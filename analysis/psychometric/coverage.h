@@ -8,9 +8,9 @@
 
 namespace limen::analysis {
 
-/// What is known of how often 95 % intervals of a method held the true value in simulated experiments, for
-/// those where that was outside of 93 to 97 %; empty where it was not. Of experiments with the same task, or
-/// with two alternatives where that was not simulated. The table in coverage.cpp says what was.
+/// How often a method's 95 % intervals contained the true value in simulated experiments, if that was outside
+/// 93 to 97 %; empty otherwise. From experiments with the same task, or with two alternatives if that was not
+/// simulated. The table in coverage.cpp lists what was simulated.
 std::vector<std::string> coverageNotes(IntervalMethod method, bool parametric, const FitTask& task);
 
 }  // namespace limen::analysis

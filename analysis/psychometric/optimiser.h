@@ -14,13 +14,12 @@ struct Optimum {
 };
 
 /// The minimum within the bounds that is reached from `start`: BFGS with a line search by Ceres, on angles
-/// that stand for the bounded parameters (x = low + (high - low) sin^2 a), then Newton steps for those that
+/// that represent the bounded parameters (x = low + (high - low) sin^2 a), then Newton steps for those that
 /// are not at a bound. Parameters with held[j] stay where they start.
 Optimum minimise(const Objective& objective, const std::vector<double>& start,
                  const std::vector<bool>& held = {});
 
-/// Second derivatives at x, row by row, by central differences of the exact gradient (of one side near
-/// bounds).
+/// Second derivatives at x, row by row, by central differences of the exact gradient (one-sided near bounds).
 std::vector<double> secondDerivatives(const Objective& objective, const std::vector<double>& x);
 
 }  // namespace limen::analysis
