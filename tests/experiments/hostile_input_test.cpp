@@ -153,12 +153,13 @@ TEST_F(HostileInput, ManyMistakesAreToldSoon) {
 TEST_F(HostileInput, AMachineWithoutADeviceIsRefused) {
   const std::string file =
       write("d.yaml",
-            "title: a\nquestion: b\nscenes: [{name: contact}]\ntechniques: [{name: "
+            "title: a\nquestion: b\nscenes: [{name: half_plane}]\ntechniques: [{name: "
             "soft_shadows/pcss}]\nreference: {name: soft_shadows/sampled_light}\nimage: {width: 16, "
             "height: 16}\nmetrics: [rmse]\n");
   const ProgramRun run =
       call("limen-sweep " + file + " --no-report --store " + path("s.sqlite"), "LIMEN_EGL_DEVICE=77");
   EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_THAT(run.text, HasSubstr("EGL device 77"));
 }
 
 TEST_F(HostileInput, AStoreInAFolderThatLooksLikeAnOptionIsReported) {
