@@ -14,7 +14,7 @@
 namespace limen {
 namespace {
 
-/// A temporary file that goes unless it has become the file itself.
+/// A temporary file that is removed unless it was renamed to the target.
 class Temporary {
  public:
   explicit Temporary(const std::string& path)
@@ -36,7 +36,7 @@ class Temporary {
       if (count <= 0) throw failure();
       done += static_cast<size_t>(count);
     }
-    // Renamed before its content is on the disk, the file could be empty after a loss of power.
+    // If renamed before its content is on disk, the file could be empty after a power failure.
     if (::fsync(file_) != 0) throw failure();
     const int closed = ::close(file_);
     file_ = -1;
@@ -53,7 +53,7 @@ class Temporary {
  private:
   Error failure() const {
     return Error(std::string("cannot be written: ") + std::strerror(errno), target_,
-                 "check the folder, its permissions and the space left");
+                 "check the folder, its permissions and the free space");
   }
 
   std::string target_, path_;
@@ -65,7 +65,7 @@ class Temporary {
 
 void replaceFile(const std::string& path, const std::string& text,
                  const std::function<void(const std::string&)>& check) {
-  // A link stays one: what it points to is replaced.
+  // A symbolic link stays one: its target is replaced.
   std::error_code code;
   const std::string real =
       std::filesystem::is_symlink(path, code) ? std::filesystem::weakly_canonical(path, code).string() : path;

@@ -6,9 +6,9 @@
 
 namespace limen {
 
-/// Writes `text` to `path` through a temporary file beside it that is renamed once it is on the disk:
-/// whatever happens meanwhile, `path` holds all of the old text or all of the new. `check`, if any, gets the
-/// temporary's path before the old text goes; what it throws leaves the old text in place. Throws Error.
+/// Writes `text` to `path` through a temporary file beside it that is renamed once it is on disk: whatever
+/// happens, `path` holds either all of the old text or all of the new. `check`, if given, gets the temporary
+/// file's path before the old text is replaced; if it throws, the old text stays. Throws Error.
 void replaceFile(const std::string& path, const std::string& text,
                  const std::function<void(const std::string&)>& check = {});
 

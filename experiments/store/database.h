@@ -10,7 +10,7 @@ struct sqlite3_stmt;
 
 namespace limen::store {
 
-/// Throws Error for the connection's last error, in the user's terms (full disk, read-only file, no store
+/// Throws Error for the connection's last error, in the user's terms (full disk, read-only file, not a store
 /// ...).
 [[noreturn]] void throwDatabaseError(sqlite3* database);
 
@@ -63,8 +63,8 @@ void execute(sqlite3* database, const char* sql, const Values&... values) {
 /// Rolled back unless committed.
 class Transaction {
  public:
-  /// Write takes the write lock at once, so that what is read inside cannot change before it is written; Read
-  /// sees one state of the file throughout.
+  /// Write takes the write lock immediately, so that nothing read inside can change before it is written;
+  /// Read sees one snapshot of the file throughout.
   enum class Mode { Read, Write };
   Transaction(sqlite3* database, Mode mode);
   ~Transaction();
@@ -77,12 +77,12 @@ class Transaction {
   bool open_ = true;
 };
 
-/// Opens, checks that the file is a store of a known schema, migrates. A file that is only read keeps its
-/// schema, which must be of version `oldest` at least: 1 has sweeps, 2 studies too.
+/// Opens, checks that the file is a store of a known schema, migrates. A file opened for reading keeps its
+/// schema, which must be at least version `oldest`: 1 has sweeps, 2 also studies.
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest = 1);
 
-/// Whether the process named by `owner` (host:pid:start-time) is known to be gone; nullopt: it is on another
-/// host.
+/// Whether the process named by `owner` (host:pid:start-time) is known to have ended; nullopt: it is on
+/// another host.
 std::optional<bool> isOwnerDead(const std::string& owner);
 
 }  // namespace limen::store

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two names that give the same label would write one file over the other.
+/// Two names with the same label would overwrite each other's file.
 void requireDistinct(const std::vector<ExportedSession>& sessions) {
   std::map<std::string, std::string> files;
   for (const ExportedSession& session : sessions) {
@@ -119,7 +119,7 @@ std::vector<std::string> writeExport(const ExportRequest& request) {
       out << content;
       out.close();
       if (!out)
-        throw Error("cannot be written", file.string(), "check the folder's rights and its free space");
+        throw Error("cannot be written", file.string(), "check the folder's permissions and free space");
       written.push_back(prefix + path);
     }
   }

@@ -32,7 +32,7 @@ void writeForOwner(const std::string& path, const std::string& text) {
   good = good && fsync(file) == 0;
   if (file >= 0) close(file);
   if (!good || rename(fresh.c_str(), path.c_str()) != 0)
-    throw Error("the key table cannot be written", path, "check the folder's rights and its free space");
+    throw Error("cannot write the key table", path, "check the folder's permissions and free space");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Pseudonyms::Pseudonyms(const std::string& keyFile) : file_(keyFile) {
       throw Error("not a line of a key table: '" + line + "'", where, "restore the file from a copy");
     if (!known_.emplace(line.substr(0, comma), line.substr(comma + 1)).second ||
         !taken.insert(line.substr(comma + 1)).second)
-      throw Error("a code or pseudonym stands twice", where, "restore the file from a copy");
+      throw Error("a code or pseudonym appears twice", where, "restore the file from a copy");
   }
 }
 
@@ -61,7 +61,7 @@ void Pseudonyms::assign(std::vector<std::string> codes) {
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
   std::erase_if(codes, [this](const std::string& code) { return known_.count(code) != 0; });
   if (codes.empty()) return;
-  // Not to be found out again from anything that is exported: no seed is kept, the file is.
+  // Cannot be derived from anything exported: the seed is not kept, only the file is.
   std::random_device device;
   psychometrics::Random random((uint64_t{device()} << 32) ^ device());
   random.shuffle(codes);

@@ -7,17 +7,15 @@
 
 namespace limen::study {
 
-/// Which pseudonym stands for which participant code. The table lies in a file of its own beside the store
-/// ("STORE.key.csv", readable by its owner alone) and is never part of an export: whoever has both can tell
-/// who is who.
+/// Maps participant codes to pseudonyms. The table is in a separate file beside the store ("STORE.key.csv",
+/// readable only by its owner) and never part of an export: whoever has both can identify participants.
 class Pseudonyms {
  public:
   /// Reads the file if there is one. Throws Error on a damaged one.
   explicit Pseudonyms(const std::string& keyFile);
 
-  /// Gives every code that has none yet a pseudonym P001, P002 ... in an order that says nothing about that
-  /// of the sessions, and writes the file. Pseudonyms given before stay. Throws Error if it cannot be
-  /// written.
+  /// Gives every code without one a pseudonym P001, P002 ... in an order unrelated to that of the sessions,
+  /// and writes the file. Existing pseudonyms stay. Throws Error if it cannot be written.
   void assign(std::vector<std::string> codes);
   const std::string& of(const std::string& code) const;
 
@@ -28,7 +26,7 @@ class Pseudonyms {
 
 std::string keyFileOf(const std::string& store);
 
-/// A decade: "20-29" of "23"; text that is no whole number from 0 to 120 (a bin already) stays as it is.
+/// A decade: "20-29" of "23"; text that is not a whole number from 0 to 120 (already a bin) stays unchanged.
 std::string ageBin(const std::string& age);
 
 }  // namespace limen::study

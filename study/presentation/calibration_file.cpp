@@ -27,7 +27,7 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// Two numbers apart by one of `separators`.
+/// Two numbers separated by one of `separators`.
 std::optional<std::pair<double, double>> twoNumbers(const std::string& text, const char* separators) {
   const size_t at = text.find_first_of(separators);
   if (at == std::string::npos) return std::nullopt;
@@ -64,7 +64,8 @@ std::vector<Match> parseMatches(const std::string& text) {
   for (std::string part; std::getline(all, part, ',');) {
     const auto values = twoNumbers(part, "=");
     if (!values)
-      throw Error("'" + part + "' is no match", "--match", "write PROPORTION=LEVEL, as 0.25=0.53,0.5=0.72");
+      throw Error("'" + part + "' is not a match", "--match",
+                  "write PROPORTION=LEVEL, as 0.25=0.53,0.5=0.72");
     out.push_back({values->first, values->second});
   }
   return out;
@@ -75,17 +76,17 @@ void writeProfile(const std::string& path, const perception::DisplayProfile& pro
   perception::checkDisplay(profile, path);
   std::error_code failure;
   if (!force && std::filesystem::exists(path, failure))
-    throw Error("is there already", path, "name another file, or give --force to overwrite it");
+    throw Error("already exists", path, "name another file, or give --force to overwrite it");
   const std::string temporary = path + ".tmp";
   {
     std::ofstream file(temporary);
     for (const std::string& comment : comments) file << "# " << comment << '\n';
     file << perception::toYaml(profile);
-    if (!file.flush()) throw Error("cannot be written", path, "name a file in a folder that can be");
+    if (!file.flush()) throw Error("cannot be written", path, "name a file in a writable folder");
   }
   std::filesystem::rename(temporary, path, failure);
   if (failure)
-    throw Error("cannot be written: " + failure.message(), path, "name a file in a folder that can be");
+    throw Error("cannot be written: " + failure.message(), path, "name a file in a writable folder");
 }
 
 }  // namespace limen::study

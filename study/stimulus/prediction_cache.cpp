@@ -26,7 +26,7 @@ std::map<std::string, PredictedPopping> readCache(const std::string& file) {
     std::ifstream stream(file);
     const json all = json::parse(stream);
     if (all.at("limen_predictions").get<int>() != kForm)
-      throw Error("predictions of another form", file, "name another file");
+      throw Error("predictions in another format", file, "name another file");
     for (const auto& [key, value] : all.at("predictions").items()) out[key] = predictedPoppingFromJson(value);
   } catch (const json::exception& error) {
     throw Error(std::string("not a file of predictions: ") + error.what(), file,
@@ -42,12 +42,12 @@ void writeCache(const std::string& file, const std::map<std::string, PredictedPo
   {
     std::ofstream stream(temporary);
     stream << json{{"limen_predictions", kForm}, {"predictions", predictions}}.dump(1) << '\n';
-    if (!stream.flush()) throw Error("cannot be written", temporary, "name a file in a folder that can be");
+    if (!stream.flush()) throw Error("cannot be written", temporary, "name a file in a writable folder");
   }
   std::error_code failure;
   fs::rename(temporary, file, failure);
   if (failure)
-    throw Error("cannot be written: " + failure.message(), file, "name a file in a folder that can be");
+    throw Error("cannot be written: " + failure.message(), file, "name a file in a writable folder");
 }
 
 }  // namespace
