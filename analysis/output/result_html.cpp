@@ -60,7 +60,8 @@ std::string toHtml(const ResultTable& table, const HtmlOptions& options) {
     out += "<tr" + (options.ofRow ? options.ofRow(row) : "") + ">";
     for (const Column* column : columns) {
       const ResultCell& cell = column->cells[row];
-      const std::string text = cellText(*column, cell);
+      // What is not there has no place in an order.
+      const std::string text = options.sortable && cell.empty() ? "" : cellText(*column, cell);
       if (options.rowHeads && column == columns.front())
         out += fmt::format("<th scope=\"row\"{}>{}</th>", look(*column), breakable(text));
       else
