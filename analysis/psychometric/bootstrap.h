@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <functional>
+
 #include "analysis/psychometric/fit.h"
 
 namespace limen::psychometrics {
@@ -48,6 +50,9 @@ struct Replicate {
   };
   std::vector<OfCondition> conditions;
 };
+
+/// Calls work(0) ... work(count - 1), each once, in so many threads; rethrows what one of them throws.
+void inThreads(size_t count, unsigned threads, const std::function<void(size_t)>& work);
 
 /// Replicate i takes its numbers from childSeed(seed, "replicate i").
 std::vector<Replicate> bootstrap(const std::vector<Condition>& conditions, const Fit& fit,

@@ -23,6 +23,8 @@ struct ConditionFit {
   size_t blocks = 0;                  ///< those with trials
   std::vector<std::string> warnings;  ///< what readers of the numbers have to know
 
+  /// "NAME: ", before a warning; "" for one without a name.
+  std::string prefix() const { return name.empty() ? "" : name + ": "; }
   double value(FitParameter parameter) const { return values[indexOf(parameter)]; }
   /// F; of -x or 1/x if it falls with x.
   psychometrics::Sigmoid sigmoid(const FitSettings& settings) const;

@@ -8,6 +8,7 @@
 
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit.h"
+#include "analysis/statistics/interval.h"
 
 namespace limen::analysis {
 
@@ -22,8 +23,7 @@ const std::vector<std::string>& intervalMethodNames();  ///< "bootstrap", "bca",
 IntervalMethod readIntervalMethod(const std::string& name, const std::string& where);  ///< throws Error
 const std::string& nameOf(IntervalMethod method);
 
-struct FitInterval {
-  double low = 0.0, high = 0.0;
+struct FitInterval : Interval {
   bool lowOpen = false, highOpen = false;  ///< ends at a bound of the fit: the data set no limit on that side
 };
 
@@ -52,5 +52,10 @@ FitIntervals profileIntervals(const std::vector<Condition>& conditions, const Fi
 FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence);
 /// Throws Error if conditions share parameters: the grid would have too many dimensions.
 FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence);
+
+/// What is known of how often 95 % intervals of a method held the true value in simulated experiments, for
+/// those where that was outside of 93 to 97 %; empty where it was not. Of experiments with the same task, or
+/// with two alternatives where that was not simulated. The table in coverage.cpp says what was.
+std::vector<std::string> coverageNotes(IntervalMethod method, bool parametric, const FitTask& task);
 
 }  // namespace limen::analysis

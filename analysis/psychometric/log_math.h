@@ -9,7 +9,6 @@ namespace limen::analysis {
 // beyond.
 
 double logAddExp(double a, double b);  ///< ln(exp(a) + exp(b)); either may be -infinity
-double logGamma(double x);             ///< ln Gamma(x), x > 0
 
 /// x ln(x/m) + m - x >= 0, half the deviance of a count x with mean m; without cancellation if x is near m
 /// (Loader 2000, Fast and accurate computation of binomial probabilities). `logM` is ln m, which may be known

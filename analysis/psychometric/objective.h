@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "analysis/psychometric/likelihood.h"
@@ -10,8 +9,8 @@
 
 namespace limen::analysis {
 
-/// One number varied by a fit: the parameter of one condition, or of all. A width is varied as its logarithm;
-/// a threshold on the axis.
+/// One number that a fit varies: the parameter of a condition, or of all of them. A width is varied by its
+/// logarithm; a threshold on the axis.
 struct FreeParameter {
   FitParameter parameter;
   int condition;     ///< -1: all
@@ -20,8 +19,8 @@ struct FreeParameter {
   LevelSpread spread;
 };
 
-/// What a fit minimises: half the deviance (eta 0), or more generally logSaturated minus log-likelihood,
-/// minus the logarithm of the priors (MaximumPosterior).
+/// What a fit makes as small as possible: half the deviance (eta 0), or more generally logSaturated minus
+/// log-likelihood, less the logarithm of the priors (MaximumPosterior).
 class Objective {
  public:
   Objective(const std::vector<Condition>& conditions, const FitSettings& settings);
@@ -30,19 +29,14 @@ class Objective {
   const std::vector<FreeParameter>& free() const { return free_; }
   size_t conditions() const { return blocks_.size(); }
   const PreparedBlocks& blocks(size_t condition) const { return blocks_[condition]; }
-  PreparedBlocks& blocks(size_t condition) {
-    return blocks_[condition];
-  }  ///< for new answers at the same levels
   const SigmoidShape& shape() const { return shape_; }
   const FitSettings& settings() const { return settings_; }
   const LevelSpread& spread(size_t condition) const { return spreads_[condition]; }
-  /// Index of a parameter among the free ones, -1 if it is fixed or tied to another.
+  /// Place of a parameter among the free ones, -1 if it is fixed or tied to another.
   int place(size_t condition, FitParameter parameter) const { return places_[condition][indexOf(parameter)]; }
 
-  /// Infinite if the data or the parameters are impossible. `gradient`: size() numbers, or null.
+  /// Infinite where the data or the parameters are impossible. `gradient`: size() numbers, or null.
   double evaluate(const double* x, double* gradient) const;
-  /// The same for one condition, without the priors.
-  double evaluateCondition(size_t condition, const double* x) const;
 
   AxisValues valuesOf(size_t condition, const double* x) const;
   /// ln of the priors' density at x, up to a constant.

@@ -22,4 +22,9 @@ Optimum minimise(const Objective& objective, const std::vector<double>& start,
 /// Second derivatives at x, row by row, by central differences of the exact gradient (one-sided near bounds).
 std::vector<double> secondDerivatives(const Objective& objective, const std::vector<double>& x);
 
+/// Points from which the optimum of a single condition is sought, the best of a coarse grid that are not near
+/// each other; at most `count`. The grid's thresholds are evenly spaced and, for each width, those at which
+/// the curve runs through one of the blocks: narrow curves have an optimum at each.
+std::vector<std::vector<double>> startsOf(const Objective& objective, size_t count);
+
 }  // namespace limen::analysis
