@@ -18,7 +18,7 @@ Catalogue readRegistries() {
     entry.summary = info.summary;
     entry.source = info.source;
     entry.parameters = info.allParameters();
-    entry.check = [&info](const ParameterValues& complete) { info.checkValues(complete); };
+    entry.check = [&scene = info](const ParameterValues& complete) { scene.checkValues(complete); };
   }
   for (const auto& [name, info] : techniques::TechniqueRegistry::instance().all()) {
     CatalogueEntry& entry = out.techniques[name];

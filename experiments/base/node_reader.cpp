@@ -9,20 +9,18 @@
 
 namespace limen {
 
-using Kind = YamlNode::Kind;
-
 bool NodeReader::isMap(const YamlNode& node, const std::string& what, const std::string& example) {
-  if (node.kind == Kind::Map) return true;
+  if (node.kind == YamlNode::Kind::Map) return true;
   problems_.add(node.mark, what + " is " + node.describe(), "write it as a map: " + example);
   return false;
 }
 
 bool NodeReader::isFilledList(const YamlNode& node, const std::string& what, const std::string& example) {
-  if (node.kind != Kind::List)
+  if (node.kind != YamlNode::Kind::List)
     problems_.add(node.mark, what + " is " + node.describe(), "write it as a list: " + example);
   else if (node.items.empty())
     problems_.add(node.mark, "the list of " + what + " is empty", "give at least one: " + example);
-  return node.kind == Kind::List && !node.items.empty();
+  return node.kind == YamlNode::Kind::List && !node.items.empty();
 }
 
 void NodeReader::checkKeys(const YamlNode& map, const std::string& what,

@@ -52,7 +52,8 @@ std::vector<ParameterValues> parseSettings(const std::vector<std::string>& texts
   std::vector<ParameterValues> values;
   for (const SettingsGroup& group : groups) {
     std::map<std::string, ParameterValue> own;
-    for (const auto& [path, value] : given) {
+    for (const auto& [name, value] : given) {
+      const std::string& path = name;  // a lambda must not take a structured binding
       const auto named = std::find_if(groups.begin(), groups.end(), [&](const SettingsGroup& other) {
         return !other.name.empty() && path.starts_with(other.name + ".");
       });

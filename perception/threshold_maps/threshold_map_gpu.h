@@ -64,7 +64,7 @@ class ThresholdMapGpu {
   glm::ivec2 sizePx_;
   ThresholdMapSettings settings_;
   ThresholdMapGpuSettings gpu_;
-  bool colourInput_;
+  [[maybe_unused]] bool colourInput_;  // only assertions ask for it
   int levels_;
   gl::ShaderDefines defines_;
   gl::Texture threshold_, finest_;

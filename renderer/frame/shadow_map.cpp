@@ -70,8 +70,8 @@ void ShadowRaster::draw(Frame& frame, const Geometry& geometry, const LightFrust
   hardware_->framebuffer.bind();
   constexpr GLfloat kFar = 0.0F;
   glClearBufferfv(GL_DEPTH, 0, &kFar);
-  constexpr std::array<GLuint, 4> kNoTriangle = {0xffffffffU, 0, 0, 0};
-  if (hardware_->ids) glClearBufferuiv(GL_COLOR, 0, kNoTriangle.data());
+  constexpr std::array<GLuint, 4> kClearedId = {0xffffffffU, 0, 0, 0};
+  if (hardware_->ids) glClearBufferuiv(GL_COLOR, 0, kClearedId.data());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDisable(GL_CULL_FACE);

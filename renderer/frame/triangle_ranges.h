@@ -29,7 +29,7 @@ class TriangleRanges {
  private:
   int rangeCount_ = 0;
   uint32_t triangleCount_ = 0;
-  size_t capacity_;
+  [[maybe_unused]] size_t capacity_;  // only assertions ask for it
   gl::Buffer ranges_, commands_;
 };
 

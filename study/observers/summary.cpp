@@ -102,7 +102,7 @@ class Summariser {
   SimulationSummary finish() {
     const auto inOrder = [this](auto& rows) {
       std::stable_sort(rows.begin(), rows.end(),
-                       [this](const auto& a, const auto& b) { return rankOf(a) < rankOf(b); });
+                       [this](const auto& a, const auto& b) { return this->rankOf(a) < this->rankOf(b); });
     };
     for (const auto& [key, rates] : rates_) {
       const int part = key.first < 0 ? -1 - key.first : key.first;

@@ -20,11 +20,11 @@ inline Plane edgePattern(int width, int height) {
 /// decide.
 inline double edgeSupportPx(const Plane& averaged) {
   const int y = averaged.height / 2;
-  const auto [low, high] = std::minmax_element(averaged.row(y), averaged.row(y) + averaged.width);
-  const double step = *high - *low;
+  const auto [lowest, highest] = std::minmax_element(averaged.row(y), averaged.row(y) + averaged.width);
+  const double low = *lowest, step = *highest - low;
   // Distance between the 45 % and 55 % crossings, interpolated.
   const auto crossing = [&](double share) {
-    const double level = *low + share * step;
+    const double level = low + share * step;
     for (int x = 1; x < averaged.width; ++x)
       if (averaged.at(x - 1, y) < level && averaged.at(x, y) >= level)
         return x - 1 + (level - averaged.at(x - 1, y)) / (averaged.at(x, y) - averaged.at(x - 1, y));

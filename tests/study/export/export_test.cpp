@@ -256,7 +256,7 @@ TEST_F(Export, PseudonymsStayAndNewOnesAreAdded) {
 }
 
 TEST_F(Export, RefusesWhatItCannotDoAndOverwritesNothing) {
-  const auto message = [this](const ExportRequest& request) {
+  const auto message = [](const ExportRequest& request) {
     try {
       writeExport(request);
     } catch (const Error& error) {
