@@ -141,18 +141,21 @@ void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "fr
 Receivers::Receivers(Frame& frame)
     : program_(frame.context().programs().compute(
           kResolve, definesOf(frame, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}}))),
-      texture_(gl::Format::RGBA32F, frame.sizePx()) {
-  frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
+      texture_(gl::Format::RGBA32F, frame.sizePx()),
+      planes_(gl::Format::RG32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/receivers", texture_.bytes() + planes_.bytes());
 }
 
 void Receivers::make(Frame& frame) {
   if (frame.scene().lights.empty()) {
     const auto scope = frame.passes().open("frame/receivers");
     texture_.clear(glm::vec4(0.0F, 0.0F, 0.0F, -1.0F));
+    planes_.clear(glm::vec4(0.0F));
     return;
   }
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
+  planes_.bindImage(kGBufferPlanesImage, gl::Access::Write);
   resolve(frame, program_, texture_, "frame/receivers");
 }
 

@@ -48,11 +48,11 @@ float gatherOccluders(vec4 p, Area area, int level) {
       corners[3] = corners[2];
       for (int i = 0; i < 2; ++i) {
         const ivec2 texel = ivec2(x + 1, y + i);
-        const float z = texelFetch(minimumMap, texel, level).x;
+        const float z = levelDepth(texel, level);
         ++fetchCount;
         // Precise, so that a vertex has one place for all cells that share it.
         precise vec2 place = vec2(0.0);
-        const bool blocking = blocks(z, texel, level, depth);
+        const bool blocking = blocks(z, texel, level, p, depth);
         if (blocking) place = projectionScale(z, p.z) * (scale * (vec2(texel) + 0.5) + shift) + eyeOnLight;
         corners[1 + i] = Vertex(place, blocking);
       }

@@ -35,6 +35,15 @@ ivec4 rectBounds(ivec2 at, int level) {
   return ivec4(reference - extent.xy, reference + extent.zw + 1);
 }
 
+// Whether depth z blocks the receiver, found at the microrect's reference texel.
+bool rectBlocks(float z, ivec2 at, int level, vec4 p, float depth) {
+#ifdef BIAS_PLANE
+  return z < depth && beforePlane(z, vec2(at << level) + 0.5, p, p.z * (1.0 - planeMargin(slopeBias)));
+#else
+  return z < depth;
+#endif
+}
+
 // Visibility by the microrects of a level that reach into the area.
 float gatherOccluders(vec4 p, Area area, int level) {
   const Range range = occluderRange(area, level);
@@ -57,18 +66,20 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #if GAP_FILL != GAP_FILL_NONE
       const float below = y > 0 ? rectDepth(ivec2(x, y - 1), level) : kEmptyDepth;
 #endif
-      if (z < depth) {
+      if (rectBlocks(z, ivec2(x, y), level, p, depth)) {
         const ivec4 bounds = rectBounds(ivec2(x, y), level);
         const vec2 lowEdge = scale * vec2(bounds.xy) + shift, highEdge = scale * vec2(bounds.zw) + shift;
         const float k = projectionScale(z, p.z);
         vec2 start = k * lowEdge + eyeOnLight;
         const vec2 end = k * highEdge + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (left < depth) start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
-        if (below < depth) start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
+        if (rectBlocks(left, ivec2(x - 1, y), level, p, depth))
+          start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
+        if (rectBlocks(below, ivec2(x, y - 1), level, p, depth))
+          start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (lowerLeft < depth) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);
+        if (rectBlocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
         accumulateOnLight(start, end);
       }

@@ -12,6 +12,8 @@ uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, m
 uniform int maxIterations;
 
 void clearGathered();
+// Enters what of the light is behind the receiver's plane; after clearGathered().
+void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
 
@@ -68,6 +70,20 @@ Area queriedArea(Area area) {
 #endif
 }
 
+// Depth below which any texel of an area blocks.
+float leastDepthOf(vec4 p, Area area) {
+#ifdef BIAS_PLANE
+  // The plane comes nearest to the light at a corner of the area.
+  const vec2 perTexel = tangentSize / float(resolution), from = tangentLow - p.xy / p.z;
+  const vec2 atLow = receiverPlane * (from + vec2(area.low) * perTexel),
+             atHigh = receiverPlane * (from + vec2(area.high) * perTexel);
+  const vec2 most = max(max(atLow, atHigh), vec2(0.0));
+  return p.z * (1.0 - planeMargin(slopeBias)) / (1.0 + most.x + most.y);
+#else
+  return biasedDepth(p, 0);
+#endif
+}
+
 // Narrows the search area of a receiver, or finds that it needs none: false, with the visibility that is known then.
 bool findArea(vec4 p, out Area area, out float visibility) {
   visibility = 1.0;
@@ -89,7 +105,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
     if (range.x >= biasedDepth(p, 0)) return false;
     // All texels block: neighbouring texels are taken as one surface. Biases of their own may lie below any such range.
 #ifndef BIAS_STORED
-    if (range.y < biasedDepth(p, 0) && !reachesOutside) {
+    if (range.y < leastDepthOf(p, area) && !reachesOutside) {
       pixelClass = kUmbra;
       visibility = 0.0;
       return false;
@@ -110,9 +126,14 @@ layout(binding = kTexelBiasesUnit) uniform sampler2D texelBiases;
 uniform float storedScale;
 #endif
 
+#include "renderer/techniques/soft_shadows/level_depths.glsl"
+
 // Whether depth z of a texel of a level blocks a receiver of biased depth `depth`.
-bool blocks(float z, ivec2 texel, int level, float depth) {
-#ifdef BIAS_STORED
+bool blocks(float z, ivec2 texel, int level, vec4 p, float depth) {
+#ifdef BIAS_PLANE
+  if (!(z < depth)) return false;
+  return beforePlane(z, depthPlace(texel, level), p, p.z * (1.0 - planeMargin(slopeBias + depthSpread(level))));
+#elif defined(BIAS_STORED)
   if (!(z < depth)) return false;
   ++fetchCount;
   return z + storedScale * texelFetch(texelBiases, texel, level).x < depth;
@@ -137,6 +158,18 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 #include "renderer/techniques/soft_shadows/microquads.glsl"
 #endif
 
+// Visibility of a receiver that nothing shadows (`visibility` 1) or everything does.
+float visibilityUnprocessed(vec4 p, float visibility) {
+#ifdef BIAS_PLANE
+  if (visibility > 0.0 && planeCutsLight(p)) {
+    clearGathered();
+    hideBehindPlane(p);
+    return gatheredVisibility();
+  }
+#endif
+  return visibility;
+}
+
 #if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
 #include "renderer/techniques/soft_shadows/quality/split_search.glsl"
 #elif defined(LEVEL_STEPS)
@@ -146,7 +179,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;
   float visibility;
   readBudget(pixel);
-  if (!findArea(p, area, visibility)) return visibility;
+  if (!findArea(p, area, visibility)) return visibilityUnprocessed(p, visibility);
   return visibilityAt(p, area, qualityLevel(p, area), pixel);
 }
 #endif

@@ -19,12 +19,12 @@ shared uint processedLanes[2];
 shared uint firstSlot;
 
 bool classify(ivec2 pixel) {
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   Area area;
   float visibility = 1.0;
   readBudget(pixel);
   if (receiver.w < 0.0 || !findArea(receiver, area, visibility)) {
-    store(pixel, visibility);
+    store(pixel, receiver.w < 0.0 ? 1.0 : visibilityUnprocessed(receiver, visibility));
 #ifdef SMOOTH
     // What the walk along either axis stops at.
     imageStore(outLevels, pixel, vec4(-1.0, 0.0, 0.0, 0.0));
@@ -78,7 +78,7 @@ layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 void main() {
   ivec2 pixel;
   if (!listedPixel(pixel)) return;
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   const uvec4 area = texelFetch(searchAreas, pixel, 0);
 #ifdef COUNT
   fetchCount = imageLoad(outCounts, pixel).z;
