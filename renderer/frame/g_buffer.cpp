@@ -45,8 +45,9 @@ gl::ShaderDefines definesOf(const Frame& frame, gl::ShaderDefines defines) {
   return defines;
 }
 
-/// Computes a channel from the triangle ids; `out` gets every pixel.
-void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
+/// Computes a channel from the triangle ids; `out`, and `planes` if there are any, get every pixel.
+void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass,
+             const gl::Texture* planes = nullptr) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);
   const glm::dmat4& toCamera = frame.anchorToCamera();
@@ -61,6 +62,7 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   ids.bindTexture(kGBufferIdsUnit);
   if (seen) seen->places->bindTexture(kGBufferPlacesUnit);
   out.bindImage(kGBufferOutImage, gl::Access::Write);
+  if (planes) planes->bindImage(kGBufferPlanesImage, gl::Access::Write);
   frame.geometry().bindStorage();
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -155,8 +157,7 @@ void Receivers::make(Frame& frame) {
   }
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
-  planes_.bindImage(kGBufferPlanesImage, gl::Access::Write);
-  resolve(frame, program_, texture_, "frame/receivers");
+  resolve(frame, program_, texture_, "frame/receivers", &planes_);
 }
 
 }  // namespace limen::frame

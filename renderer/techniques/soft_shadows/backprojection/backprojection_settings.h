@@ -17,14 +17,14 @@ constexpr EnumNames<QuadArea, 2> enumNames(QuadArea) {
 
 struct SummedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
   static constexpr const char* kSummary = "a mesh between texel centres";
-  CoarseDepths depths = CoarseDepths::Sampled;
+  CoarseDepths depths = CoarseDepths::Nearest;
   QuadArea area = QuadArea::Absolute;
   static const SettingsTable<SummedMicroquads>& table();
 };
 
 struct SummedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> {
   static constexpr const char* kSummary = "that mesh with triangles where three of four texels block";
-  CoarseDepths depths = CoarseDepths::Sampled;
+  CoarseDepths depths = CoarseDepths::Nearest;
   QuadArea area = QuadArea::Absolute;
   static const SettingsTable<SummedMicrotris>& table();
 };
