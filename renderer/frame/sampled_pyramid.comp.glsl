@@ -11,10 +11,6 @@ uniform int resolution;
 void main() {
   const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (at.y >= resolution) return;
-  if (at.x < resolution) {
-    imageStore(outAtlas, at, texelFetch(shadowMap, at, 0));
-    return;
-  }
   const int level = findMSB(2 * resolution / (resolution - at.y));
   const ivec2 texel = at - sampledPlace(ivec2(0), level, resolution);
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(resolution >> level)))) return;

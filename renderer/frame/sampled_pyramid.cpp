@@ -12,8 +12,7 @@ namespace limen::frame {
 SampledPyramid::SampledPyramid(Frame& frame, ShadowMapSettings settings)
     : settings_(settings),
       program_(frame.context().programs().compute("renderer/frame/sampled_pyramid.comp.glsl")),
-      atlas_(gl::Format::R32F,
-             {settings.resolution + std::max(settings.resolution / 2, 1), settings.resolution}),
+      atlas_(gl::Format::R32F, {std::max(settings.resolution / 2, 1), settings.resolution}),
       pass_("frame/sampled_pyramid" + settings.name()) {
   frame.passes().setBytesHeld(pass_, atlas_.bytes());
 }

@@ -10,13 +10,12 @@
 
 namespace limen::frame {
 
-/// A linear shadow map and coarser levels of it, whose texels of 2^i x 2^i finest ones hold the depth of one
-/// of these: which one is fixed by the texel's place (sampled_texel.glsl). In contrast to minima, which grow
+/// Coarse levels of a linear shadow map whose texels of 2^i x 2^i finest ones hold the depth of one of these:
+/// which one is fixed by the texel's place (sampled_texel.glsl). In contrast to minima, which grow
 /// thin occluders to the size of a coarse texel, samples cover the right share on average. Own form; no
 /// source.
 ///
-/// One R32F texture holds all levels, side by side: level 0 at the lower left, R x R texels; level i > 0 at
-/// (R, R - 2R / 2^i).
+/// One R32F texture holds all levels above 0 of a map of R x R texels: level i from (0, R - 2R / 2^i) on.
 class SampledPyramid : public FrameInput {
  public:
   static constexpr const char* kName = "sampled_pyramid";

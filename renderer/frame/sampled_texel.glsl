@@ -10,7 +10,7 @@ ivec2 sampledTexel(ivec2 texel, int level) {
   return (texel << level) + ivec2((offset >> 1) >> (31 - level));
 }
 
-// Level 0 fills the lower left square; the others stand above each other to its right.
+// Place in the atlas of a texel of a level above 0; the levels stand above each other.
 ivec2 sampledPlace(ivec2 texel, int level, int resolution) {
-  return level == 0 ? texel : texel + ivec2(resolution, resolution - ((2 * resolution) >> level));
+  return texel + ivec2(0, resolution - ((2 * resolution) >> level));
 }

@@ -28,7 +28,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const ivec2 offsets[4] = ivec2[4](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 1));
   float depths[4] = float[4](kEmptyDepth, kEmptyDepth, kEmptyDepth, kEmptyDepth);
   int visited = 0;
-  for (int y = low.y - 1; y <= high.y; ++y) {
+  for (int y = low.y - 1 + firstRow; y <= high.y; y += rowStep) {
     depths[1] = depths[2] = kEmptyDepth;
     for (int x = low.x - 1; x <= high.x; ++x) {
       ++visited;
@@ -66,7 +66,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   // A driver that grants a limited number of iterations has left the loops early.
   const ivec2 windows = high - low + 2;
-  if (visited < windows.x * windows.y) {
+  if (visited < windows.x * rowsToGather(windows.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

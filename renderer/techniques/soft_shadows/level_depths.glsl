@@ -5,7 +5,10 @@
 #include "renderer/frame/sampled_texel.glsl"
 layout(binding = kSampledDepthsUnit) uniform sampler2D sampledDepths;
 
-float levelDepth(ivec2 texel, int level) { return texelFetch(sampledDepths, sampledPlace(texel, level, resolution), 0).x; }
+float levelDepth(ivec2 texel, int level) {
+  return level == 0 ? texelFetch(minimumMap, texel, 0).x
+                    : texelFetch(sampledDepths, sampledPlace(texel, level, resolution), 0).x;
+}
 // Where that depth was found, in texels of level 0.
 vec2 depthPlace(ivec2 texel, int level) { return vec2(sampledTexel(texel, level)) + 0.5; }
 // Texels of level 0 to either side that it may have been found at instead.

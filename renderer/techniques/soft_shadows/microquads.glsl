@@ -41,7 +41,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   // Lower left, lower right, upper right, upper left.
   Vertex corners[4] = Vertex[4](kNowhere, kNowhere, kNowhere, kNowhere);
   int visited = 0;
-  for (int y = cells.low.y; y <= cells.high.y; ++y) {
+  for (int y = cells.low.y + firstRow; y <= cells.high.y; y += rowStep) {
     for (int x = cells.low.x - 1; x <= cells.high.x; ++x) {
       ++visited;
       corners[0] = corners[1];
@@ -75,7 +75,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   // A driver that grants a limited number of iterations has left the loops early; how many it takes off for those of the
   // masks is its own affair.
-  if (visited < (count.x + 1) * count.y) {
+  if (visited < (count.x + 1) * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

@@ -35,10 +35,13 @@ ivec4 rectBounds(ivec2 at, int level) {
   return ivec4(reference - extent.xy, reference + extent.zw + 1);
 }
 
-// Whether depth z blocks the receiver, found at the microrect's reference texel.
+// Whether depth z of a microrect blocks the receiver; it was found anywhere within the microrect.
 bool rectBlocks(float z, ivec2 at, int level, vec4 p, float depth) {
 #ifdef BIAS_PLANE
-  return z < depth && beforePlane(z, vec2(at << level) + 0.5, p, p.z * (1.0 - planeMargin(slopeBias)));
+  if (!(z < depth)) return false;
+  const vec4 bounds = vec4(rectBounds(at, level));
+  const vec2 spread = 0.5 * (bounds.zw - bounds.xy - 1.0);
+  return beforePlane(z, 0.5 * (bounds.xy + bounds.zw), p, p.z * (1.0 - planeMargin(slopeBias + max(spread.x, spread.y))));
 #else
   return z < depth;
 #endif
@@ -54,7 +57,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   int visited = 0;
-  for (int y = low.y; y <= high.y; ++y) {
+  for (int y = low.y + firstRow; y <= high.y; y += rowStep) {
 #if GAP_FILL != GAP_FILL_NONE
     float left = low.x > 0 ? rectDepth(ivec2(low.x - 1, y), level) : kEmptyDepth;
     float lowerLeft = low.x > 0 && y > 0 ? rectDepth(ivec2(low.x - 1, y - 1), level) : kEmptyDepth;
@@ -91,7 +94,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
     if (isSaturated()) return 0.0;
   }
   // A driver that grants a limited number of iterations has left the loops early.
-  if (visited < count.x * count.y) {
+  if (visited < count.x * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

@@ -56,7 +56,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   int visited = 0;
-  for (int y = cells.low.y; y <= cells.high.y; ++y)
+  for (int y = cells.low.y + firstRow; y <= cells.high.y; y += rowStep)
     for (int x = cells.low.x; x <= cells.high.x; ++x) {
       ++visited;
       ++examinedCount;
@@ -72,7 +72,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       accumulateQuad(a.place, b.place, c.place, d.place);
     }
   // A driver that grants a limited number of iterations has left the loops early.
-  if (visited < count.x * count.y) {
+  if (visited < count.x * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

@@ -16,6 +16,10 @@ void clearGathered();
 void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
+#if LANES > 1
+// Joins what the LANES invocations of a pixel have gathered in the first of them; called by all of the group.
+void joinLanes(uint slot, uint lane);
+#endif
 
 // Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
 #if OCCLUDERS == OCCLUDERS_MICROPATCHES || OCCLUDERS == OCCLUDERS_MICRORECTS
@@ -40,6 +44,10 @@ Area searchArea(vec4 p, float z, out bool reachesOutside) {
 struct Range {
   ivec2 low, high;
 };
+
+// Rows of micro-occluders that this invocation gathers: all, unless several share a pixel.
+int firstRow = 0, rowStep = 1;
+int rowsToGather(int rows) { return max(rows - firstRow + rowStep - 1, 0) / rowStep; }
 
 // Those that may matter for an area, rounded outward to the level's grid.
 Range occluderRange(Area area, int level);

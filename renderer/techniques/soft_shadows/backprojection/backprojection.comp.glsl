@@ -64,6 +64,17 @@ void accumulateEdge(vec2 from, vec2 to) {
 }
 #endif
 
+#if LANES > 1
+shared float laneAreas[kWorkListGroup];
+void joinLanes(uint slot, uint lane) {
+  laneAreas[slot * LANES + lane] = occludedArea;
+  memoryBarrierShared();
+  barrier();
+  occludedArea = 0.0;
+  for (uint other = 0u; other < LANES; ++other) occludedArea += laneAreas[slot * LANES + other];
+}
+#endif
+
 bool isSaturated() {
 #if defined(SIGNED_AREAS) || OCCLUDERS == OCCLUDERS_CONTOURS
   return false;  // what is still to come may take away

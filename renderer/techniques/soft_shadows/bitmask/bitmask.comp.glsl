@@ -20,6 +20,23 @@ void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d);
 #endif
 
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
+#if LANES > 1
+shared uint laneMasks[MASK_WORDS][kWorkListGroup];
+void joinLanes(uint slot, uint lane) {
+  const uint first = slot * LANES;
+  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][first + lane] = mask[i];
+  memoryBarrierShared();
+  barrier();
+  for (uint i = lane; i < MASK_WORDS; i += LANES) {
+    uint joined = 0u;
+    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other];
+    laneMasks[i][first] = joined;
+  }
+  memoryBarrierShared();
+  barrier();
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = laneMasks[i][first];
+}
+#endif
 bool isSaturated() { return allCovered(); }
 float gatheredVisibility() { return visibleShare(); }
 
