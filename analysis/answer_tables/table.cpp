@@ -85,14 +85,6 @@ class Records {
 
 }  // namespace
 
-std::optional<double> finiteNumber(const std::string& text) {
-  double value = 0.0;
-  const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
 Table Table::read(const std::string& path, char separator) {
   if (!std::filesystem::exists(path)) throw Error("no such file", path);
   if (std::filesystem::is_directory(path)) throw Error("is a folder, not a table", path);

@@ -158,25 +158,29 @@ Residuals residualsOf(const Condition& condition, const ConditionFit& fit, const
 std::vector<Replicate> bootstrap(const std::vector<Condition>& conditions, const Fit& fit,
                                  const BootstrapOptions& options) {
   std::vector<Replicate> replicates(options.samples);
+  inThreads(options.samples, options.threads,
+            [&](size_t i) { replicates[i] = replicateOf(conditions, fit, options, i); });
+  return replicates;
+}
+
+void inThreads(size_t count, unsigned threads, const std::function<void(size_t)>& work) {
   std::atomic<size_t> next{0};
   std::exception_ptr failure;
   std::mutex mutex;
-  const auto work = [&] {
+  const auto take = [&] {
     try {
-      for (size_t i; (i = next++) < options.samples;)
-        replicates[i] = replicateOf(conditions, fit, options, i);
+      for (size_t i; (i = next++) < count;) work(i);
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);
       failure = std::current_exception();
-      next = options.samples;
+      next = count;
     }
   };
   std::vector<std::thread> others;
-  for (unsigned t = 1; t < options.threads; ++t) others.emplace_back(work);
-  work();
+  for (unsigned t = 1; t < threads; ++t) others.emplace_back(take);
+  take();
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
-  return replicates;
 }
 
 std::vector<double> sortedQuantity(const std::vector<Replicate>& replicates, size_t condition,
