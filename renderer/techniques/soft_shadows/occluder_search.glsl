@@ -78,15 +78,11 @@ Area queriedArea(Area area) {
 #endif
 }
 
-// Depth below which any texel of an area blocks.
-float leastDepthOf(vec4 p, Area area) {
+// Depth below which all texels of an area are taken to block. The receiver's plane may come nearer to the light within the area;
+// its own texels would then count too, but only where all others hide the light as well.
+float leastDepthOf(vec4 p) {
 #ifdef BIAS_PLANE
-  // The plane comes nearest to the light at a corner of the area.
-  const vec2 perTexel = tangentSize / float(resolution), from = tangentLow - p.xy / p.z;
-  const vec2 atLow = receiverPlane * (from + vec2(area.low) * perTexel),
-             atHigh = receiverPlane * (from + vec2(area.high) * perTexel);
-  const vec2 most = max(max(atLow, atHigh), vec2(0.0));
-  return p.z * (1.0 - planeMargin(slopeBias)) / (1.0 + most.x + most.y);
+  return p.z * (1.0 - planeMargin(slopeBias + 2.0));
 #else
   return biasedDepth(p, 0);
 #endif
@@ -113,7 +109,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
     if (range.x >= biasedDepth(p, 0)) return false;
     // All texels block: neighbouring texels are taken as one surface. Biases of their own may lie below any such range.
 #ifndef BIAS_STORED
-    if (range.y < leastDepthOf(p, area) && !reachesOutside) {
+    if (range.y < leastDepthOf(p) && !reachesOutside) {
       pixelClass = kUmbra;
       visibility = 0.0;
       return false;
