@@ -10,6 +10,7 @@
 
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -86,9 +87,11 @@ class Records {
 }  // namespace
 
 Table Table::read(const std::string& path, char separator) {
-  if (!std::filesystem::exists(path)) throw Error("no such file", path);
-  if (std::filesystem::is_directory(path)) throw Error("is a folder, not a table", path);
-  return parse(readFileBytes(path), path, separator);
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (!std::filesystem::exists(status)) throw Error(code ? code.message() : "no such file", path);
+  if (std::filesystem::is_directory(status)) throw Error("is a folder, not a table", path);
+  return namingFile(path, [&] { return parse(readFileBytes(path), path, separator); });
 }
 
 Table Table::parse(const std::string& bytes, const std::string& name, char separator) {

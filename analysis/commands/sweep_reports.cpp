@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "analysis/output/result_renderers.h"
@@ -43,11 +44,13 @@ void printReport(const ReportResult& result, bool json) {
 }
 
 bool holdsSessions(const std::string& store) {
+  std::unique_ptr<store::SessionReader> reader;
   try {
-    return !store::SessionReader(store).sessions().empty();
+    reader = std::make_unique<store::SessionReader>(store);
   } catch (const Error&) {
-    return false;
+    return false;  // of a schema without studies, or no store: the reader of experiments says which
   }
+  return !reader->sessions().empty();
 }
 
 bool holdsExperiments(const std::string& store) {

@@ -10,6 +10,7 @@
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
+#include "experiments/base/printable.h"
 
 namespace limen::analysis {
 
@@ -19,6 +20,7 @@ ChartFile::ChartFile(const std::string& path) {
   if (extension_ != ".svg" && extension_ != ".pdf" && extension_ != ".png")
     throw Error("no picture of the kind '" + extension_ + "' is drawn", path,
                 "let the name end in .svg, .pdf or .png");
+  requirePlainName(path, "--plot");
   folder_ = file.parent_path().empty() ? "." : file.parent_path().string();
   name_ = file.filename().string();
   stem_ = file.stem().string();
@@ -27,14 +29,14 @@ ChartFile::ChartFile(const std::string& path) {
 std::string ChartFile::head(double width, double height) const {
   const auto output = [&](const std::string& extension) {
     return "set terminal " + gnuplotTerminal(extension, width, height) + "\nset output " +
-           gnuplotQuoted(stem_ + extension) + "\n";
+           gnuplotFile(stem_ + extension) + "\n";
   };
   return "# Draws " + name_ + " from " + stem_ + ".dat. For a paper: gnuplot -e pdf=1 " + stem_ +
          ".gp\nreset\nif (exists('pdf')) {\n" + output(".pdf") + "} else {\n" + output(extension_) +
          "}\nset encoding utf8\nset border 3\nset tics nomirror out\n";
 }
 
-std::string ChartFile::data() const { return gnuplotQuoted(stem_ + ".dat"); }
+std::string ChartFile::data() const { return gnuplotFile(stem_ + ".dat"); }
 
 void ChartFile::draw(const std::string& script, const std::string& data) const {
   const std::filesystem::path folder(folder_);

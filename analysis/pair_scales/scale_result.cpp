@@ -212,7 +212,7 @@ void drawScales(const Scales& scales, const std::string& path) {
       const Interval bar = drawn ? *drawn : item.interval.value_or(Interval{item.value, item.value});
       const size_t row = scale.items.size() - i;
       data += fmt::format("{} {} {} {}\n", item.value, row, bar.low, bar.high);
-      names += fmt::format("{}{} {}", i ? ", " : "", gnuplotQuoted(item.name), row);
+      names += fmt::format("{}{} {}", i ? ", " : "", gnuplotTick(item.name), row);
     }
     data += "\n\n";
     const std::string bars = barsText(scale, setting);

@@ -67,7 +67,7 @@ std::string namedTics(const std::string& axis, const std::vector<std::pair<doubl
                       bool turned) {
   std::string out;
   for (const auto& [place, label] : labels)
-    out += (out.empty() ? "" : ", ") + gnuplotQuoted(label) + " " + shortestNumber(place);
+    out += (out.empty() ? "" : ", ") + gnuplotTick(label) + " " + shortestNumber(place);
   return "set " + axis + "tics (" + out + ")" + (turned ? " rotate by 45 right" : "") + "\n";
 }
 

@@ -40,8 +40,8 @@ size_t colourOf(size_t series) { return series % kMarkerShapes; }
 std::string ticksScript(const char* axisName, const ChartAxis& axis) {
   std::string out;
   const auto add = [&](const std::string& label, double value, int level) {
-    out += fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotQuoted(label), shortestNumber(value),
-                       level);
+    out +=
+        fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotTick(label), shortestNumber(value), level);
   };
   for (const auto& [label, value] : axis.ticks) add(label, value, 0);
   for (const double value : axis.minorTicks) add("", value, 1);

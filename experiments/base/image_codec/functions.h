@@ -9,10 +9,10 @@
 /// start-up, so it is a separate module that a program loads when it first needs an image file.
 namespace limen::codec {
 
-Image readImage(const std::string& path);
+Image readImage(const std::string& path, const ImageLimits& limits);
 void writeExr(const std::string& path, const Image& image, const std::string& description);
 void writePng(const std::string& path, const Image& image, const std::string& description);
-ImageFile readImageFile(const std::string& path);
+ImageFile readImageFile(const std::string& path, const ImageLimits& limits);
 
 /// The functions above, as the module exports them.
 struct Functions {
