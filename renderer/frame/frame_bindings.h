@@ -80,6 +80,10 @@ const uint kPyramidMaximum1Image = 4u;
 const uint kPyramidMaximum2Image = 5u;
 const uint kPyramidMaximum3Image = 6u;
 
+// Sampled pyramid.
+const uint kSampledPyramidMapUnit = 0u;
+const uint kSampledPyramidImage = 0u;
+
 // Multi-scale shadow map.
 const uint kMultiScaleMinimumMapUnit = 0u;
 const uint kMultiScaleMaximumMapUnit = 1u;
@@ -129,6 +133,7 @@ const uint kSlicesCoveredImage = 0u;
 const uint kGBufferIdsUnit = 0u;
 const uint kGBufferOutImage = 0u;
 const uint kGBufferPlacesUnit = 1u;
+const uint kGBufferPlanesImage = 1u;  // of the receivers
 
 // Motion.
 const uint kMotionIdsUnit = 0u;
@@ -139,6 +144,7 @@ const uint kMotionPreviousDepthImage = 1u;
 const uint kReceiversFromReceiversUnit = 0u;
 const uint kReceiversFromNormalsUnit = 1u;
 const uint kReceiversFromImage = 0u;
+const uint kReceiversFromPlanesImage = 1u;
 
 // Shaded picture.
 const uint kShadedIdsUnit = 0u;

@@ -7,6 +7,10 @@
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kGBufferIdsUnit) uniform usampler2D triangleIds;
 layout(binding = kGBufferOutImage, OUT_FORMAT) uniform writeonly image2D outImage;
+#ifdef CHANNEL_RECEIVER
+#include "renderer/frame/receiver_plane.glsl"
+layout(binding = kGBufferPlanesImage, rg32f) uniform writeonly image2D outPlanes;
+#endif
 
 uniform mat4 anchorToCamera, cameraToAnchor;
 uniform mat4 cameraToLight;
@@ -24,6 +28,7 @@ void main() {
   const uint id = texelFetch(triangleIds, pixel, 0).x;
 #ifdef CHANNEL_RECEIVER
   vec4 result = vec4(0.0, 0.0, 0.0, -1.0);
+  vec2 plane = vec2(0.0);
 #else
   vec4 result = vec4(0.0);
 #endif
@@ -59,9 +64,13 @@ void main() {
       // On the plane n.q = n.p, depth as a function of u = x/z, v = y/z is z = n.p / n.(u,v,1).
       const float along = abs(dot(n, p / p.z));
       result = vec4(p, min(p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6), 1e6 * p.z));
+      plane = planeGradient(p, n);
     }
 #endif
 #endif
   }
   imageStore(outImage, pixel, result);
+#ifdef CHANNEL_RECEIVER
+  imageStore(outPlanes, pixel, vec4(plane, 0.0, 0.0));
+#endif
 }

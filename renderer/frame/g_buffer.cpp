@@ -45,8 +45,9 @@ gl::ShaderDefines definesOf(const Frame& frame, gl::ShaderDefines defines) {
   return defines;
 }
 
-/// Computes a channel from the triangle ids; `out` gets every pixel.
-void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
+/// Computes a channel from the triangle ids; `out`, and `planes` if there are any, get every pixel.
+void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass,
+             const gl::Texture* planes = nullptr) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);
   const glm::dmat4& toCamera = frame.anchorToCamera();
@@ -61,6 +62,7 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   ids.bindTexture(kGBufferIdsUnit);
   if (seen) seen->places->bindTexture(kGBufferPlacesUnit);
   out.bindImage(kGBufferOutImage, gl::Access::Write);
+  if (planes) planes->bindImage(kGBufferPlanesImage, gl::Access::Write);
   frame.geometry().bindStorage();
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -141,19 +143,21 @@ void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "fr
 Receivers::Receivers(Frame& frame)
     : program_(frame.context().programs().compute(
           kResolve, definesOf(frame, {{"CHANNEL_RECEIVER", "1"}, {"OUT_FORMAT", "rgba32f"}}))),
-      texture_(gl::Format::RGBA32F, frame.sizePx()) {
-  frame.passes().setBytesHeld("frame/receivers", texture_.bytes());
+      texture_(gl::Format::RGBA32F, frame.sizePx()),
+      planes_(gl::Format::RG32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/receivers", texture_.bytes() + planes_.bytes());
 }
 
 void Receivers::make(Frame& frame) {
   if (frame.scene().lights.empty()) {
     const auto scope = frame.passes().open("frame/receivers");
     texture_.clear(glm::vec4(0.0F, 0.0F, 0.0F, -1.0F));
+    planes_.clear(glm::vec4(0.0F));
     return;
   }
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
   program_.set("cameraToLight", glm::mat4(toLight * glm::inverse(frame.anchorToCamera())));
-  resolve(frame, program_, texture_, "frame/receivers");
+  resolve(frame, program_, texture_, "frame/receivers", &planes_);
 }
 
 }  // namespace limen::frame

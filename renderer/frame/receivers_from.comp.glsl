@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/frame/receiver_plane.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kReceiversFromReceiversUnit) uniform sampler2D receivers;
 layout(binding = kReceiversFromNormalsUnit) uniform sampler2D normals;
 layout(binding = kReceiversFromImage, rgba32f) uniform writeonly image2D outReceivers;
+layout(binding = kReceiversFromPlanesImage, rg32f) uniform writeonly image2D outPlanes;
 
 uniform ivec2 sizePx;
 uniform mat3 anchorToLight;  // directions
@@ -14,6 +16,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   vec4 receiver = texelFetch(receivers, pixel, 0);
+  vec2 plane = vec2(0.0);
   if (receiver.w >= 0.0) {
     const vec3 n = anchorToLight * texelFetch(normals, pixel, 0).xyz;
     const vec3 p = receiver.xyz - vec3(eye, 0.0);
@@ -21,6 +24,8 @@ void main() {
     const float along = -dot(n, p / p.z);
     const float slope = along > 0.0 ? p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6) : 1e6 * p.z;
     receiver = vec4(p, min(slope, 1e6 * p.z));
+    plane = planeGradient(p, n);
   }
   imageStore(outReceivers, pixel, receiver);
+  imageStore(outPlanes, pixel, vec4(plane, 0.0, 0.0));
 }

@@ -11,8 +11,9 @@ namespace limen::frame {
 ReceiversFrom::ReceiversFrom(Frame& frame, EyeSetting setting)
     : setting_(setting),
       program_(frame.context().programs().compute("renderer/frame/receivers_from.comp.glsl")),
-      texture_(gl::Format::RGBA32F, frame.sizePx()) {
-  frame.passes().setBytesHeld("frame/receivers" + setting_.name(), texture_.bytes());
+      texture_(gl::Format::RGBA32F, frame.sizePx()),
+      planes_(gl::Format::RG32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/receivers" + setting_.name(), texture_.bytes() + planes_.bytes());
 }
 
 void ReceiversFrom::make(Frame& frame) {
@@ -26,6 +27,7 @@ void ReceiversFrom::make(Frame& frame) {
   receivers.bindTexture(kReceiversFromReceiversUnit);
   normals.bindTexture(kReceiversFromNormalsUnit);
   texture_.bindImage(kReceiversFromImage, gl::Access::Write);
+  planes_.bindImage(kReceiversFromPlanesImage, gl::Access::Write);
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

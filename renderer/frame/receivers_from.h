@@ -25,11 +25,14 @@ class ReceiversFrom : public FrameInput {
   ReceiversFrom(Frame& frame, EyeSetting setting);
   void make(Frame& frame) override;
   const gl::Texture& texture() const { return texture_; }
+  /// RG32F: gradient g of each receiver's own plane, 1 / z = (1 + g . (t - t_p)) / p_z with tangents
+  /// t = (x/z, y/z); see receiver_plane.glsl. 0 where there is no receiver.
+  const gl::Texture& planes() const { return planes_; }
 
  private:
   EyeSetting setting_;
   const gl::Program& program_;
-  gl::Texture texture_;
+  gl::Texture texture_, planes_;
 };
 
 }  // namespace limen::frame

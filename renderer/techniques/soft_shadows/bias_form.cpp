@@ -13,6 +13,24 @@ constexpr const char* kFormsSource = "Schwarz 2009, section 4.5.4";
 
 }  // namespace
 
+const SettingsTable<PlaneBias>& PlaneBias::table() {
+  static const SettingsTable<PlaneBias> kTable = {
+      {&PlaneBias::constant, "constant", kConstants, "", kConstantText, kFormsSource},
+      {&PlaneBias::slope,
+       "slope",
+       {0.0, 16.0},
+       "texel",
+       "Further bias by the change of the receiver's plane over as many texels of the finest level, for "
+       "surfaces "
+       "that bend towards the light"},
+      {&PlaneBias::maxSlope,
+       "max_slope",
+       {0.1, 1e6},
+       "",
+       "Slope of depth, relative to distance and light-space tangent, up to which that bias grows"}};
+  return kTable;
+}
+
 const SettingsTable<ConstantBias>& ConstantBias::table() {
   static const SettingsTable<ConstantBias> kTable = {
       {&ConstantBias::constant, "constant", kConstants, "", kConstantText, kFormsSource}};
@@ -51,6 +69,7 @@ double constantOf(const BiasSettings& settings) {
 
 gl::ShaderDefines BiasForm::defines() const {
   if (std::holds_alternative<SlopeBias>(settings_)) return {};
+  if (std::holds_alternative<PlaneBias>(settings_)) return {{"BIAS_PLANE", "1"}};
   if (std::holds_alternative<StoredBias>(settings_)) return {{"BIAS_STORED", "1"}};
   return {{"BIAS_BY_LEVEL", "1"}};
 }
@@ -72,6 +91,9 @@ void BiasForm::configure(const gl::Program& program) const {
   if (const auto* form = std::get_if<SlopeBias>(&settings_)) {
     program.set("slopeBias", static_cast<float>(form->slope));
     program.set("maxSlope", static_cast<float>(form->maxSlope));
+  } else if (const auto* plane = std::get_if<PlaneBias>(&settings_)) {
+    program.set("slopeBias", static_cast<float>(plane->slope));
+    program.set("maxSlope", static_cast<float>(plane->maxSlope));
   } else if (const auto* stored = std::get_if<StoredBias>(&settings_)) {
     program.set("storedScale", static_cast<float>(stored->scale));
   } else {

@@ -9,6 +9,14 @@
 
 namespace limen::techniques {
 
+/// Blockers must lie before the receiver's own plane, wherever in the map they are.
+struct PlaneBias {
+  static constexpr const char *kKind = "receiver_plane",
+                              *kSummary = "against the receiver's own plane at each texel's place";
+  double constant = 1e-4, slope = 0.5, maxSlope = 10.0;
+  static const SettingsTable<PlaneBias>& table();
+};
+
 /// Nothing beyond the constant share of the receiver's distance that all forms have.
 struct ConstantBias {
   static constexpr const char *kKind = "constant", *kSummary = "only a share of the receiver's distance";
@@ -28,15 +36,15 @@ struct StoredBias {
   static const SettingsTable<StoredBias>& table();
 };
 
-using BiasSettings = std::variant<SlopeBias, ConstantBias, PerLevelBias, StoredBias>;
+using BiasSettings = std::variant<PlaneBias, SlopeBias, ConstantBias, PerLevelBias, StoredBias>;
 
 /// Share of the receiver's distance that is part of every form of bias.
 double constantOf(const BiasSettings& settings);
 
 /// By how much an occluder must be nearer to the light than a receiver to count, beyond a constant share of
-/// the receiver's distance: by the receiver's slope, by nothing, by a factor per level, or by what each texel
-/// stores. Only the test is biased; backprojection uses the unbiased depth. Source: Schwarz 2009,
-/// section 4.5.4.
+/// the receiver's distance: by the receiver's plane, by its slope, by nothing, by a factor per level, or by
+/// what each texel stores. Only the test is biased; backprojection uses the unbiased depth. Source: Schwarz
+/// 2009, section 4.5.4.
 class BiasForm {
  public:
   explicit BiasForm(const BiasSettings& settings) : settings_(settings) {}

@@ -28,7 +28,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const ivec2 offsets[4] = ivec2[4](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 1));
   float depths[4] = float[4](kEmptyDepth, kEmptyDepth, kEmptyDepth, kEmptyDepth);
   int visited = 0;
-  for (int y = low.y - 1; y <= high.y; ++y) {
+  for (int y = low.y - 1 + firstRow; y <= high.y; y += rowStep) {
     depths[1] = depths[2] = kEmptyDepth;
     for (int x = low.x - 1; x <= high.x; ++x) {
       ++visited;
@@ -36,23 +36,24 @@ float gatherOccluders(vec4 p, Area area, int level) {
       depths[3] = depths[2];
       depths[1] = depths[2] = kEmptyDepth;
       if (x < high.x) {
-        if (y >= low.y) depths[1] = texelFetch(minimumMap, ivec2(x + 1, y), level).x;
-        if (y < high.y) depths[2] = texelFetch(minimumMap, ivec2(x + 1, y + 1), level).x;
+        if (y >= low.y) depths[1] = levelDepth(ivec2(x + 1, y), level);
+        if (y < high.y) depths[2] = levelDepth(ivec2(x + 1, y + 1), level);
         fetchCount += 2u;
       }
-      const bvec4 blocks = lessThan(vec4(depths[0], depths[1], depths[2], depths[3]), vec4(depth));
+      bvec4 blocking;
+      for (int i = 0; i < 4; ++i) blocking[i] = blocks(depths[i], ivec2(x, y) + offsets[i], level, p, depth);
       // Windows that nothing blocks are looked at for nothing; the inside of a contour is not.
       ++examinedCount;
-      if (any(blocks)) ++usedCount;
-      if (all(blocks) || !any(blocks)) continue;
+      if (any(blocking)) ++usedCount;
+      if (all(blocking) || !any(blocking)) continue;
       for (int side = 0; side < 4; ++side) {
         // A piece begins between a texel that blocks and the next one round the window that does not, and ends before
         // the first one round the other way that does not.
         const int next = (side + 1) & 3;
-        if (!blocks[side] || blocks[next]) continue;
+        if (!blocking[side] || blocking[next]) continue;
         int last = side;
-        if (blocks[(last + 3) & 3]) last = (last + 3) & 3;
-        if (blocks[(last + 3) & 3]) last = (last + 3) & 3;
+        if (blocking[(last + 3) & 3]) last = (last + 3) & 3;
+        if (blocking[(last + 3) & 3]) last = (last + 3) & 3;
         const int before = (last + 3) & 3;
         const float outwards = 0.5 * (1.0 - contourInset);
         const vec2 fromTexel = vec2(x, y) + mix(vec2(offsets[side]), vec2(offsets[next]), outwards) + 0.5;
@@ -65,7 +66,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   // A driver that grants a limited number of iterations has left the loops early.
   const ivec2 windows = high - low + 2;
-  if (visited < windows.x * windows.y) {
+  if (visited < windows.x * rowsToGather(windows.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

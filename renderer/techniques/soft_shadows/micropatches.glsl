@@ -22,33 +22,35 @@ float gatherOccluders(vec4 p, Area area, int level) {
   // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + eyeOnLight.
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
-  for (int y = low.y; y <= high.y; ++y) {
+  for (int y = low.y + firstRow; y <= high.y; y += rowStep) {
     const vec2 edgesY = scale.y * vec2(float(y), float(y + 1)) + shift.y;
 #if GAP_FILL != GAP_FILL_NONE
-    float left = low.x > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y), level).x : kEmptyDepth;
-    float lowerLeft = low.x > 0 && y > 0 ? texelFetch(minimumMap, ivec2(low.x - 1, y - 1), level).x : kEmptyDepth;
+    float left = low.x > 0 ? levelDepth(ivec2(low.x - 1, y), level) : kEmptyDepth;
+    bool leftBlocks = blocks(left, ivec2(low.x - 1, y), level, p, depth);
+    float lowerLeft = low.x > 0 && y > 0 ? levelDepth(ivec2(low.x - 1, y - 1), level) : kEmptyDepth;
 #endif
     for (int x = low.x; x <= high.x; ++x) {
-      const float z = texelFetch(minimumMap, ivec2(x, y), level).x;
+      const float z = levelDepth(ivec2(x, y), level);
       ++fetchCount;
       ++examinedCount;
 #if GAP_FILL != GAP_FILL_NONE
-      const float below = y > 0 ? texelFetch(minimumMap, ivec2(x, y - 1), level).x : kEmptyDepth;
+      const float below = y > 0 ? levelDepth(ivec2(x, y - 1), level) : kEmptyDepth;
       ++fetchCount;
 #endif
-      if (blocks(z, ivec2(x, y), level, depth)) {
+      const bool blocking = blocks(z, ivec2(x, y), level, p, depth);
+      if (blocking) {
         const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
         const float k = projectionScale(z, p.z);
         vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
         const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (blocks(left, ivec2(x - 1, y), level, depth))
+        if (leftBlocks)
           start.x = min(start.x, projectionScale(left, p.z) * edgesX.x + eyeOnLight.x);
-        if (blocks(below, ivec2(x, y - 1), level, depth))
+        if (blocks(below, ivec2(x, y - 1), level, p, depth))
           start.y = min(start.y, projectionScale(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, depth)) {
+        if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) {
           const float corner = projectionScale(lowerLeft, p.z);
           start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
         }
@@ -57,6 +59,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       }
 #if GAP_FILL != GAP_FILL_NONE
       left = z;
+      leftBlocks = blocking;
       lowerLeft = below;
 #endif
     }

@@ -41,18 +41,18 @@ float gatherOccluders(vec4 p, Area area, int level) {
   // Lower left, lower right, upper right, upper left.
   Vertex corners[4] = Vertex[4](kNowhere, kNowhere, kNowhere, kNowhere);
   int visited = 0;
-  for (int y = cells.low.y; y <= cells.high.y; ++y) {
+  for (int y = cells.low.y + firstRow; y <= cells.high.y; y += rowStep) {
     for (int x = cells.low.x - 1; x <= cells.high.x; ++x) {
       ++visited;
       corners[0] = corners[1];
       corners[3] = corners[2];
       for (int i = 0; i < 2; ++i) {
         const ivec2 texel = ivec2(x + 1, y + i);
-        const float z = texelFetch(minimumMap, texel, level).x;
+        const float z = levelDepth(texel, level);
         ++fetchCount;
         // Precise, so that a vertex has one place for all cells that share it.
         precise vec2 place = vec2(0.0);
-        const bool blocking = blocks(z, texel, level, depth);
+        const bool blocking = blocks(z, texel, level, p, depth);
         if (blocking) place = projectionScale(z, p.z) * (scale * (vec2(texel) + 0.5) + shift) + eyeOnLight;
         corners[1 + i] = Vertex(place, blocking);
       }
@@ -75,7 +75,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   // A driver that grants a limited number of iterations has left the loops early; how many it takes off for those of the
   // masks is its own affair.
-  if (visited < (count.x + 1) * count.y) {
+  if (visited < (count.x + 1) * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

@@ -35,6 +35,18 @@ ivec4 rectBounds(ivec2 at, int level) {
   return ivec4(reference - extent.xy, reference + extent.zw + 1);
 }
 
+// Whether depth z of a microrect blocks the receiver; it was found anywhere within the microrect.
+bool rectBlocks(float z, ivec2 at, int level, vec4 p, float depth) {
+#ifdef BIAS_PLANE
+  if (!(z < depth)) return false;
+  const vec4 bounds = vec4(rectBounds(at, level));
+  const vec2 spread = 0.5 * (bounds.zw - bounds.xy - 1.0);
+  return beforePlane(z, 0.5 * (bounds.xy + bounds.zw), p, p.z * (1.0 - planeMargin(slopeBias + max(spread.x, spread.y))));
+#else
+  return z < depth;
+#endif
+}
+
 // Visibility by the microrects of a level that reach into the area.
 float gatherOccluders(vec4 p, Area area, int level) {
   const Range range = occluderRange(area, level);
@@ -45,7 +57,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   int visited = 0;
-  for (int y = low.y; y <= high.y; ++y) {
+  for (int y = low.y + firstRow; y <= high.y; y += rowStep) {
 #if GAP_FILL != GAP_FILL_NONE
     float left = low.x > 0 ? rectDepth(ivec2(low.x - 1, y), level) : kEmptyDepth;
     float lowerLeft = low.x > 0 && y > 0 ? rectDepth(ivec2(low.x - 1, y - 1), level) : kEmptyDepth;
@@ -57,18 +69,20 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #if GAP_FILL != GAP_FILL_NONE
       const float below = y > 0 ? rectDepth(ivec2(x, y - 1), level) : kEmptyDepth;
 #endif
-      if (z < depth) {
+      if (rectBlocks(z, ivec2(x, y), level, p, depth)) {
         const ivec4 bounds = rectBounds(ivec2(x, y), level);
         const vec2 lowEdge = scale * vec2(bounds.xy) + shift, highEdge = scale * vec2(bounds.zw) + shift;
         const float k = projectionScale(z, p.z);
         vec2 start = k * lowEdge + eyeOnLight;
         const vec2 end = k * highEdge + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (left < depth) start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
-        if (below < depth) start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
+        if (rectBlocks(left, ivec2(x - 1, y), level, p, depth))
+          start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
+        if (rectBlocks(below, ivec2(x, y - 1), level, p, depth))
+          start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (lowerLeft < depth) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);
+        if (rectBlocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);
 #endif
         accumulateOnLight(start, end);
       }
@@ -80,7 +94,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
     if (isSaturated()) return 0.0;
   }
   // A driver that grants a limited number of iterations has left the loops early.
-  if (visited < count.x * count.y) {
+  if (visited < count.x * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

@@ -37,9 +37,14 @@ MovingVertex vertexAt(ivec2 texel, int level, vec4 p, float depth, vec2 scale, v
     z = 1.0 / mix(1.0 / z, 1.0 / coarse, way);
   }
   precise vec2 place = vec2(0.0);
-  if (z < depth)
-    place = projectionScale(z, p.z) * (scale * mix(vec2(texel) + 0.5, 2.0 * vec2(parent) + 1.0, way) + shift) + eyeOnLight;
-  return MovingVertex(place, z < depth);
+  const vec2 at = mix(vec2(texel) + 0.5, 2.0 * vec2(parent) + 1.0, way);
+  bool blocking = z < depth;
+#ifdef BIAS_PLANE
+  const float size = float(1 << level);
+  blocking = blocking && beforePlane(z, at * size, p, p.z * (1.0 - planeMargin(slopeBias + 0.5 * (size * exp2(way) - 1.0))));
+#endif
+  if (blocking) place = projectionScale(z, p.z) * (scale * at + shift) + eyeOnLight;
+  return MovingVertex(place, blocking);
 }
 
 float gatherOccluders(vec4 p, Area area, int level) {
@@ -51,7 +56,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   int visited = 0;
-  for (int y = cells.low.y; y <= cells.high.y; ++y)
+  for (int y = cells.low.y + firstRow; y <= cells.high.y; y += rowStep)
     for (int x = cells.low.x; x <= cells.high.x; ++x) {
       ++visited;
       ++examinedCount;
@@ -67,7 +72,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       accumulateQuad(a.place, b.place, c.place, d.place);
     }
   // A driver that grants a limited number of iterations has left the loops early.
-  if (visited < count.x * count.y) {
+  if (visited < count.x * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }

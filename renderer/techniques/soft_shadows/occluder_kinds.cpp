@@ -11,6 +11,7 @@ constexpr const char *kGapText = "Neighbours to which a rectangle is stretched t
 
 const SettingsTable<Micropatches>& Micropatches::table() {
   static const SettingsTable<Micropatches> kTable = {
+      coarseDepthsBinding<Micropatches>(),
       Binding(&Micropatches::gapFill, "gap_fill", kGapText, kGapSource).formerly({"gap_fill"})};
   return kTable;
 }

@@ -35,6 +35,15 @@ constexpr EnumNames<GapFill, 3> enumNames(GapFill) {
   return {{{{GapFill::None, "none"}, {GapFill::LeftBottom, "left_bottom"}, {GapFill::Diagonal, "diagonal"}}}};
 }
 
+/// The depth that a texel of a coarse level stands for.
+enum class CoarseDepths {
+  Nearest,  ///< the nearest of the finest texels that it covers
+  Sampled   ///< that of one of them
+};
+constexpr EnumNames<CoarseDepths, 2> enumNames(CoarseDepths) {
+  return {{{{CoarseDepths::Nearest, "nearest"}, {CoarseDepths::Sampled, "sampled"}}}};
+}
+
 /// A kind of micro-occluder as an alternative of a technique's settings.
 template <OccluderKind K>
 struct OccluderAlternative {
@@ -42,8 +51,18 @@ struct OccluderAlternative {
   static constexpr const char* kKind = limen::toText(K);
 };
 
+template <class S>
+Binding<S> coarseDepthsBinding() {
+  return {
+      &S::depths, "depths",
+      "Depth that a texel of a coarse level stands for: the nearest of the texels that it covers, or that of "
+      "one of them, so that it hides as much of the light as they do on average",
+      "Schwarz 2009, section 4.1 (nearest); sampled: own form"};
+}
+
 struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
   static constexpr const char* kSummary = "texels as rectangles at one depth";
+  CoarseDepths depths = CoarseDepths::Sampled;
   GapFill gapFill = GapFill::LeftBottom;
   static const SettingsTable<Micropatches>& table();
 };
@@ -59,6 +78,7 @@ struct Microrects : OccluderAlternative<OccluderKind::Microrects> {
 /// What a search needs to know about the chosen alternative.
 struct OccluderChoice {
   OccluderKind kind = OccluderKind::Micropatches;
+  CoarseDepths depths = CoarseDepths::Nearest;
   GapFill gapFill = GapFill::LeftBottom;
   frame::MergeRule merge = {};            ///< of microrects
   std::optional<double> morphLevel = {};  ///< of morphing microquads
@@ -66,12 +86,14 @@ struct OccluderChoice {
   void define(gl::ShaderDefines& defines) const {
     defineEnum(defines, "OCCLUDERS", kind);
     defineEnum(defines, "GAP_FILL", gapFill);
+    if (depths == CoarseDepths::Sampled) defines["DEPTHS_SAMPLED"] = "1";
   }
 };
 
 template <class Alternative>
 OccluderChoice occluderChoice(const Alternative& chosen) {
   OccluderChoice choice{.kind = Alternative::kOccluders};
+  if constexpr (requires { chosen.depths; }) choice.depths = chosen.depths;
   if constexpr (requires { chosen.gapFill; }) choice.gapFill = chosen.gapFill;
   if constexpr (requires { chosen.mergeMetric; }) choice.merge = {chosen.mergeMetric, chosen.diagonalMerge};
   if constexpr (requires { chosen.morphLevel; }) choice.morphLevel = chosen.morphLevel;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/frame/sampled_pyramid.h"
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_pass.h"
 
@@ -40,9 +41,15 @@ const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame
     baseLevel_ = layers->baseLevel();
     bytes += layers->texture().bytes();
   }
+  const frame::SampledPyramid* sampled = nullptr;
+  if (occluders_.depths == CoarseDepths::Sampled) {
+    sampled = &frame.get<frame::SampledPyramid>(settings);
+    bytes += sampled->atlas().bytes();
+  }
   structureBytes_.resize(std::max(structureBytes_.size(), map + 1));
   structureBytes_[map] = bytes;
   // Last, since making the inputs binds textures too.
+  if (sampled) sampled->atlas().bindTexture(kSampledDepthsUnit);
   if (layers) layers->texture().bindTexture(kMultiScaleMapUnit);
   coarse_.bind();
   bias_.bind();

@@ -12,8 +12,14 @@ uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, m
 uniform int maxIterations;
 
 void clearGathered();
+// Enters what of the light is behind the receiver's plane; after clearGathered().
+void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
+#if LANES > 1
+// Joins what the LANES invocations of a pixel have gathered in the first of them; called by all of the group.
+void joinLanes(uint slot, uint lane);
+#endif
 
 // Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.
 #if OCCLUDERS == OCCLUDERS_MICROPATCHES || OCCLUDERS == OCCLUDERS_MICRORECTS
@@ -38,6 +44,10 @@ Area searchArea(vec4 p, float z, out bool reachesOutside) {
 struct Range {
   ivec2 low, high;
 };
+
+// Rows of micro-occluders that this invocation gathers: all, unless several share a pixel.
+int firstRow = 0, rowStep = 1;
+int rowsToGather(int rows) { return max(rows - firstRow + rowStep - 1, 0) / rowStep; }
 
 // Those that may matter for an area, rounded outward to the level's grid.
 Range occluderRange(Area area, int level);
@@ -68,6 +78,16 @@ Area queriedArea(Area area) {
 #endif
 }
 
+// Depth below which all texels of an area are taken to block. The receiver's plane may come nearer to the light within the area;
+// its own texels would then count too, but only where all others hide the light as well.
+float leastDepthOf(vec4 p) {
+#ifdef BIAS_PLANE
+  return p.z * (1.0 - planeMargin(slopeBias + 2.0));
+#else
+  return biasedDepth(p, 0);
+#endif
+}
+
 // Narrows the search area of a receiver, or finds that it needs none: false, with the visibility that is known then.
 bool findArea(vec4 p, out Area area, out float visibility) {
   visibility = 1.0;
@@ -89,7 +109,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
     if (range.x >= biasedDepth(p, 0)) return false;
     // All texels block: neighbouring texels are taken as one surface. Biases of their own may lie below any such range.
 #ifndef BIAS_STORED
-    if (range.y < biasedDepth(p, 0) && !reachesOutside) {
+    if (range.y < leastDepthOf(p) && !reachesOutside) {
       pixelClass = kUmbra;
       visibility = 0.0;
       return false;
@@ -110,9 +130,14 @@ layout(binding = kTexelBiasesUnit) uniform sampler2D texelBiases;
 uniform float storedScale;
 #endif
 
+#include "renderer/techniques/soft_shadows/level_depths.glsl"
+
 // Whether depth z of a texel of a level blocks a receiver of biased depth `depth`.
-bool blocks(float z, ivec2 texel, int level, float depth) {
-#ifdef BIAS_STORED
+bool blocks(float z, ivec2 texel, int level, vec4 p, float depth) {
+#ifdef BIAS_PLANE
+  if (!(z < depth)) return false;
+  return beforePlane(z, depthPlace(texel, level), p, p.z * (1.0 - planeMargin(slopeBias + depthSpread(level))));
+#elif defined(BIAS_STORED)
   if (!(z < depth)) return false;
   ++fetchCount;
   return z + storedScale * texelFetch(texelBiases, texel, level).x < depth;
@@ -137,6 +162,18 @@ bool blocks(float z, ivec2 texel, int level, float depth) {
 #include "renderer/techniques/soft_shadows/microquads.glsl"
 #endif
 
+// Visibility of a receiver that nothing shadows (`visibility` 1) or everything does.
+float visibilityUnprocessed(vec4 p, float visibility) {
+#ifdef BIAS_PLANE
+  if (visibility > 0.0 && planeCutsLight(p)) {
+    clearGathered();
+    hideBehindPlane(p);
+    return gatheredVisibility();
+  }
+#endif
+  return visibility;
+}
+
 #if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
 #include "renderer/techniques/soft_shadows/quality/split_search.glsl"
 #elif defined(LEVEL_STEPS)
@@ -146,7 +183,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;
   float visibility;
   readBudget(pixel);
-  if (!findArea(p, area, visibility)) return visibility;
+  if (!findArea(p, area, visibility)) return visibilityUnprocessed(p, visibility);
   return visibilityAt(p, area, qualityLevel(p, area), pixel);
 }
 #endif

@@ -13,10 +13,7 @@ namespace limen::techniques {
 /// included in theirs. Source: Schwarz 2009, sections 4.1 to 4.4.
 struct SearchSettings {
   MapSettings map = {};
-  /// A micropatch of the receiver's own plane is above that plane by the slope over one texel. Skipping the
-  /// receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
-  /// own.
-  BiasSettings bias = SlopeBias{.slope = 2.0};
+  BiasSettings bias = PlaneBias{};
   BudgetSettings budget = {};
   int refinements = 2;  ///< number of times that the search area is narrowed
   StructureSettings structure = HierarchicalMap{};

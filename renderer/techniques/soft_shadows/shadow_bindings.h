@@ -11,6 +11,7 @@ namespace limen::techniques {
 
 // Every pass (VisibilityPass).
 const uint kReceiversUnit = 0u;
+const uint kReceiverPlanesUnit = 8u;
 const uint kVisibilityImage = 0u;
 const uint kCountsImage = 1u;
 const uint kSearchImage = 2u;
@@ -41,6 +42,7 @@ const uint kTexelBiasesUnit = 9u;
 const uint kRectDepthsUnit = 10u;
 const uint kRectExtentsUnit = 11u;
 const uint kBudgetMapUnit = 12u;
+const uint kSampledDepthsUnit = 4u;
 
 // Search and gathering as two passes.
 struct WorkListHeader {                       // std430; then pixels: x in the lower half, y in the upper

@@ -36,9 +36,23 @@ vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * floa
 // through whatever lies near.
 float boundedSlope(vec4 receiver) { return min(receiver.w, maxSlope * receiver.z); }
 
+#ifdef BIAS_PLANE
+layout(binding = kReceiverPlanesUnit) uniform sampler2D receiverPlanes;
+vec2 receiverPlane = vec2(0.0);  // of this pixel, see receiver_plane.glsl
+#endif
+
+// The receiver of a pixel; w < 0: none.
+vec4 loadReceiver(ivec2 pixel) {
+#ifdef BIAS_PLANE
+  receiverPlane = texelFetch(receiverPlanes, pixel, 0).xy;
+#endif
+  return texelFetch(receivers, pixel, 0);
+}
+
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
 // change of the receiver's own plane over `slopeBias` texels (the slope sums both axes). BIAS_BY_LEVEL: a constant that grows
-// with the level by a factor, instead. BIAS_STORED: texels bring what they need beyond the constant (blocks()).
+// with the level by a factor, instead. BIAS_STORED: texels bring what they need beyond the constant (blocks()). BIAS_PLANE:
+// a blocker must lie before the receiver's own plane besides (beforePlane()).
 #ifdef BIAS_BY_LEVEL
 uniform float biasGrowth;
 #endif
@@ -47,13 +61,34 @@ float biasedDepth(vec4 receiver, int level) {
   float share = bias;
   for (int i = 0; i < level; ++i) share *= biasGrowth;
   return receiver.z - share * receiver.z;
-#elif defined(BIAS_STORED)
+#elif defined(BIAS_STORED) || defined(BIAS_PLANE)
   return receiver.z - bias * receiver.z;
 #else
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
   return receiver.z - bias * receiver.z - slopeBias * boundedSlope(receiver) * texel;
 #endif
 }
+
+#ifdef BIAS_PLANE
+// Share of the receiver's depth by which a depth must undercut its plane: the constant, and the change of the plane over
+// `texels` on both axes, which `maxSlope` bounds.
+float planeMargin(float texels) {
+  const vec2 perTexel = tangentSize / float(resolution);
+  return bias + texels * min(dot(abs(receiverPlane), perTexel), maxSlope * max(perTexel.x, perTexel.y));
+}
+
+// Whether depth z at a place of the map, in texels of level 0, lies before the receiver's plane. `limit` = p_z (1 - margin).
+bool beforePlane(float z, vec2 place, vec4 receiver, float limit) {
+  const vec2 away = tangentLow + place * (tangentSize / float(resolution)) - receiver.xy / receiver.z;
+  return z * (1.0 + dot(receiverPlane, away)) < limit;
+}
+
+// Whether some of the light's rectangle is behind the receiver's plane.
+bool planeCutsLight(vec4 receiver) {
+  const vec2 perUnit = receiverPlane * lightSize;
+  return dot(perUnit, 0.5 - eyeOnLight) + 0.5 * (abs(perUnit.x) + abs(perUnit.y)) > receiver.z;
+}
+#endif
 
 void store(ivec2 pixel, float visibility) {
   imageStore(outVisibility, pixel, vec4(visibility));
@@ -70,7 +105,7 @@ float visibilityOf(vec4 receiver, ivec2 pixel);
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   store(pixel, receiver.w < 0.0 ? 1.0 : visibilityOf(receiver, pixel));
 }
 #endif

@@ -10,9 +10,17 @@
 namespace limen::techniques {
 namespace {
 
-const gl::Texture& receiversOf(frame::Frame& frame, glm::dvec2 eye) {
-  return eye == glm::dvec2(0.5) ? frame.get<frame::Receivers>().texture()
-                                : frame.get<frame::ReceiversFrom>(frame::EyeSetting{eye}).texture();
+struct ReceiverTextures {
+  const gl::Texture &points, &planes;
+};
+
+ReceiverTextures receiversOf(frame::Frame& frame, glm::dvec2 eye) {
+  if (eye == glm::dvec2(0.5)) {
+    const auto& centre = frame.get<frame::Receivers>();
+    return {centre.texture(), centre.planes()};
+  }
+  const auto& other = frame.get<frame::ReceiversFrom>(frame::EyeSetting{eye});
+  return {other.texture(), other.planes()};
 }
 
 }  // namespace
@@ -51,7 +59,9 @@ void VisibilityPass::bind(frame::Frame& frame, const gl::Program& program, PassI
   program.set("eyeOnLight", glm::vec2(map.eye));
   program.set("resolution", map.resolution);
   inputs.setUniforms(program);
-  receiversOf(frame, map.eye).bindTexture(kReceiversUnit);
+  const ReceiverTextures receivers = receiversOf(frame, map.eye);
+  receivers.points.bindTexture(kReceiversUnit);
+  receivers.planes.bindTexture(kReceiverPlanesUnit);
   visibility_->bindImage(kVisibilityImage, gl::Access::Write);
   if (!counts) return;
   counts->work.bindImage(kCountsImage, gl::Access::ReadWrite);

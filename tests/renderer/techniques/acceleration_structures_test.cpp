@@ -62,7 +62,7 @@ class AccelerationStructures : public TechniqueTest {
     Given given = {{"structure", structure}, {"resolution", int64_t{256}}, {"budget.limit", int64_t{0}},
                    {"bias.constant", 0.0},   {"bias.slope", 0.0},          {"occluders.gap_fill", gapFill}};
     if (structure == "ysm") given["structure.base"] = int64_t{64};
-    return given;
+    return inThesisForm(given);
   }
 
   /// Narrows the cut of the pyramid from point to light until its nearest texel no longer lets it shrink.

@@ -13,7 +13,7 @@ class BiasForms : public TechniqueTest {
  protected:
   static Image product(const scene::Scene& scene, Given given, glm::ivec2 sizePx = {48, 36}) {
     given.emplace("resolution", int64_t{64});
-    return render(scene, "soft_shadows/bitmask", given, sizePx).product;
+    return render(scene, "soft_shadows/bitmask", inThesisForm(given), sizePx).product;
   }
 
   /// A plane that leans away from the light and nothing else.
@@ -29,14 +29,14 @@ class BiasForms : public TechniqueTest {
   /// than a texel of level 4, are left out.
   static double acne(const scene::Scene& scene, int level, double scale, const std::string& occluders) {
     const Rendered rendered = render(scene, "soft_shadows/bitmask",
-                                     {{"resolution", int64_t{128}},
-                                      {"occluders", occluders},
-                                      {"occluders.gap_fill", std::string("none")},
-                                      {"levels", std::string("fixed")},
-                                      {"levels.level", int64_t{level}},
-                                      {"bias.constant", 1e-5},
-                                      {"bias", std::string("stored")},
-                                      {"bias.scale", scale}},
+                                     inThesisForm({{"resolution", int64_t{128}},
+                                                   {"occluders", occluders},
+                                                   {"occluders.gap_fill", std::string("none")},
+                                                   {"levels", std::string("fixed")},
+                                                   {"levels.level", int64_t{level}},
+                                                   {"bias.constant", 1e-5},
+                                                   {"bias", std::string("stored")},
+                                                   {"bias.scale", scale}}),
                                      {96, 72});
     glm::dvec2 extents(0.0);
     const glm::dmat4 toLight = scene.lights[0].toLightSpace();

@@ -74,7 +74,7 @@ class AgainstTwin : public TechniqueTest, public testing::WithParamInterface<con
     given["resolution"] = int64_t{64};
     given["budget.limit"] = int64_t{0};
     given["occluders.gap_fill"] = std::string(GetParam());
-    const auto made = info.make(ParameterValues(info.parameters, given));
+    const auto made = info.make(ParameterValues(info.parameters, inThesisForm(given)));
     made->prepare(frame);
     frame.begin();
     made->render(frame);

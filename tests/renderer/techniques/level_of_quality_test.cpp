@@ -78,11 +78,14 @@ class LevelsOfQuality : public TechniqueTest {
 
   static ParameterValue text(const char* value) { return std::string(value); }
 
-  static Given unsmoothed() { return {{"passes", text("split")}, {"passes.smoothing", text("none")}}; }
+  static Given unsmoothed() {
+    return {{"passes", text("split")}, {"passes.smoothing", text("none")}, {"passes.lanes", int64_t{1}}};
+  }
 
   /// Some pixels of all classes, several levels among the processed ones.
   static Given common() {
-    return {{"resolution", int64_t{256}}, {"budget.limit", int64_t{36}}, {"structure", text("mssm")}};
+    return inThesisForm(
+        {{"resolution", int64_t{256}}, {"budget.limit", int64_t{36}}, {"structure", text("mssm")}});
   }
 };
 
@@ -121,9 +124,11 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     EXPECT_EQ(single.counted.work, split.counted.work);
     EXPECT_EQ(single.counted.search, split.counted.search);
     if (tried.given.empty()) {
-      const Graded ordered = grade(
-          scene, tried.technique,
-          with(given, {{"passes", text("split")}, {"passes.order", text("loop_length")}}), tried.sizePx);
+      const Graded ordered = grade(scene, tried.technique,
+                                   with(given, {{"passes", text("split")},
+                                                {"passes.lanes", int64_t{1}},
+                                                {"passes.order", text("loop_length")}}),
+                                   tried.sizePx);
       EXPECT_TRUE(sameBits(single.visibility.data, ordered.visibility.data));
       EXPECT_EQ(single.counted.work, ordered.counted.work);
     }
@@ -299,6 +304,33 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
       }
     }
   }
+}
+
+// Masks are joined by OR, whatever the order; areas are added up in another one.
+TEST_F(LevelsOfQuality, InvocationsThatShareAPixelFindWhatOneFinds) {
+  const scene::Scene scene = makeScene("sphere_grid");
+  for (const char* occluders : {"micropatches", "microquads_microtris", "microrects"})
+    for (const char* technique : {"soft_shadows/bitmask", kArea}) {
+      Graded one;
+      for (const int64_t lanes : {1, 2, 8, 16}) {
+        Graded several = grade(scene, technique,
+                               {{"resolution", int64_t{256}},
+                                {"occluders", text(occluders)},
+                                {"passes", text("split")},
+                                {"passes.lanes", lanes}},
+                               {61, 45});
+        if (lanes == 1) {
+          one = std::move(several);
+          continue;
+        }
+        SCOPED_TRACE(testing::Message() << technique << ' ' << occluders << ' ' << lanes);
+        if (technique != std::string(kArea)) {
+          EXPECT_TRUE(sameBits(one.visibility.data, several.visibility.data));
+        }
+        for (size_t i = 0; i < one.visibility.pixels(); ++i)
+          ASSERT_NEAR(one.visibility.data[i], several.visibility.data[i], 1e-5) << i;
+      }
+    }
 }
 
 // A search area of e texels on an axis has at most e / 2^i + 2 micro-occluders of level i there, less what

@@ -46,7 +46,7 @@ class LightMapsTest : public TechniqueTest {
                   {"budget.limit", int64_t{0}},
                   {"occluders.gap_fill", std::string("none")},
                   {"pattern", std::string("regular_16")}});
-    const ParameterValues values = valuesOf(given);
+    const ParameterValues values = valuesOf(inThesisForm(given));
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {24, 18});
     const auto made = TechniqueRegistry::instance().get(kBitmask).make(values);

@@ -127,11 +127,12 @@ TEST_F(LightMotionTest, OccludersSwimAsTheEdgeOfTheirLevelsBlocksDoes) {
       const scene::Scene after = withMovedLight(built, start * way),
                          before = withMovedLight(built, (start - kShare) * way);
       const Rendered change = render(after, "soft_shadows/change",
-                                     withMaps("soft_shadows/change", kMap,
-                                              {{"light_step", kShare},
-                                               {"direction_deg", direction},
-                                               {"inner.levels", std::string("fixed")},
-                                               {"inner.levels.level", int64_t{level}}}),
+                                     inThesisForm(withMaps("soft_shadows/change", kMap,
+                                                           {{"light_step", kShare},
+                                                            {"direction_deg", direction},
+                                                            {"inner.levels", std::string("fixed")},
+                                                            {"inner.levels.level", int64_t{level}}}),
+                                                  "inner."),
                                      kMotionPx);
       const double edgeBefore = edgeOfBlocks(before, kMap, level),
                    edgeAfter = edgeOfBlocks(after, kMap, level);

@@ -157,7 +157,7 @@ class Microquads : public TechniqueTest {
     if (given.count("occluders") == 0) given["occluders"] = std::string("microquads");
     const bool coarse = given.count("budget.limit") != 0;
     if (!coarse) given["budget.limit"] = int64_t{0};
-    const auto made = info.make(ParameterValues(info.parameters, given));
+    const auto made = info.make(ParameterValues(info.parameters, inThesisForm(given)));
     made->prepare(frame);
     frame.begin();
     made->render(frame);

@@ -99,7 +99,7 @@ class Microrects : public TechniqueTest {
                    {"structure", structure},
                    {"occluders.gap_fill", std::string(fills ? "left_bottom" : "none")}};
     if (masks) given["pattern"] = std::string("regular_16");
-    const auto made = info.make(ParameterValues(info.parameters, given));
+    const auto made = info.make(ParameterValues(info.parameters, inThesisForm(given)));
     made->prepare(frame);
     frame.begin();
     made->render(frame);

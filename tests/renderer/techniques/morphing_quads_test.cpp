@@ -22,6 +22,7 @@ class MorphingQuads : public TechniqueTest {
  protected:
   static Given atLevel(double level) {
     return {{"resolution", int64_t{kMorphMap}},
+            {"bias", std::string("receiver_slope")},
             {"bias.slope", kMorphSlopeBias},
             {"occluders", std::string("morphing_microquads")},
             {"occluders.level", level}};
@@ -107,6 +108,7 @@ TEST_F(MorphingQuads, AtAWholeLevelTheyAreMicroquads) {
     const Image moved = render(scene, "soft_shadows/backprojection", atLevel(level), {40, 30}).product;
     const Image still = render(scene, "soft_shadows/backprojection",
                                {{"resolution", int64_t{kMorphMap}},
+                                {"bias", std::string("receiver_slope")},
                                 {"bias.slope", kMorphSlopeBias},
                                 {"occluders", std::string("microquads")},
                                 {"levels", std::string("fixed")},

@@ -63,6 +63,7 @@ TEST_F(OccluderKinds, ConflictsAreRefused) {
        {{"levels", fixed}, {"levels.level", int64_t{2}}, {"budget.limit", int64_t{25}}},
        "budget"},
       {"soft_shadows/bitmask", {{"occluders", rects}, {"bias", stored}}, "bias"},
+      {"soft_shadows/bitmask", {{"bias", stored}}, "bias"},
       {"soft_shadows/backprojection",
        {{"occluders", morphing}, {"occluders.level", 6.5}, {"resolution", int64_t{64}}},
        "occluders.level"},
@@ -102,8 +103,11 @@ Kinds kinds() {
       {"soft_shadows/bitmask", {{"occluders", rects}, {"occluders.merge_metric", std::string("relative")}}});
   out.push_back({"soft_shadows/bitmask", {{"bias", std::string("per_level")}}});
   for (const std::string& occluders : {std::string("micropatches"), quads})
-    out.push_back(
-        {"soft_shadows/bitmask", {{"occluders", occluders}, {"bias", stored}, {"bias.scale", 0.0}}});
+    out.push_back({"soft_shadows/bitmask",
+                   {{"occluders", occluders},
+                    {"occluders.depths", std::string("nearest")},
+                    {"bias", stored},
+                    {"bias.scale", 0.0}}});
   for (const std::string& occluders : {quads, both}) {
     for (const char* area : {"absolute", "signed"})
       out.push_back(

@@ -61,6 +61,24 @@ class TechniqueTest : public testing::Test {
     }
   }
 
+  /// `given` for a search of micro-occluders (its names behind `prefix`), with what it leaves open as Schwarz
+  /// 2009 has it, and not by default: bias by the receiver's slope, nearest depths, one invocation per pixel.
+  static Given inThesisForm(Given given, const std::string& prefix = "") {
+    const auto chosen = [&](const char* name, const char* otherwise) {
+      const auto found = given.find(prefix + name);
+      return found == given.end() ? std::string(otherwise) : std::get<std::string>(found->second);
+    };
+    if (chosen("bias", "receiver_slope") == "receiver_slope") {
+      given[prefix + "bias"] = std::string("receiver_slope");
+      given.emplace(prefix + "bias.slope", 2.0);
+    }
+    const std::string occluders = chosen("occluders", "micropatches");
+    if (occluders == "micropatches" || occluders == "contours")
+      given.emplace(prefix + "occluders.depths", std::string("nearest"));
+    if (chosen("passes", "single") == "split") given.emplace(prefix + "passes.lanes", int64_t{1});
+    return given;
+  }
+
   /// `given`, with every map that the technique reads at `side` texels.
   static Given withMaps(const std::string& technique, int side, Given given = {}) {
     const ParameterValues values(TechniqueRegistry::instance().get(technique).parameters, given);

@@ -4,7 +4,31 @@
 
 float occludedArea = 0.0;
 
+float frontShare = 1.0;  // of the light, that is before the receiver's plane
+
 void clearGathered() { occludedArea = 0.0; }
+
+#ifdef BIAS_PLANE
+// Share of the unit square with a . s < limit: the integral over y of a clamped line, in closed form.
+float shareBefore(vec2 a, float limit) {
+  // Mirrored so that both components are positive.
+  if (a.x < 0.0) a.x = -a.x, limit += a.x;
+  if (a.y < 0.0) a.y = -a.y, limit += a.y;
+  const float low = min(a.x, a.y), high = max(a.x, a.y);
+  if (limit <= 0.0) return 0.0;
+  if (limit >= low + high) return 1.0;
+  if (limit < low) return 0.5 * limit * limit / (low * high);
+  if (limit > high) return 1.0 - 0.5 * (low + high - limit) * (low + high - limit) / (low * high);
+  return (limit - 0.5 * low) / high;
+}
+void hideBehindPlane(vec4 p) {
+  if (!planeCutsLight(p)) return;
+  const vec2 perUnit = receiverPlane * lightSize;
+  frontShare = shareBefore(perUnit, p.z + dot(perUnit, eyeOnLight));
+}
+#else
+void hideBehindPlane(vec4 p) {}
+#endif
 void accumulate(vec2 low, vec2 high) { occludedArea += (high.x - low.x) * (high.y - low.y); }
 
 // Clamped in an order that turns a NaN, were there one, into a bound.
@@ -40,6 +64,17 @@ void accumulateEdge(vec2 from, vec2 to) {
 }
 #endif
 
+#if LANES > 1
+shared float laneAreas[kWorkListGroup];
+void joinLanes(uint slot, uint lane) {
+  laneAreas[slot * LANES + lane] = occludedArea;
+  memoryBarrierShared();
+  barrier();
+  occludedArea = 0.0;
+  for (uint other = 0u; other < LANES; ++other) occludedArea += laneAreas[slot * LANES + other];
+}
+#endif
+
 bool isSaturated() {
 #if defined(SIGNED_AREAS) || OCCLUDERS == OCCLUDERS_CONTOURS
   return false;  // what is still to come may take away
@@ -47,4 +82,5 @@ bool isSaturated() {
   return occludedArea >= 1.0;
 #endif
 }
-float gatheredVisibility() { return 1.0 - clamp(occludedArea, 0.0, 1.0); }
+// Areas cannot tell whether an occluder and the receiver's plane hide the same part: taken as independent.
+float gatheredVisibility() { return frontShare * (1.0 - clamp(occludedArea, 0.0, 1.0)); }

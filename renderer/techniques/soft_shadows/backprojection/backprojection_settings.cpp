@@ -16,17 +16,20 @@ Binding<S> areaBinding() {
 }  // namespace
 
 const SettingsTable<SummedMicroquads>& SummedMicroquads::table() {
-  static const SettingsTable<SummedMicroquads> kTable = {areaBinding<SummedMicroquads>()};
+  static const SettingsTable<SummedMicroquads> kTable = {coarseDepthsBinding<SummedMicroquads>(),
+                                                         areaBinding<SummedMicroquads>()};
   return kTable;
 }
 
 const SettingsTable<SummedMicrotris>& SummedMicrotris::table() {
-  static const SettingsTable<SummedMicrotris> kTable = {areaBinding<SummedMicrotris>()};
+  static const SettingsTable<SummedMicrotris> kTable = {coarseDepthsBinding<SummedMicrotris>(),
+                                                        areaBinding<SummedMicrotris>()};
   return kTable;
 }
 
 const SettingsTable<Contours>& Contours::table() {
   static const SettingsTable<Contours> kTable = {
+      coarseDepthsBinding<Contours>(),
       Binding(&Contours::inset, "inset", Range{0.0, 1.0}, "",
               "Position of contours (t): 0 along the borders of blocking texels, 1 through their centres",
               "Schwarz 2009, section 4.4.5 (after Guennebaud 2007)")

@@ -17,18 +17,21 @@ constexpr EnumNames<QuadArea, 2> enumNames(QuadArea) {
 
 struct SummedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
   static constexpr const char* kSummary = "a mesh between texel centres";
+  CoarseDepths depths = CoarseDepths::Nearest;
   QuadArea area = QuadArea::Absolute;
   static const SettingsTable<SummedMicroquads>& table();
 };
 
 struct SummedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> {
   static constexpr const char* kSummary = "that mesh with triangles where three of four texels block";
+  CoarseDepths depths = CoarseDepths::Nearest;
   QuadArea area = QuadArea::Absolute;
   static const SettingsTable<SummedMicrotris>& table();
 };
 
 struct Contours : OccluderAlternative<OccluderKind::Contours> {
   static constexpr const char* kSummary = "outlines of the texels that block";
+  CoarseDepths depths = CoarseDepths::Sampled;
   double inset = 0.0;
   static const SettingsTable<Contours>& table();
 };

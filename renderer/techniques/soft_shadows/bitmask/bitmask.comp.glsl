@@ -13,15 +13,34 @@
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #undef visibilityOf
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
+#include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
 #if OCCLUDERS == OCCLUDERS_MICROQUADS || OCCLUDERS == OCCLUDERS_MICROQUADS_MICROTRIS
 #include "renderer/techniques/soft_shadows/bitmask/quad_mask.glsl"
 void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d); }
 #endif
 
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
+#if LANES > 1
+shared uint laneMasks[MASK_WORDS][kWorkListGroup];
+void joinLanes(uint slot, uint lane) {
+  const uint first = slot * LANES;
+  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][first + lane] = mask[i];
+  memoryBarrierShared();
+  barrier();
+  for (uint i = lane; i < MASK_WORDS; i += LANES) {
+    uint joined = 0u;
+    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other];
+    laneMasks[i][first] = joined;
+  }
+  memoryBarrierShared();
+  barrier();
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = laneMasks[i][first];
+}
+#endif
 bool isSaturated() { return allCovered(); }
 float gatheredVisibility() { return visibleShare(); }
 
+#include "renderer/techniques/soft_shadows/bitmask/hidden_samples.glsl"
 #ifndef KEEP_MASKS
 void clearGathered() { clearMask(); }
 #else
@@ -35,7 +54,10 @@ void clearGathered() {}
 
 float visibilityOf(vec4 p, ivec2 pixel) {
   clearMask();
-  if (joins != 0) addKeptMask(pixel, keptSet);
+  if (joins != 0)
+    addKeptMask(pixel, keptSet);
+  else
+    hideBehindPlane(p);
   if (allCovered()) {
     pixelClass = kLit;  // nothing to do
     return 0.0;

@@ -22,12 +22,14 @@ const SettingsTable<HalfSpaceTable>& HalfSpaceTable::table() {
 
 const SettingsTable<MaskedMicroquads>& MaskedMicroquads::table() {
   static const SettingsTable<MaskedMicroquads> kTable = {
+      coarseDepthsBinding<MaskedMicroquads>(),
       Binding(&MaskedMicroquads::mask, "mask", kMaskText, kMaskSource).formerly({"quad_mask"})};
   return kTable;
 }
 
 const SettingsTable<MaskedMicrotris>& MaskedMicrotris::table() {
   static const SettingsTable<MaskedMicrotris> kTable = {
+      coarseDepthsBinding<MaskedMicrotris>(),
       Binding(&MaskedMicrotris::mask, "mask", kMaskText, kMaskSource).formerly({"quad_mask"})};
   return kTable;
 }

@@ -25,12 +25,14 @@ struct ArithmeticMask {
 
 struct MaskedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
   static constexpr const char* kSummary = "a mesh between texel centres";
+  CoarseDepths depths = CoarseDepths::Nearest;
   std::variant<ApproximateMask, HalfSpaceTable, ArithmeticMask> mask;
   static const SettingsTable<MaskedMicroquads>& table();
 };
 /// A rectangle cannot approximate a triangle.
 struct MaskedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> {
   static constexpr const char* kSummary = "that mesh with triangles where three of four texels block";
+  CoarseDepths depths = CoarseDepths::Nearest;
   std::variant<ArithmeticMask, HalfSpaceTable> mask;
   static const SettingsTable<MaskedMicrotris>& table();
 };

@@ -10,6 +10,12 @@ bool LevelOfQuality::orders() const {
   return split && split->order == WorkOrder::LoopLength;
 }
 
+int LevelOfQuality::lanes() const {
+  const auto* split = std::get_if<SplitPasses>(&passes_);
+  const LevelRule rule = ruleOf(levels_);
+  return split && (rule == LevelRule::FinestWithin || rule == LevelRule::CoarsestOver) ? split->lanes : 1;
+}
+
 const LevelFilter* LevelOfQuality::smoothing() const {
   const auto* split = std::get_if<SplitPasses>(&passes_);
   const LevelRule rule = ruleOf(levels_);

@@ -132,6 +132,7 @@ float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
   levelUsed = level;
 #ifdef ONE_LEVEL
   clearGathered();
+  hideBehindPlane(p);
   return gatherOccluders(p, area, int(level));
 #else
   const int finer = int(level);
@@ -144,6 +145,7 @@ float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
   float visibility = 0.0;
   for (int i = first; i <= last; ++i) {
     clearGathered();
+    hideBehindPlane(p);
     const float found = gatherOccluders(p, area, i);
     visibility = i == first ? found : mix(visibility, found, weight);
   }

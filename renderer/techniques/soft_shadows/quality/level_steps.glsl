@@ -45,7 +45,7 @@ bool differs(ivec2 pixel, ivec2 neighbour) {
 // Visibility of `pixel` at the level that `chooser` has chosen; below 0: this program, compiled apart from the one that
 // counted, finds a pixel at the brink of it in no need of processing.
 float visibilityAsChosen(ivec2 pixel, ivec2 chooser) {
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   Area area;
   float visibility;
   readBudget(pixel);

@@ -10,7 +10,9 @@ namespace {
 const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
 const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
-const gl::ShaderDefines kGatherDefines = {{"SPLIT_GATHER", "1"}};
+gl::ShaderDefines gatherDefines(const LevelOfQuality& quality) {
+  return {{"SPLIT_GATHER", "1"}, {"LANES", std::to_string(quality.lanes())}};
+}
 
 gl::ShaderDefines classifyDefines(bool smooths) {
   gl::ShaderDefines defines = {{"SPLIT_CLASSIFY", "1"}};
@@ -28,9 +30,9 @@ SplitRunner::SplitRunner(frame::Frame& frame, const VisibilityPass& pass, const 
                          bool smooths)
     : quality_(quality),
       smooths_(smooths),
-      search_(frame, smooths, quality.orders()),
+      search_(frame, smooths, quality.orders(), quality.lanes()),
       classify_(pass.program(frame, false, classifyDefines(smooths))),
-      gather_(pass.program(frame, false, kGatherDefines)) {
+      gather_(pass.program(frame, false, gatherDefines(quality))) {
   gl::ProgramCache& programs = frame.context().programs();
   if (smooths_) smooth_ = &programs.compute(kSmoothShader);
   if (quality_.orders()) {
@@ -68,7 +70,7 @@ void SplitRunner::run(frame::Frame& frame, const VisibilityPass& pass, PassInput
     search_.order(*countBins_, *scatter_);
   }
   const auto scope = frame.passes().open(pass.name() + "/gather");
-  const gl::Program& gather = counts ? pass.program(frame, true, kGatherDefines) : gather_;
+  const gl::Program& gather = counts ? pass.program(frame, true, gatherDefines(quality_)) : gather_;
   pass.bind(frame, gather, inputs, map, counts);
   search_.bindForGather();
   search_.dispatchOverList(gather);

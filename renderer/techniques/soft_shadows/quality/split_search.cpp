@@ -19,10 +19,10 @@ gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::
 
 }  // namespace
 
-SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders)
+SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes)
     : areas_(gl::Format::RGBA16UI, frame.sizePx()),
       levels_(levelFormat(smooths), frame.sizePx()),
-      emptyHeader_(std::vector{WorkListHeader{kGroupsPerRow, 0, 1, 0}}),
+      emptyHeader_(std::vector{WorkListHeader{kGroupsPerRow, 0, static_cast<uint32_t>(lanes), 0}}),
       work_(int64_t{sizeof(WorkListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
   if (smooths) halfSmoothed_.emplace(levelFormat(smooths), frame.sizePx());
   if (orders) {

@@ -19,12 +19,12 @@ shared uint processedLanes[2];
 shared uint firstSlot;
 
 bool classify(ivec2 pixel) {
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   Area area;
   float visibility = 1.0;
   readBudget(pixel);
   if (receiver.w < 0.0 || !findArea(receiver, area, visibility)) {
-    store(pixel, visibility);
+    store(pixel, receiver.w < 0.0 ? 1.0 : visibilityUnprocessed(receiver, visibility));
 #ifdef SMOOTH
     // What the walk along either axis stops at.
     imageStore(outLevels, pixel, vec4(-1.0, 0.0, 0.0, 0.0));
@@ -75,14 +75,59 @@ void main() {
 layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
 layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
+#if LANES > 1
+// Of the pixels of a group: what their invocations counted, and whether one was cut short.
+shared uint sharedCounts[kWorkListGroup / LANES][5];
+
+void main() {
+  const uint lane = gl_LocalInvocationIndex % LANES, slot = gl_LocalInvocationIndex / LANES;
+  ivec2 pixel = ivec2(0);
+  const bool listed = listedPixel(pixel);
+  if (lane == 0u)
+    for (int i = 0; i < 5; ++i) sharedCounts[slot][i] = 0u;
+  memoryBarrierShared();
+  barrier();
+  clearGathered();
+  if (listed) {
+    const vec4 receiver = loadReceiver(pixel);
+    const uvec4 area = texelFetch(searchAreas, pixel, 0);
+    levelUsed = texelFetch(levelMap, pixel, 0).x;
+    areaTexels = (area.z - area.x) * (area.w - area.y);
+    pixelClass = kProcessed;
+    firstRow = int(lane);
+    rowStep = LANES;
+    if (lane == 0u) hideBehindPlane(receiver);
+    gatherOccluders(receiver, Area(ivec2(area.xy), ivec2(area.zw)), int(levelUsed));
+    if (pixelClass == kCutShort) atomicOr(sharedCounts[slot][4], 1u);
+#ifdef COUNT
+    atomicAdd(sharedCounts[slot][0], occluderCount);
+    atomicAdd(sharedCounts[slot][1], fetchCount);
+    atomicAdd(sharedCounts[slot][2], examinedCount);
+    atomicAdd(sharedCounts[slot][3], usedCount);
+#endif
+  }
+  joinLanes(slot, lane);
+  if (!listed || lane != 0u) return;
+#ifdef COUNT
+  occluderCount = sharedCounts[slot][0];
+  fetchCount = imageLoad(outCounts, pixel).z + sharedCounts[slot][1];
+  examinedCount = sharedCounts[slot][2];
+  usedCount = sharedCounts[slot][3];
+#endif
+  const bool cutShort = sharedCounts[slot][4] != 0u;
+  if (cutShort) pixelClass = kCutShort;
+  store(pixel, cutShort ? uintBitsToFloat(0x7fc00000u) : gatheredVisibility());
+}
+#else
 void main() {
   ivec2 pixel;
   if (!listedPixel(pixel)) return;
-  const vec4 receiver = texelFetch(receivers, pixel, 0);
+  const vec4 receiver = loadReceiver(pixel);
   const uvec4 area = texelFetch(searchAreas, pixel, 0);
 #ifdef COUNT
   fetchCount = imageLoad(outCounts, pixel).z;
 #endif
   store(pixel, visibilityAt(receiver, Area(ivec2(area.xy), ivec2(area.zw)), texelFetch(levelMap, pixel, 0).x, pixel));
 }
+#endif
 #endif

@@ -14,8 +14,9 @@ namespace limen::techniques {
 /// processing, which the GPU fills and dispatches over without the host knowing its length.
 class SplitSearch {
  public:
-  /// `smooths`, `orders`: room for smoothing levels, and for ordering the list.
-  SplitSearch(frame::Frame& frame, bool smooths, bool orders);
+  /// `smooths`, `orders`: room for smoothing levels, and for ordering the list. `lanes`: invocations per
+  /// pixel of the passes over the list.
+  SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes);
 
   /// Empties the list. Then bind for the pass that fills it, which makeVisible() ends.
   void bindForClassify() const;

@@ -8,10 +8,16 @@ layout(std430, binding = kWorkListBuffer) restrict buffer WorkList {
   uint listedPixels[];
 };
 
-// The pixel of this invocation; false: there is none.
+// The pixel of this invocation; false: there is none. LANES consecutive invocations share a pixel.
 bool listedPixel(out ivec2 pixel) {
   const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+#if LANES > 1
+  const uint i =
+      group * kWorkListGroup + gl_WorkGroupID.z * (kWorkListGroup / LANES) + gl_LocalInvocationIndex / LANES;
+#else
+  if (gl_WorkGroupID.z > 0u) return false;  // is for those whose pixels have several invocations
   const uint i = group * kWorkListGroup + gl_LocalInvocationIndex;
+#endif
   if (i >= work.pixelCount) return false;
   pixel = ivec2(listedPixels[i] & 0xffffu, listedPixels[i] >> 16);
   return true;

@@ -29,12 +29,12 @@ class Decider {
 
   Decision decide() {
     if (!isSoft()) return done();
-    BitmaskSettings everything{.search = search()};
+    BitmaskSettings everything{.search = search(), .occluders = patches()};
     everything.maps = PeeledMaps{.layers = 2};
     decision_.setting = everything;
     current_ = probe_.run(decision_.setting);
     if (current_.processed == 0.0) {
-      decision_.setting = BitmaskSettings{.search = search()};
+      decision_.setting = BitmaskSettings{.search = search(), .occluders = patches()};
       remark(
           "one map, 16 x 16 samples: no pixel of the small picture lies in a penumbra, so nothing was "
           "compared");
@@ -52,9 +52,13 @@ class Decider {
  private:
   void remark(std::string text) { decision_.remarks.push_back(std::move(text)); }
 
+  /// All choices are among the thesis's forms, whose costs and errors its rules weigh.
   SearchSettings search() const {
-    return {.map = common_.map, .budget = UniformBudget{.limit = common_.budget}};
+    return {.map = common_.map,
+            .bias = SlopeBias{.slope = 2.0},
+            .budget = UniformBudget{.limit = common_.budget}};
   }
+  static Micropatches patches() { return {.depths = CoarseDepths::Nearest}; }
   const BitmaskSettings* masked() const { return std::get_if<BitmaskSettings>(&decision_.setting); }
   bool layered() const { return masked() && !std::holds_alternative<CentreMap>(masked()->maps); }
 
@@ -117,7 +121,7 @@ class Decider {
       remark(rectangular() ? "bitmask: required by layers" : "bitmask: the light is not a rectangle");
       return;
     }
-    const BackprojectionSettings area{.search = search()};
+    const BackprojectionSettings area{.search = search(), .occluders = patches()};
     Probed probed = probe_.run(area);
     figures_[Overlap] = meanDifference(current_, probed);
     const bool enough = figures_[Overlap] <= limits_.tolerance;
@@ -151,7 +155,7 @@ class Decider {
       Microrects merged;
       merged.diagonalMerge = frame::DiagonalMerge::Nearest;
       rects.occluders = merged;
-      rects.search.bias = SearchSettings{}.bias;
+      rects.search.bias = search().bias;
       take(rects, probe_.run(rects));
       remark(fmt::format(
           "microrects: {:.0f} % of the pixels have micro-occluders of level 2 or coarser (limit {:.0f} %)",
