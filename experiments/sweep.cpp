@@ -12,6 +12,7 @@
 #include "experiments/base/environment.h"
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 #include "experiments/catalogue_text.h"
 #include "experiments/console.h"
@@ -259,9 +260,7 @@ class Sweeper {
   std::map<std::string, std::unique_ptr<Executor>> executors_;
 };
 
-}  // namespace
-
-int sweepMain(int argc, char** argv, const SweepProgram& program) {
+int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
   const ParsedOptions parsed = parseOptions(argc, argv, program.name);
   if (parsed.exitCode) return *parsed.exitCode;
   std::vector<std::string> command(argv, argv + argc);
@@ -275,6 +274,12 @@ int sweepMain(int argc, char** argv, const SweepProgram& program) {
     std::fprintf(stderr, "%s: %s\n", program.name.c_str(), error.what());
     return kExitFailedRuns;
   }
+}
+
+}  // namespace
+
+int sweepMain(int argc, char** argv, const SweepProgram& program) {
+  return afterStandardOutput(program.name, parseAndSweep(argc, argv, program));
 }
 
 }  // namespace limen::experiments

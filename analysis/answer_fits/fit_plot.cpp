@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "analysis/answer_fits/fit_chart.h"
-#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
 
@@ -37,7 +36,6 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
     throw Error("no picture of the kind '" + extension + "' is drawn", path,
                 "let the name end in .svg, .pdf or .png");
   const FitChart chart = chartOf(answer);
-  const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
                     gnuplotTerminal(extension) + "\nset output " + gnuplotQuoted(file.filename().string()) +
@@ -59,9 +57,7 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
     out += fmt::format("{} index {} using 1:2:3:4 with xerrorbars pt 2 ps 0.7 lc rgb '{}' notitle", data,
                        3 * c + 2, colour);
   }
-  writeFileBytes((folder / (stem + ".dat")).string(), dataOf(chart));
-  writeFileBytes((folder / (stem + ".gp")).string(), out + "\n");
-  runGnuplot(folder.string(), stem + ".gp");
+  drawPicture(path, out + "\n", dataOf(chart));
 }
 
 }  // namespace limen::analysis

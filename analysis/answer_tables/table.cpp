@@ -10,6 +10,7 @@
 
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -96,6 +97,7 @@ std::optional<double> finiteNumber(const std::string& text) {
 Table Table::read(const std::string& path, char separator) {
   if (!std::filesystem::exists(path)) throw Error("no such file", path);
   if (std::filesystem::is_directory(path)) throw Error("is a folder, not a table", path);
+  protectInput(path);
   return parse(readFileBytes(path), path, separator);
 }
 

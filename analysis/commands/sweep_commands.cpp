@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,18 @@
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/switch_distances.h"
 #include "experiments/base/error.h"
+#include "experiments/base/staged_folder.h"
 
 namespace limen::analysis {
 namespace {
 
 void runSwitchDistances(const SwitchOptions& options, bool json) {
   const std::vector<SwitchReport> reports = findSwitchDistances(options);
+  std::optional<StagedFolder> staged;
+  if (!options.folder.empty()) staged.emplace(options.folder);
   for (const SwitchReport& report : reports) {
-    if (!options.folder.empty()) {
-      std::filesystem::path folder = options.folder;
+    if (staged) {
+      std::filesystem::path folder = staged->path();
       if (reports.size() > 1) folder /= slug(report.title);
       std::filesystem::create_directories(folder);
       writeFileBytes((folder / "switch_distances.json").string(), toJson(report) + "\n");
@@ -28,6 +32,7 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
     }
     std::printf("%s\n", (json ? toJson(report) : toText(report)).c_str());
   }
+  if (staged) staged->putInPlace();
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "analysis/sweep/page.h"
 #include "analysis/sweep/trade_off.h"
 #include "experiments/base/error.h"
+#include "experiments/base/staged_folder.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -100,7 +101,9 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
   return out;
 }
 
-ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const fs::path& folder) {
+/// Into `folder`, which will be `shownFolder`.
+ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const fs::path& folder,
+                         const fs::path& shownFolder) {
   std::error_code error;
   fs::create_directories(folder / "charts", error);
   if (error)
@@ -114,7 +117,7 @@ ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const
   const std::string page = (folder / "report.html").string();
   writeFileBytes(page, renderPage(sweep, charts, pictures));
 
-  ReportResult result{page,
+  ReportResult result{(shownFolder / "report.html").string(),
                       sweep.experiment.title,
                       sweep.experiment.hash,
                       sweep.cells.size(),
@@ -135,13 +138,16 @@ std::vector<ReportResult> writeReports(const ReportOptions& options) {
     sweeps.push_back(loadSweep(store, experiment));
     if (!options.force) requireComplete(sweeps.back(), options.storePath);
   }
+  const StagedFolder staged(options.folder);
   std::vector<ReportResult> results;
   for (const Sweep& sweep : sweeps) {
-    fs::path folder = options.folder;
+    fs::path below;
     if (options.ownFolders || sweeps.size() > 1)
-      folder /= slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
-    results.push_back(writeReport(sweep, options.storePath, folder));
+      below = slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
+    results.push_back(
+        writeReport(sweep, options.storePath, staged.path() / below, fs::path(options.folder) / below));
   }
+  staged.putInPlace();
   return results;
 }
 

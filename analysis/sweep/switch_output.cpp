@@ -236,7 +236,7 @@ std::string drawSwitchChart(const SwitchReport& report, const std::string& folde
           shortestNumber(high), logarithmicTics(low, high), columns,
           gnuplotQuoted(report.distanceLabel + (seen.empty() ? "" : ", " + seen)),
           gnuplotQuoted(report.probabilityLabel + (bars ? "; bars: range over views" : ""))));
-  runGnuplot(folder, name + ".gp");
+  runGnuplot(folder, name + ".gp", {name + ".svg"});
   return base.string() + ".svg";
 }
 

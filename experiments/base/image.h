@@ -25,7 +25,7 @@ struct Image {
 
 /// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error.
 Image readImage(const std::string& path);
-/// EXR, 32-bit float, lossless. Written to a temporary name and moved into place. `description` goes into the
+/// EXR, 32-bit float, lossless. Encoded in memory and written as PartFile does. `description` goes into the
 /// file, for those who find it without its context. Throws Error.
 void writeExr(const std::string& path, const Image& image, const std::string& description = {});
 /// 8-bit PNG of values in [0, 1], taken as they are (no transfer curve); others are clamped. Otherwise as

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 
 namespace limen {
@@ -41,9 +42,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
                hint.c_str());
 }
 
-}  // namespace
-
-int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
+int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
   const std::string& program = app.get_name();
   // CLI11 would only say that a subcommand is missing.
   std::vector<std::string> commands;
@@ -68,6 +67,12 @@ int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
     return kExitFailedRuns;
   }
   return exitCode;
+}
+
+}  // namespace
+
+int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
+  return afterStandardOutput(app.get_name(), parseAndRun(app, argc, argv, exitCode));
 }
 
 }  // namespace limen

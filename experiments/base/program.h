@@ -8,7 +8,7 @@ namespace limen {
 /// Parses a program's command line and runs the subcommand that it names (callbacks do the work and set
 /// `exitCode`). Returns what main() returns. What is wrong is said in one line: an unknown command or option
 /// with the nearest known one; Error and everything that belongs to the input gives kExitBadInput, other
-/// exceptions kExitFailedRuns.
+/// exceptions kExitFailedRuns, and so does standard output that could not be written.
 int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode);
 
 }  // namespace limen

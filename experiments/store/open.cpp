@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,6 +12,7 @@
 #include <utility>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/store/database.h"
 
 namespace limen::embedded {
@@ -104,6 +107,21 @@ std::string readOnlyUri(const std::string& path) {
   return uri + (untouched ? "?mode=ro&immutable=1" : "?mode=ro");
 }
 
+// What tells who took part is for the owner alone; the log and its index take the rights of the store from
+// then on.
+void hideFromOthers(const std::string& path) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    struct stat facts {};
+    const std::string file = path + suffix;
+    if (stat(file.c_str(), &facts) == 0 && (facts.st_mode & 077) != 0) chmod(file.c_str(), 0600);
+  }
+}
+
+bool holdsSessions(sqlite3* database) {
+  return pragma(database, "SELECT count(*) FROM sqlite_schema WHERE name = 'session'") > 0 &&
+         pragma(database, "SELECT count(*) FROM session") > 0;
+}
+
 void prepareFolder(const std::string& path) {
   const fs::path folder = fs::absolute(path).parent_path();
   std::error_code error;
@@ -117,11 +135,33 @@ void prepareFolder(const std::string& path) {
 
 }  // namespace
 
-sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
+bool isUnwritten(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error) || fs::is_directory(path, error)) return !fs::exists(path, error);
+  Closer closer;
+  const std::string name = readOnlyUri(path);
+  if (sqlite3_open_v2(name.c_str(), &closer.database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
+      SQLITE_OK)
+    return false;
+  sqlite3_busy_timeout(closer.database, kBusyTimeoutMs);
+  try {
+    return isEmpty(closer.database);
+  } catch (const Error&) {
+    return false;  // what it is will be said when it is opened
+  }
+}
+
+sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Contents contents) {
   if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
   if (readOnly && !fs::exists(path))
     throw Error("no such result store", path, "check the path; limen sweep and limen study make stores");
   if (!readOnly) prepareFolder(path);
+  protectInput(path);
+  if (contents == Contents::Sessions && !readOnly) {
+    // Made by SQLite, the file would be open to others for a moment.
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file >= 0) close(file);
+  }
 
   const std::string name = readOnly ? readOnlyUri(path) : path;
   const int flags =
@@ -133,6 +173,8 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   sqlite3_busy_timeout(database, kBusyTimeoutMs);
   execute(database, "PRAGMA foreign_keys = ON");
   if (readOnly) {
+    if (isEmpty(database))
+      throw Error("is empty: nothing was ever stored in it", path, "run a sweep or a study into it first");
     requireStore(database, path);
     if (pragma(database, "PRAGMA user_version") < oldest)
       throw Error("the store is of an older Limen and holds no studies", path,
@@ -140,6 +182,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
     return closer.release();
   }
   if (!isEmpty(database)) requireStore(database, path);
+  if (contents == Contents::Sessions || holdsSessions(database)) hideFromOthers(path);
   turnOnWriteAheadLog(database);
   // With the log a commit survives the death of the process at NORMAL already; FULL syncs it too, so that it
   // survives a power cut. What sweeps write for each run goes without and is synced batch by batch.

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "experiments/base/process.h"
 #include "experiments/store/store.h"
 #include "tests/study/session/session_fixture.h"
 
@@ -278,7 +279,7 @@ TEST_F(SessionStoreTest, ASessionThatALivingProcessHoldsIsRefused) {
   std::istringstream fields(text.substr(text.rfind(')') + 1));
   std::string start;
   for (int i = 3; i <= 22; ++i) fields >> start;
-  const std::string self = store::processIdentity();
+  const std::string self = processIdentity();
   const std::string host = self.substr(0, self.find(':'));
   sql(request_.store, "UPDATE session SET owner = '" + host + ":" + parent + ":" + start + "'");
   EXPECT_THAT(errorOf([&] { resume(protocol, second); }),
