@@ -17,9 +17,8 @@ void addSessions(const StudyPage& page, PageWriter& out) {
                                    .add(flag("used"), &SessionRow::used)
                                    .add(integer("answers"), &SessionRow::answers)
                                    .add(text("display"), &SessionRow::display)
-                                   .add(text("seed"), [](const auto& row) { return std::to_string(row.seed); })
                                    .add(text("program_version"), &SessionRow::programVersion);
-  out.file("tables/sessions.csv", toCsv(sessions), "sessions with their seeds");
+  out.file("tables/sessions.csv", toCsv(sessions), "sessions");
 }
 
 void addHashes(const StudyPage& page, PageWriter& out) {

@@ -17,11 +17,12 @@ class Pseudonyms {
 
   /// Gives every code that has none yet a pseudonym P001, P002 ... in an order that says nothing about that
   /// of the sessions, and writes the file. Pseudonyms given before stay. Throws Error if it cannot be
-  /// written.
+  /// written. Processes that do this at once agree.
   void assign(std::vector<std::string> codes);
   const std::string& of(const std::string& code) const;
 
  private:
+  void read();
   std::string file_;
   std::map<std::string, std::string> known_;
 };
