@@ -17,13 +17,19 @@ set(limen_separate_files
 
 # limen_unity(FOLDER): for the targets below FOLDER. Called once every folder has been read.
 function(limen_unity folder)
+  # Larger groups in what the first `./limen sweep` compiles: 40 CPU seconds less of 315.
+  set(size 8)
+  cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
+  if(place MATCHES "^(experiments|renderer|perception)")
+    set(size 16)
+  endif()
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
     get_target_property(type ${target} TYPE)
     if(NOT type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$" OR target IN_LIST limen_separate_targets)
       continue()
     endif()
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
     get_target_property(sources ${target} SOURCES)
     foreach(source IN LISTS sources)
       cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE OUTPUT_VARIABLE file)

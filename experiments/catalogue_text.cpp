@@ -64,7 +64,7 @@ std::string describeParameters(const std::vector<Parameter>& parameters, size_t 
     out += fmt::format("\n{}  {}\n", start, parameter.description);
     if (!parameter.source.empty()) out += fmt::format("{}  source: {}\n", start, parameter.source);
     if (!parameter.shorthand.empty())
-      out += fmt::format("{0}  a number in its place: {1}\n", start, parameter.shorthand);
+      out += fmt::format("{0}  a number in its place sets: {1}\n", start, parameter.shorthand);
     out += describeAlternatives(parameter, indent);
   }
   return out;
@@ -77,7 +77,7 @@ std::string describeEntry(const NamedKind& kind, const std::string& name, const 
   if (!entry.product.empty()) out += fmt::format("  product: {}\n", entry.product);
   if (!entry.needs.empty()) out += fmt::format("  needs a scene with: {}\n", join(entry.needs));
   if (!entry.quantity.unit.empty()) out += fmt::format("  unit: {}\n", entry.quantity.unit);
-  if (entry.reference) out += "  a reference: made to be compared with\n";
+  if (entry.reference) out += "  a reference for comparison\n";
   if (entry.onCpu) out += "  runs on the CPU\n";
   if (!entry.counters.empty()) out += "  counts:\n";
   for (const Quantity& counter : entry.counters)

@@ -9,7 +9,7 @@
 namespace limen::experiments {
 
 /// Text for `--list WHAT`: "" (everything, one line each), "scenes", "techniques", "metrics", or the name of
-/// an entry (its parameters too). Throws Error on another name.
+/// an entry (with its parameters). Throws Error on another name.
 std::string describe(const Catalogue& catalogue, const std::string& what);
 nlohmann::json describeAsJson(const Catalogue& catalogue, const std::string& what);
 

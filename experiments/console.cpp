@@ -46,7 +46,7 @@ class LinePrinter : public SweepObserver {
   void begin(size_t planned, size_t alreadyDone) override {
     total_ = planned;
     seen_ = alreadyDone;
-    if (alreadyDone > 0) print(fmt::format("{} of {} runs are done already", alreadyDone, planned));
+    if (alreadyDone > 0) print(fmt::format("{} of {} runs are already done", alreadyDone, planned));
   }
   void measuring(const PlannedRun&, size_t) override {}
   void finished(const PlannedRun& run, const store::Run& row) override {
@@ -56,7 +56,7 @@ class LinePrinter : public SweepObserver {
     numbered(describePlanned(run) + " · done by another sweep");
   }
   void waiting(size_t heldByOthers) override {
-    if (!saidWaiting_) print(fmt::format("waiting for {} runs that another sweep holds", heldByOthers));
+    if (!saidWaiting_) print(fmt::format("waiting for {} runs held by another sweep", heldByOthers));
     saidWaiting_ = true;
   }
 
@@ -108,17 +108,17 @@ class ProgressBar : public SweepObserver {
     draw();
   }
   void waiting(size_t heldByOthers) override {
-    current_ = fmt::format("waiting for {} runs that another sweep holds", heldByOthers);
+    current_ = fmt::format("waiting for {} runs held by another sweep", heldByOthers);
     draw();
   }
 
  private:
   void draw() {
-    // Runs measured so far are a sample of those left, as techniques take turns.
+    // Runs measured so far are representative of those left, as techniques take turns.
     const double left = measured_ == 0 ? -1.0
                                        : secondsMeasured_ / static_cast<double>(measured_) *
                                              static_cast<double>(total_ - std::min(seen_, total_));
-    // The last column stays free: writing there makes some terminals wrap.
+    // The last column stays empty: writing there makes some terminals wrap.
     const std::string text = barText(seen_, total_, failed_, left, current_, terminalColumns(terminal_) - 1);
     std::fputs(("\r\x1b[K" + text).c_str(), terminal_);
     std::fflush(terminal_);
@@ -230,7 +230,7 @@ std::string barText(size_t done, size_t total, size_t failed, double secondsLeft
   std::string counts = fmt::format("{}/{}", done, total);
   if (failed > 0) counts += fmt::format(", {} failed", failed);
   if (secondsLeft >= 0.0 && done < total) counts += ", " + describeDuration(secondsLeft) + " left";
-  // A narrow terminal keeps the counts and loses the bar first.
+  // On a narrow terminal the bar goes first and the counts stay.
   const size_t width = columns >= 60 ? std::min<size_t>(30, columns / 4) : 0;
   std::string bar;
   if (width > 0) {

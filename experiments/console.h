@@ -10,17 +10,17 @@
 
 namespace limen::experiments {
 
-/// A bar that is redrawn in place, with what is being measured and the time left; failed runs get a line of
-/// their own.
+/// A bar that is redrawn in place, with what is being measured and the time left; failed runs get their own
+/// line.
 std::unique_ptr<SweepObserver> makeProgressBar(std::FILE* terminal);
 
-/// One plain line a run.
+/// One plain line per run.
 std::unique_ptr<SweepObserver> makeLinePrinter(std::FILE* out);
 
-/// One JSON object a run: key, status, technique, scene, label, setting, measurements {name: value}, error.
+/// One JSON object per run: key, status, technique, scene, label, setting, measurements {name: value}, error.
 std::unique_ptr<SweepObserver> makeJsonPrinter(std::FILE* out);
 
-/// Tells two observers.
+/// Notifies two observers.
 std::unique_ptr<SweepObserver> makePair(std::unique_ptr<SweepObserver> first,
                                         std::unique_ptr<SweepObserver> second);
 
@@ -31,7 +31,7 @@ std::string describeFinished(const PlannedRun& run, const store::Run& row);
 std::string describeDuration(double seconds);
 
 /// Cuts UTF-8 text to `columns` terminal columns, ending in "…" if anything was cut. Counts code points,
-/// which is right for all that the bench prints.
+/// which is right for everything that the bench prints.
 std::string cutToColumns(const std::string& text, size_t columns);
 
 /// The bar's text: "[####----] 12/40 2 failed, 3 min 20 s left, soft_shadows/bitmask · grid", at most

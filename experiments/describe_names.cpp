@@ -11,7 +11,7 @@
 namespace limen::experiments {
 namespace {
 
-// A parameter of an alternative or a group says whose it is: "Budget: rim".
+// A parameter of an alternative or a group names its parent: "Budget: rim".
 std::string titleAt(const Parameter& parameter, const std::string& owner) {
   if (owner.empty())
     return parameter.title.empty() ? titleFromName(parameter.name, parameter.unit) : parameter.title;
@@ -57,7 +57,7 @@ class Describer {
       const Configuration& metric = descriptor_.metrics[i];
       const CatalogueEntry& entry = catalogue_.metrics.at(metric.name);
       const Quantity& quantity = entry.quantity;
-      // A metric that says neither its own name nor a title is called by the name it is registered under.
+      // A metric that declares neither its own name nor a title goes by its registered name.
       const std::string title =
           quantity.title.empty() ? titleFromName(metric.name, quantity.unit) : quantity.title;
       add({descriptor_.metricNames[i], measurementTitle(title, metric, descriptor_.metrics, entry.parameters),

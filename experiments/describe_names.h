@@ -8,7 +8,7 @@
 namespace limen::experiments {
 
 /// What the names in the runs of a descriptor mean: the quantities that they may measure (common ones, its
-/// metrics, what its techniques count) and the parameters that its entries declare.
+/// metrics, its techniques' counters) and the parameters that its entries declare.
 store::Descriptions describeNames(const Descriptor& descriptor, const Catalogue& catalogue);
 
 }  // namespace limen::experiments

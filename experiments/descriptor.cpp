@@ -89,7 +89,7 @@ class Reader {
     }
   }
 
-  /// `kind` is the word for messages. Nothing is returned if the name is missing or unknown.
+  /// `kind` is what messages call it. Nothing is returned if the name is missing or unknown.
   std::optional<Entry> readEntry(const YamlNode& node, const std::string& kind, const CatalogueKind& known,
                                  bool axes) {
     if (!reader_.isMap(node, "a " + kind, "{name: " + (known.empty() ? "..." : known.begin()->first) + "}"))
@@ -106,7 +106,7 @@ class Reader {
       problems_.add(nameNode->mark, "no " + kind + " '" + *name + "'", suggest(*name, names(known)));
       return {};
     }
-    const std::string listHint = axes ? "" : fmt::format("give one value: a {} is no grid", kind);
+    const std::string listHint = axes ? "" : fmt::format("give one value: a {} is not a grid", kind);
     EntryReader entry(reader_, listHint);
     return Entry{*name, entry.axes(node, info->second.parameters, fmt::format("{} '{}'", kind, *name)),
                  node.mark};
@@ -156,7 +156,7 @@ class Reader {
         problems_.add(node.mark, "'" + parameter.name + "' of image is missing",
                       "give it: " + describeRange(parameter));
     std::vector<Axis> axes = EntryReader(reader_).axes(node, declared, "image", {});
-    // Widths vary slowest, whatever the order of writing.
+    // Widths vary slowest, whatever order they are written in.
     std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.name > b.name; });
     size_t count = 1;
     for (const Axis& axis : axes) count = std::min(count * axis.points.size(), kMaxImageSizes + 1);
@@ -220,7 +220,7 @@ class Reader {
           measurementName(metric, out_.metrics, catalogue_.metrics.at(metric.name).parameters);
       if (std::find(out_.metricNames.begin(), out_.metricNames.end(), name) != out_.metricNames.end())
         problems_.add(marks[i], "metric '" + name + "' is listed twice",
-                      "keep one, or give them other values");
+                      "keep one, or give them different values");
       out_.metricNames.push_back(name);
     }
   }
@@ -231,9 +231,9 @@ class Reader {
       std::vector<std::string> references;
       for (const auto& [name, entry] : catalogue_.techniques)
         if (entry.reference) references.push_back(name);
-      problems_.add(
-          *referenceNeededAt_, "metric '" + referenceNeededBy_ + "' needs a reference",
-          "add 'reference: {name: ...}'" + (references.empty() ? "" : "; made for it: " + join(references)));
+      problems_.add(*referenceNeededAt_, "metric '" + referenceNeededBy_ + "' needs a reference",
+                    "add 'reference: {name: ...}'" +
+                        (references.empty() ? "" : "; suitable references: " + join(references)));
     }
     if (!out_.reference) return;
     const std::string& product = catalogue_.techniques.at(out_.reference->name).product;

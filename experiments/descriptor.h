@@ -15,7 +15,7 @@
 
 namespace limen::experiments {
 
-/// An entry of `scenes` or `techniques`, or the reference. Parameters that are not given have their defaults.
+/// An entry of `scenes` or `techniques`, or the reference. Parameters that are not given take their defaults.
 struct Entry {
   std::string name;
   std::vector<Axis> axes;  ///< in order of writing
@@ -27,7 +27,7 @@ struct ImageAxes {
   Mark mark;
 };
 
-/// Selects planned runs by parameter value, by path: technique parameters, else scene parameters, else
+/// Selects planned runs by parameter value, by path: technique parameters, then scene parameters, then
 /// `width` and `height`.
 using Selection = std::map<std::string, ParameterValue>;
 
@@ -38,10 +38,10 @@ struct ExpectationStatement {
   std::string technique, scene;  ///< "" for any
   Selection where;
   Relation relation = Relation::Below;
-  double bound = 0.0;  ///< with `relativeTo`, a factor on that run's value
+  double bound = 0.0;  ///< with `relativeTo`, a factor applied to that run's value
 
-  /// The run to compare with: the same scene and image size but for what is said here; of several runs of
-  /// another technique the one that has the evaluated run's values of the parameters that both have.
+  /// The run to compare with: the same scene and image size except as stated here; of several runs of another
+  /// technique, the one that shares the evaluated run's values of the parameters common to both.
   struct Baseline {
     std::string technique;  ///< "" for the evaluated run's own
     std::string scene;      ///< "" for the evaluated run's own
@@ -53,14 +53,14 @@ struct ExpectationStatement {
   Mark mark;
 };
 
-/// A table that somebody printed, to stand beside what the sweep measures.
+/// A published table, to compare with what the sweep measures.
 struct PublishedTable {
   struct Row {
     std::string name;
     std::vector<std::optional<double>> values;  ///< one for each column
     std::string technique, scene;               ///< "" for any
     Selection where;
-    std::string relativeTo;           ///< name of the row that ratios are taken to; "": none
+    std::string relativeTo;           ///< name of the row that ratios are relative to; "": none
     std::vector<std::string> passes;  ///< whose times are summed; empty: the table's `measure` counts
     Mark mark;
   };
@@ -83,22 +83,22 @@ struct Descriptor {
   Timing timing;
   Artefacts artefacts;
   std::vector<Configuration> metrics;
-  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` give, in the same order
+  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` yield, in the same order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;
   std::vector<PublishedTable> published;
   std::map<std::string, std::string>
       fileHashes;  ///< resolved path of each named file -> SHA-256 of its content
-  std::map<std::string, std::string> filesAsNamed;  ///< resolved path -> path as the descriptor gives it
+  std::map<std::string, std::string> filesAsNamed;  ///< resolved path -> path as written in the descriptor
 };
 
 /// Reads and checks a descriptor. `features` are the known feature ids. Throws one Error with a line
-/// "file:line:column: what was found; what is allowed" for everything that is wrong; nothing is written
-/// anywhere.
+/// "file:line:column: what was found; what is allowed" for each problem; writes nothing.
 Descriptor readDescriptor(const std::string& path, const Catalogue& catalogue,
                           const std::set<std::string>& features);
 
-/// As readDescriptor(), of a text that is already in memory; `path` names it and roots relative file names.
+/// Like readDescriptor(), for a text already in memory; `path` names it and is the base of relative file
+/// names.
 Descriptor parseDescriptor(const std::string& text, const std::string& path, const Catalogue& catalogue,
                            const std::set<std::string>& features);
 

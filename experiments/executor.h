@@ -21,14 +21,14 @@ struct Configuration {
 };
 
 struct Timing {
-  int warmup = 8;   ///< frames rendered and thrown away before each round
+  int warmup = 8;   ///< frames rendered and discarded before each round
   int frames = 64;  ///< timed frames in all, shared evenly among the rounds
   int rounds = 3;   ///< interleaved rounds over the runs of a batch
   int batch = 8;    ///< runs whose rounds are interleaved
   static const SettingsTable<Timing>& table();
 };
 
-/// What a run leaves in files beside the store.
+/// Files that a run writes beside the store.
 struct Artefacts {
   bool pictures = true;  ///< PNG of the product, the reference and the errors
   bool exr = false;      ///< the same as 32-bit float EXR
@@ -36,13 +36,13 @@ struct Artefacts {
 };
 
 struct ImageSize {
-  int width = 1024, height = 768;  ///< px; 16,384 is what OpenGL 4.5 promises for a texture's side
+  int width = 1024, height = 768;  ///< px; OpenGL 4.5 guarantees textures of 16,384 per side
   static const SettingsTable<ImageSize>& table();
 };
 
 /// One cell of the grid.
 struct PlannedRun {
-  std::string key;  ///< SHA-256 over everything that decides the result
+  std::string key;  ///< SHA-256 over everything that determines the result
   int position = 0;
   Configuration technique, scene;
   Configuration reference;  ///< empty name: none
@@ -55,7 +55,7 @@ struct PlannedRun {
   nlohmann::json parameters;  ///< as store::Run::parameters
 };
 
-/// What executing a run gave; the store's row without key and bookkeeping.
+/// The outcome of executing a run; the store's row without key and bookkeeping.
 struct RunOutcome {
   std::string error;  ///< "" if the run succeeded
   nlohmann::json sceneFacts = nlohmann::json::object();
@@ -67,8 +67,8 @@ struct RunOutcome {
 
 /// Executes runs. The runner hands it batches of runs that share scene and image size; their timed rounds are
 /// interleaved. An error of one run is its outcome, never an exception; an exception means that the executor
-/// itself cannot go on (no GL context). During long work it may call throwIfInterrupted()
-/// (experiments/base/interrupt.h); what it has not reported by then is measured by a later sweep.
+/// itself cannot continue (no GL context). During long work it may call throwIfInterrupted()
+/// (experiments/base/interrupt.h); runs not reported by then are measured by a later sweep.
 class Executor {
  public:
   virtual ~Executor() = default;
@@ -76,9 +76,10 @@ class Executor {
   /// Calls `finished(index, outcome)` once for each run, as soon as that run is complete.
   virtual void execute(std::span<const PlannedRun> batch,
                        const std::function<void(size_t, RunOutcome)>& finished) = 0;
-  /// A run of a later batch, so that its scene can be made ready beside the work on those before.
+  /// A run of a later batch, so that its scene can be prepared during the work on earlier ones.
   virtual void announce(const PlannedRun&) {}
-  /// Facts about the executor's own time, for the environment and the summary: {"overhead_share": 0.03, ...}.
+  /// Facts about the executor's own overhead, for the environment and the summary: {"overhead_share": 0.03,
+  /// ...}.
   virtual nlohmann::json account() const { return nlohmann::json::object(); }
 };
 

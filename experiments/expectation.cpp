@@ -16,16 +16,16 @@ namespace {
 using Relation = ExpectationStatement::Relation;
 using Baseline = ExpectationStatement::Baseline;
 
-/// Equal in every parameter that both have, apart from those in `except`.
+/// Equal in every parameter common to both, apart from those in `except`.
 bool agree(const ParameterValues& a, const ParameterValues& b, const Selection& except) {
   return std::all_of(a.all().begin(), a.all().end(), [&](const auto& entry) {
     return except.count(entry.first) || !b.has(entry.first) || b.all().at(entry.first) == entry.second;
   });
 }
 
-/// Runs that `evaluated` may be compared with: same scene and size but for what either side pins. Another
-/// technique may differ in its parameters, but where it is planned several times, those that share the
-/// evaluated run's values are meant.
+/// Runs that `evaluated` may be compared with: same scene and size except for what either side fixes. Another
+/// technique may differ in its parameters; if it is planned several times, the runs that share the evaluated
+/// run's values are meant.
 std::vector<size_t> baselinesOf(const PlannedRun& evaluated, const std::vector<PlannedRun>& runs,
                                 const ExpectationStatement& statement) {
   const Baseline& baseline = *statement.relativeTo;
@@ -67,14 +67,14 @@ std::string explainNoRun(const std::vector<PlannedRun>& runs, const ExpectationS
           return matches(run, statement.technique, statement.scene, one);
         }))
       return fmt::format("planned values of '{}': {}", name, plannedValues(runs, statement, name));
-  return "its conditions exclude one another";
+  return "its conditions contradict each other";
 }
 
 std::string number(std::optional<double> value) {
   return value ? fmt::format("{:.6g}", *value) : "not a number";
 }
 
-/// The measured value, or why there is none.
+/// The measured value, or the reason why there is none.
 struct Reading {
   std::optional<double> value;
   std::string problem;
@@ -104,7 +104,7 @@ bool holds(Relation relation, double value, double bound) {
   return false;
 }
 
-/// "" if the case holds, else what broke it.
+/// "" if the case holds, otherwise why not.
 std::string evaluateCase(const ExpectationStatement& statement, const ResolvedExpectation::Case& one,
                          const std::vector<PlannedRun>& runs,
                          const std::map<std::string, const store::Run*>& measured) {
@@ -142,14 +142,14 @@ std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>
       ResolvedExpectation::Case one{i, {}};
       if (statement.relativeTo) {
         const std::vector<size_t> candidates = baselinesOf(runs[i], runs, statement);
-        // Without an own selection the statement covers its baseline too; a run is not compared with itself.
+        // Without its own selection the statement covers its baseline too; a run is not compared with itself.
         if (candidates.size() == 1 && candidates[0] == i) continue;
         if (candidates.size() != 1) {
           problems.add(
               statement.mark,
-              fmt::format("'relative_to' means {} runs for {}", candidates.size(), describe(runs[i])),
+              fmt::format("'relative_to' matches {} runs for {}", candidates.size(), describe(runs[i])),
               candidates.empty() ? "name a technique and values that are planned"
-                                 : "add 'where' until it means one: " + describe(runs[candidates[0]]) +
+                                 : "add 'where' until it matches one: " + describe(runs[candidates[0]]) +
                                        " or " + describe(runs[candidates[1]]));
           break;
         }
@@ -158,7 +158,7 @@ std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>
       resolved.cases.push_back(one);
     }
     if (resolved.cases.empty() && problems.empty())
-      problems.add(statement.mark, "no planned run is meant by the expectation '" + statement.text + "'",
+      problems.add(statement.mark, "no planned run matches the expectation '" + statement.text + "'",
                    explainNoRun(runs, statement));
     out.push_back(std::move(resolved));
   }

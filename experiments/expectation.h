@@ -13,7 +13,7 @@
 
 namespace limen::experiments {
 
-/// An expectation with the planned runs that it is about.
+/// An expectation with the planned runs that it applies to.
 struct ResolvedExpectation {
   struct Case {
     size_t run = 0;                  ///< index into the plan
@@ -23,12 +23,12 @@ struct ResolvedExpectation {
   std::vector<Case> cases;
 };
 
-/// Finds the runs of each statement. A statement without a run, or with a `relative_to` that means no run or
+/// Finds the runs of each statement. A statement that matches no run, or whose `relative_to` matches none or
 /// several, becomes a problem. The statements must outlive the result.
 std::vector<ResolvedExpectation> resolve(const std::vector<ExpectationStatement>& statements,
                                          const std::vector<PlannedRun>& runs, Problems& problems);
 
-/// Evaluates against what was measured, by run key. A run that failed, is missing or gave no number breaks
+/// Evaluates against what was measured, by run key. A run that failed, is missing or yielded no number fails
 /// every expectation about it. `below` and `above` are strict, `equals` is exact.
 std::vector<store::Expectation> evaluate(const std::vector<ResolvedExpectation>& expectations,
                                          const std::vector<PlannedRun>& runs,

@@ -8,7 +8,7 @@
 
 namespace limen::experiments {
 
-/// Reads the list under `expect` of a descriptor whose scenes, techniques and metrics are read already. Names
+/// Reads the list under `expect` of a descriptor whose scenes, techniques and metrics have been read. Names
 /// that the descriptor does not have become problems.
 std::vector<ExpectationStatement> readExpectations(const YamlNode& node, const Descriptor& descriptor,
                                                    const Catalogue& catalogue, Problems& problems);

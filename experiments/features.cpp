@@ -25,7 +25,7 @@ std::string featuresPath(const std::string& root) {
 
 using TextFields = std::vector<std::pair<std::string, std::string*>>;
 
-/// Text under each key of `node`; `allowed` names the keys that it may have besides.
+/// Text under each key of `node`; `allowed` lists further permitted keys.
 void readTexts(const YamlNode& node, const TextFields& keys, const std::vector<std::string>& allowed,
                const std::string& what, Problems& problems) {
   std::vector<std::string> known = allowed;
@@ -45,7 +45,7 @@ void readTexts(const YamlNode& node, const TextFields& keys, const std::vector<s
 std::vector<NotBuilt> readNotBuilt(const YamlNode& node, Problems& problems) {
   std::vector<NotBuilt> out;
   if (node.kind != YamlNode::Kind::List || node.items.empty())
-    problems.add(node.mark, "'not_built' is no list of methods",
+    problems.add(node.mark, "'not_built' is not a list of methods",
                  "write a list: - {method: ..., section: ..., reason: ...}");
   for (const YamlNode& item : node.items) {
     NotBuilt& one = out.emplace_back();
@@ -67,7 +67,7 @@ Feature readFeature(const YamlNode& node, Problems& problems) {
   if (const YamlNode* list = node.find("not_built")) feature.notBuilt = readNotBuilt(*list, problems);
   static const std::regex idForm("[A-Z]{1,3}-[0-9]{2}");
   if (!std::regex_match(feature.id, idForm))
-    problems.add(node.mark, "'" + feature.id + "' is no feature id", "ids look like SS-12");
+    problems.add(node.mark, "'" + feature.id + "' is not a feature id", "ids look like SS-12");
   if (std::find(kKinds.begin(), kKinds.end(), feature.kind) == kKinds.end())
     problems.add(node.mark, "'kind' is '" + feature.kind + "'", suggest(feature.kind, kKinds));
   return feature;

@@ -9,7 +9,7 @@
 
 namespace limen::experiments {
 
-/// A method that a feature names and that is left out on purpose.
+/// A method that a feature names but that is deliberately left out.
 struct NotBuilt {
   std::string method;   ///< name and authors
   std::string section;  ///< of the feature's source
@@ -23,7 +23,7 @@ struct Feature {
   std::string source;                   ///< "Schwarz 2009, chapter 4"
   std::string section;                  ///< "4.2"
   std::string kind;                     ///< contribution, comparator or background
-  std::vector<NotBuilt> notBuilt = {};  ///< what is only surveyed; mostly empty
+  std::vector<NotBuilt> notBuilt = {};  ///< methods that are only surveyed; mostly empty
 
   std::string family() const { return id.substr(0, id.find('-')); }
 };
@@ -42,7 +42,7 @@ struct Coverage {
   size_t descriptorCount = 0;
 
   bool covers(const Feature& feature) const { return descriptors.count(feature.id) != 0; }
-  /// No descriptor exercises it, and it says why nothing could.
+  /// No descriptor exercises it, and it states why none can.
   bool isOnlySurveyed(const Feature& feature) const { return !covers(feature) && !feature.notBuilt.empty(); }
 };
 
@@ -51,7 +51,7 @@ struct Coverage {
 Coverage readCoverage(const std::string& root);
 
 std::string describe(const Coverage& coverage);
-/// A line for each feature and a summary, as --json prints them.
+/// One line per feature and a summary, as --json prints them.
 std::vector<nlohmann::json> toJsonLines(const Coverage& coverage);
 
 }  // namespace limen::experiments

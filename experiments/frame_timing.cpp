@@ -37,7 +37,7 @@ double quantileMs(std::vector<int64_t> nanoseconds, double q) {
                  share * static_cast<double>(nanoseconds[above]));
 }
 
-/// Every technique of every family needs these; they are not its own cost.
+/// Every technique needs these; they are not its own cost.
 bool isGBuffer(const std::string& pass) { return pass == "frame/triangle_ids" || pass == "frame/receivers"; }
 
 }  // namespace
@@ -54,7 +54,7 @@ void FrameTiming::warmUp(frame::Frame& frame, techniques::Technique& technique) 
 
 void FrameTiming::measureRound(frame::Frame& frame, techniques::Technique& technique, int round,
                                double maxSeconds) {
-  // Frames are shared evenly; the first rounds take what is left over.
+  // Frames are shared evenly; the first rounds take the remainder.
   const int planned = timing_.frames / timing_.rounds + (round < timing_.frames % timing_.rounds ? 1 : 0);
   glFinish();
   frame.passes().startRecording(clock_, planned);
@@ -70,7 +70,7 @@ void FrameTiming::measureRound(frame::Frame& frame, techniques::Technique& techn
     times_.push_back(
         {frames_ + done, round, "wall",
          std::chrono::duration_cast<std::chrono::nanoseconds>(steady_clock::now() - wall).count()});
-    // A long queue would let seconds of work pass before the limit above is seen.
+    // With a long queue, seconds of work would pass before the limit above is noticed.
     if (done == 0 && planned > 1) glFinish();
   }
   for (const gl::PassTime& time : frame.passes().finishRecording())

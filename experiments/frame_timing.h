@@ -16,10 +16,9 @@ class FrameTiming {
   FrameTiming(Timing timing, gl::Clock clock) : timing_(timing), clock_(clock) {}
 
   /// Frames that are rendered but not timed. A slow technique gets fewer: at least one, then as many as fit
-  /// two seconds.
+  /// in two seconds.
   void warmUp(frame::Frame& frame, techniques::Technique& technique) const;
-  /// One round of timed frames. `maxSeconds` cuts a round of a slow technique short, to no fewer than one
-  /// frame.
+  /// One round of timed frames. `maxSeconds` cuts a round of a slow technique short, but not below one frame.
   void measureRound(frame::Frame& frame, techniques::Technique& technique, int round, double maxSeconds);
 
   const std::vector<store::FrameTime>& times() const { return times_; }

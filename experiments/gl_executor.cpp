@@ -43,7 +43,7 @@ class Stopwatch {
   steady_clock::time_point start_;
 };
 
-/// A scene before it is on the GPU; building and hashing a large one takes longer than many a run.
+/// A scene before it is on the GPU; building and hashing a large one can take longer than a run.
 struct BuiltScene {
   scene::Scene scene;
   nlohmann::json facts;
@@ -57,7 +57,7 @@ BuiltScene build(const Configuration& choice) {
 
 std::string keyOf(const Configuration& scene) { return scene.name + scene.values.toJson().dump(); }
 
-/// A scene as all runs of a batch share it, with what they share of one view.
+/// A scene and its view as shared by all runs of a batch.
 struct SharedScene {
   explicit SharedScene(BuiltScene built) : onGpu(std::move(built.scene)), facts(std::move(built.facts)) {}
 
@@ -68,13 +68,13 @@ struct SharedScene {
   std::shared_ptr<const ViewImages> view;  ///< shared with the threads that write pictures
 };
 
-/// What is made of a product beside the GPU's work.
+/// What is computed from a product while the GPU works.
 struct Afterwork {
   std::vector<store::Artefact> artefacts;
   std::string productHash;
 };
 
-/// One run of a batch while it is worked on.
+/// One run of a batch in progress.
 struct LiveRun {
   size_t index = 0;
   const PlannedRun* plan = nullptr;
@@ -143,7 +143,7 @@ class GlExecutor : public Executor {
 
   void announce(const PlannedRun& next) override {
     const std::string key = keyOf(next.scene);
-    // Where a CPU plays GPU, it must do nothing else while frames are timed.
+    // With a software renderer, the CPU must do nothing else while frames are timed.
     if (environment_.software || key == sceneKey_ || key == nextKey_) return;
     nextKey_ = key;
     next_ = std::async(std::launch::async, [scene = next.scene] { return build(scene); });
@@ -163,7 +163,7 @@ class GlExecutor : public Executor {
   }
 
  private:
-  /// What a run throws is its own error; the others go on.
+  /// What a run throws is recorded as its error; the others continue.
   template <class Work>
   void attempt(LiveRun& run, Work work) {
     try {
@@ -184,9 +184,11 @@ class GlExecutor : public Executor {
         run.outcome.sceneFacts["product_hash"] = std::move(done.productHash);
       }
     });
-    // GPU memory of a finished run serves nobody.
-    run.technique.reset();
-    run.frame.reset();
+    {
+      const Stopwatch watch(seconds_["rendering"]);  // releasing memory, as allocating it
+      run.technique.reset();
+      run.frame.reset();
+    }
     const Stopwatch watch(seconds_["storing"]);
     finished(run.index, std::move(run.outcome));
   }
@@ -261,7 +263,7 @@ class GlExecutor : public Executor {
       run.outcome.measurements.push_back(measured("threshold_png_black", perception::kThresholdPictureBlack));
       run.outcome.measurements.push_back(measured("threshold_png_white", perception::kThresholdPictureWhite));
     }
-    // In the product's own unit.
+    // In the product's unit.
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::JndMap)
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
@@ -278,7 +280,7 @@ class GlExecutor : public Executor {
     const double compiledBefore = context_->programs().compileMs();
     const auto start = steady_clock::now();
     run.technique->prepare(*run.frame);
-    // The first frame allocates the shared inputs, which is preparation too.
+    // The first frame allocates the shared inputs, which counts as preparation.
     run.frame->begin();
     run.technique->render(*run.frame);
     run.frame->end();
@@ -310,7 +312,7 @@ class GlExecutor : public Executor {
                       std::shared_ptr<const Image> reference,
                       std::vector<std::pair<std::string, Image>> maps) {
     const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
-    std::map<std::string, Image> views;
+    std::map<std::string, techniques::PictureMaker> views;
     if (run.plan->artefacts.pictures) {
       const Stopwatch watch(seconds_["artefacts"]);
       views = run.technique->pictures();
@@ -323,7 +325,8 @@ class GlExecutor : public Executor {
         out.artefacts = writeArtefacts(*plan, folder, product, reference.get(), view->shading, maps, views);
       return out;
     };
-    // Beside the GPU's work; but where a CPU plays GPU, files must not be compressed while frames are timed.
+    // In parallel with the GPU; with a software renderer, however, files must not be compressed while frames
+    // are timed.
     run.afterwork = std::async(std::launch::async, std::move(work));
     if (environment_.software) {
       const Stopwatch watch(seconds_["artefacts"]);
@@ -356,7 +359,7 @@ class GlExecutor : public Executor {
   store::Environment environment_;
   std::string sceneKey_;
   std::unique_ptr<SharedScene> scene_;
-  std::string nextKey_;  ///< of the scene that is being built beside the GPU's work; "": none
+  std::string nextKey_;  ///< of the scene that is being built while the GPU works; "": none
   std::future<BuiltScene> next_;
   std::map<std::string, double> seconds_;
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arithmetic for its own sake: keeps the processors' clock up.
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) buffer Out { float sink; };
+#include "experiments/gpu_clock_bindings.h"
+
+layout(local_size_x = kBusyGroup) in;
+layout(std430, binding = kClockOutBuffer) buffer Out { float sink; };
 
 void main() {
   float x = float(gl_GlobalInvocationID.x) * 1e-6;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One invocation that waits for a number of ticks of its processor's clock.
+#include "experiments/gpu_clock_bindings.h"
+
 #extension GL_ARB_shader_clock : require
 layout(local_size_x = 1) in;
-layout(std430, binding = 0) buffer Out { uint elapsed; };
+layout(std430, binding = kClockOutBuffer) buffer Out { uint elapsed; };
 uniform uint ticks;
 
 void main() {

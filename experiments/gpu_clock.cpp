@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include "experiments/gpu_clock_bindings.h"
 #include "renderer/gl/buffer.h"
 
 namespace limen::experiments {
@@ -18,8 +19,8 @@ GpuClock::GpuClock(gl::Context& context) : software_(context.device().software) 
 
 void GpuClock::spin(int repetitions) {
   const gl::Buffer out(64, nullptr);
-  out.bindStorage(0);
-  for (int i = 0; i < repetitions; ++i) busy_->dispatch({64 * 1024, 1}, {64, 1});
+  out.bindStorage(kClockOutBuffer);
+  for (int i = 0; i < repetitions; ++i) busy_->dispatch({64 * 1024, 1}, {kBusyGroup, 1});
   glFinish();
 }
 
@@ -34,7 +35,7 @@ std::optional<double> GpuClock::measureMhz() {
   if (!counter_) return {};
   constexpr double kTicks = 2e6;
   const gl::Buffer out(64, nullptr);
-  out.bindStorage(0);
+  out.bindStorage(kClockOutBuffer);
   GLuint query = 0;
   glCreateQueries(GL_TIME_ELAPSED, 1, &query);
   counter_->set("ticks", static_cast<uint32_t>(kTicks));

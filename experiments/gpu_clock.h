@@ -8,17 +8,17 @@
 
 namespace limen::experiments {
 
-/// Keeps a GPU's clock up around timed frames and reads it. An idle GPU lowers its clock within seconds and
-/// needs up to 0.34 s of continuous work to raise it again, while times look steady and are several times too
-/// long. A software renderer needs none of this: every member does nothing then.
+/// Keeps a GPU's clock high around timed frames and reads it. An idle GPU lowers its clock within seconds and
+/// needs up to 0.34 s of continuous work to raise it again; until then times look steady but are several
+/// times too long. For a software renderer every member does nothing.
 class GpuClock {
  public:
   explicit GpuClock(gl::Context& context);
 
-  /// Call after frames have been timed. Scattered work (a picture here, a metric there) does not keep the
-  /// clock up and does not count.
+  /// Call after frames have been timed. Sporadic work (an occasional picture or metric) does not keep the
+  /// clock high and does not count.
   void touch() { lastWork_ = std::chrono::steady_clock::now(); }
-  /// Keeps the GPU busy for half a second if it was left alone for more than a second.
+  /// Keeps the GPU busy for half a second if it was idle for more than a second.
   void wake();
   /// Clock of the shader processors in MHz, where GL_ARB_shader_clock exists; waits for the GPU.
   std::optional<double> measureMhz();

@@ -18,7 +18,7 @@ const store::QuantityRow* find(const std::string& name) {
 
 const std::vector<store::QuantityRow>& commonQuantities() {
   constexpr Direction kLower = Direction::LowerIsBetter, kNeither = Direction::Neither;
-  // Name, title, unit, direction, kind, pass of the frame times that it is the median of, source.
+  // Name, title, unit, direction, kind, pass whose median frame time it is, source.
   static const std::vector<store::QuantityRow> kCommon = {
       {"gpu_ms", "GPU time", "ms", kLower, "time", "frame", ""},
       {"gpu_ms_p95", "Frame time, 95th percentile", "ms", kLower, "time", "", ""},
@@ -27,7 +27,7 @@ const std::vector<store::QuantityRow>& commonQuantities() {
       {"cpu_ms", "CPU time", "ms", kLower, "time", "cpu", ""},
       {"prepare_ms", "Preparation time", "ms", kLower, "time", "", ""},
       {"timed_frames", "Timed frames", "", kNeither, "fact", "", ""},
-      {"bytes_held", "Memory held", "byte", kLower, "fact", "", ""},
+      {"bytes_held", "Memory used", "byte", kLower, "fact", "", ""},
       {"non_finite_count", "Non-finite values", "", kLower, "error", "", ""},
       {"gpu_clock_mhz", "GPU clock", "MHz", kNeither, "fact", "", ""},
       {"error_png_white", "White of the error's picture", "", kNeither, "fact", "", ""},

@@ -9,13 +9,13 @@
 
 namespace limen::experiments {
 
-/// What a run may have whatever its technique and metrics are: times, memory, the GPU's clock, the scales of
-/// its pictures.
+/// Quantities that any run may have, whatever its technique and metrics: times, memory, the GPU's clock, the
+/// scales of its pictures.
 const std::vector<store::QuantityRow>& commonQuantities();
 
 bool isCommonQuantity(const std::string& name);
 
-/// One of them, measured: unit and kind are those of its declaration.
+/// A measurement of one of them, with its declared unit and kind.
 store::Measurement measured(const std::string& name, std::optional<double> value);
 
 }  // namespace limen::experiments

@@ -6,8 +6,8 @@
 namespace limen::experiments {
 namespace {
 
-/// What tells this one from others of the same metric: the values that are not its defaults; none if there
-/// are no others.
+/// What distinguishes this one from others of the same metric: its non-default values; none if there are no
+/// others.
 std::vector<std::string> distinctions(const Configuration& metric, const std::vector<Configuration>& all,
                                       const std::vector<Parameter>& declared) {
   const auto sameName = [&](const Configuration& other) { return other.name == metric.name; };

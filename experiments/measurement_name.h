@@ -8,13 +8,12 @@
 
 namespace limen::experiments {
 
-/// Name under which a metric's value is stored: the metric's own, followed by the values that are not its
-/// defaults when a descriptor asks for the metric more than once ("rmse", "rmse_penumbra"). `declared`: the
-/// metric's parameters.
+/// Name under which a metric's value is stored: the metric's own, followed by its non-default values if a
+/// descriptor lists the metric more than once ("rmse", "rmse_penumbra"). `declared`: the metric's parameters.
 std::string measurementName(const Configuration& metric, const std::vector<Configuration>& all,
                             const std::vector<Parameter>& declared);
 
-/// Title of the same value: the metric's, told apart in the same way ("RMSE, penumbra").
+/// Title of the same value: the metric's, distinguished in the same way ("RMSE, penumbra").
 std::string measurementTitle(const std::string& title, const Configuration& metric,
                              const std::vector<Configuration>& all, const std::vector<Parameter>& declared);
 

@@ -22,8 +22,8 @@ namespace {
 /// One cell of an entry's axes.
 struct Variant {
   Configuration choice;
-  nlohmann::json values;    ///< as reports show them: files as the descriptor names them
-  nlohmann::json identity;  ///< what the key is made from: files by content
+  nlohmann::json values;    ///< as reports show them: files as named in the descriptor
+  nlohmann::json identity;  ///< as hashed into the key: files by content
   std::string label;
   size_t entry = 0;
 };
@@ -150,8 +150,8 @@ class Planner {
         const auto [first, fresh] = seen.emplace(variant.identity.dump(), entry.mark);
         if (!fresh && first->second.line >= 0) {
           problems_.add(entry.mark,
-                        fmt::format("{} '{}' with the same values stands in line {} too: {}", word,
-                                    entry.name, first->second.line, variant.values.dump()),
+                        fmt::format("{} '{}' with the same values is also in line {}: {}", word, entry.name,
+                                    first->second.line, variant.values.dump()),
                         "the same run would be planned twice; keep one");
           break;
         }
@@ -203,8 +203,8 @@ class Planner {
       for (const Variant* variant : group)
         for (const auto& [path, value] : variant->values.items()) paths.insert(path);
       for (const std::string& path : paths) {
-        // What only some alternatives have tells runs apart where it differs among those; that it is missing
-        // elsewhere, the choice above it says.
+        // A parameter of some alternatives only distinguishes runs if it differs among those; where it is
+        // missing, the choice above it already says so.
         const auto first = std::find_if(group.begin(), group.end(), [&](const Variant* variant) {
           return variant->values.contains(path);
         });
@@ -221,7 +221,7 @@ class Planner {
     }
   }
 
-  /// One variant of each entry by turns.
+  /// One variant of each entry in turn.
   std::vector<Variant> takeTurns(std::vector<Variant> variants) const {
     std::vector<std::vector<Variant>> queues(descriptor_.techniques.size());
     for (Variant& variant : variants) queues[variant.entry].push_back(std::move(variant));

@@ -10,8 +10,8 @@
 namespace limen::experiments {
 namespace {
 
-/// What a person looks at: the scene's colour with the visibility, or that of each channel, applied (as if
-/// the light were white as a whole), or the colour product itself.
+/// What a person looks at: the scene's colour multiplied by the visibility, per channel if there are several
+/// (as if the whole light were white), or the colour product itself.
 Image composed(const Image& product, const Image& shading, bool isShare) {
   Image out(product.width, product.height, 3);
   const auto channels = static_cast<size_t>(product.channels);

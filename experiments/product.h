@@ -8,20 +8,20 @@
 
 namespace limen::experiments {
 
-/// Absolute or relative error, or change, that pictures of errors and changes show as white: the same in all
-/// runs, so that pictures can be compared.
+/// Absolute or relative error, or change, shown as white in pictures: the same in all runs, so that pictures
+/// can be compared.
 inline constexpr double kErrorScale = 0.25;
 
-/// Difference that pictures of a JND map show as white, in all runs alike.
+/// Difference shown as white in pictures of a JND map, the same in all runs.
 inline constexpr double kJndPictureWhite = 10.0;
 
-/// A product as a person would want to see it, display-coded, 3 channels. `shading`: see ViewImages.
+/// A product as a viewable picture, display-coded, 3 channels. `shading`: see ViewImages.
 Image productPicture(techniques::ProductKind kind, const Image& product, const Image& shading);
 
-/// Value that pictures of a metric's map (MetricResult::mapName) show as white, in all runs alike.
+/// Value shown as white in pictures of a metric's map (MetricResult::mapName), the same in all runs.
 double mapWhite(const std::string& mapName);
 
-/// What a viewer sees has no mask: the background adapts the eye too.
+/// Images as seen by a person have no mask: the background also adapts the eye.
 bool evaluatedEverywhere(techniques::ProductKind kind);
 
 /// SHA-256 over the exact values and the size: equal for equal products.

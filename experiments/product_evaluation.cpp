@@ -33,9 +33,9 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
                                             const Image& product, const Image* reference,
                                             const Image& shading,
                                             const std::vector<std::pair<std::string, Image>>& maps,
-                                            const std::map<std::string, Image>& views) {
+                                            const std::map<std::string, techniques::PictureMaker>& views) {
   const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
-  // Side by side: compressing one picture takes as long as many frames of a fast technique.
+  // In parallel: compressing one picture takes as long as many frames of a fast technique.
   std::vector<std::future<store::Artefact>> files;
   const auto picture = [&](const std::string& kind, std::function<Image()> make) {
     files.push_back(std::async(std::launch::async, [kind, make = std::move(make), base, folder] {
@@ -57,7 +57,7 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
     picture("product", [kind, &product, &shading] { return productPicture(kind, product, shading); });
     if (reference)
       picture("reference", [kind, reference, &shading] { return productPicture(kind, *reference, shading); });
-    for (const auto& [name, view] : views) picture("view_" + name, [&view = view] { return view; });
+    for (const auto& [name, view] : views) picture("view_" + name, [&view = view] { return view(); });
   }
   if (run.artefacts.exr) {
     exr("product", product);

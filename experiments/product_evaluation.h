@@ -12,7 +12,7 @@
 
 namespace limen::experiments {
 
-/// Applies the run's metrics. A map for pictures is kept in `maps` (name, image).
+/// Applies the run's metrics. Maps for pictures are added to `maps` (name, image).
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
                                          std::vector<std::pair<std::string, Image>>& maps);
 
@@ -22,6 +22,6 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
                                             const Image& product, const Image* reference,
                                             const Image& shading,
                                             const std::vector<std::pair<std::string, Image>>& maps,
-                                            const std::map<std::string, Image>& views);
+                                            const std::map<std::string, techniques::PictureMaker>& views);
 
 }  // namespace limen::experiments

@@ -110,7 +110,7 @@ class PublishedReader : private SelectionReader {
     }
     if (std::any_of(table.rows.begin(), table.rows.end(),
                     [&](const PublishedTable::Row& other) { return other.name == row.name; }))
-      problems_.add(item.mark, "row '" + row.name + "' is there twice", "give each its own name");
+      problems_.add(item.mark, "row '" + row.name + "' is given twice", "give each a name of its own");
     table.rows.push_back(std::move(row));
   }
 
@@ -143,8 +143,8 @@ nlohmann::json resolvePublished(const std::vector<PublishedTable>& tables,
       for (size_t i = 0; i < runs.size(); ++i)
         if (matches(runs[i], row.technique, row.scene, row.where)) matched.push_back(i);
       if (matched.empty())
-        problems.add(row.mark, "no planned run is meant by the row '" + row.name + "'",
-                     "give 'of' and 'where' that are planned");
+        problems.add(row.mark, "no planned run matches the row '" + row.name + "'",
+                     "give 'of' and 'where' as planned");
       nlohmann::json keys = nlohmann::json::array();
       for (const size_t i : matched) {
         const auto twin = std::find_if(matched.begin(), matched.end(), [&](size_t j) {
@@ -154,8 +154,8 @@ nlohmann::json resolvePublished(const std::vector<PublishedTable>& tables,
         });
         if (twin != matched.end()) {
           problems.add(
-              row.mark, "the row '" + row.name + "' means several runs of one scene",
-              "add 'where' until it means one: " + describe(runs[*twin]) + " or " + describe(runs[i]));
+              row.mark, "the row '" + row.name + "' matches several runs of one scene",
+              "add 'where' until it matches one: " + describe(runs[*twin]) + " or " + describe(runs[i]));
           break;
         }
         keys.push_back(runs[i].key);

@@ -11,13 +11,13 @@
 
 namespace limen::experiments {
 
-/// Reads the list under `published` of a descriptor whose scenes, techniques and metrics are read already:
-/// tables that somebody printed, to stand beside what the sweep measures. A table has `title`, `source`,
-/// optionally `device` and `note`, `unit`, `columns` (headings of the printed values), what to compare with,
-/// either `measure` (a measurement) or `passes` (whose times are summed), and `rows`: `name`, `values` (a
-/// number for each column, null where none is printed), `of`, `scene`, `where` (which runs of the sweep these
-/// are) and optionally `relative_to` (name of the row that ratios are taken to). `relative_to` of the table
-/// holds for all its rows. A row may have its own `passes`.
+/// Reads the list under `published` of a descriptor whose scenes, techniques and metrics have been read:
+/// published tables to compare with what the sweep measures. A table has `title`, `source`, optionally
+/// `device` and `note`, `unit`, `columns` (headings of the printed values), either `measure` (a measurement)
+/// or `passes` (whose times are summed) to compare with, and `rows`: `name`, `values` (a number for each
+/// column, null where none is printed), `of`, `scene`, `where` (which runs of the sweep these are) and
+/// optionally `relative_to` (name of the row that ratios are relative to). `relative_to` of the table applies
+/// to all its rows. A row may have its own `passes`.
 std::vector<PublishedTable> readPublished(const YamlNode& node, const Descriptor& descriptor,
                                           const Catalogue& catalogue, Problems& problems);
 

@@ -26,7 +26,7 @@ std::shared_ptr<const Image> ReferenceCache::get(const std::string& key, const s
     try {
       image = std::make_shared<const Image>(readImage(path));
     } catch (const Error&) {
-      // A damaged file, say from a full disk, is made again.
+      // A damaged file, for example from a full disk, is replaced.
     }
   }
   if (!image) {
@@ -42,7 +42,7 @@ void ReferenceCache::hold(const std::string& key, std::shared_ptr<const Image> i
   size_t bytes = 0;
   for (auto one = held_.begin(); one != held_.end();) {
     bytes += bytesOf(*one->image);
-    // The latest stays, however large it is.
+    // The latest is kept, however large it is.
     one = bytes > bytesInMemory_ && one != held_.begin() ? held_.erase(one) : std::next(one);
   }
 }

@@ -10,14 +10,15 @@
 
 namespace limen::experiments {
 
-/// Reference products on disk (32-bit EXR), named by a hash of all that decides them. Safe to share between
-/// processes: files appear whole.
+/// Reference products on disk (32-bit EXR), named by a hash of everything that determines them. Safe to share
+/// between processes: files appear atomically.
 class ReferenceCache {
  public:
   explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
       : folder_(std::move(folder)), bytesInMemory_(bytesInMemory) {}
 
-  /// The product named `key`, made by `make` if neither memory nor disk has it. Memory holds those used last.
+  /// The product named `key`, made by `make` if it is neither in memory nor on disk. Memory holds the most
+  /// recently used.
   std::shared_ptr<const Image> get(const std::string& key, const std::function<Image()>& make);
 
  private:
@@ -29,7 +30,7 @@ class ReferenceCache {
 
   std::string folder_;
   size_t bytesInMemory_;
-  std::list<Held> held_;  ///< used last first
+  std::list<Held> held_;  ///< most recently used first
 };
 
 }  // namespace limen::experiments

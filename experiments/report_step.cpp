@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Exit status of the program, 127 if it cannot be started. Its standard output is dropped: it names the
-/// report, which is ours to do.
+/// Exit status of the program, 127 if it cannot be started. Its standard output is discarded: it names the
+/// report, which the caller does.
 int call(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

@@ -11,7 +11,7 @@ struct ReportResult {
 };
 
 /// Has the sibling program limen-report write a report of `store` into `folder`. A sweep's results do not
-/// depend on it, so that it is missing or fails is a word, not an error.
+/// depend on it, so a missing or failing program is a remark, not an error.
 ReportResult makeReport(const std::string& store, const std::string& folder);
 
 }  // namespace limen::experiments

@@ -5,7 +5,7 @@ namespace limen::experiments {
 
 const SettingsTable<Timing>& Timing::table() {
   static const SettingsTable<Timing> kTable = {
-      {&Timing::warmup, "warmup", {0, 10000}, "frames", "Frames thrown away before each round"},
+      {&Timing::warmup, "warmup", {0, 10000}, "frames", "Frames discarded before each round"},
       {&Timing::frames, "frames", {1, 100000}, "frames", "Timed frames in all"},
       {&Timing::rounds, "rounds", {1, 1000}, "", "Interleaved rounds"},
       {&Timing::batch, "batch", {1, 256}, "runs", "Runs whose rounds are interleaved"}};

@@ -52,7 +52,7 @@ class Runner {
     } catch (const Interrupted&) {
       tally_.interrupted = true;
     } catch (...) {
-      // The first error says what is wrong; a store that cannot even take claims back adds nothing to it.
+      // The first error says what is wrong; failing to release claims adds nothing to it.
       try {
         results_.releaseClaims();
       } catch (const Error&) {
@@ -153,7 +153,7 @@ class Runner {
     while (!held_.empty() && !stopped()) {
       observer_.waiting(held_.size());
       const std::vector<size_t> group = std::exchange(held_, {});
-      // Runs that became free may differ in scene or size, which a batch must not.
+      // Released runs may differ in scene or size, which runs of a batch must not.
       for (size_t begin = 0; begin < group.size() && !stopped();) {
         size_t end = begin + 1;
         while (end < group.size() && groupOf(group[end]) == groupOf(group[begin])) ++end;

@@ -15,44 +15,44 @@ namespace limen::experiments {
 struct RunnerOptions {
   int shardIndex = 1, shardCount = 1;  ///< only runs of this shard; index from 1
   bool failFast = false;               ///< stop after the batch with the first failed run
-  double pollSeconds = 0.2;            ///< between looks at runs that another sweep holds
+  double pollSeconds = 0.2;            ///< between checks of runs held by another sweep
 };
 
-/// Told what happens while a sweep runs. Counts are of the shard.
+/// Notified of progress while a sweep runs. Counts refer to the shard.
 class SweepObserver {
  public:
   virtual ~SweepObserver() = default;
   virtual void begin(size_t planned, size_t alreadyDone) = 0;
   virtual void measuring(const PlannedRun& first, size_t batchSize) = 0;
   virtual void finished(const PlannedRun& run, const store::Run& row) = 0;
-  /// A run that another sweep finished while this one ran.
+  /// A run finished by another sweep in the meantime.
   virtual void doneElsewhere(const PlannedRun& run) = 0;
   virtual void waiting(size_t heldByOthers) = 0;
 };
 
-/// What became of a sweep. planned = done + skipped + failed + left.
+/// The outcome of a sweep. planned = done + skipped + failed + left.
 struct SweepTally {
   size_t planned = 0;
   size_t done = 0;     ///< measured now
-  size_t skipped = 0;  ///< measured before, or by another sweep meanwhile
+  size_t skipped = 0;  ///< measured before, or meanwhile by another sweep
   size_t failed = 0;
-  size_t left = 0;  ///< not tried: interrupted or stopped by failFast
+  size_t left = 0;  ///< not attempted: interrupted or stopped by failFast
   bool interrupted = false;
 };
 
-/// Measures what the store does not have yet for the executor's device. Every run is claimed before and
-/// committed as soon as it is finished; a batch is on the disk before the next begins; claims that are
-/// not finished are given back, whatever happens. Runs that another live process holds are left to it and
-/// waited for at the end. Throws Error if store or executor cannot go on.
+/// Measures what the store lacks for the executor's device. Every run is claimed first and committed as soon
+/// as it is finished; a batch is on disk before the next begins; unfinished claims are released, whatever
+/// happens. Runs held by another live process are left to it and awaited at the end. Throws Error if store or
+/// executor cannot continue.
 SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
                     const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
 
-/// Enters the experiment, its whole plan (all shards, so that merged stores know what is missing) and what
-/// its names mean. Returns its id.
+/// Stores the experiment, its whole plan (all shards, so that merged stores know what is missing) and the
+/// descriptions of its names. Returns its id.
 int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
 
-/// Evaluates the descriptor's expectations over everything that the store holds of this plan for `device`,
-/// and stores the result.
+/// Evaluates the descriptor's expectations over everything in the store from this plan for `device`, and
+/// stores the result.
 std::vector<store::Expectation> evaluateExpectations(const Descriptor& descriptor, const Plan& plan,
                                                      int64_t experiment, const std::string& device,
                                                      store::Store& results);

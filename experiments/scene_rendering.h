@@ -13,10 +13,10 @@
 
 namespace limen::experiments {
 
-/// What metrics and pictures need of a view beside the product.
+/// What metrics and pictures need of a view besides the product.
 struct ViewImages {
   Image mask;     ///< 1 channel: 1 on receivers, 0 elsewhere
-  Image shading;  ///< 3 channels: albedo by the cosine to the light's centre, unshadowed
+  Image shading;  ///< 3 channels: albedo times the cosine towards the light's centre, unshadowed
 };
 
 ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx);
@@ -24,11 +24,11 @@ ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm:
 /// Content hash, triangles and bounds, as a run records them.
 nlohmann::json sceneFacts(const scene::Scene& scene);
 
-/// Throws Error where the scene lacks what the technique needs.
+/// Throws Error if the scene lacks something that the technique needs.
 void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene);
 
-/// The product of a technique made for this one frame. Throws what the technique throws, and where the driver
-/// reported a mistake.
+/// The product of a technique made for this single frame. Throws what the technique throws, and Error if the
+/// driver reported a problem.
 Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
                  const Configuration& technique);
 

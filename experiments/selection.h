@@ -9,7 +9,7 @@
 
 namespace limen::experiments {
 
-/// The run's value of a parameter: its technique's, else its scene's, else `width` or `height`.
+/// The run's value of a parameter: its technique's, then its scene's, then `width` or `height`.
 std::optional<ParameterValue> lookUp(const PlannedRun& run, const std::string& name);
 
 /// True if the run has this technique and scene ("": any) and all these values.

@@ -40,7 +40,7 @@ std::string SelectionReader::readName(const YamlNode& map, const char* key,
   const auto name = reader_.values().text(*node, key);
   if (!name) return {};
   if (std::find(known.begin(), known.end(), *name) != known.end()) return *name;
-  problems_.add(node->mark, fmt::format("'{}' is no {} of this descriptor", *name, what),
+  problems_.add(node->mark, fmt::format("'{}' is not a {} of this descriptor", *name, what),
                 suggest(*name, known));
   return {};
 }
@@ -89,13 +89,13 @@ void SelectionReader::readCondition(const std::string& path, const YamlNode& key
     addOnce(known, at.path);
     const std::vector<std::string>& former = at.parameter->formerNames;
     if (candidates.empty() && std::find(former.begin(), former.end(), path) != former.end()) {
-      problems_.add(key.mark, "no technique or scene meant here has a parameter '" + path + "'",
+      problems_.add(key.mark, "no technique or scene selected here has a parameter '" + path + "'",
                     "it is now '" + at.path + "'");
       return;
     }
   }
   if (candidates.empty()) {
-    problems_.add(key.mark, "no technique or scene meant here has a parameter '" + path + "'",
+    problems_.add(key.mark, "no technique or scene selected here has a parameter '" + path + "'",
                   suggest(path, known));
     return;
   }

@@ -10,14 +10,14 @@
 
 namespace limen::experiments {
 
-/// Base of the readers of what a descriptor says about its own runs: names and parameter values are checked
-/// against what the descriptor has; what it has not becomes a problem.
+/// Base of the readers of statements about a descriptor's own runs: names and parameter values are checked
+/// against those of the descriptor; unknown ones become problems.
 class SelectionReader {
  protected:
-  /// `descriptor`: scenes, techniques and metrics are read already.
+  /// `descriptor`: scenes, techniques and metrics have been read.
   SelectionReader(const Descriptor& descriptor, const Catalogue& catalogue, Problems& problems);
 
-  /// The name under `key`, one of `known`; "" if there is none. `what` it is: "technique".
+  /// The name under `key`, one of `known`; "" if there is none. `what`: its kind, "technique".
   std::string readName(const YamlNode& map, const char* key, const std::vector<std::string>& known,
                        const char* what);
   /// The map under `where`, of runs of `technique` in `scene` ("": any). Parameters inside of choices are
@@ -31,7 +31,7 @@ class SelectionReader {
   std::vector<std::string> quantities_;  ///< names of all measurements that the runs may have
 
  private:
-  /// All declarations of runs of `technique` (any if empty) in `scene`, nearest meaning first.
+  /// All declarations of runs of `technique` (any if empty) in `scene`, most specific first.
   std::vector<DeclaredAt> declarations(const std::string& technique, const std::string& scene) const;
   void readCondition(const std::string& path, const YamlNode& key, const YamlNode& value,
                      const std::vector<DeclaredAt>& declared, Selection& out);

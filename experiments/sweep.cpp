@@ -60,7 +60,7 @@ class Sweeper {
     std::fflush(stdout);
   }
 
-  /// For people: standard output, unless that belongs to JSON lines.
+  /// For people: standard output, unless that is taken by JSON lines.
   void say(const std::string& text) const {
     std::FILE* const out = options_.json ? stderr : stdout;
     std::fputs((text + "\n").c_str(), out);
@@ -85,12 +85,12 @@ class Sweeper {
   }
 
   int mergeStores() const {
-    // All inputs are opened before the output is made, so that a bad name leaves nothing behind.
+    // All inputs are opened before the output is created, so that a bad name leaves nothing behind.
     std::vector<std::unique_ptr<store::Store>> inputs;
     for (const std::string& path : options_.mergeIn) {
       std::error_code code;
       if (fs::equivalent(path, options_.mergeOut, code))
-        throw Error("is merged into itself", path, "name another store");
+        throw Error("cannot be merged into itself", path, "name another store");
       inputs.push_back(std::make_unique<store::Store>(path, store::Access::ReadOnly));
     }
     makeFolderOf(options_.mergeOut);
@@ -107,10 +107,11 @@ class Sweeper {
     std::error_code code;
     if (!folder.empty()) fs::create_directories(folder, code);
     if (code)
-      throw Error("folder cannot be made: " + code.message(), folder.string(), "check rights and space");
+      throw Error("cannot create the folder: " + code.message(), folder.string(),
+                  "check permissions and free space");
   }
 
-  /// All descriptors are checked before any is run; every bad one is named.
+  /// All descriptors are checked before any is run; every bad one is reported.
   std::vector<PlannedSweep> planAll() const {
     const Catalogue catalogue = program_.catalogue();
     const std::set<std::string> features = knownFeatures(options_.root);
@@ -176,7 +177,7 @@ class Sweeper {
     return isatty(STDERR_FILENO) ? makePair(std::move(json), makeProgressBar(stderr)) : std::move(json);
   }
 
-  /// The input was good, but device or store gave up.
+  /// The input was valid, but device or store failed.
   static int reportFailure(const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kExitFailedRuns;
@@ -232,12 +233,12 @@ class Sweeper {
                                    tally.done, tally.skipped, tally.failed);
     if (tally.left > 0) line += fmt::format(", {} left", tally.left);
     say(line + "; store " + sweep.store);
-    if (tally.interrupted) say("interrupted; the same command goes on where it stopped");
+    if (tally.interrupted) say("interrupted; the same command resumes where it stopped");
     if (options_.shardCount > 1)
-      say(fmt::format(
-          "shard {}/{}: expectations and report wait for all shards: merge them, then call the sweep with "
-          "--store OUT and no --shard",
-          options_.shardIndex, options_.shardCount));
+      say(
+          fmt::format("shard {}/{}: expectations and report wait for all shards: merge them, then run the "
+                      "sweep with --store OUT and without --shard",
+                      options_.shardIndex, options_.shardCount));
     if (options_.json)
       printJson({{"planned", tally.planned},
                  {"done", tally.done},

@@ -10,7 +10,7 @@
 
 namespace limen::experiments {
 
-/// What makes a sweep program: the names it knows and the executor that runs them.
+/// What a sweep program consists of: the names it knows and the executor that runs them.
 struct SweepProgram {
   std::string name;
   std::function<Catalogue()> catalogue;
@@ -20,7 +20,7 @@ struct SweepProgram {
 };
 
 /// The command line of `limen sweep`. Returns the exit code: 0; 1 for failed runs, broken expectations or a
-/// device that fails; 2 for bad input (nothing was run or written); 128 + signal when interrupted.
+/// failing device; 2 for bad input (nothing was run or written); 128 + signal when interrupted.
 int sweepMain(int argc, char** argv, const SweepProgram& program);
 
 }  // namespace limen::experiments

@@ -19,7 +19,7 @@ void readShard(const std::string& text, SweepOptions& options) {
   const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, options.shardCount);
   if (!slash || second.ec != std::errc{} || second.ptr != end || options.shardIndex < 1 ||
       options.shardIndex > options.shardCount)
-    throw Error("'" + text + "' is no shard", "--shard", "give i/n with i from 1 to n: --shard 2/4");
+    throw Error("'" + text + "' is not a shard", "--shard", "give i/n with i from 1 to n: --shard 2/4");
 }
 
 std::string suggestOption(const CLI::App& app, const std::string& word) {
@@ -32,9 +32,9 @@ std::string suggestOption(const CLI::App& app, const std::string& word) {
 void checkTogether(const SweepOptions& options) {
   if (options.merge) return;
   if (options.descriptors.empty() && !options.list && !options.features)
-    throw Error("no descriptor is given", "command line", "name a YAML file, or see --help");
+    throw Error("no descriptor given", "command line", "name a YAML file, or see --help");
   if (!options.descriptors.empty() && (options.list || options.features))
-    throw Error("--list and --features run no descriptor", "command line", "call them alone");
+    throw Error("--list and --features do not run descriptors", "command line", "use them on their own");
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   ParsedOptions parsed;
   SweepOptions& options = parsed.options;
   options.root = LIMEN_SOURCE_DIR;
-  CLI::App app("Runs what is not done yet of the experiments that the descriptors state.", program);
+  CLI::App app("Runs whatever is not done yet of the experiments in the descriptors.", program);
   app.set_version_flag("--version", versionText(program), "Print version and commit");
   app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")->type_name("FILE");
   app.add_option("--store", options.store, "Result store (default: results/DESCRIPTOR.sqlite)")
@@ -52,24 +52,24 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   app.add_option("--shard", shard, "Only part i of n, split by run key; join the stores with merge")
       ->type_name("i/n");
   app.add_flag("--fail-fast", options.failFast, "Stop after the first failed run");
-  app.add_flag("--dry-run", options.dryRun, "Print the plan and its size; run nothing");
-  app.add_flag("--no-report", options.noReport, "Write no HTML report");
+  app.add_flag("--dry-run", options.dryRun, "Print the plan and its size without running it");
+  app.add_flag("--no-report", options.noReport, "Do not write an HTML report");
   app.add_flag("--json", options.json, "JSON lines on standard output");
   std::string list;
   CLI::Option* const listOption = app.add_option(
-      "--list", list, "What descriptors can name: scenes, techniques, metrics, or one NAME in full");
+      "--list", list, "List what descriptors can name: scenes, techniques, metrics, or one NAME in full");
   listOption->expected(0, 1)->type_name("WHAT");
-  app.add_flag("--features", options.features, "Which features of the theses the descriptors cover");
+  app.add_flag("--features", options.features, "List which features of the theses the descriptors cover");
   app.add_option("--root", options.root,
                  "Source tree with experiments/features.yaml and experiments/descriptors")
       ->envname("LIMEN_ROOT")
       ->type_name("DIR");
   CLI::App* const merge = app.add_subcommand("merge", "Join stores: merge OUT IN...");
-  merge->add_option("out", options.mergeOut, "Store that takes the runs; made if missing")
+  merge->add_option("out", options.mergeOut, "Store to merge into; created if missing")
       ->required()
       ->type_name("OUT");
   merge->add_option("in", options.mergeIn, "Stores to copy from")->required()->type_name("IN");
-  merge->add_flag("--json", options.json, "A JSON line on standard output");
+  merge->add_flag("--json", options.json, "Print a JSON line on standard output");
   try {
     app.parse(argc, argv);
     if (!shard.empty()) readShard(shard, options);

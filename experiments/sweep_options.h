@@ -7,7 +7,7 @@
 
 namespace limen::experiments {
 
-/// What `limen sweep` was asked to do.
+/// The options of `limen sweep`.
 struct SweepOptions {
   std::vector<std::string> descriptors;
   std::string store;  ///< "" for results/<descriptor>.sqlite
@@ -21,7 +21,7 @@ struct SweepOptions {
   std::vector<std::string> mergeIn;
 };
 
-/// Options, or the exit code of a call that is already answered (--help, --version) or refused.
+/// Options, or the exit code of a call that was already answered (--help, --version) or refused.
 struct ParsedOptions {
   SweepOptions options;
   std::optional<int> exitCode;

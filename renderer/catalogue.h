@@ -7,7 +7,7 @@
 
 namespace limen {
 
-/// What the registries of scenes, techniques and metrics hold in this program. Made at the first call.
+/// The contents of this program's registries of scenes, techniques and metrics. Made at the first call.
 std::shared_ptr<const Catalogue> catalogueFromRegistries();
 
 }  // namespace limen

@@ -44,8 +44,8 @@ struct Assignment {
 };
 
 Assignment assign(const std::string& path, const std::string& text, const std::vector<DeclaredAt>& known) {
-  // One path may stand for parameters of several alternatives; the first that the text suits serves. A text
-  // that suits none is left as it is, for the check of values to refuse.
+  // One path may stand for parameters of several alternatives; the first that accepts the text is taken. A
+  // text that none accepts is passed on for ParameterValues to refuse.
   Assignment out{path, text};
   for (const DeclaredAt& at : known) {
     if (at.path != path) continue;

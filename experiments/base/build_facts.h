@@ -7,7 +7,7 @@ namespace limen {
 
 /// Version of the project: "0.1.0".
 std::string projectVersion();
-/// Commit of the built source tree, 40 digits, with "-dirty" if it had changes; "unknown" outside of a clone.
+/// Commit of the built source tree, 40 digits, with "-dirty" if it had changes; "unknown" outside a clone.
 std::string buildCommit();
 /// CMake's build type: "Release".
 std::string buildType();

@@ -6,8 +6,8 @@
 
 namespace limen {
 
-/// Long work asks cancelToken() between its pieces and ends early where a stop was requested; whoever set the
-/// scope throws the unfinished result away. Without a scope nothing is ever cancelled.
+/// Long-running work checks cancelToken() between steps and returns early once a stop was requested; whoever
+/// set the scope discards the unfinished result. Without a scope nothing is ever cancelled.
 class CancelScope {
  public:
   explicit CancelScope(std::stop_token token) : before_(std::exchange(current(), std::move(token))) {}
@@ -25,7 +25,7 @@ class CancelScope {
   std::stop_token before_;
 };
 
-/// Of the calling thread; take it before handing pieces to other threads.
+/// Of the calling thread; get it before handing work to other threads.
 inline std::stop_token cancelToken() { return CancelScope::current(); }
 
 }  // namespace limen

@@ -21,9 +21,9 @@ struct CatalogueEntry {
   // Techniques only.
   std::string product = {};             ///< kind of the product; only equal kinds can be compared
   std::vector<std::string> needs = {};  ///< scene traits
-  bool reference = false;               ///< made to be compared with
+  bool reference = false;               ///< a reference to compare with
   bool onCpu = false;
-  std::vector<Quantity> counters = {};  ///< what its runs may have beside the common measurements
+  std::vector<Quantity> counters = {};  ///< what its runs may measure besides the common quantities
 
   // Metrics only.
   Quantity quantity = "";  ///< what it measures
@@ -32,17 +32,17 @@ struct CatalogueEntry {
 
 using CatalogueKind = std::map<std::string, CatalogueEntry>;
 
-/// Everything that descriptors and protocols can name. Readers and plans depend on this alone, so that they
-/// are checked without a GL context and without the code behind the names.
+/// Everything that descriptors and protocols can name. Readers and plans depend on this alone, so that files
+/// can be checked without a GL context and without the code behind the names.
 struct Catalogue {
   CatalogueKind scenes, techniques, metrics;
-  /// What a stimulus that changes levels of detail says of its shading.
+  /// What a stimulus that switches levels of detail declares about its shading.
   std::vector<Parameter> shading;
 };
 
 /// Names of one kind, sorted.
 std::vector<std::string> names(const CatalogueKind& kind);
-/// What the given techniques count, each name once.
+/// The counters of the given techniques, each name once.
 std::vector<std::string> counterNames(const Catalogue& catalogue, const std::vector<std::string>& techniques);
 
 }  // namespace limen

@@ -11,7 +11,7 @@
 namespace limen {
 
 /// A member of a settings struct that names an entry of a registry together with that entry's own settings,
-/// as a technique does that is wrapped around another one: `inner: {kind: bitmask, budget: 64}`.
+/// as a technique that wraps another one does: `inner: {kind: bitmask, budget: 64}`.
 struct ChosenEntry {
   std::string name;        ///< as registered: "soft_shadows/bitmask"
   ParameterValues values;  ///< complete; empty in defaults: the entry's own
@@ -30,7 +30,7 @@ namespace settings {
 struct EntryOptions {
   std::vector<std::string> names;  ///< as registered
   std::function<const std::vector<Parameter>&(const std::string& name)> parametersOf;
-  /// Throws Error if the values of an entry do not go together, `where` being a path within them.
+  /// Throws Error if the values of an entry contradict each other, `where` being a path within them.
   std::function<void(const std::string& name, const ParameterValues& values)> check = {};
 };
 
@@ -66,8 +66,8 @@ class EntryMember : public EntryAccess {
 
 }  // namespace settings
 
-/// Binds a ChosenEntry to some entries of Info's registry. In descriptors an entry goes by the last part of
-/// its name: "bitmask" for "soft_shadows/bitmask".
+/// Binds a ChosenEntry to some entries of Info's registry. Descriptors name an entry by the last part of its
+/// name: "bitmask" for "soft_shadows/bitmask".
 template <class Info, class S>
 Binding<S> registeredChoice(ChosenEntry S::*member, std::string name, std::vector<std::string> entries,
                             std::string description, std::string source = {}) {

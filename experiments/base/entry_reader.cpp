@@ -15,7 +15,7 @@ using Kind = YamlNode::Kind;
 
 const char* const kKind = "kind";
 
-/// One choice that stands for more places than this is a slip, not an axis.
+/// A choice that expands to more points than this is a mistake, not an axis.
 constexpr size_t kMaxPoints = 100'000;
 
 size_t countPoints(const std::vector<Axis>& axes) {
@@ -54,7 +54,7 @@ std::string defaultKind(const Parameter& parameter) {
   return parameter.type == ParameterType::Group ? "" : std::get<std::string>(parameter.defaultValue);
 }
 
-/// The one path whose value differs among the points, where there is just one and all points have it.
+/// The one path whose value differs among the points, if there is exactly one and all points have it.
 std::string varyingPath(const std::vector<AxisPoint>& points) {
   std::set<std::string> varying;
   const auto compare = [&](const AxisPoint& point, const AxisPoint& other) {

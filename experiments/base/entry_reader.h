@@ -9,16 +9,18 @@
 
 namespace limen {
 
-/// Values by path that go together: one place along an axis.
+/// Values by path that are set together: one point of an axis.
 using AxisPoint = std::map<std::string, ParameterValue>;
 
-/// What a map gives for one parameter: one place, or several, which multiply with the other axes' places.
+/// What a map gives for one parameter: one point, or several, which are crossed with the points of the other
+/// axes.
 struct Axis {
-  std::string name;  ///< path of what varies: "budget.rim"; where several paths do, of the choice above them
+  std::string
+      name;  ///< path of what varies: "budget.rim"; if several paths vary, that of the choice above them
   std::vector<AxisPoint> points;
 };
 
-/// Every combination of the axes' places; the last axis changes fastest, as in loops nested in that order.
+/// Every combination of the axes' points; the last axis changes fastest, as in loops nested in that order.
 std::vector<AxisPoint> combine(const std::vector<Axis>& axes);
 
 /// Reads the parameters of a scene, technique or metric from a map, as its declarations allow:
@@ -27,16 +29,16 @@ std::vector<AxisPoint> combine(const std::vector<Axis>& axes);
 ///   without
 ///     `kind` for the default one; a list of such is one axis: `structure: [hsm, {kind: ysm, base: [128,
 ///     256]}]`;
-///   - a number in the place of a choice or group that has a shorthand: `budget: 256`;
+///   - a number in place of a choice or group that has a shorthand: `budget: 256`;
 ///   - a group: a map of its members.
 class EntryReader {
  public:
-  /// `listHint`: what to do in place of giving a list, where lists are refused; "": lists are axes.
+  /// `listHint`: what to do instead of giving a list, where lists are refused; "": lists are axes.
   explicit EntryReader(NodeReader& reader, std::string listHint = {})
       : reader_(reader), listHint_(std::move(listHint)) {}
 
   /// One axis for each parameter that the map gives. `what` has the parameters: "technique
-  /// 'soft_shadows/pcf'". Keys of `others` are somebody else's.
+  /// 'soft_shadows/pcf'". Keys in `others` are read elsewhere.
   std::vector<Axis> axes(const YamlNode& map, const std::vector<Parameter>& declared, const std::string& what,
                          const std::vector<std::string>& others = {"name"});
 
@@ -63,7 +65,7 @@ class EntryReader {
   const std::vector<Parameter>* root_ = nullptr;
 };
 
-/// Whether a scalar in the place of this choice or group is a number that stands for its shorthand.
+/// Whether a scalar in place of this choice or group is a number for its shorthand.
 bool isShorthand(const YamlNode& node, const Parameter& parameter);
 /// The shorthand's declaration: of the default alternative, or of the group.
 const Parameter& shorthandOf(const Parameter& parameter);

@@ -20,7 +20,7 @@ namespace {
 
 const std::string kUnknown = "unknown";
 
-/// Value of the first line "KEY<separator>VALUE" of a file, without blanks or quotes around it.
+/// Value of the first line "KEY<separator>VALUE" of a file, without surrounding blanks or quotes.
 std::string lookUp(const std::string& file, const std::string& key, char separator) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

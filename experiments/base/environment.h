@@ -7,10 +7,10 @@
 
 namespace limen {
 
-/// Facts about this machine, build and call, for store::Environment::facts: cpu, cores, memory_bytes, os,
-/// kernel, compiler, build_type, libraries, commit (of the built source tree, with "-dirty" if it had
-/// changes), command, working_directory (relative to `root`), time (UTC). What cannot be found is "unknown".
-/// An executor adds its GPU's facts.
+/// Facts about this machine, build and invocation, for store::Environment::facts: cpu, cores, memory_bytes,
+/// os, kernel, compiler, build_type, libraries, commit (of the built source tree, with "-dirty" if it had
+/// changes), command, working_directory (relative to `root`), time (UTC). What cannot be determined is
+/// "unknown". An executor adds its GPU's facts.
 nlohmann::json environmentFacts(const std::vector<std::string>& command, const std::string& root);
 
 /// Words as a shell would read them back.

@@ -7,7 +7,7 @@
 namespace limen {
 
 /// An error that a user can cause and fix. `what` names the thing, `where` the file and line (or the
-/// command-line option), `hint` what to do about it. Programmer errors are assertions, never this.
+/// command-line option), `hint` what to do about it. Programmer errors are assertions instead.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& what, const std::string& where = {}, const std::string& hint = {})
@@ -26,7 +26,7 @@ class Error : public std::runtime_error {
 
 /// Exit codes of every program.
 inline constexpr int kExitSuccess = 0;
-inline constexpr int kExitFailedRuns = 1;  ///< runs failed or an expectation was broken
+inline constexpr int kExitFailedRuns = 1;  ///< runs failed or an expectation was not met
 inline constexpr int kExitBadInput = 2;    ///< the input was refused; nothing ran
 
 }  // namespace limen

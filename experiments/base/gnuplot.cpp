@@ -17,7 +17,7 @@
 
 namespace limen {
 
-// Inside single quotes gnuplot takes everything as it is but the quote itself.
+// Inside single quotes gnuplot takes everything literally except the quote itself.
 std::string gnuplotQuoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -56,7 +56,7 @@ void requireWhole(const std::filesystem::path& picture) {
 void runGnuplot(const std::string& folder, const std::string& file,
                 const std::vector<std::string>& pictures) {
   std::array<int, 2> messages{};
-  if (pipe(messages.data()) != 0) throw Error("no pipe can be made", "gnuplot");
+  if (pipe(messages.data()) != 0) throw Error("cannot create a pipe", "gnuplot");
   const pid_t child = fork();
   if (child == 0) {
     dup2(messages[1], 2);
@@ -74,7 +74,7 @@ void runGnuplot(const std::string& folder, const std::string& file,
     text.append(buffer.data(), static_cast<size_t>(n));
   close(messages[0]);
   int status = -1;
-  if (child < 0 || waitpid(child, &status, 0) < 0) throw Error("gnuplot cannot be started");
+  if (child < 0 || waitpid(child, &status, 0) < 0) throw Error("cannot start gnuplot");
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw Error("gnuplot is not installed; it draws the charts", "",
                 "install the Debian package gnuplot-nox");

@@ -7,15 +7,15 @@
 
 namespace limen {
 
-/// A text as gnuplot's single-quoted string; control characters become blanks.
+/// A text as a single-quoted gnuplot string; control characters become blanks.
 std::string gnuplotQuoted(const std::string& text);
 
-/// Okabe and Ito's colours, told apart with any colour vision; dashes tell apart what comes after.
+/// Okabe and Ito's colours, distinguishable with any colour vision; further series differ in their dashes.
 inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
                                                              "#B07C00", "#2E86C1", "#444444"};
 
-/// Terminal and size of a chart in a file of its own: ".svg", ".png", anything else PDF. `width` and `height`
-/// are in usual widths and heights.
+/// Terminal and size of a chart in its own file: ".svg", ".png", anything else PDF. `width` and `height` are
+/// multiples of the usual size.
 std::string gnuplotTerminal(const std::string& extension, double width = 1.0, double height = 1.0);
 
 /// Runs a script that lies in `folder`, with that as its working folder, and checks that the `pictures` that

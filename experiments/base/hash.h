@@ -15,7 +15,7 @@ class Sha256 {
   Sha256();
   Sha256& update(const void* data, size_t bytes);
   Sha256& update(std::string_view text) { return update(text.data(), text.size()); }
-  /// 64 lower-case hexadecimal digits. The object is spent afterwards.
+  /// 64 lower-case hexadecimal digits. The object cannot be used afterwards.
   std::string hex();
 
  private:

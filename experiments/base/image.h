@@ -28,7 +28,7 @@ Image readImage(const std::string& path);
 /// EXR, 32-bit float, lossless. Encoded in memory and written as PartFile does. `description` goes into the
 /// file, for those who find it without its context. Throws Error.
 void writeExr(const std::string& path, const Image& image, const std::string& description = {});
-/// 8-bit PNG of values in [0, 1], taken as they are (no transfer curve); others are clamped. Otherwise as
+/// 8-bit PNG of values in [0, 1], stored as they are (no transfer curve); others are clamped. Otherwise as
 /// writeExr().
 void writePng(const std::string& path, const Image& image, const std::string& description = {});
 

@@ -13,9 +13,9 @@ std::atomic<int> receivedSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 void handle(int signal) {
-  // Claims that a process leaves behind are taken over by the next sweep, so leaving at once loses nothing.
+  // The next sweep takes over claims that a process leaves behind, so exiting at once loses nothing.
   if (receivedSignal.exchange(signal) != 0) _exit(128 + signal);
-  constexpr char kWord[] = "\nstopping; once more to stop at once\n";
+  constexpr char kWord[] = "\nstopping; press again to stop at once\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kWord, sizeof kWord - 1);
 }
 

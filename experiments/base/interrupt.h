@@ -3,13 +3,13 @@
 
 namespace limen {
 
-/// Thrown out of long work after SIGINT or SIGTERM.
+/// Thrown from long-running work after SIGINT or SIGTERM.
 struct Interrupted {};
 
-/// From now on the first SIGINT or SIGTERM asks for an orderly end; a second one ends the process at once.
+/// From now on the first SIGINT or SIGTERM requests an orderly stop; a second one ends the process at once.
 void installInterruptHandlers();
 
-/// The signal that asked for an end, or 0.
+/// The signal that requested the stop, or 0.
 int interruptSignal();
 void throwIfInterrupted();
 

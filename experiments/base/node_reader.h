@@ -11,8 +11,8 @@
 
 namespace limen {
 
-/// Reads maps, lists and scalars of a descriptor or a protocol; what does not fit becomes a problem, and
-/// reading goes on, so that a user sees all of them at once.
+/// Reads maps, lists and scalars of a descriptor or a protocol; anything invalid becomes a problem, and
+/// reading continues, so that a user sees all problems at once.
 class NodeReader {
  public:
   NodeReader(Problems& problems, FileFinder& files)
@@ -28,7 +28,7 @@ class NodeReader {
   /// `what` has the keys: "timing", "an expectation".
   void checkKeys(const YamlNode& map, const std::string& what, const std::vector<std::string>& known);
 
-  /// The value of a key of a map, if it is there and fits.
+  /// The value of a key of a map, if present and valid.
   template <settings::Number T>
   void take(const YamlNode& map, const std::string& key, Range range, const std::string& unit, T& out) {
     if (const YamlNode* node = map.find(key))
@@ -41,14 +41,14 @@ class NodeReader {
     if (const YamlNode* node = map.find(key))
       if (const auto value = choice(*node, key, namesOf<E>())) out = fromText<E>(*value);
   }
-  /// A scalar as a number, whole or not, or as one of some names. `what` it is called in messages.
+  /// A scalar as a number, integer or real, or as one of several names. `what`: how messages call it.
   std::optional<ParameterValue> number(const YamlNode& node, const std::string& what, Range range,
                                        const std::string& unit, bool whole);
   std::optional<std::string> choice(const YamlNode& node, const std::string& what,
                                     const std::vector<std::string>& names);
   /// Text; a problem if it is required and missing.
   void takeText(const YamlNode& map, const std::string& key, bool required, std::string& out);
-  /// Different texts.
+  /// A list of distinct texts.
   std::vector<std::string> texts(const YamlNode& node, const std::string& what, const std::string& example);
 
   /// Settings that a map gives, the rest at their defaults; after a problem, defaults. `what` has the

@@ -148,7 +148,7 @@ class Completion {
 
  private:
   ParameterValue valueOf(Parameter parameter, const std::string& path, const ParameterValue& value) const {
-    parameter.name = path;  // as messages are to call it
+    parameter.name = path;  // as messages call it
     return validate(parameter, value, where_);
   }
 

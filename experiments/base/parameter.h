@@ -33,29 +33,29 @@ struct Parameter {
   ParameterType type = ParameterType::Real;
   ParameterValue defaultValue;
   std::optional<double> minimum, maximum;  ///< inclusive; Integer and Real only
-  std::vector<int64_t> allowed;            ///< Integer only: these numbers alone; empty: all in range
+  std::vector<int64_t> allowed;            ///< Integer only: only these numbers; empty: all in range
   std::vector<std::string> choices;        ///< Choice only
   std::string unit;                        ///< "" for pure numbers
   std::string description;                 ///< one line
   std::string source;                      ///< thesis section or paper; "" for the bench's own
   bool required = false;                   ///< no default: the descriptor must give it
-  /// At its default it is no part of run keys: results from before it was declared keep theirs.
+  /// At its default it is not part of run keys, so results from before it was declared keep their keys.
   bool keyedIfGiven = false;
   /// Choice: none, or one for each of `choices`. Group: one without a name.
   std::vector<Alternative> alternatives;
   /// Choice or Group: the parameter of the default alternative, or of the group, that a number in its place
   /// stands for ("budget: 256" for "budget: {kind: uniform, limit: 256}"); "": a number is refused.
   std::string shorthand = {};
-  /// How the same was written formerly: names that an error answers with the new form.
+  /// Former names of this parameter; an error replies to them with the new form.
   std::vector<std::string> formerNames = {};
   /// As an axis label, without the unit; "": the words of the name.
   std::string title = {};
 };
 
-/// One of several values of a Choice, with what belongs to it alone.
+/// One of several values of a Choice, with the parameters that only it has.
 struct Alternative {
   std::string name;
-  std::string description;  ///< what it is, as a noun phrase; "": the name says it
+  std::string description;  ///< what it is, as a noun phrase; "": the name suffices
   std::vector<Parameter> parameters;
 };
 
@@ -71,7 +71,7 @@ struct DeclaredAt {
   /// Where it exists: values of the choices above it ("budget" -> "radial").
   std::map<std::string, std::string> when;
 };
-/// All declarations but groups, depth first in order of declaration. One path may come from several
+/// All declarations except groups, depth first in order of declaration. One path may come from several
 /// alternatives.
 std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared);
 

@@ -12,7 +12,7 @@
 
 namespace limen {
 
-/// The declarations of a registered scene, technique or metric. They are made when first asked for, since
+/// The declarations of a registered scene, technique or metric. They are made on first use, since
 /// they may name entries of registries that are still being filled while the program starts. Copies share one
 /// list.
 class ParameterList {

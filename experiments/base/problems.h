@@ -8,19 +8,19 @@
 
 namespace limen {
 
-/// Collects what is wrong with one file, so that a user sees all of it at once.
+/// Collects the problems of one file, so that a user sees all of them at once.
 class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
-  /// The same problem at the same place counts once.
+  /// Repeats of a problem at the same place are dropped.
   void add(Mark mark, const std::string& what, const std::string& hint = {});
   bool empty() const { return lines_.empty(); }
   size_t size() const { return lines_.size(); }
   const std::string& file() const { return file_; }
 
-  /// Throws one Error with a line for each problem (the first twenty), in the file's order; returns if there
-  /// is none.
+  /// Throws one Error with a line for each problem (the first twenty), in file order; returns if there are
+  /// none.
   void throwIfAny() const;
 
  private:

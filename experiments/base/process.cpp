@@ -45,7 +45,7 @@ std::optional<bool> isOwnerDead(const std::string& owner) {
   const size_t second = owner.rfind(':');
   const size_t first =
       second == std::string::npos || second == 0 ? std::string::npos : owner.rfind(':', second - 1);
-  if (first == std::string::npos) return true;  // nobody signs like this
+  if (first == std::string::npos) return true;  // no other owner looks like this
   if (owner.substr(0, first) != hostName()) return std::nullopt;
   return startTime(owner.substr(first + 1, second - first - 1)) != owner.substr(second + 1);
 }

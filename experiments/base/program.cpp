@@ -14,7 +14,7 @@
 namespace limen {
 namespace {
 
-/// The subcommand that was meant, at any depth.
+/// The subcommand that was called, at any depth.
 const CLI::App* parsedCommand(const CLI::App* app) {
   while (true) {
     const std::vector<CLI::App*> parsed = app->get_subcommands();
@@ -23,7 +23,7 @@ const CLI::App* parsedCommand(const CLI::App* app) {
   }
 }
 
-/// Says in one line what the command line lacks.
+/// Prints one line that says what is missing on the command line.
 void explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::string& program = app.get_name();
   const std::vector<std::string> rest = app.remaining(true);
@@ -31,7 +31,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
     std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), error.what());
     return;
   }
-  std::string hint = "quote a pattern, so that the shell leaves it alone";
+  std::string hint = "quote a pattern to keep the shell from expanding it";
   if (rest.front().rfind("-", 0) == 0) {
     std::vector<std::string> known;
     for (const CLI::Option* option : parsedCommand(&app)->get_options())

@@ -8,7 +8,7 @@
 
 namespace limen {
 
-/// Which values of a quantity are better. Neither: a fact, or a setting.
+/// Which values of a quantity are better. Neither: a plain fact or a setting.
 enum class Direction { Neither, LowerIsBetter, HigherIsBetter };
 constexpr EnumNames<Direction, 3> enumNames(Direction) {
   return {{{{Direction::Neither, "neither"},
@@ -35,7 +35,7 @@ struct Quantity {
   std::string source;  ///< thesis section or paper; "" for the bench's own
 };
 
-/// Its title, or the words of its name if it has none.
+/// The title, or the words of the name if there is none.
 std::string titleOf(const Quantity& quantity);
 
 }  // namespace limen

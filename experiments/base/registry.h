@@ -31,7 +31,7 @@ class Registry {
   }
 
   /// For a declaration that is made from other registries' entries: `make` is called when this registry is
-  /// first asked, which must not be before main().
+  /// first queried, which must not be before main().
   void addLater(std::function<Info()> make) { later_.push_back(std::move(make)); }
 
   const Info* find(const std::string& name) const {

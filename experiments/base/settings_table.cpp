@@ -6,7 +6,7 @@
 namespace limen {
 namespace {
 
-/// Runs `read`, adding `prefix` to the place that an error names.
+/// Runs `read`, prefixing `prefix` to the location in any error.
 template <class Read>
 void readBelow(const std::string& prefix, const Read& read) {
   try {

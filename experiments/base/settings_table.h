@@ -37,26 +37,26 @@
 ///   256});
 ///   - bool; std::string (free text); FilePath (a file that the descriptor names);
 ///   - an enumeration with names (enum_names.h);
-///   - std::string with Names{...}: one of names that are known only at run time;
+///   - std::string with Names{...}: one of several names known only at run time;
 ///   - another settings struct: a group, written as a map under its name;
 ///   - std::variant of alternatives, each with parameters of its own. An alternative states
 ///     `static constexpr const char *kKind, *kSummary;` and has a table() if it has parameters;
-///   - included(&S::member): the members of another settings struct stand on this struct's own level;
+///   - included(&S::member): the members of another settings struct appear on this struct's own level;
 ///   - ChosenEntry: an entry of a registry, with its own settings (see chosen_entry.h).
 /// A settings struct may have `void check() const`, which throws Error, `where` being a path within the
-/// struct, if values do not go together. Tables are made when first asked for, never before main().
+/// struct, if values contradict each other. Tables are made on first use, never before main().
 namespace limen {
 
 /// Inclusive.
 struct Range {
   double least, most;
 };
-/// Whole numbers that are allowed.
+/// The allowed whole numbers.
 struct OneOf {
   std::vector<int64_t> numbers;
 };
 inline OneOf oneOf(std::vector<int64_t> numbers) { return {std::move(numbers)}; }
-/// Names that are allowed.
+/// The allowed names.
 struct Names {
   std::vector<std::string> names;
 };
@@ -86,7 +86,8 @@ class MemberAccess {
                      std::map<std::string, ParameterValue>& out) const = 0;
 };
 
-/// A settings table without its type: what the template would otherwise instantiate for each struct.
+/// The type-independent part of a settings table, which the template would otherwise instantiate for each
+/// struct.
 class SettingsLayout {
  public:
   struct Member {
@@ -98,7 +99,7 @@ class SettingsLayout {
   SettingsLayout(std::vector<Member> members, Check check) : members_(std::move(members)), check_(check) {}
 
   std::vector<Parameter> parametersOf(const void* defaults) const;
-  /// Throws Error if values do not go together; its `where` is then a path.
+  /// Throws Error if values contradict each other; its `where` is then a path.
   void readInto(void* settings, const ParameterValues& values, const std::string& prefix) const;
   void writeFrom(const void* settings, const std::string& prefix,
                  std::map<std::string, ParameterValue>& out) const;
@@ -126,7 +127,7 @@ class ValueAccess : public MemberAccess {
 /// Base of members that are settings structs themselves.
 class StructAccess : public MemberAccess {
  public:
-  /// `named`: a group under its own name; otherwise its members stand beside the others.
+  /// `named`: a group under its own name; otherwise its members appear beside the others.
   explicit StructAccess(bool named) : named_(named) {}
   virtual const void* member(const void* settings) const = 0;
   virtual void* member(void* settings) const = 0;
@@ -142,7 +143,7 @@ class StructAccess : public MemberAccess {
   bool named_;
 };
 
-/// One type of a variant.
+/// One alternative of a variant.
 struct AlternativeType {
   const char *kind, *summary;
   const SettingsLayout* layout;  ///< null: no parameters
@@ -154,7 +155,7 @@ class VariantAccess : public MemberAccess {
   virtual std::vector<AlternativeType> types() const = 0;
   virtual size_t index(const void* settings) const = 0;
   virtual const void* held(const void* settings) const = 0;
-  /// Has the member hold a new alternative; returns it.
+  /// Makes the member hold a new alternative; returns it.
   virtual void* emplace(void* settings, size_t index) const = 0;
   /// A new alternative, to read defaults from.
   virtual std::shared_ptr<void> make(size_t index) const = 0;
@@ -318,7 +319,7 @@ class Binding {
   /// Free text.
   Binding(std::string S::*member, std::string name, std::string description, std::string source = {})
       : Binding(ParameterType::Text, member, std::move(name), std::move(description), std::move(source)) {}
-  /// One of names that are known at run time.
+  /// One of several names known at run time.
   Binding(std::string S::*member, std::string name, Names names, std::string description,
           std::string source = {})
       : Binding(ParameterType::Choice, member, std::move(name), std::move(description), std::move(source)) {
@@ -351,22 +352,22 @@ class Binding {
   Binding(Parameter stated, std::shared_ptr<const MemberAccess> access)
       : stated_(std::move(stated)), access_(std::move(access)) {}
 
-  /// A number in the choice's place stands for this parameter of the default alternative.
+  /// A number in place of the choice sets this parameter of the default alternative.
   Binding&& shorthand(std::string member) && {
     stated_.shorthand = std::move(member);
     return std::move(*this);
   }
-  /// Names that the same had formerly: an error answers them with the present form.
+  /// Former names of this parameter; an error replies to them with the present form.
   Binding&& formerly(std::vector<std::string> names) && {
     stated_.formerNames = std::move(names);
     return std::move(*this);
   }
-  /// What axes and columns call it, without the unit, where the words of its name do not do.
+  /// What axes and columns call it, without the unit, if the words of its name will not do.
   Binding&& titled(std::string title) && {
     stated_.title = std::move(title);
     return std::move(*this);
   }
-  /// At its default no part of run keys.
+  /// At its default it is not part of run keys.
   Binding&& keyedIfGiven() && {
     stated_.keyedIfGiven = true;
     return std::move(*this);
@@ -399,13 +400,13 @@ class SettingsTable : public SettingsLayout {
 
   /// Declarations whose defaults are the values in `defaults`.
   std::vector<Parameter> parameters(const S& defaults = S{}) const { return parametersOf(&defaults); }
-  /// Settings from complete values. Throws Error if values do not go together.
+  /// Settings from complete values. Throws Error if values contradict each other.
   S read(const ParameterValues& values, const std::string& prefix = {}) const {
     S settings;
     readInto(&settings, values, prefix);
     return settings;
   }
-  /// The values that read() makes into `settings`.
+  /// The values that read() turns into `settings`.
   std::map<std::string, ParameterValue> write(const S& settings, const std::string& prefix = {}) const {
     std::map<std::string, ParameterValue> out;
     writeFrom(&settings, prefix, out);

@@ -7,8 +7,7 @@
 
 namespace limen {
 
-/// Names and titles of the YAML files that lie in a folder, by name. Throws Error for one that cannot be
-/// read.
+/// Names and titles of the YAML files in a folder, by name. Throws Error if one cannot be read.
 std::vector<std::pair<std::string, std::string>> shippedFiles(const std::string& folder);
 
 /// Path of a file, or of the shipped one of this name. `kind` is what they are: "protocol". Throws Error with

@@ -10,7 +10,7 @@ namespace limen {
 namespace {
 
 size_t editDistance(const std::string& a, const std::string& b) {
-  // Optimal string alignment: a swap of neighbours counts once, being the commonest slip.
+  // Optimal string alignment: a swap of neighbours counts once, being the most common typo.
   std::vector<std::vector<size_t>> cost(a.size() + 1, std::vector<size_t>(b.size() + 1));
   for (size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
   for (size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
@@ -27,12 +27,12 @@ size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
-  // Comparing hundreds of kilobytes of junk with every name would be quadratic for nothing.
+  // Comparing hundreds of kilobytes of junk with every name would take quadratic time for nothing.
   if (name.size() > 100) return {};
   std::string best;
   size_t bestDistance = std::max<size_t>(2, name.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
-    // "bitmask" for "soft_shadows/bitmask": the last part alone counts as a near name.
+    // "bitmask" for "soft_shadows/bitmask": the last part alone also counts as close.
     const size_t slash = candidate.rfind('/');
     size_t distance = editDistance(name, candidate);
     if (slash != std::string::npos)

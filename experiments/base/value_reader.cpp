@@ -23,8 +23,8 @@ std::string_view withoutPlus(const std::string& text) {
   return text.size() > 1 && text[0] == '+' && text[1] != '-' ? std::string_view(text).substr(1) : text;
 }
 
-/// Whole text as a number of YAML's core schema in decimal notation; no nan, inf, hexadecimal or thousands
-/// marks.
+/// The whole text as a number of YAML's core schema in decimal notation; no nan, inf, hexadecimal or
+/// thousands separators.
 template <class Number>
 std::optional<Number> parseNumber(const std::string& text) {
   const std::string_view digits = withoutPlus(text);

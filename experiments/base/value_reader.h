@@ -29,7 +29,7 @@ class FileFinder {
   std::map<std::string, std::string> hashes_, asNamed_;
 };
 
-/// Reads scalars as declared parameters. What does not fit becomes a problem and gives nothing.
+/// Reads scalars as declared parameters. Anything invalid becomes a problem and gives nothing.
 class ValueReader {
  public:
   ValueReader(Problems& problems, FileFinder& files) : problems_(problems), files_(files) {}

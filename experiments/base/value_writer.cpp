@@ -34,7 +34,7 @@ void visitExisting(const std::vector<Parameter>& declared, const Values& values,
   }
 }
 
-/// Whether YAML readers take it for text without quotes.
+/// Whether YAML readers take it as text without quotes.
 bool isPlainName(const std::string& text) {
   const auto isWord = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
   if (text.empty() || !std::isalpha(static_cast<unsigned char>(text[0])) ||

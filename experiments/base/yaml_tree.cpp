@@ -86,7 +86,7 @@ class TreeBuilder : public YAML::EventHandler {
   YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0)
       throw refuse("an anchor ('&name')", mark, "descriptors are explicit: write the value itself");
-    // yaml-cpp gives "?" to plain nodes and "!" to quoted scalars; whatever else is a tag of the file.
+    // yaml-cpp gives "?" to plain nodes and "!" to quoted scalars; anything else is a tag in the file.
     if (!tag.empty() && tag != "?" && tag != "!") throw refuse("a tag ('" + tag + "')", mark, "leave it out");
     YamlNode node;
     node.kind = kind;
@@ -94,7 +94,7 @@ class TreeBuilder : public YAML::EventHandler {
     return node;
   }
 
-  /// yaml-cpp lets a quoted scalar end with the file.
+  /// yaml-cpp accepts a quoted scalar that runs to the end of the file.
   bool isNeverClosed(const YAML::Mark& mark) const {
     const auto line = static_cast<size_t>(std::max(0, mark.line));
     if (line >= lineStarts_.size()) return false;
@@ -270,10 +270,9 @@ std::string readTextFile(const std::string& path) {
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || stream.gcount() > 0) {
     text.append(buffer.data(), static_cast<size_t>(stream.gcount()));
     if (text.size() > kMaxBytes)
-      throw Error(fmt::format("is larger than {} bytes", kMaxBytes), path,
-                  "is this the file that you meant?");
+      throw Error(fmt::format("is larger than {} bytes", kMaxBytes), path, "is this the file you meant?");
   }
-  if (stream.bad()) throw Error("cannot be read to its end", path, "check the disk");
+  if (stream.bad()) throw Error("cannot be read to the end", path, "check the disk");
   return text;
 }
 

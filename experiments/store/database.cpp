@@ -16,21 +16,21 @@ void throwDatabaseError(sqlite3* database) {
       throw Error("is not a result store", where, "give a store that Limen wrote, or a new name");
     case SQLITE_CORRUPT:
       throw Error("the store is damaged (" + detail + ")", where,
-                  "save what is left with 'sqlite3 FILE .recover' and go on in a new store");
+                  "recover what is left with 'sqlite3 FILE .recover' and continue in a new store");
     case SQLITE_READONLY:
       throw Error("the store cannot be written", where, "make the file and its folder writable");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw Error("another process has held the store for longer than 30 s", where,
-                  "wait for it, or end it, and run the command again");
+      throw Error("another process has locked the store for more than 30 s", where,
+                  "wait for it or stop it, then run the command again");
     case SQLITE_FULL:
       throw Error("the disk is full", where,
-                  "free some space and run the command again; what is done is kept");
+                  "free some space and run the command again; finished work is kept");
     case SQLITE_IOERR:
-      throw Error("the disk cannot be written or read (" + detail + ")", where,
-                  "look at the disk and its quotas and run the command again; what is done is kept");
+      throw Error("cannot read or write the disk (" + detail + ")", where,
+                  "check the disk and its quotas and run the command again; finished work is kept");
     case SQLITE_CANTOPEN:
-      throw Error("the store cannot be opened", where, "check the path and the rights on its folder");
+      throw Error("cannot open the store", where, "check the path and the permissions of its folder");
     default:
       throw Error("the store failed: " + detail, where);
   }

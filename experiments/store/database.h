@@ -10,7 +10,7 @@ struct sqlite3_stmt;
 
 namespace limen::store {
 
-/// Throws Error for the connection's last error, in the user's terms (full disk, read-only file, no store
+/// Throws Error for the connection's last error, in the user's terms (full disk, read-only file, not a store
 /// ...).
 [[noreturn]] void throwDatabaseError(sqlite3* database);
 
@@ -63,8 +63,8 @@ void execute(sqlite3* database, const char* sql, const Values&... values) {
 /// Rolled back unless committed.
 class Transaction {
  public:
-  /// Write takes the write lock at once, so that what is read inside cannot change before it is written; Read
-  /// sees one state of the file throughout.
+  /// Write takes the write lock immediately, so that nothing read inside can change before it is written;
+  /// Read sees one snapshot of the file throughout.
   enum class Mode { Read, Write };
   Transaction(sqlite3* database, Mode mode);
   ~Transaction();

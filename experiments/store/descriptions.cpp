@@ -10,7 +10,7 @@
 namespace limen::store {
 namespace {
 
-// Text that is no direction can only come from another program; it is then unknown.
+// Text that is not a direction can only come from another program; the direction is then unknown.
 std::optional<Direction> directionOf(const std::string& text) {
   for (const auto& entry : enumNames(Direction{}).entries)
     if (entry.name == text) return entry.value;

@@ -17,7 +17,7 @@ struct QuantityRow {
   std::string unit;
   std::optional<Direction> direction;  ///< nullopt: unknown; only in stores written before schema 3
   std::string kind;                    ///< as Measurement::kind
-  std::string pass;                    ///< FrameTime::pass whose median it is; "": none
+  std::string pass;                    ///< the FrameTime::pass whose median it is; "": none
   std::string source;
 
   friend bool operator==(const QuantityRow&, const QuantityRow&) = default;
@@ -28,7 +28,7 @@ struct ParameterRow {
   std::string subject;  ///< technique, scene, reference, metric or image: its object in Run::parameters
   std::string owner;    ///< registered name; "" for images
   std::string path;     ///< "budget.rim": its key in that object
-  nlohmann::json when = nlohmann::json::object();  ///< choices that it belongs to: {"budget": "radial"}
+  nlohmann::json when = nlohmann::json::object();  ///< choices under which it exists: {"budget": "radial"}
   std::string title;                               ///< as an axis label, without the unit
   std::string unit;
   std::string type;  ///< describeType(): "number", "choice", ...
@@ -42,12 +42,12 @@ struct Descriptions {
   std::vector<QuantityRow> quantities;
   std::vector<ParameterRow> parameters;
 
-  /// Null if there is none of that name.
+  /// Null if there is none with that name.
   const QuantityRow* quantity(const std::string& name) const;
 };
 
-/// What was measured under this name before stores described themselves. Names that are not in the table have
-/// words for a title and no known direction.
+/// What was measured under this name before stores described themselves. For names not in the table the title
+/// is the name's words and the direction is unknown.
 QuantityRow formerQuantity(const std::string& name, const std::string& unit, const std::string& kind);
 
 }  // namespace limen::store

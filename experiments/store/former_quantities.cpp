@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stores of schema 2 measured, told here for the reader since such a store does not say it. The list is
-// closed: whatever is measured today describes itself in table `quantity`.
+// What stores of schema 2 measured, listed here because such a store does not describe it. The list is
+// closed: whatever is measured today is described in table `quantity`.
 #include <algorithm>
 #include <array>
 
@@ -27,7 +27,7 @@ constexpr std::array kFormer = {
     Former{"cpu_ms", "CPU time", kLower, "cpu"},
     Former{"prepare_ms", "Preparation time", kLower},
     Former{"timed_frames", "Timed frames", kNeither},
-    Former{"bytes_held", "Memory held", kLower},
+    Former{"bytes_held", "Memory used", kLower},
     Former{"non_finite_count", "Non-finite values", kLower},
     Former{"gpu_clock_mhz", "GPU clock", kNeither},
     Former{"rmse", "RMSE", kLower},
@@ -63,8 +63,8 @@ constexpr std::array kFormer = {
     Former{"examined_per_px", "Texels examined per pixel", kLower},
 };
 
-// Kinds of measurements that said it themselves: a counter is work done, a fact is no figure of merit. For an
-// error nothing is known: PSNR grows with quality, others fall.
+// Kinds of measurements that imply a direction: a counter is work done, a fact is not a figure of merit. For
+// an error nothing is known: PSNR grows with quality, others fall.
 std::optional<Direction> directionOfKind(const std::string& kind) {
   if (kind == "time" || kind == "counter") return kLower;
   return kind == "fact" ? std::optional(kNeither) : std::nullopt;

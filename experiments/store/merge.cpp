@@ -18,11 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Mode = Transaction::Mode;
 
-constexpr size_t kRunsPerTransaction = 64;  // other writers wait at most for this many
+constexpr size_t kRunsPerTransaction = 64;  // other writers wait for at most this many
 
 fs::path folderOf(const std::string& storePath) { return fs::absolute(storePath).parent_path(); }
 
-// A store may come from anybody: a path that leaves its folder is refused.
+// A store may come from anyone: a path that leaves its folder is refused.
 void requireInside(const fs::path& path, const std::string& store) {
   const bool escapes =
       std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
@@ -31,8 +31,8 @@ void requireInside(const fs::path& path, const std::string& store) {
                 "give it a path below the folder of the store");
 }
 
-// `path` itself, or with the run's key in its name if another file has it already; then with the content's
-// hash, for the same run on another device.
+// `path` itself, or with the run's key in its name if another file has that path already; failing that with
+// the content's hash, for the same run on another device.
 fs::path freePath(const fs::path& folder, const Artefact& artefact, const std::string& key) {
   const fs::path path = artefact.path;
   const std::string stem = path.stem().string(), extension = path.extension().string();
@@ -42,23 +42,22 @@ fs::path freePath(const fs::path& folder, const Artefact& artefact, const std::s
     if (!fs::exists(folder / candidate) || sha256File((folder / candidate).string()) == artefact.sha256)
       return candidate;
   }
-  throw Error("a changed file stands in the way of artefact '" + artefact.path + "'", folder.string(),
+  throw Error("a changed file is in the way of artefact '" + artefact.path + "'", folder.string(),
               "move the file away and merge again");
 }
 
 // Copies one artefact file and returns its path in the new folder. Moved into place when complete, so that a
-// killed merge leaves no half file under a good name.
+// killed merge leaves no incomplete file under a valid name.
 std::string copyArtefact(const Artefact& artefact, const std::string& key, const std::string& from,
                          const std::string& to) {
   requireInside(artefact.path, from);
   const fs::path source = folderOf(from) / artefact.path;
   if (!fs::exists(source))
     throw Error("the artefact file '" + source.string() + "' is missing", from,
-                "put it back beside the store, or delete its row of table artefact");
+                "restore it beside the store, or delete its row of table artefact");
   if (sha256File(source.string()) != artefact.sha256)
-    throw Error(
-        "the artefact file '" + source.string() + "' is not the one that the run wrote (SHA-256 differs)",
-        from, "put the right file back, or delete its row of table artefact");
+    throw Error("the artefact file '" + source.string() + "' is not the one the run wrote (SHA-256 differs)",
+                from, "restore the right file, or delete its row of table artefact");
   const fs::path target = freePath(folderOf(to), artefact, key), full = folderOf(to) / target;
   if (fs::exists(full)) return target.string();
   std::error_code error;
@@ -101,7 +100,7 @@ void insertRun(sqlite3* database, const Run& run, const std::optional<int64_t>& 
   writeDetails(database, find.integer(0), run);
 }
 
-// Shards of one sweep evaluate the same expectations on their own runs: held means held in all of them.
+// Shards of one sweep evaluate the same expectations on their own runs: met means met in all of them.
 std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
                                           const std::vector<Expectation>& theirs) {
   for (const Expectation& expectation : theirs) {
@@ -121,7 +120,8 @@ std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
 }  // namespace
 
 int64_t Store::merge(const Store& other) {
-  if (fs::equivalent(path_, other.path_)) throw Error("is merged into itself", path_, "name another store");
+  if (fs::equivalent(path_, other.path_))
+    throw Error("cannot be merged into itself", path_, "name another store");
   // What is planned here is read, joined and written again: two merges at once would lose one of both.
   const FolderLock lock(folderOf(path_).string());
   // Sessions are joined where they are exported: their numbers of participants would clash here.
@@ -132,7 +132,7 @@ int64_t Store::merge(const Store& other) {
     if (sessions.integer(0) > 0)
       throw Error(
           "holds " + std::to_string(sessions.integer(0)) + " session(s) of studies, which are not merged",
-          other.path_, "keep the store, and give it to the analysis beside the other");
+          other.path_, "keep this store and pass both to the analysis");
   }
 
   const std::vector<Experiment> known = experiments();

@@ -26,11 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBusyTimeoutMs = 30'000;      // many sweeps write one file; a write lasts milliseconds
+constexpr int kBusyTimeoutMs = 30'000;      // many sweeps write to one file; a write takes milliseconds
 constexpr int kApplicationId = 0x4c494d4e;  // "LIMN": tells a store from other SQLite files
 
-// migrations[i] leads from schema version i to i + 1. A store of today is the result of all of them, so an
-// old store and a new one cannot differ.
+// migrations[i] leads from schema version i to i + 1. A new store is the result of all of them, so a migrated
+// store and a new one cannot differ.
 const char* const kMigrations[] = {embedded::kStoreSchema, embedded::kStudySchema,
                                    embedded::kDescriptionSchema};
 constexpr int kSchemaVersion = static_cast<int>(std::size(kMigrations));
@@ -51,7 +51,7 @@ void executeScript(sqlite3* database, const std::string& sql) {
     throwDatabaseError(database);
 }
 
-// Turning the log on needs the file for a moment alone, and SQLite does not always wait for that.
+// Turning the log on needs exclusive access for a moment, and SQLite does not always wait for that.
 void turnOnWriteAheadLog(sqlite3* database) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(kBusyTimeoutMs);
   while (true) {
@@ -89,8 +89,8 @@ void migrate(sqlite3* database, const std::string& path) {
   transaction.commit();
 }
 
-// A store in a folder that cannot be written (a CD, an archive) can only be read as a file that nobody
-// changes: SQLite has no place there for the log's shared index. That is safe only if no log waits beside it.
+// A store in a read-only folder (a CD, an archive) can only be read as an immutable file: SQLite has no place
+// there for the log's shared index. That is safe only if there is no pending log beside it.
 std::string readOnlyUri(const std::string& path) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
@@ -127,10 +127,10 @@ void prepareFolder(const std::string& path) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
-    throw Error("the folder '" + folder.string() + "' cannot be made", path, "choose another path");
+    throw Error("the folder '" + folder.string() + "' cannot be created", path, "choose another path");
   if (access(folder.c_str(), W_OK) != 0)
     throw Error("the folder '" + folder.string() + "' cannot be written", path,
-                "choose another folder or change its rights");
+                "choose another folder or change its permissions");
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ bool isUnwritten(const std::string& path) {
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Contents contents) {
   if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
   if (readOnly && !fs::exists(path))
-    throw Error("no such result store", path, "check the path; limen sweep and limen study make stores");
+    throw Error("no such result store", path, "check the path; limen sweep and limen study create stores");
   if (!readOnly) prepareFolder(path);
   protectInput(path);
   if (contents == Contents::Sessions && !readOnly) {
@@ -168,7 +168,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Conten
       readOnly ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   Closer closer;
   if (sqlite3_open_v2(name.c_str(), &closer.database, flags, nullptr) != SQLITE_OK)
-    throw Error("the store cannot be opened", path, "check the path and the rights on the file");
+    throw Error("cannot open the store", path, "check the path and the file's permissions");
   sqlite3* database = closer.database;
   sqlite3_busy_timeout(database, kBusyTimeoutMs);
   execute(database, "PRAGMA foreign_keys = ON");
@@ -177,15 +177,15 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Conten
       throw Error("is empty: nothing was ever stored in it", path, "run a sweep or a study into it first");
     requireStore(database, path);
     if (pragma(database, "PRAGMA user_version") < oldest)
-      throw Error("the store is of an older Limen and holds no studies", path,
-                  "name a store that a study was run into");
+      throw Error("the store was written by an older Limen and holds no studies", path,
+                  "name a store that a study wrote");
     return closer.release();
   }
   if (!isEmpty(database)) requireStore(database, path);
   if (contents == Contents::Sessions || holdsSessions(database)) hideFromOthers(path);
   turnOnWriteAheadLog(database);
-  // With the log a commit survives the death of the process at NORMAL already; FULL syncs it too, so that it
-  // survives a power cut. What sweeps write for each run goes without and is synced batch by batch.
+  // With the log, a commit survives the death of the process even at NORMAL; FULL also syncs it, so that it
+  // survives a power cut. What sweeps write for each run is not synced at once but in batches.
   execute(database, "PRAGMA synchronous = FULL");
   migrate(database, path);
   return closer.release();

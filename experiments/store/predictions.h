@@ -10,14 +10,14 @@
 
 namespace limen::store {
 
-/// What a predictor says of a stimulus with a change (table `prediction`). All but `id`, `created` and
-/// `figures` is its key.
+/// What a predictor predicts for a stimulus with a change (table `prediction`). All members except `id`,
+/// `created` and `figures` form its key.
 struct StudyPrediction {
   int64_t id = 0;
   std::string stimulusHash, displayHash;
   int widthPx = 0, heightPx = 0;  ///< of the window
   std::string predictor;
-  nlohmann::json settings = nlohmann::json::object();  ///< all values that decide the figures
+  nlohmann::json settings = nlohmann::json::object();  ///< all values that determine the figures
   std::string programVersion, created;
   nlohmann::json figures = nlohmann::json::object();
 };
@@ -25,7 +25,7 @@ struct StudyPrediction {
 /// SHA-256 of settings as the store holds them.
 std::string settingsHash(const nlohmann::json& settings);
 
-/// Writes predictions. Every member throws Error, as SessionLog.
+/// Writes predictions. Like SessionLog, every member throws Error.
 class PredictionLog {
  public:
   explicit PredictionLog(const std::string& path);
@@ -35,14 +35,14 @@ class PredictionLog {
 
   /// Whether there is one with this key.
   bool has(const StudyPrediction& key) const;
-  /// False, and nothing is written, if there is one with this key (another process may have been quicker).
+  /// False, and nothing is written, if there is one with this key (another process may have been faster).
   bool add(const StudyPrediction& prediction, const StudyDisplay& display);
 
  private:
   sqlite3* database_ = nullptr;
 };
 
-/// Every prediction of a store, oldest first. Throws Error: no store, or none that may hold studies.
+/// Every prediction of a store, oldest first. Throws Error: no store, or one whose schema has no studies.
 std::vector<StudyPrediction> readPredictions(const std::string& path);
 
 }  // namespace limen::store

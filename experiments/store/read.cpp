@@ -14,7 +14,7 @@ Environment readEnvironment(const Statement& row) {
   return {row.text(0), row.integer(1) != 0, parseJson(row.text(2))};
 }
 
-// Columns as the SELECTs below list them; the label is the experiment's where the run is read for one.
+// Columns as the SELECTs below list them; the label is the experiment's if the run is read for one.
 Run readRun(const Statement& row) {
   Run run;
   run.id = row.integer(0);
@@ -49,7 +49,7 @@ nlohmann::json parseJson(const std::string& text) {
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception&) {
-    throw Error("the store holds text that is no JSON: " + text.substr(0, 60));
+    throw Error("the store holds text that is not JSON: " + text.substr(0, 60));
   }
 }
 

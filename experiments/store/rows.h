@@ -14,14 +14,14 @@ Run readRunById(sqlite3* database, int64_t id);
 /// Fills measurements, passes, artefacts and (on request) frame times of `runs`, which have their ids.
 void readDetails(sqlite3* database, std::vector<Run>& runs, bool withFrameTimes);
 
-/// Throws Error if the text is no JSON.
+/// Throws Error if the text is not JSON.
 nlohmann::json parseJson(const std::string& text);
 
-/// Replaces what the store says of an experiment's names. Inside a transaction.
+/// Replaces what the store says about an experiment's names. Inside a transaction.
 void writeDescriptions(sqlite3* database, int64_t experiment, const Descriptions& descriptions);
 /// The rows as they are; none in a store of an older schema.
 Descriptions readDescriptions(sqlite3* database, int64_t experiment);
-/// What both say; where they differ, `ours`.
+/// The union of both; where they differ, `ours`.
 Descriptions joinDescriptions(Descriptions ours, const Descriptions& theirs);
 
 }  // namespace limen::store

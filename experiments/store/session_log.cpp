@@ -11,7 +11,8 @@ namespace {
 
 using Mode = Transaction::Mode;
 
-constexpr double kStaleSeconds = 3600.0;  // a session on another host that wrote nothing for so long is dead
+constexpr double kStaleSeconds =
+    3600.0;  // a session on another host that wrote nothing for this long is dead
 
 std::optional<int64_t> orNull(const std::optional<int>& value) {
   return value ? std::optional<int64_t>(*value) : std::nullopt;
@@ -31,7 +32,7 @@ void insertTrial(sqlite3* database, int64_t session, const StudyTrial& trial) {
 void endTrial(sqlite3* database, int64_t session, const StudyTrialEnd& end) {
   Statement find(database, "SELECT id FROM trial WHERE session = ? AND number = ? AND attempt = ?");
   if (!find.bind(session, end.number, end.attempt).step())
-    throw Error("trial " + std::to_string(end.number) + " ended and never began");
+    throw Error("trial " + std::to_string(end.number) + " ended but never began");
   const int64_t id = find.integer(0);
   execute(database, "UPDATE trial SET valid = ?, reason = ? WHERE id = ?", end.valid, end.reason, id);
   if (end.response) {
@@ -147,7 +148,7 @@ int64_t SessionLog::start(const StudySession& session, const StudyProtocol& prot
   Statement known(database_, "SELECT 1 FROM session WHERE participant = ? AND name = ?");
   if (known.bind(session.participant, session.name).step())
     throw Error("participant " + session.participant + " has a session " + session.name + " already", path_,
-                "give the session another name");
+                "give the session a different name");
   if (!exists(database_, "SELECT 1 FROM protocol WHERE hash = ?", protocol.hash))
     execute(database_, "INSERT INTO protocol (hash, name, path, title, text) VALUES (?, ?, ?, ?, ?)",
             protocol.hash, protocol.name, protocol.path, protocol.title, protocol.text);
@@ -197,7 +198,7 @@ void SessionLog::append(int64_t session, const std::vector<StudyEntry>& entries)
   Statement held(database_, "SELECT 1 FROM session WHERE id = ? AND owner = ?");
   if (!held.bind(session, processIdentity()).step())
     throw Error("the session is no longer held by this process", path_,
-                "another process took it over; what was answered before is kept");
+                "another process took it over; earlier answers are kept");
   for (const StudyEntry& entry : entries) insertEntry(database_, session, entry);
   transaction.commit();
 }
@@ -207,7 +208,7 @@ void SessionLog::release(int64_t session) noexcept {
     execute(database_, "UPDATE session SET owner = '' WHERE id = ? AND owner = ?", session,
             processIdentity());
   } catch (const std::exception&) {
-    // The process ends soon, and with it its hold on the session.
+    // The process ends soon, and its hold on the session with it.
   }
 }
 

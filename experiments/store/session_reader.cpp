@@ -21,7 +21,7 @@ uint64_t seedOf(const std::string& text) {
   try {
     return std::stoull(text);
   } catch (const std::exception&) {
-    throw Error("the store holds a seed that is no number: " + text.substr(0, 40));
+    throw Error("the store holds a seed that is not a number: " + text.substr(0, 40));
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace limen::store {
 
-/// JSON as the store writes it. Bytes that are no UTF-8 (from a driver) must not stop a session.
+/// JSON as the store writes it. Bytes that are not UTF-8 (from a driver) must not stop a session.
 std::string jsonText(const nlohmann::json& json);
 
 std::vector<StudySession> selectSessions(sqlite3* database);

@@ -23,10 +23,10 @@ struct StudyProtocol {
 };
 
 struct StudyBlock {
-  int number = 0;  ///< order of showing, from 0
+  int number = 0;  ///< presentation order, from 0
   std::string part, name;
   bool practice = false;
-  int trials = 0;  ///< as planned; procedures may end before
+  int trials = 0;  ///< as planned; procedures may end earlier
 };
 
 struct StudySession {
@@ -38,7 +38,7 @@ struct StudySession {
   uint64_t seed = 0;
   std::string programVersion, started;
   std::string state = "running";  ///< "running", "paused", "finished", "aborted"
-  std::string owner;              ///< host:pid:start-time of the process that runs it; "" if none does
+  std::string owner;              ///< host:pid:start-time of the process that runs it; "" if there is none
   nlohmann::json form;            ///< field -> choice; null: not filled in
 };
 
@@ -51,8 +51,8 @@ struct StudyEvent {
 
 struct StudyResponse {
   int event = 0;
-  std::string answer;  ///< one of the protocol's words
-  int outcome = 0;     ///< 1 for yes or right; Rating: step from 0; Pairwise: index of the answer
+  std::string answer;  ///< one of the words defined by the protocol
+  int outcome = 0;     ///< 1 for yes or correct; Rating: step from 0; Pairwise: index of the answer
   std::optional<bool> correct;
   std::optional<int> severity, confidence;  ///< steps from 1
   double reactionTimeS = 0.0;
@@ -67,11 +67,11 @@ struct StudyFrame {
   int missedBlanks = 0;
 };
 
-/// One showing of a trial.
+/// One presentation of a trial.
 struct StudyTrial {
   int64_t id = 0;
   int number = 0, attempt = 0;
-  int event = 0;  ///< number of the event that started it: order of showing
+  int event = 0;  ///< number of the event that started it: presentation order
   std::string part;
   int block = 0;
   nlohmann::json condition = nlohmann::json::object();  ///< factor -> level
@@ -85,8 +85,8 @@ struct StudyTrial {
   uint64_t seed = 0;
   std::string startedUtc;
   std::optional<bool> valid;  ///< nullopt: not ended (yet)
-  std::string reason;         ///< why it is not valid
-  bool superseded = false;    ///< its block was begun anew
+  std::string reason;         ///< why it is invalid
+  bool superseded = false;    ///< its block was restarted
   std::optional<StudyResponse> response;
   std::vector<StudyFrame> frames;  ///< only if asked for
 
@@ -100,7 +100,7 @@ struct StudyNote {
   nlohmann::json detail = nlohmann::json::object();
 };
 
-/// How the trial that was on the screen ended.
+/// How the trial on screen ended.
 struct StudyTrialEnd {
   int number = 0, attempt = 0;
   bool valid = false;
@@ -116,15 +116,15 @@ struct StudyEntry {
   std::optional<StudyTrialEnd> ended;
   std::optional<StudyNote> note;
   std::optional<nlohmann::json> form;
-  std::optional<int> supersedeFrom;  ///< trials that this event or a later one started count no more
-  std::string state;                 ///< of the session from now on; "" as it was
+  std::optional<int> supersedeFrom;  ///< trials started by this event or a later one no longer count
+  std::string state;                 ///< of the session from now on; "": unchanged
 };
 
-/// Writes sessions. Every member throws Error (full disk, folder that cannot be written, no store ...); what
-/// was committed stays. One object a thread.
+/// Writes sessions. Every member throws Error (full disk, read-only folder, no store ...); what was committed
+/// stays. One object per thread.
 class SessionLog {
  public:
-  /// Commits survive a cut of the power, or without `syncEach` (quicker) the end of the process alone.
+  /// Commits survive a power cut; without `syncEach` (faster) only the end of the process.
   explicit SessionLog(const std::string& path, bool syncEach = true);
   ~SessionLog();
   SessionLog(const SessionLog&) = delete;
@@ -132,7 +132,7 @@ class SessionLog {
 
   const std::string& path() const { return path_; }
 
-  /// Number of a participant, who becomes known by this.
+  /// Number of a participant, who is added if new.
   int participantNumber(const std::string& code, const std::string& createdUtc);
   std::optional<StudySession> find(const std::string& participant, const std::string& name) const;
   std::vector<std::string> sessionNames(const std::string& participant) const;
@@ -140,21 +140,21 @@ class SessionLog {
   std::string displayName(const std::string& hash) const;
   std::string protocolName(const std::string& hash) const;
 
-  /// Adds a session with its first events, held by this process. Refuses a participant's second session of
-  /// the same name. Returns its row id.
+  /// Adds a session with its first events, held by this process. Refuses a second session of the same name
+  /// for a participant. Returns its row id.
   int64_t start(const StudySession& session, const StudyProtocol& protocol, const StudyDisplay& display,
                 const Environment& environment, const std::vector<StudyBlock>& blocks,
                 const std::vector<StudyEntry>& entries);
   int64_t putEnvironment(const Environment& environment);
-  /// Takes a session for this process. False: another one that lives holds it (on another host: one that
-  /// wrote within the last hour).
+  /// Claims a session for this process. False: another live process holds it (on another host: one that wrote
+  /// within the last hour).
   bool claim(int64_t session);
   /// One transaction. Refused if the session is no longer held by this process.
   void append(int64_t session, const std::vector<StudyEntry>& entries);
-  /// Lets go of a session; never throws.
+  /// Releases a session; never throws.
   void release(int64_t session) noexcept;
 
-  /// As if the disk had room for so many pages only: for tests of a full disk.
+  /// Acts as if the disk had room for this many pages only: for tests of a full disk.
   void limitPages(int pages);
 
  private:
@@ -172,7 +172,7 @@ class SessionReader {
 
   /// In order of their start.
   std::vector<StudySession> sessions() const;
-  /// Every showing, in order, with its response; frame logs on request.
+  /// Every presentation, in order, with its response; frame logs on request.
   std::vector<StudyTrial> trials(int64_t session, bool withFrames = false) const;
   std::vector<StudyBlock> blocks(int64_t session) const;
   std::vector<StudyEvent> events(int64_t session) const;

@@ -18,12 +18,12 @@ using Mode = Transaction::Mode;
 
 std::optional<int64_t> orNull(int64_t id) { return id == 0 ? std::nullopt : std::optional<int64_t>(id); }
 
-// Text from a driver may hold bytes that are no UTF-8; they must not stop a sweep.
+// Text from a driver may hold bytes that are not UTF-8; they must not stop a sweep.
 std::string dump(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Commits within its life survive the death of the process but not a power cut, and do not wait for the
+/// Commits within its lifetime survive the death of the process but not a power cut, and do not wait for the
 /// disk, which takes milliseconds each time.
 class WithoutSync {
  public:
@@ -110,7 +110,7 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
       const bool dead = isOwnerDead(owner).value_or(find.real(3) > staleSeconds);
       if (!dead) return Claim::HeldByOther;
     }
-    // What a failed run left behind goes with its row.
+    // What a failed run left behind is deleted with its row.
     execute(database_, "DELETE FROM run WHERE id = ?", find.integer(0));
   }
   execute(database_,
@@ -131,7 +131,7 @@ void Store::finish(const Run& run) {
                  "SELECT id FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
   if (!find.bind(run.key, run.device, processIdentity()).step())
     throw Error("run " + run.key + " is no longer held by this process", path_,
-                "another process took it over; start the sweep again, what is done stays done");
+                "another process took it over; start the sweep again, finished runs are kept");
   const int64_t id = find.integer(0);
   execute(database_,
           "UPDATE run SET status = ?, error = ?, scene_facts = ?, environment = coalesce(?, environment), "

@@ -39,7 +39,7 @@ struct Artefact {
 /// Where and with what a run was measured.
 struct Environment {
   std::string device;     ///< GL renderer and version
-  bool software = false;  ///< a CPU plays GPU
+  bool software = false;  ///< a CPU renders in place of a GPU
   nlohmann::json facts = nlohmann::json::object();
 };
 
@@ -76,7 +76,7 @@ struct Run {
 enum class Access { ReadOnly, ReadWrite };
 
 /// One SQLite file (schema.sql). Write-ahead log, foreign keys on, waits for other writers. Every member
-/// throws Error: a file that is no store, a newer schema, a full disk.
+/// throws Error: not a store, a newer schema, a full disk.
 class Store {
  public:
   /// ReadWrite creates a missing file and migrates an old one, which only adds tables; ReadOnly refuses a
@@ -88,32 +88,32 @@ class Store {
 
   const std::string& path() const { return path_; }
 
-  /// Inserts the experiment, its plan and what its names mean, or finds the one with the same hash (whose
-  /// plan and meanings are replaced). Returns its id.
+  /// Inserts the experiment, its plan and the descriptions of its names, or finds the one with the same hash
+  /// (whose plan and descriptions are replaced). Returns its id.
   int64_t putExperiment(const Experiment& experiment, const std::vector<PlanEntry>& plan,
                         const Descriptions& descriptions = {});
-  /// Returns the row id of an environment with the same facts, made if need be.
+  /// Returns the row id of an environment with the same facts, inserted if necessary.
   int64_t putEnvironment(const Environment& environment);
   void putExpectations(int64_t experiment, const std::vector<Expectation>& expectations);
 
   enum class Claim { Claimed, AlreadyDone, HeldByOther };
-  /// Takes (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over
+  /// Claims (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over
   /// a failed one or one whose owner is dead (same host and no such process, or older than `staleSeconds` on
   /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
-  /// From then on it survives the death of this process, and after sync() a power cut too.
+  /// From then on it survives the death of this process, and after sync() also a power cut.
   void finish(const Run& run);
-  /// Waits until all that was finished is on the disk.
+  /// Waits until everything finished is on disk.
   void sync();
-  /// Gives back claims of this process that were not finished.
+  /// Releases unfinished claims of this process.
   void releaseClaims();
 
   bool isDone(const std::string& key, const std::string& device) const;
   std::vector<Experiment> experiments() const;
   std::vector<PlanEntry> plan(int64_t experiment) const;
-  /// What the names of an experiment mean: as written with its plan, and formerQuantity() of what its runs
-  /// have beside that (in a store of schema 2: of all).
+  /// What the names of an experiment mean: as written with its plan, and formerQuantity() for whatever else
+  /// its runs have (in a store of schema 2: for everything).
   Descriptions descriptions(int64_t experiment) const;
   std::vector<Expectation> expectations(int64_t experiment) const;
   std::vector<Environment> environments() const;
@@ -123,7 +123,7 @@ class Store {
   std::vector<Run> runs(int64_t experiment, bool withFrameTimes = false) const;
   std::vector<Run> allRuns(bool withFrameTimes = false) const;
 
-  /// Copies what `other` has and this has not: finished runs win over failed ones; artefact files are copied
+  /// Copies what this store lacks from `other`: finished runs win over failed ones; artefact files are copied
   /// too. Returns the number of runs added.
   int64_t merge(const Store& other);
 

@@ -10,7 +10,7 @@ namespace {
 
 using scene::Camera;
 
-/// Some vector across `axis`, both unit.
+/// Some vector perpendicular to `axis`; both are unit vectors.
 glm::dvec3 anyAcross(glm::dvec3 axis) {
   const glm::dvec3 size = glm::abs(axis);
   const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1.0, 0.0, 0.0)
@@ -19,9 +19,9 @@ glm::dvec3 anyAcross(glm::dvec3 axis) {
   return glm::normalize(glm::cross(axis, other));
 }
 
-/// Part of `v` across `axis`, unit; any vector across it where there is none.
+/// Component of `v` perpendicular to `axis`, normalised; any perpendicular vector if it vanishes.
 glm::dvec3 across(glm::dvec3 v, glm::dvec3 axis) {
-  // Twice the cross product and not v less its part along the axis, which cancels near the poles.
+  // Two cross products instead of v minus its component along the axis, which cancels near the poles.
   const glm::dvec3 part = glm::cross(glm::cross(axis, v), axis);
   const double length = glm::length(part);
   return length > 0.0 && std::isfinite(length) ? part / length : anyAcross(axis);
@@ -37,14 +37,14 @@ Frame frameOf(const Camera& camera) {
   return {forward, glm::cross(forward, up), up};
 }
 
-/// `v` turned about `axis` by `azimuthRad` (counter-clockwise seen from its tip) and away from it by
-/// `polarRad`, its length kept. A vector that is nearer to the axis than the limit may stay there, not come
-/// nearer.
+/// `v` rotated about `axis` by `azimuthRad` (counter-clockwise seen from its tip) and away from it by
+/// `polarRad`, preserving its length. A vector that is nearer to the axis than the limit may stay there but
+/// comes no nearer.
 glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double azimuthRad, double polarRad) {
   const double length = glm::length(v), limit = glm::radians(kPoleDeg), pi = std::acos(-1.0);
   // Well conditioned at all angles, unlike the arc cosine of the dot product.
   const double polar = std::atan2(glm::length(glm::cross(axis, v)), glm::dot(axis, v));
-  // Less than this and no camera would tell up from the view (checkCamera()).
+  // Any less and a camera could not tell up from the view direction (checkCamera()).
   constexpr double kLeast = 1e-5;
   const double low = std::clamp(polar, kLeast, limit), high = pi - std::clamp(pi - polar, kLeast, limit);
   const double turnedPolar = std::clamp(polar + polarRad, low, high);
@@ -53,8 +53,8 @@ glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double azimuthRad, double polar
   return length * (axis * std::cos(turnedPolar) + around * std::sin(turnedPolar));
 }
 
-/// Eye and target moved by one and the same vector, that by which the eye comes to move once rounded: the
-/// view does not wear out far from the origin.
+/// Eye and target moved by the same vector, the one by which the eye moves after rounding, so that the view
+/// direction does not degrade far from the origin.
 Camera moved(Camera camera, glm::dvec3 by) {
   const glm::dvec3 eye = camera.eye + by;
   camera.target += eye - camera.eye;
@@ -93,12 +93,12 @@ Camera dolly(const Camera& camera, double steps, double diagonal, const ControlS
   if (steps == 0.0) return camera;
   const glm::dvec3 back = camera.eye - camera.target;
   const glm::dvec3 size = glm::max(glm::abs(camera.eye), glm::abs(camera.target));
-  // Nearer than a million roundings of its coordinates, the eye would see them in the direction of the view.
+  // Nearer than a million roundings of its coordinates, the rounding would show in the view direction.
   const double rounding = std::numeric_limits<double>::epsilon() * std::max({size.x, size.y, size.z});
   const double distance = glm::length(back);
   const double nearest = std::max(kNearestShare * diagonal, 1e6 * rounding);
   const double farthest = std::max(kFarthestShare * diagonal, nearest);
-  // A camera that is outside already may stay where it is, but goes no further.
+  // A camera that is already outside may stay where it is but goes no further.
   const double wanted = std::clamp(distance * std::pow(speeds.dollyFactor, -steps),
                                    std::min(nearest, distance), std::max(farthest, distance));
   Camera out = camera;

@@ -24,7 +24,7 @@ void playback(const PaneContext& pane) {
 void CameraPane::build(const PaneContext& pane) {
   if (!heading("Camera")) return;
   ImGui::TextDisabled(
-      "drag: orbit; right drag with W A S D Q E: fly;\nmiddle drag: pan; wheel: closer or farther");
+      "drag: orbit; right drag with W A S D Q E: fly;\nmiddle drag: pan; wheel: closer or further");
   if (ImGui::Button("reset (R)")) pane.commands.push(command::ResetCamera{});
   pane.controls.note("camera.reset");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to the scene's own camera");

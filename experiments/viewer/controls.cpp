@@ -15,7 +15,7 @@ namespace {
 /// Wider ranges get a logarithmic slider.
 constexpr double kLogarithmicSpan = 100.0;
 
-/// Text as a format that prints it.
+/// Text as a format string that prints it.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '%' ? "%%" : std::string(1, c);
@@ -26,7 +26,7 @@ ImGuiSliderFlags sliderFlags(const Parameter& parameter) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
   const double low = *parameter.minimum, high = *parameter.maximum;
   const bool ratios = low > 0.0 && high / low > kLogarithmicSpan;
-  // From zero on: by its extent, or by a default that a linear slider could not tell from zero.
+  // From zero: by its extent, or by a default that a linear slider could not tell from zero.
   const auto* usual = std::get_if<double>(&parameter.defaultValue);
   const bool wide = low == 0.0 && (high > 10.0 * kLogarithmicSpan ||
                                    (usual && *usual > 0.0 && high > kLogarithmicSpan * *usual));
@@ -63,7 +63,7 @@ void tooltip(const std::string& path, const Parameter& parameter, const Paramete
   ImGui::EndTooltip();
 }
 
-/// Text that a user edits; taken over with Enter or when the field is left.
+/// Text that a user edits; applied with Enter or when the field loses focus.
 bool editText(const char* id, std::string& text) {
   // ImGui keeps the text while it is edited; this is what it starts from.
   std::array<char, 1024> buffer{};
@@ -74,7 +74,7 @@ bool editText(const char* id, std::string& text) {
   return true;
 }
 
-/// One of `items`, shown as textOf() has it; gives the item if another one was chosen.
+/// One of `items`, shown as textOf() gives it; returns the item if another one was chosen.
 template <class Item>
 std::optional<ParameterValue> itemChooser(const std::vector<Item>& items, const Item& now,
                                           const std::function<std::string(const Item&)>& textOf,
@@ -103,7 +103,7 @@ std::optional<ParameterValue> slider(const Parameter& parameter, ImGuiDataType t
   return value;
 }
 
-/// The control itself; gives the new value if the user changed it. Items of an open list are noted as
+/// The control itself; returns the new value if the user changed it. Items of an open list are recorded as
 /// "NAME/ITEM".
 std::optional<ParameterValue> control(const Parameter& parameter, const ParameterValue& now,
                                       const std::string& name, ControlMap& places) {
@@ -190,7 +190,7 @@ class ParameterRows {
       try {
         change_ = {path, validate(parameter, *next, name)};
       } catch (const Error&) {
-        // Typed text that is not a value: the old one stays, its range is in the tooltip.
+        // Typed text that is not a value: the old value stays, the range is in the tooltip.
       }
     }
     places_.note(name);

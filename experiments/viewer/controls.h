@@ -14,7 +14,7 @@
 namespace limen::viewer {
 
 /// Where the controls of the last frame are, by name ("technique.budget.rim"), so that tests can use them as
-/// a mouse does.
+/// the mouse does.
 class ControlMap {
  public:
   struct Place {
@@ -34,20 +34,19 @@ class ControlMap {
 
 struct ParameterChange {
   std::string path;
-  std::optional<ParameterValue> value;  ///< nothing: back to the default
+  std::optional<ParameterValue> value;  ///< none: back to the default
 };
 
 /// Controls for an entry's parameters, made from their declarations alone: check box, slider with range and
-/// unit, list or text, a tooltip with description, range and source, and a button back to the default where
-/// the value is another. Groups are sections that fold; the parameters of the chosen alternative follow below
-/// its choice, those of the others are not shown. Gives the change that the user made, if any, which is
-/// valid.
+/// unit, list or text, a tooltip with description, range and source, and a button to reset a value that is
+/// not the default. Groups are collapsible sections; the parameters of the chosen alternative follow below
+/// its choice, those of the others are hidden. Returns the change that the user made, if any; it is valid.
 std::optional<ParameterChange> parameterControls(const std::string& prefix,
                                                  const std::vector<Parameter>& declared, const Entry& entry,
                                                  ControlMap& places);
 
 /// A list of names to choose from, grouped by their folders, with a filter. `about` gives a tooltip for a
-/// name. Gives the name if another one was chosen.
+/// name. Returns the name if another one was chosen.
 std::optional<std::string> nameChooser(const std::string& label, const std::vector<std::string>& names,
                                        const std::string& chosen,
                                        const std::function<std::string(const std::string&)>& about,

@@ -15,7 +15,7 @@ Quantity quantityOf(const std::string& technique, const std::string& counter) {
   return counter;
 }
 
-/// The title where there is one; the name, as in descriptors and stores, in the tooltip.
+/// The title if there is one; the name, as in descriptors and stores, in the tooltip.
 void nameCell(const Quantity& quantity) {
   ImGui::TextUnformatted((quantity.title.empty() ? quantity.name : quantity.title).c_str());
   if (!ImGui::IsItemHovered()) return;

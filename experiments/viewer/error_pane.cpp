@@ -74,7 +74,7 @@ void errorPane(const PaneContext& pane) {
     ImGui::TextDisabled("against %s", state.setup.reference->name.c_str());
     if (!evaluated.step.empty()) ImGui::TextColored(kInProgressColour, "so far: %s", evaluated.step.c_str());
     if (evaluated.bound >= 0.0)
-      ImGui::TextDisabled("reference noise: at most %s a pixel (99.9 %%)",
+      ImGui::TextDisabled("reference noise: at most %s per pixel (99.9 %%)",
                           numberText(evaluated.bound).c_str());
     errorTable(evaluated);
     errorMapChooser(pane, evaluated);

@@ -18,7 +18,7 @@
 namespace limen::viewer {
 namespace {
 
-/// Everything that decides a reference's product.
+/// Everything that determines a reference's product.
 std::string identityOf(const ViewSetup& setup, const Entry& reference) {
   std::string out = std::to_string(setup.sizePx.x) + "x" + std::to_string(setup.sizePx.y);
   for (const Entry* entry : {&setup.scene, &reference}) {
@@ -48,7 +48,8 @@ class EvaluationThread::Work {
  public:
   explicit Work(gl::Context& context) : context_(context), metricGpu_(context) {}
 
-  /// The reference's product for one step, from memory if it is the last one made. Null if it was cancelled.
+  /// The reference's product for one step, from memory if it is the latest one made. Null if it was
+  /// cancelled.
   std::shared_ptr<const Image> reference(const EvaluationRequest& request, const Entry& step,
                                          const std::stop_token& cancelled, std::atomic<int64_t>& made) {
     const std::string identity = identityOf(request.setup, step);
@@ -180,7 +181,7 @@ void EvaluationThread::run(const std::function<void()>& wake) {
       for (const Entry& step : steps) {
         const std::shared_ptr<const Image> product = work.reference(*request, step, cancelled, made_);
         if (!product) break;
-        // The same reference for another product: go on with that one.
+        // The same reference for another product: continue with that one.
         if (requests_.waiting() && !cancelled.stop_requested()) {
           std::optional<EvaluationRequest> next = requests_.take();
           if (next && identityOf(next->setup) != identityOf(request->setup)) {

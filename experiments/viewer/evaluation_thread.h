@@ -22,22 +22,22 @@
 
 namespace limen::viewer {
 
-/// What a person would see of the picture, painted over it.
+/// What a person would see, painted over the picture.
 enum class Overlay {
   None,
   Thresholds,  ///< luminance increments that stay invisible, of the first picture
-  Popping      ///< what is seen when the second picture, or the reference, is replaced by the first
+  Popping      ///< what is noticed when the second picture, or the reference, is replaced by the first
 };
 
-/// Settled products whose error, and what a person sees of it, is wanted.
+/// Settled products whose error, and its visibility, are wanted.
 struct EvaluationRequest {
-  uint64_t number = 0;  ///< comes back with every result
+  uint64_t number = 0;  ///< returned with every result
   ViewSetup setup;
   techniques::ProductKind kind = techniques::ProductKind::Visibility;
   std::shared_ptr<const Image> product, second;  ///< `second`: null, or of the second technique, same kind
   std::shared_ptr<const experiments::ViewImages> view;
   Overlay overlay = Overlay::None;
-  perception::DisplayProfile display;  ///< on which it is seen
+  perception::DisplayProfile display;  ///< on which it is viewed
 };
 
 struct ErrorFigure {
@@ -54,7 +54,7 @@ struct ErrorMap {
 
 struct EvaluationResult {
   uint64_t number = 0;
-  std::string step;     ///< "samples 64 of 1024": what the figures rest on so far; "" once all is done
+  std::string step;     ///< "samples 64 of 1024": what the figures are based on so far; "" once complete
   std::string error;    ///< why there are no figures
   double bound = -1.0;  ///< half-width of the 99.9 % interval of a reference's pixel, < 0: exact
   std::vector<ErrorFigure> figures;
@@ -62,14 +62,13 @@ struct EvaluationResult {
   std::shared_ptr<const ScreenPicture> referencePicture;
   std::map<std::string, ErrorMap> maps, secondMaps;  ///< of either technique, by name
   std::shared_ptr<const ScreenPicture> overlay;
-  std::string overlayNote;  ///< what the overlay shows, in figures, or why there is none
+  std::string overlayNote;  ///< figures of what the overlay shows, or why there is none
 };
 
-/// Renders references and compares products with them in a thread and an OpenGL context of its own: however
-/// slow a reference is, it delays neither window nor picture. References that can be made coarsely are
-/// refined step by step, and errors are evaluated at every step. Only the newest request counts; work on a
-/// reference that nobody waits for any more is cancelled where the reference allows it (see
-/// experiments/base/cancel.h).
+/// Renders references and compares products with them in its own thread and OpenGL context: however slow a
+/// reference is, it delays neither window nor picture. References that can start coarse are refined step by
+/// step, and errors are evaluated at every step. Only the newest request counts; work on a reference that is
+/// no longer wanted is cancelled if the reference allows it (see experiments/base/cancel.h).
 class EvaluationThread {
  public:
   explicit EvaluationThread(std::function<void()> wake);
@@ -79,7 +78,7 @@ class EvaluationThread {
 
   void ask(EvaluationRequest request);
   std::optional<EvaluationResult> take() { return results_.take(); }
-  /// Has nothing to do.
+  /// Whether there is nothing to do.
   bool idle() const { return idle_ && !requests_.waiting(); }
   /// References made so far, coarse steps included.
   int64_t referencesMade() const { return made_; }

@@ -67,7 +67,7 @@ std::string exportDescriptor(const ViewSetup& setup, const std::string& folder) 
   makeFolder(folder);
   const fs::path path = freshName(folder, "exported", ".yaml");
   const std::string text = descriptorOf(setup);
-  // Whatever a sweep would refuse is reported now, while the picture is still on screen.
+  // Anything a sweep would refuse is reported now, while the picture is still on screen.
   const Catalogue& catalogue = *catalogueFromRegistries();
   experiments::makePlan(experiments::parseDescriptor(text, path.string(), catalogue, {}), catalogue);
   replaceFile(path.string(), text);

@@ -7,8 +7,8 @@
 
 namespace limen::viewer {
 
-/// What is on screen as a descriptor: `limen sweep` makes the same picture of it. Parameters at their default
-/// are left out.
+/// What is on screen as a descriptor: `limen sweep` makes the same picture of it. Parameters at their
+/// defaults are left out.
 std::string descriptorOf(const ViewSetup& setup);
 
 /// Writes descriptorOf() to a new file "exported_NNN.yaml" in `folder` and returns its path. Throws Error if

@@ -8,7 +8,7 @@
 namespace limen::viewer {
 
 /// The viewer's interface: what is rendered on the left, the picture in the middle, what was measured on the
-/// right, messages below. It holds what concerns its own widgets alone (a drag, typed text, the zoom).
+/// right, messages below. Its only state is that of its widgets (a drag, typed text, the zoom).
 class Interface {
  public:
   /// One frame, in calls to ImGui, on a surface of `sizePx` with text of `emPx`.

@@ -17,7 +17,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of what the caller may reorder; there is at least one.
+/// The median of non-empty values, which are reordered.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -54,7 +54,7 @@ void LiveTechnique::render(int frames, double seconds) {
   const auto start = Clock::now();
   for (int i = 0; i < frames && (i == 0 || secondsSince(start) < seconds); ++i) {
     renderFrame();
-    // A long queue would let seconds of work pass before the limit is seen.
+    // With a long queue, seconds of work would pass before the limit is noticed.
     if (i == 0 && frames > 1) glFinish();
   }
   std::map<std::string, std::map<int, double>> byPass;

@@ -20,23 +20,22 @@ struct PassFigure {
   int64_t bytes = 0;
 };
 
-/// One technique while it is looked at: made for a scene and an image size, then rendered frame by frame and
-/// timed as it goes.
+/// One technique being viewed: made for a scene and an image size, then rendered and timed frame by frame.
 class LiveTechnique {
  public:
-  /// Makes, prepares and renders one frame, as a sweep does. Throws what the technique throws.
+  /// Constructs, prepares and renders one frame, as a sweep does. Throws what the technique throws.
   LiveTechnique(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
                 const experiments::Configuration& choice);
 
-  /// Renders and times up to `frames` frames, at least one, no more than fit `seconds`; the camera is where
-  /// the scene's is.
+  /// Renders and times up to `frames` frames, at least one, no more than fit in `seconds`; the camera is
+  /// where the scene's is.
   void render(int frames, double seconds);
 
   const techniques::TechniqueInfo& info() const { return info_; }
   techniques::Technique& technique() { return *technique_; }
   frame::Frame& frame() { return frame_; }
   double prepareMs() const { return prepareMs_; }
-  /// Of the frames that render() timed last.
+  /// Of the frames that render() last timed.
   double frameMs() const { return frameMs_; }
   std::vector<PassFigure> passes();
   bool onCpu() const { return clock_ == gl::Clock::Wall; }

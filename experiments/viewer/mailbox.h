@@ -9,8 +9,8 @@
 
 namespace limen::viewer {
 
-/// Hands the newest of something to another thread: what nobody has taken when the next one comes is dropped.
-/// Neither side ever waits for the other's work.
+/// Hands the newest of something to another thread: an item not yet taken when the next one arrives is
+/// dropped. Neither side ever waits for the other's work.
 template <class Thing>
 class Mailbox {
  public:
@@ -21,7 +21,7 @@ class Mailbox {
     }
     changed_.notify_all();
   }
-  /// Gives back what was taken, unless something newer has come.
+  /// Puts back what was taken, unless something newer has arrived.
   void putBack(Thing thing) {
     const std::scoped_lock lock(guard_);
     if (!thing_) thing_ = std::move(thing);

@@ -41,7 +41,7 @@ glm::ivec2 sizeOf(const std::string& text, const std::string& option) {
   return {width, height};
 }
 
-/// How the viewer begins: the arrangement of pictures, and what is predicted.
+/// How the viewer starts: the arrangement of pictures, and what is predicted.
 struct InitialView {
   Arrangement arrangement = Arrangement::First;
   Overlay overlay = Overlay::None;
@@ -65,7 +65,7 @@ InitialView initialView(const std::string& name) {
   throw Error("no arrangement '" + name + "'", "--arrangement", suggest(name, names));
 }
 
-/// The value that `text` is for this parameter.
+/// `text` as a value of this parameter.
 ParameterValue valueOf(const Parameter& parameter, const std::string& text, const std::string& where) {
   const auto refuse = [&] {
     return Error("'" + parameter.name + "' is '" + text + "'", where, "allowed: " + describeRange(parameter));
@@ -129,7 +129,7 @@ ViewSetup setupFrom(const ViewOptions& options) {
     setup.second = Entry{options.second, {}};
   }
   for (const std::string& text : options.set) apply(setup, text);
-  // What is missing or conflicts is reported before any window opens.
+  // Missing or conflicting settings are reported before any window opens.
   completeScene(setup.scene);
   completeTechnique(setup.technique);
   if (setup.second) completeTechnique(*setup.second);
@@ -150,7 +150,7 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
   try {
     made = std::make_unique<window::UiWindow>(windowOptions);
   } catch (const Error& error) {
-    throw Error(error.what(), {}, "without a display, --screenshot FILE makes a picture of the viewer");
+    throw Error(error.what(), {}, "without a display, --screenshot FILE writes a picture of the viewer");
   }
   window::UiWindow& window = *made;
   Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
@@ -158,7 +158,7 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
   viewer.execute(command::Predict{first.overlay});
   using Clock = std::chrono::steady_clock;
   auto before = Clock::now();
-  // The interface needs a few frames to come to rest after an event.
+  // The interface needs a few frames to settle after an event.
   constexpr int kFramesAfterEvent = 3;
   int framesLeft = kFramesAfterEvent;
   while (!window.takeCloseRequest() && interruptSignal() == 0) {
@@ -172,7 +172,7 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
       continue;
     }
     const auto now = Clock::now();
-    // After a rest nothing has moved.
+    // Nothing has moved while idle.
     const double passed = std::min(std::chrono::duration<double>(now - before).count(), 0.1);
     before = now;
     window.draw({0.06F, 0.06F, 0.07F}, [&] { viewer.build(passed); });
@@ -214,28 +214,26 @@ int viewMain(int argc, char** argv) {
                "limen-view");
   app.set_version_flag("--version", versionText("limen-view"));
   app.add_option("descriptor", options.descriptor, "Show the first run of this descriptor");
-  app.add_option("--scene", options.scene, "Scene to begin with")->capture_default_str();
-  app.add_option("--technique", options.technique, "Technique to begin with")->capture_default_str();
+  app.add_option("--scene", options.scene, "Scene to start with")->capture_default_str();
+  app.add_option("--technique", options.technique, "Technique to start with")->capture_default_str();
   app.add_option("--second", options.second, "Second technique to compare with");
-  app.add_option("--reference", options.reference,
-                 "Reference for errors; none: without (default: the usual one)");
+  app.add_option("--reference", options.reference, "Reference for errors, or none (default: the usual one)");
   app.add_option("--set", options.set,
                  "Parameter, by its path: scene.light_size=2, technique.budget.rim=25, ...");
-  app.add_option("--size", options.size, "Size of the picture that is rendered, pixels")
-      ->capture_default_str();
+  app.add_option("--size", options.size, "Size of the rendered picture, pixels")->capture_default_str();
   app.add_option("--window", options.windowSize, "Size of the window, pixels")->capture_default_str();
   app.add_option("--scale", options.scale, "Scale of text and controls (default: the monitor's)")
       ->check(CLI::Range(0.5, 4.0));
-  app.add_flag("--full-screen", options.fullScreen, "Window that covers the monitor");
+  app.add_flag("--full-screen", options.fullScreen, "Open a full-screen window");
   app.add_option("--monitor", options.monitor, "Which monitor, from 0")->capture_default_str();
-  app.add_option("--display", options.display, "Display that predictions are for: preset or YAML file")
+  app.add_option("--display", options.display, "Display to predict for: preset or YAML file")
       ->capture_default_str();
   app.add_option("--arrangement", options.arrangement,
                  "first, second, side_by_side, split, flicker, error, thresholds or popping")
       ->capture_default_str();
   app.add_option("--results", options.results, "Folder for exported descriptors, pictures, views and paths")
       ->capture_default_str();
-  app.add_option("--shaders", options.shaders, "Source tree whose shaders are read and watched for changes");
+  app.add_option("--shaders", options.shaders, "Source tree to read shaders from and watch for changes");
   app.add_option("--screenshot", options.screenshot,
                  "Write a picture of the viewer (PNG) and exit; needs no display");
   app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")

@@ -33,10 +33,10 @@ void shaderFailureWindow(const PaneContext& pane, glm::vec2 leastPx, float width
   if (pane.state.shaderFailure.empty()) return;
   ImGui::SetNextWindowPos({leastPx.x, leastPx.y}, ImGuiCond_Always);
   ImGui::SetNextWindowSize({widthPx, 0.0F});
-  ImGui::Begin("shader failure", nullptr,
+  ImGui::Begin("shader error", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize);
-  errorText("A changed shader does not compile; the previous one stays in use.");
+  errorText("A changed shader does not compile; the previous version stays in use.");
   ImGui::TextWrapped("%s", pane.state.shaderFailure.c_str());
   if (ImGui::Button("close")) pane.commands.push(command::DismissShaderFailure{});
   ImGui::End();

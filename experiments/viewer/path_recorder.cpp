@@ -12,7 +12,7 @@ using scene::Camera;
 using scene::CameraPath;
 using Keys = std::vector<CameraPath::Key>;
 
-/// How far off in tolerances: the largest of all quantities'; at most 1 is within.
+/// The deviation in tolerances, the largest of all quantities; at most 1 is within tolerance.
 double misfit(const Camera& camera, const Camera& sample, const PathTolerance& tolerance) {
   const double distance = glm::length(sample.target - sample.eye);
   return std::max({glm::length(camera.eye - sample.eye) / (tolerance.position * distance),
@@ -41,19 +41,20 @@ class Reduction {
     return path;
   }
 
-  /// Sample strictly between two that fits worst, if any is outside the tolerance.
+  /// The worst-fitting sample strictly between two, if any is outside the tolerance.
   std::optional<size_t> worstBetween(const CameraPath& path, size_t from, size_t to) const {
     std::optional<size_t> worst;
     double most = 1.0;
     for (size_t i = from + 1; i < to; ++i) {
       const double off = misfit(path.at(samples_[i].timeS), samples_[i].camera, tolerance_);
-      // Negated so that what is no number counts as outside.
+      // Negated so that NaN counts as outside.
       if (!(off <= most)) most = off, worst = i;
     }
     return worst;
   }
 
-  /// Adds the worst sample of each span that is outside; false if none is. Ends: a sample that is a key fits.
+  /// Adds the worst sample of each span that is outside; false if none is. Terminates, since a sample that is
+  /// a key fits.
   bool refine() {
     const CameraPath path = pathOf(chosen_);
     std::vector<size_t> more;
@@ -65,7 +66,7 @@ class Reduction {
     return !more.empty();
   }
 
-  /// Refinement adds keys where later ones make earlier ones superfluous.
+  /// Later keys of the refinement can make earlier ones superfluous.
   void dropRedundant() {
     for (bool dropped = true; dropped;) {
       dropped = false;
@@ -78,8 +79,8 @@ class Reduction {
   }
 
   bool fitsWithout(size_t i) const {
-    // A key decides the velocities of its neighbours, and these the spans on their far sides; what is
-    // further away stays, though its velocities need one more key on either side to be known.
+    // A key determines the velocities of its neighbours, and these the spans on their far sides; spans
+    // further away stay the same, though their velocities need one more key on either side.
     const size_t first = i < 4 ? 0 : i - 4, last = std::min(i + 4, chosen_.size() - 1);
     std::vector<size_t> near;
     for (size_t k = first; k <= last; ++k)

@@ -14,25 +14,25 @@ struct PathTolerance {
   double fovDeg = 1e-2;
 };
 
-/// True if `camera` stands for `sample` within the tolerance.
+/// True if `camera` matches `sample` within the tolerance.
 bool isWithin(const scene::Camera& camera, const scene::Camera& sample, const PathTolerance& tolerance);
 
-/// A path through some of `samples` (ascending times, none twice) that is within the tolerance of each of
-/// them at its time. No inner key can be left out alone.
+/// A path through some of `samples` (strictly ascending times) that is within the tolerance of each of them
+/// at its time. No single inner key can be left out.
 scene::CameraPath reducedPath(const std::vector<scene::CameraPath::Key>& samples,
                               const PathTolerance& tolerance = {});
 
-/// Takes a camera at given intervals while it moves.
+/// Samples a moving camera at given intervals.
 class PathRecorder {
  public:
-  /// `intervalS` > 0: samples are at least so far apart.
+  /// `intervalS` > 0: smallest time between samples.
   explicit PathRecorder(double intervalS) : intervalS_(intervalS) {}
 
-  /// The camera at `timeS`, s, on any ascending clock; called once a frame. Times that do not ascend are left
-  /// out.
+  /// The camera at `timeS`, s, on any monotonic clock; called once per frame. Times that do not ascend are
+  /// ignored.
   void add(double timeS, const scene::Camera& camera);
 
-  /// The samples, and the last camera whenever it was; the first sample's time is 0.
+  /// The samples and, whatever its time, the last camera; the first sample's time is 0.
   std::vector<scene::CameraPath::Key> samples() const;
 
   /// The samples as a path. Empty if nothing was added.

@@ -67,7 +67,7 @@ void PicturePane::moveCamera(const PaneContext& pane, const Placed& where, doubl
     scene::Camera camera = from;
     if (flying) {
       camera = fly(from, keys, secondsPassed, pane.state.shown->bounds.diagonal());
-      // Flying moves the place from which the drag turns.
+      // Flying moves the point from which the drag turns.
       const glm::dvec3 step = camera.eye - (dragged ? dragFrom_.eye : pane.state.camera.eye);
       dragFrom_.eye += step;
       dragFrom_.target += step;

@@ -49,7 +49,7 @@ void PicturePane::build(const PaneContext& pane, glm::vec2 leastPx, glm::vec2 mo
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
   }
-  // An item over all of it takes the mouse.
+  // An item that covers the pane receives the mouse.
   ImGui::SetCursorScreenPos(toIm(least));
   ImGui::InvisibleButton("picture", toIm(glm::max(mostPx - least, 1.0F)),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |

@@ -35,7 +35,7 @@ class PicturePane {
   UiTexture first_, second_, errorMap_, prediction_;
   double flickerHz_ = 2.0, clockS_ = 0.0;
   float splitAt_ = 0.5F;  // share of the width
-  double zoom_ = 0.0;     // screen pixels for one of the picture; 0: as fits
+  double zoom_ = 0.0;     // screen pixels for one of the picture; 0: fit
   glm::vec2 panPx_{0.0F};
 
   // A drag in the picture.

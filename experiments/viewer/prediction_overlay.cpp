@@ -15,7 +15,7 @@
 namespace limen::viewer {
 namespace {
 
-/// Light of a display-coded picture, as the display turns its values into it.
+/// Light of a display-coded picture, as the display emits it.
 Image lightOf(Image coded, const perception::DisplayProfile& display) {
   for (float& value : coded.data) value = static_cast<float>(display.decode(value));
   return coded;

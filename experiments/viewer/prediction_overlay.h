@@ -5,8 +5,8 @@
 
 namespace limen::viewer {
 
-/// Paints what the request asks for over its picture: EvaluationResult::overlay and its note. Needs no GL. Of
-/// popping, the second picture is the one replaced; without one it is the reference.
+/// Paints what the request asks for over its picture: EvaluationResult::overlay and its note. Needs no GL.
+/// For popping, the second picture is the one replaced, or the reference if there is none.
 void paintOverlay(const EvaluationRequest& request, EvaluationResult& result);
 
 }  // namespace limen::viewer

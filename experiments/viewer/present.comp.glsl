@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a person looks at: the scene's colour with the visibility, or that of each channel, applied, or a colour product itself;
 // coded for an sRGB display. The same as experiments/product.h makes of images that were read back, without reading them.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D product;
-layout(binding = 1) uniform sampler2D receivers;
-layout(binding = 2) uniform sampler2D normals;
-layout(binding = 3) uniform sampler2D positions;
-layout(binding = 4) uniform sampler2D albedos;
-layout(binding = 0, rgba8) uniform writeonly image2D outPicture;
+#include "experiments/viewer/present_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kPresentProductUnit) uniform sampler2D product;
+layout(binding = kPresentReceiversUnit) uniform sampler2D receivers;
+layout(binding = kPresentNormalsUnit) uniform sampler2D normals;
+layout(binding = kPresentPositionsUnit) uniform sampler2D positions;
+layout(binding = kPresentAlbedosUnit) uniform sampler2D albedos;
+layout(binding = kPresentImage, rgba8) uniform writeonly image2D outPicture;
 uniform ivec2 sizePx;
 uniform int isShare, isGrey;
 uniform vec3 light;  // relative to the scene's anchor

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/product.h"
+#include "experiments/viewer/present_bindings.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::viewer {
@@ -59,19 +60,21 @@ ScreenPicture Presenter::picture(techniques::ProductKind kind, const gl::Texture
 ScreenPicture Presenter::shaded(bool isShare, const gl::Texture& product) {
   const gl::Program& program = context_.programs().compute("experiments/viewer/present.comp.glsl");
   if (isShare) {
-    // Before any is bound, since making them binds textures too.
+    // Before any is bound, since creating them binds textures too.
     frame::Frame& frame = view();
     const gl::Texture* inputs[] = {&frame.get<frame::Receivers>().texture(),
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture(),
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Position}).texture(),
                                    &frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture()};
-    for (uint32_t i = 0; i < 4; ++i) inputs[i]->bindTexture(i + 1);
+    const uint32_t units[] = {kPresentReceiversUnit, kPresentNormalsUnit, kPresentPositionsUnit,
+                              kPresentAlbedosUnit};
+    for (size_t i = 0; i < 4; ++i) inputs[i]->bindTexture(units[i]);
     const scene::Scene& scene = onGpu_.scene;
     program.set("light", scene.lights.empty() ? glm::vec3(0.0F)
                                               : glm::vec3(scene.lights[0].centre - onGpu_.gpu.anchor()));
   }
-  product.bindTexture(0);
-  picture_.bindImage(0, gl::Access::Write);
+  product.bindTexture(kPresentProductUnit);
+  picture_.bindImage(kPresentImage, gl::Access::Write);
   program.set("sizePx", sizePx_);
   program.set("isShare", isShare ? 1 : 0);
   program.set("isGrey", gl::channelCount(product.format()) == 1 ? 1 : 0);

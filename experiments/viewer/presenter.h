@@ -18,17 +18,17 @@ struct ScreenPicture {
   glm::ivec2 sizePx{0};
   std::vector<uint8_t> rgba;
 };
-/// Of values in [0, 1], 1 or 3 and more channels.
+/// From values in [0, 1], 1 channel or at least 3.
 ScreenPicture screenPicture(const Image& displayCoded);
 
-/// Makes pictures of products for the screen in the context where they are: what experiments/product.h makes
-/// of images, without reading the floats. Keeps a view of its own for the scene's colours, so that it takes
-/// no part in what is timed.
+/// Makes pictures of products for the screen in the context that holds them: the same as
+/// experiments/product.h makes from images, without reading back floats. Has its own view for the scene's
+/// colours, so that it does not affect timings.
 class Presenter {
  public:
   Presenter(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx);
 
-  /// The camera moved, or whatever else decides what is seen.
+  /// The camera moved, or anything else that determines what is seen.
   void refresh() { fresh_ = false; }
   ScreenPicture picture(techniques::ProductKind kind, const gl::Texture& product);
   /// The view, for values at a pixel.

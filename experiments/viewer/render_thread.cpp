@@ -18,9 +18,9 @@
 namespace limen::viewer {
 namespace {
 
-/// How often the files of shaders are looked at.
+/// How often shader files are checked for changes.
 constexpr std::chrono::milliseconds kWatchInterval{400};
-/// Frames whose times make the figures of a picture at rest, and how long they may take.
+/// Frames timed for a picture at rest, and how long they may take.
 constexpr int kRestFrames = 24;
 constexpr double kRestSeconds = 0.3;
 
@@ -31,7 +31,7 @@ class RenderThread::Work {
  public:
   Work(gl::Context& context, std::atomic<int64_t>& frames) : context_(context), frames_(frames) {}
 
-  /// One frame of what is there, made anew where the request asks for something else.
+  /// One frame, rebuilding whatever the request changes.
   RenderResult live(const RenderRequest& request) {
     RenderResult out = begin(request);
     if (!out.error.empty()) return out;
@@ -86,7 +86,7 @@ class RenderThread::Work {
     return out;
   }
 
-  /// The same with times, and with what is picked and shown now.
+  /// The same with times, and with what is currently picked and shown.
   void refresh(RenderResult& settled, const RenderRequest& request, bool timed) {
     for (size_t i = 0; i < settled.rendered.size() && i < 2; ++i) {
       Rendered& one = settled.rendered[i];
@@ -119,7 +119,7 @@ class RenderThread::Work {
     try {
       const experiments::Configuration scene = completeScene(request.setup.scene);
       if (viewed_.empty() || !(scene.name == scene_.name && scene.values.all() == scene_.values.all())) {
-        // Whoever holds on to a scene goes before it does.
+        // Whatever refers to a scene is destroyed before it.
         scene_ = {};
         if (viewed_.empty() || needsBuilding(scene)) forgetTechniques();
         viewed_.show(scene);
@@ -162,7 +162,7 @@ class RenderThread::Work {
         std::make_unique<LiveTechnique>(context_, viewed_.get(), sizePx_, completeTechnique(entries_[i]));
   }
 
-  /// What a technique throws is its own error; the viewer goes on.
+  /// What a technique throws is reported as its error; the viewer continues.
   template <class Step>
   void attempt(Rendered& one, size_t i, Step step) {
     try {
@@ -251,7 +251,7 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
   deviceMade_.set_value(context->device());
   Work work(*context, frames_);
   RenderRequest current;
-  std::optional<RenderResult> settled;  // what the screen shows, if it is at rest
+  std::optional<RenderResult> settled;  // what the screen shows, if at rest
   bool untimed = false;
   const auto publish = [&](RenderResult result) {
     results_.put(std::move(result));
@@ -274,7 +274,7 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
         settled = work.settle(current);
         publish(*settled);
       }
-      // Times come once nobody waits for anything else.
+      // Timing starts once nothing else is waiting.
       untimed = settled && settled->error.empty() && (untimed || !sameSetup);
     } else if (settled && (untimed || current.continuous)) {
       work.refresh(*settled, current, true);
@@ -284,9 +284,9 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
     if (!shaderRoot.empty()) {
       gl::ProgramCache::Reload reload = context->programs().reloadChanged();
       if (!reload.rebuilt.empty() || !reload.failures.empty()) {
-        context->takeDebugMessages();  // drivers say there, too, what they refuse
+        context->takeDebugMessages();  // drivers report refusals there as well
         if (!reload.rebuilt.empty()) {
-          // Uniforms that a technique sets once are gone with the old program.
+          // Uniforms that a technique sets only once are lost with the old program.
           work.forgetTechniques();
           settled = work.settle(current);
           publish(*settled);

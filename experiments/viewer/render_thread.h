@@ -26,12 +26,12 @@ namespace limen::viewer {
 
 /// What the render thread is to show.
 struct RenderRequest {
-  uint64_t number = 0;  ///< comes back with the result
+  uint64_t number = 0;  ///< returned with the result
   ViewSetup setup;
   std::string view;                    ///< debug view in place of the first product; "": the product
   std::optional<glm::ivec2> pickedPx;  ///< pixel whose values are wanted
-  bool moving = false;      ///< a control is held or the camera moves: settled frames would be in the way
-  bool continuous = false;  ///< render frame after frame, to see times
+  bool moving = false;      ///< a control is held or the camera moves: settled frames would only delay it
+  bool continuous = false;  ///< render continuously, to show times
 };
 
 /// Values of one image at the picked pixel.
@@ -40,19 +40,19 @@ struct PickedValues {
   std::vector<double> values;
 };
 
-/// What one technique gave.
+/// The output of one technique.
 struct Rendered {
   std::string error;    ///< why there is no picture, "" if there is one
-  std::string failure;  ///< what is wrong with the picture that there is
+  std::string failure;  ///< what is wrong with the picture shown
   std::shared_ptr<const ScreenPicture> picture;
   techniques::ProductKind kind = techniques::ProductKind::Visibility;
   std::vector<PassFigure> passes;
   double frameMs = -1.0;           ///< < 0: not timed yet
-  bool onCpu = false;              ///< timed by the host's clock
+  bool onCpu = false;              ///< timed with the host's clock
   std::vector<std::string> views;  ///< names of debug views
-  double viewWhite = 0.0;          ///< value of the brightest colour where a debug view of values is shown
+  double viewWhite = 0.0;          ///< value of the brightest colour if a debug view of values is shown
 
-  // Settled frames alone: from a technique made anew, as a sweep makes it.
+  // Settled frames only: from a newly made technique, as in a sweep.
   std::shared_ptr<const Image> product;
   std::string productHash;  ///< see experiments/product.h
   int64_t nonFinite = 0;
@@ -69,27 +69,27 @@ struct RenderResult {
   std::string error;               ///< of the scene
   std::vector<Rendered> rendered;  ///< one or two; none if the scene is in error
   std::set<std::string> traits;
-  scene::CameraPath path;  ///< of the camera, whatever time is chosen
+  scene::CameraPath path;  ///< of the camera, whatever the chosen time
   scene::Camera camera;
   scene::Bounds bounds;
   size_t triangles = 0;
-  std::shared_ptr<const experiments::ViewImages> view;  ///< settled frames alone
+  std::shared_ptr<const experiments::ViewImages> view;  ///< settled frames only
 };
 
-/// Shaders that were read again since the last one of these.
+/// Shaders reloaded since the previous report.
 struct ShaderNews {
   std::vector<std::string> rebuilt;
   std::vector<std::string>
-      failures;  ///< the driver's messages, with file and line; the old program stays in use
+      failures;  ///< the driver's messages, with file and line; the previous program stays in use
 };
 
-/// Renders the newest request in an OpenGL context of its own, made as a sweep makes it, so that what is seen
-/// is what a sweep measures, and nothing that it does holds up the window. After the last request it renders
-/// once more with techniques made anew (settled), reads product and counters, and rests.
+/// Renders the newest request in an OpenGL context of its own, created as in a sweep, so that what is seen is
+/// what a sweep measures, and nothing it does blocks the window. After the last request it renders once more
+/// with newly made techniques (settled), reads product and counters, and idles.
 class RenderThread {
  public:
-  /// `wake` is called from the thread when there is a result or news. `shaderRoot`: source tree whose shaders
-  /// are read instead of the program's own and watched for changes; "": none.
+  /// `wake` is called from the thread when there is a result or a reload. `shaderRoot`: source tree whose
+  /// shaders are read instead of the program's own and watched for changes; "": none.
   RenderThread(std::function<void()> wake, const std::string& shaderRoot);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
@@ -98,7 +98,7 @@ class RenderThread {
   void ask(RenderRequest request) { requests_.put(std::move(request)); }
   std::optional<RenderResult> take() { return results_.take(); }
   std::optional<ShaderNews> takeNews() { return news_.take(); }
-  /// Of the context; waits until there is one. Throws Error if there is none to be had.
+  /// Of the context; waits until there is one. Throws Error if it cannot be created.
   gl::DeviceInfo device() const { return device_.get(); }
   /// Frames rendered so far.
   int64_t frames() const { return frames_; }

@@ -6,7 +6,7 @@
 
 namespace limen::viewer {
 
-/// `widthPx`: of the pane; a narrow one leaves columns out.
+/// `widthPx`: of the pane; a narrow one omits columns.
 void timePane(const PaneContext& pane, float widthPx);
 void errorPane(const PaneContext& pane);
 void counterPane(const PaneContext& pane);
@@ -14,7 +14,7 @@ void pixelPane(const PaneContext& pane);
 
 /// At the lower edge of a surface of `sizePx`.
 void messageBar(const PaneContext& pane, glm::vec2 sizePx, float heightPx);
-/// Over the picture's place, where a changed shader was refused.
+/// Over the picture, if a changed shader was refused.
 void shaderFailureWindow(const PaneContext& pane, glm::vec2 leastPx, float widthPx);
 
 }  // namespace limen::viewer

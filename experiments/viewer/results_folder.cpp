@@ -13,7 +13,7 @@ void makeFolder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed)
-    throw Error("cannot make this folder: " + failed.message(), folder.string(),
+    throw Error("cannot create this folder: " + failed.message(), folder.string(),
                 "choose another one with --results");
 }
 

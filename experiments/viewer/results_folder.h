@@ -6,7 +6,7 @@
 
 namespace limen::viewer {
 
-/// Makes the folder where there is none. Throws Error if it cannot.
+/// Creates the folder if there is none. Throws Error on failure.
 void makeFolder(const std::filesystem::path& folder);
 
 /// A name in `folder` that is not taken: "STEM_001EXTENSION". Throws Error if there is none.

@@ -21,7 +21,7 @@ using Kind = YamlNode::Kind;
 
 const char* const kExample = "views: [{name: ..., scene: ..., camera: eye X Y Z target X Y Z}]";
 
-/// A YAML scalar in double quotes that holds `text` whatever it is.
+/// Any `text` as a YAML scalar in double quotes.
 std::string quoted(const std::string& text) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string out = "\"";
@@ -57,7 +57,8 @@ class ViewsReader {
     checkKeys(root, "a file of views", {"views"});
     const YamlNode* views = root.find("views");
     if (root.kind == Kind::Map && (!views || views->kind != Kind::List))
-      problems_.add(views ? views->mark : root.mark, "'views' is no list", std::string("write ") + kExample);
+      problems_.add(views ? views->mark : root.mark, "'views' is not a list",
+                    std::string("write ") + kExample);
     problems_.throwIfAny();
     for (const YamlNode& item : views->items) readView(item, out);
     problems_.throwIfAny();
@@ -90,8 +91,7 @@ class ViewsReader {
     }
     const auto [first, fresh] = names_.emplace(view.name, item.mark.line);
     if (!fresh && !view.name.empty())
-      problems_.add(item.mark,
-                    "view '" + view.name + "' stands in line " + std::to_string(first->second) + " too",
+      problems_.add(item.mark, "view '" + view.name + "' is also in line " + std::to_string(first->second),
                     "give it another name");
     out.push_back(std::move(view));
   }
@@ -111,7 +111,7 @@ bool isThere(const std::string& file) {
   return std::filesystem::symlink_status(file, code).type() != std::filesystem::file_type::not_found;
 }
 
-/// Text of the file as it is and its views.
+/// The file's current text and its views.
 struct Stored {
   std::string text;
   std::vector<SavedView> views;
@@ -129,7 +129,7 @@ void store(const std::string& file, const Stored& before, const std::vector<Save
     replaceFile(file + ".by_hand", before.text);
   replaceFile(file, toYaml(views), [&](const std::string& written) {
     if (parseViews(readTextFile(written), file) != views)
-      throw Error("a view does not read back as it is", file, "give it another name");
+      throw Error("a view does not read back unchanged", file, "give it another name");
   });
 }
 

@@ -11,7 +11,7 @@
 namespace limen::viewer {
 
 struct SavedView {
-  std::string name;    ///< any text but the empty one; one view of a file
+  std::string name;    ///< not empty; unique within a file
   std::string scene;   ///< registered name
   std::string camera;  ///< see scene::parseCamera()
   bool operator==(const SavedView&) const = default;
@@ -21,13 +21,13 @@ struct SavedView {
 /// "FILE:LINE:COLUMN: ..." for everything that is wrong.
 std::vector<SavedView> readSavedViews(const std::string& file);
 
-/// Adds a view, or replaces the one of its name. The file is read anew, so that what another viewer saved
-/// meanwhile stays, and is replaced as a whole: killed at any time, all old views are there or all new ones.
-/// Throws Error, the file left as it is, if it cannot be read or the view would not read back. A file that
-/// someone edited (comments, other order) is saved as FILE.by_hand first, in place of an older one.
+/// Adds a view, or replaces the one of its name. The file is read again, so that what another viewer saved
+/// meanwhile is kept, and is replaced as a whole: if killed at any time, it holds either all old views or all
+/// new ones. Throws Error, the file left as it is, if it cannot be read or the view would not read back. A
+/// file that someone edited (comments, other order) is saved as FILE.by_hand first, replacing an older one.
 void saveView(const std::string& file, const SavedView& view);
 
-/// Removes the view of this name, as saveView() adds one; false if there is none.
+/// Removes the view of this name, with saveView()'s guarantees; false if there is none.
 bool removeView(const std::string& file, const std::string& name);
 
 }  // namespace limen::viewer

@@ -32,7 +32,7 @@ void runToRest(window::OffscreenUi& ui, Viewer& viewer, int frames, double secon
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   viewer.takeResults();
-  // Sizes of tables and the like settle after a frame or two.
+  // Table sizes and the like settle after a frame or two.
   for (int i = 0; i < std::max(frames, 3); ++i) draw();
 }
 

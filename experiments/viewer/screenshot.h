@@ -8,7 +8,7 @@
 
 namespace limen::viewer {
 
-/// Goes on with frames of the interface until all that was asked for is on screen, then `frames` more.
+/// Runs frames of the interface until everything requested is on screen, then `frames` more.
 /// Throws Error if it is not there after `seconds`.
 void runToRest(window::OffscreenUi& ui, Viewer& viewer, int frames, double seconds = 600.0);
 

@@ -132,8 +132,8 @@ std::vector<std::string> comparable(const std::string& technique) {
 
 std::optional<Entry> usualReference(const std::string& technique) {
   const techniques::ProductKind kind = techniqueNamed(technique).product;
-  // Rays against the true triangles lean on nothing that a technique leans on; what can begin roughly shows
-  // something soon.
+  // Rays against the exact triangles share no approximation with any technique; a reference that can start
+  // coarse shows something soon.
   const auto worth = [](const TechniqueInfo& info) {
     return (info.effort.empty() ? 0 : 2) + (info.onCpu ? 1 : 0);
   };
@@ -150,7 +150,7 @@ std::vector<Entry> fromCoarseToFine(const Entry& reference) {
   std::vector<Entry> steps;
   if (effort && effort->type == ParameterType::Integer) {
     const int64_t most = std::get<int64_t>(valueAt(reference, info.effort, *effort));
-    // By squares, since some count samples along each axis.
+    // In powers of four, since some count samples along each axis.
     for (const int64_t divisor : {256, 64, 16, 4}) {
       if (most % divisor != 0) continue;
       Entry step = reference;

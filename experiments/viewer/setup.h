@@ -12,7 +12,7 @@
 
 namespace limen::viewer {
 
-/// A registered name and those of its parameters that are not at their default, by path ("budget.rim").
+/// A registered name and the parameters that are not at their defaults, by path ("budget.rim").
 struct Entry {
   std::string name;
   std::map<std::string, ParameterValue> given;
@@ -22,13 +22,13 @@ struct Entry {
 /// What is on screen, in a descriptor's terms: what `limen sweep` needs to make the same picture.
 struct ViewSetup {
   Entry scene, technique;
-  std::optional<Entry> second;     ///< a second technique to look at beside the first
+  std::optional<Entry> second;     ///< a second technique to compare with the first
   std::optional<Entry> reference;  ///< of the same kind of product
   glm::ivec2 sizePx{640, 480};
   bool operator==(const ViewSetup&) const = default;
 };
 
-/// With all values. Throws Error: unknown name, bad or missing value, values that conflict.
+/// With all values filled in. Throws Error: unknown name, bad or missing value, values that conflict.
 experiments::Configuration completeScene(const Entry& entry);
 experiments::Configuration completeTechnique(const Entry& entry);
 
@@ -39,17 +39,16 @@ const std::vector<Parameter>& techniqueParameters(const std::string& name);
 /// is no such parameter.
 const Parameter* findDeclaration(const std::vector<Parameter>& declared, const Entry& entry,
                                  const std::string& path);
-/// The value given, or the default.
+/// The given value, or the default.
 const ParameterValue& valueAt(const Entry& entry, const std::string& path, const Parameter& parameter);
 
-/// Gives a parameter a value, or removes it where it is the default. Another alternative of a choice drops
-/// the values of the previous one's parameters. Throws Error, the entry unchanged, if there is no such
-/// parameter or it may not have the value.
+/// Sets a parameter, or removes its value if that is the default. Choosing another alternative drops the
+/// values of the previous one's parameters. Throws Error, the entry unchanged, if there is no such parameter
+/// or the value is not allowed.
 void setParameter(Entry& entry, const std::vector<Parameter>& declared, const std::string& path,
                   const ParameterValue& value);
 
-/// setParameter() that remembers: an alternative that is chosen again gets the values that its parameters
-/// had.
+/// setParameter() with memory: an alternative chosen again gets back its parameters' values.
 class ParameterMemory {
  public:
   void set(Entry& entry, const std::vector<Parameter>& declared, const std::string& path,

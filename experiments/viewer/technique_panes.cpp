@@ -32,7 +32,7 @@ void techniqueControls(const PaneContext& pane, Slot slot, const Entry& entry) {
     pane.commands.push(command::SetParameter{slot, change->path, change->value});
 }
 
-/// Names that may be chosen beside the technique, none ("") included.
+/// Names that may be chosen in addition to the technique, including none ("").
 std::vector<std::string> comparableOrNone(const PaneContext& pane) {
   std::vector<std::string> names = comparable(pane.state.setup.technique.name);
   names.insert(names.begin(), "");
@@ -49,7 +49,7 @@ void debugViews(const PaneContext& pane, const Rendered& rendered) {
   if (rendered.views.empty()) return;
   std::vector<std::string> views = rendered.views;
   views.insert(views.begin(), "");
-  ImGui::TextDisabled("show in place of the product");
+  ImGui::TextDisabled("show instead of the product");
   if (const auto view = nameChooser(
           "view", views, pane.state.debugView,
           [](const std::string&) { return std::string("an intermediate image of the technique"); },

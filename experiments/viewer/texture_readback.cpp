@@ -34,7 +34,7 @@ GLenum pixelFormat(int channels, bool whole) {
   }
 }
 
-/// Neighbouring numbers get colours that differ: a multiplicative hash, three bytes of it.
+/// Neighbouring numbers get different colours: three bytes of a multiplicative hash.
 std::array<uint8_t, 3> colourOf(uint32_t number) {
   if (number == 0) return {0, 0, 0};
   const uint32_t mixed = (number ^ (number >> 15)) * 2654435761U;

@@ -15,10 +15,10 @@ namespace limen::viewer {
 std::vector<double> valuesAt(const gl::Texture& texture, glm::ivec2 pixel, glm::ivec2 pictureSizePx);
 
 /// Any texture as a picture: colours as an sRGB display shows them, single channels in "magma" up to
-/// `white`, whole numbers in a colour for each. Depth formats are not shown.
+/// `white`, integers in one colour per value. Depth formats are not shown.
 struct TexturePicture {
   ScreenPicture picture;
-  double white = 0.0;  ///< value of the brightest colour; 0: the picture is no map of values
+  double white = 0.0;  ///< value of the brightest colour; 0: the picture is not a map of values
 };
 TexturePicture texturePicture(const gl::Texture& texture);
 

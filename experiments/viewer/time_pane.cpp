@@ -6,7 +6,7 @@
 namespace limen::viewer {
 namespace {
 
-/// The last times of a pass as a small chart, `height` lines of text high.
+/// The latest times of a pass as a small chart, `height` text lines high.
 void timeChart(const ViewerState& state, const std::string& pass, float height) {
   const auto found = state.passMs.find(pass);
   if (found == state.passMs.end()) return;

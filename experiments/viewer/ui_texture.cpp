@@ -18,7 +18,7 @@ void UiTexture::show(const std::shared_ptr<const ScreenPicture>& picture) {
     sizePx_ = picture->sizePx;
     glCreateTextures(GL_TEXTURE_2D, 1, &id_);
     glTextureStorage2D(id_, 1, GL_RGBA8, sizePx_.x, sizePx_.y);
-    // Pixels stay what they are when enlarged: their values are what is looked at.
+    // No filtering when enlarged: the pixel values are what matters.
     glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureParameteri(id_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

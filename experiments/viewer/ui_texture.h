@@ -17,7 +17,7 @@ class UiTexture {
   UiTexture(const UiTexture&) = delete;
   UiTexture& operator=(const UiTexture&) = delete;
 
-  /// Uploads it unless it is the one that is there. Null: nothing is shown.
+  /// Uploads it unless it is already there. Null: nothing is shown.
   void show(const std::shared_ptr<const ScreenPicture>& picture);
   bool empty() const { return !shown_; }
   uint32_t id() const { return id_; }

@@ -6,7 +6,7 @@
 namespace limen::viewer {
 namespace {
 
-/// What the scene is without what moves its camera.
+/// The scene's settings without those that move its camera.
 ParameterValues stillValues(const experiments::Configuration& scene) {
   std::map<std::string, ParameterValue> still = scene.values.all();
   scene::setCamera(still, scene::BuiltInCamera());
@@ -27,7 +27,7 @@ bool ViewedScene::show(const experiments::Configuration& scene) {
     built_ = onGpu_->scene.camera;
     key_ = keyOf(scene);
   }
-  // The very steps that building takes, so that a sweep has the same camera to the last bit.
+  // Exactly the steps that building takes, so that a sweep has the same camera to the last bit.
   const scene::CameraChoice camera = scene::PlacementSettings::table().read(scene.values).camera;
   onGpu_->scene.camera = scene::cameraFor(built_, camera);
   path_ = onGpu_->scene.camera;

@@ -10,20 +10,20 @@
 
 namespace limen::viewer {
 
-/// A built scene whose camera moves without building it again.
+/// A built scene whose camera can move without rebuilding it.
 class ViewedScene {
  public:
   /// Builds the scene if it differs from the one before in more than its camera, and moves the camera. True
   /// if it was built. Throws Error; then there is no scene.
   bool show(const experiments::Configuration& scene);
-  /// What show() has left; there must be one.
+  /// The scene from show(); there must be one.
   const frame::SceneOnGpu& get() const { return *onGpu_; }
   bool empty() const { return !onGpu_; }
-  /// Whether show() would build a scene, and end the one there is.
+  /// Whether show() would build a new scene and destroy the current one.
   bool needsBuilding(const experiments::Configuration& scene) const {
     return !onGpu_ || keyOf(scene) != key_;
   }
-  /// Of the camera, from its own time 0 whatever time is shown.
+  /// Of the camera, from its own time 0, whatever time is shown.
   const scene::CameraPath& path() const { return path_; }
 
  private:

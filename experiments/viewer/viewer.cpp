@@ -173,7 +173,7 @@ void Viewer::updateMoving() {
   const bool mouseHeld = ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
                          ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
                          ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-  // While a control is held, its value is not yet the one that will stay.
+  // While a control is held, its value is not final.
   if (ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
       !ImGui::GetIO().WantTextInput && !(state_.setup == request_.setup))
     moving_ = true;

@@ -27,8 +27,8 @@ struct ViewerOptions {
   perception::DisplayProfile display;
 };
 
-/// The viewer without its window: the state, which its interface shows, the threads that render and evaluate,
-/// and the commands by which the state changes. Its calls come from one thread, with the surface's context
+/// The viewer without its window: the state that the interface shows, the threads that render and evaluate,
+/// and the commands that change the state. Its calls come from one thread, with the surface's context
 /// current.
 class Viewer {
  public:
@@ -39,16 +39,17 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  /// Takes what the threads have made; true if something on screen changes.
+  /// Takes the threads' results; true if something on screen changes.
   bool takeResults();
-  /// One frame of the interface, in calls to ImGui, and what it asks for; `secondsPassed` since the last one.
+  /// One frame of the interface, in calls to ImGui, and the commands it issues; `secondsPassed` since the
+  /// last one.
   void build(double secondsPassed);
-  /// Something moves by itself: frames are wanted one after the other.
+  /// Whether something moves by itself, so that frames are needed continuously.
   bool animated() const;
-  /// All that was asked for is on screen, the reference included.
+  /// Whether everything requested is on screen, including the reference.
   bool atRest() const;
 
-  /// As if the interface had asked for it. Errors become messages.
+  /// As if the interface had issued it. Errors become messages.
   void execute(const ViewerCommand& command);
   /// Replaces the whole setup. Throws Error, nothing changed, if it is not valid.
   void show(ViewSetup setup);
@@ -96,9 +97,9 @@ class Viewer {
   void run(const command::DismissShaderFailure& command);
   void run(const command::TogglePanes& command);
 
-  /// A camera of the user's own, in place of the scene's path.
+  /// A camera set by the user, in place of the scene's path.
   void setCamera(const scene::Camera& camera);
-  /// Where the camera is, with what was asked for and is not on screen yet.
+  /// Where the camera is, including moves that are not on screen yet.
   scene::Camera currentCamera() const;
   void setTime(double timeS);
   void play(double secondsPassed);

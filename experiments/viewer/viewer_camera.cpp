@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What commands about the camera do: its position, its path, recording, saved views.
+// Camera commands: position, path, recording, saved views.
 #include <filesystem>
 
 #include "experiments/base/error.h"
@@ -27,7 +27,7 @@ scene::Camera Viewer::currentCamera() const {
     try {
       return scene::parseCamera(std::get<std::string>(given->second));
     } catch (const Error&) {
-      // Typed text that is no camera: the scene reports it.
+      // Typed text that is not a camera: the scene reports it.
     }
   }
   return state_.shown ? state_.shown->path.at(state_.timeS) : scene::Camera{};

@@ -16,7 +16,7 @@
 
 namespace limen::viewer {
 
-/// Parts of a ViewSetup that a name and parameters are chosen for.
+/// Parts of a ViewSetup that have a name and parameters.
 enum class Slot { Scene, Technique, Second, Reference };
 constexpr EnumNames<Slot, 4> enumNames(Slot) {
   return {{{{Slot::Scene, "scene"},
@@ -25,11 +25,11 @@ constexpr EnumNames<Slot, 4> enumNames(Slot) {
             {Slot::Reference, "reference"}}}};
 }
 
-/// How pictures stand beside each other. The second picture is that of the second technique, or the reference
-/// where there is none.
+/// How pictures are arranged. The second picture is that of the second technique, or the reference if there
+/// is none.
 enum class Arrangement { First, Second, SideBySide, Split, Flicker, ErrorMap, Overlay };
 
-/// What the interface asks the viewer to do.
+/// What the interface tells the viewer to do.
 namespace command {
 
 /// "": none, where that is possible.
@@ -76,7 +76,7 @@ struct PickPixel {
 /// While the mouse or keys move the camera.
 struct MoveCamera {
   scene::Camera camera;
-  bool flying;  ///< keys are held: it goes on moving
+  bool flying;  ///< keys are held: it keeps moving
 };
 /// Back to the scene's own camera.
 struct ResetCamera {};

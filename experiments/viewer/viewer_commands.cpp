@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What commands do, but for those about the camera.
+// All commands except those of the camera.
 #include "experiments/viewer/viewer.h"
 
 namespace limen::viewer {

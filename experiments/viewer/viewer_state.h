@@ -17,28 +17,28 @@
 
 namespace limen::viewer {
 
-/// All that the interface shows: data alone, which the panes read and only the viewer changes.
+/// Everything that the interface shows: plain data that the panes read and only the viewer changes.
 struct ViewerState {
-  // What was asked for.
+  // What was requested.
   ViewSetup setup;
   std::string debugView;  ///< of the first technique, in place of its product; "": the product
   std::optional<glm::ivec2> pickedPx;
   Arrangement arrangement = Arrangement::First;
   Overlay overlay = Overlay::None;
-  std::string errorMap = "absolute_error";  ///< the map that is shown
+  std::string errorMap = "absolute_error";  ///< the map shown
   perception::DisplayProfile display;
   std::string displayName;
-  bool continuous = false;  ///< frames are rendered and timed one after the other
+  bool continuous = false;  ///< frames are rendered and timed continuously
   bool panesHidden = false;
   std::string resultsFolder, shaderRoot;
 
   // The camera and its path.
-  scene::Camera camera;  ///< as asked for; the picture may not show it yet
+  scene::Camera camera;  ///< as requested; the picture may not show it yet
   double timeS = 0.0;    ///< on the path
   bool playing = false, recording = false;
   std::vector<SavedView> views;
 
-  // What the threads have made of it.
+  // Results from the threads.
   gl::DeviceInfo device;
   std::optional<RenderResult> shown;
   std::optional<EvaluationResult> evaluated;
@@ -46,7 +46,7 @@ struct ViewerState {
   std::map<std::string, std::deque<float>> passMs;
   std::vector<std::string> messages;  ///< latest last
   std::string shaderFailure;          ///< the driver's messages about changed shaders that it refused
-  bool atRest = false;                ///< all that was asked for is on screen
+  bool atRest = false;                ///< everything requested is on screen
 
   double aspect() const { return double(setup.sizePx.x) / setup.sizePx.y; }
   /// Of the camera path, s; 0 for a still camera.
@@ -55,7 +55,7 @@ struct ViewerState {
   const Rendered* rendered(size_t index) const {
     return shown && index < shown->rendered.size() ? &shown->rendered[index] : nullptr;
   }
-  /// The second technique's, else the reference's.
+  /// The second technique's, otherwise the reference's.
   std::shared_ptr<const ScreenPicture> secondPicture() const {
     if (const Rendered* second = rendered(1)) return second->picture;
     return evaluated ? evaluated->referencePicture : nullptr;

@@ -26,7 +26,7 @@ struct CompareOptions : ImageOptions {
 /// Named like a metric: the popping predictor on the pair, with nothing moving.
 constexpr const char* kJnd = "jnd";
 
-/// What is to be run, each with its settings (same order); `jnd` apart from the metrics.
+/// What to run, each with its settings (same order); `jnd` is separate from the metrics.
 struct Selection {
   std::vector<std::string> metrics;
   bool jnd = false;
@@ -47,7 +47,7 @@ Selection select(std::vector<std::string> asked, const DisplayProfile& display) 
   Selection out;
   for (auto name = asked.begin(); name != asked.end(); ++name) {
     if (std::find(asked.begin(), name, *name) != name)
-      throw Error("'" + *name + "' is named twice", "--metrics", "name each metric once");
+      throw Error("'" + *name + "' is given twice", "--metrics", "give each metric once");
     if (*name == kJnd) {
       out.jnd = true;
     } else {
@@ -63,7 +63,7 @@ void append(Figures& figures, const Figures& more) {
   figures.insert(figures.end(), more.begin(), more.end());
 }
 
-/// EXR of the values and PNG to look at.
+/// EXR of the values and PNG for viewing.
 void writeMap(const MetricMap& map, const std::string& folder, const std::string& statement,
               FrameReport& report) {
   const std::string base = (std::filesystem::path(folder) / map.name).string();
@@ -82,7 +82,7 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
     return kExitSuccess;
   }
   if (options.test.empty() || options.reference.empty())
-    throw Error("an image is missing", "compare", "name two: limen-perceive compare IMAGE REFERENCE");
+    throw Error("an image is missing", "compare", "give two: limen-perceive compare IMAGE REFERENCE");
   const std::vector<ParameterValues> values = parseSettings(options.set, selected.groups, "--set");
   const PoppingSettings popping =
       selected.jnd ? PoppingSettings::table().read(values.back()) : PoppingSettings{};
@@ -147,32 +147,35 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
 void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* const command =
-      app.add_subcommand("compare", "How far an image is from a reference: every metric");
+      app.add_subcommand("compare", "Difference between an image and a reference: every metric");
   command
       ->add_option("IMAGE", options->test,
                    "Image, or sequence: frame_%04d.png, frame_####.png, 'frames/*.png'")
       ->type_name("");
   command
       ->add_option("REFERENCE", options->reference,
-                   "What it is compared with; one for all frames, or as many")
+                   "Image or sequence to compare with; one for all frames, or as many")
       ->type_name("");
   addImageOptions(*command, *options);
   command
       ->add_option("--metrics", options->metrics,
-                   "These only: " + join(MetricRegistry::instance().names()) +
+                   "Only these: " + join(MetricRegistry::instance().names()) +
                        ", jnd (the popping predictor, nothing moving)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
       ->add_option("--map", options->mapFolder,
-                   "Folder for the metrics' maps: EXR of the values, PNG to look at")
+                   "Folder for the metrics' maps: EXR of the values, PNG for viewing")
       ->type_name("DIR");
-  command->add_option("--fail-above", options->failAbove, "Exit with 1 if a figure is above; may be repeated")
+  command
+      ->add_option("--fail-above", options->failAbove,
+                   "Exit with 1 if a figure is above a limit; may be repeated")
       ->type_name("FIGURE=VALUE")
       ->allow_extra_args(false);
   command
-      ->add_option("--fail-below", options->failBelow, "Exit with 1 if a figure that is better high is below")
+      ->add_option("--fail-below", options->failBelow,
+                   "Exit with 1 if a figure for which higher is better is below a limit")
       ->type_name("FIGURE=VALUE")
       ->allow_extra_args(false);
   addSettingsHelp(*command, [] { return select({}, displayPreset("schwarz_2009")).groups; });

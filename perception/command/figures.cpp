@@ -22,7 +22,8 @@ Limit parseLimit(const std::string& text, bool below, const Figures& known, cons
   limit.below = below;
   limit.figure = split == std::string::npos ? bare : text.substr(0, split);
   const std::string number = split == std::string::npos ? text : text.substr(split + 1);
-  if (limit.figure.empty()) throw Error("'" + text + "' names no figure", option, "write FIGURE=VALUE");
+  if (limit.figure.empty())
+    throw Error("'" + text + "' does not name a figure", option, "write FIGURE=VALUE");
   const auto figure =
       std::find_if(known.begin(), known.end(), [&](const Figure& f) { return f.name == limit.figure; });
   if (figure == known.end()) {
@@ -33,8 +34,8 @@ Limit parseLimit(const std::string& text, bool below, const Figures& known, cons
   const char* const end = number.data() + number.size();
   const auto [stop, code] = std::from_chars(number.data(), end, limit.value);
   if (code != std::errc{} || stop != end || !std::isfinite(limit.value))
-    throw Error("'" + number + "' is no number", option, "write " + limit.figure + "=0.5");
-  // A limit on the good side would pass whatever is bad.
+    throw Error("'" + number + "' is not a number", option, "write " + limit.figure + "=0.5");
+  // A limit on the good side would pass anything bad.
   if (figure->higherIsBetter != below)
     throw Error(fmt::format("'{}' is better the {} it is", limit.figure, below ? "lower" : "higher"), option,
                 fmt::format("write {} {}={}", below ? "--fail-above" : "--fail-below", limit.figure, number));

@@ -9,13 +9,14 @@
 
 namespace limen::perception {
 
-/// One number that a command reports of a frame.
+/// One number that a command reports for a frame.
 struct Figure {
   std::string name;  ///< "rmse", "largest_jnd"
   std::string unit;  ///< "" for pure numbers
   std::string meaning;
   bool higherIsBetter = false;
-  /// None where it cannot be told for this frame: `reason` says why. No popping region has no rating.
+  /// None if it cannot be determined for this frame: `reason` says why. Without a popping region there is no
+  /// rating.
   std::optional<double> value;
   std::string reason;
 };
@@ -28,13 +29,15 @@ struct Limit {
   bool below = false;  ///< fails below the value, for figures where higher is better
 };
 
-/// Reads "NAME=VALUE" (or a number alone, which is about `bare`, unless that is empty). `known` are the
-/// figures of the command, values left out. Throws Error: unknown name, no number, a bound on the good side.
+/// Reads "NAME=VALUE" (or just a number, which refers to `bare` unless that is empty). `known` are the
+/// figures of the command, without values. Throws Error: unknown name, not a number, a bound on the good
+/// side.
 std::vector<Limit> parseLimits(const std::vector<std::string>& above, const std::vector<std::string>& below,
                                const Figures& known, const std::string& bare);
 
-/// What is exceeded, in words for stderr: "rmse is 0.2, above 0.1". A figure without a value because nothing
-/// was there to rate passes. Throws Error for one that could not be computed (reason with `required`).
+/// Which limit is exceeded, as text for stderr: "rmse is 0.2, above 0.1". A figure without a value because
+/// there was nothing to rate passes. Throws Error for one that could not be computed (reason with
+/// `required`).
 std::vector<std::string> exceeded(const Figures& figures, const std::vector<Limit>& limits);
 
 /// Figures of many frames: mean, median, extremes with the frames that have them.
@@ -42,7 +45,7 @@ class FigureSummary {
  public:
   void add(const Figures& figures, const std::string& frame);
   /// {"rmse": {"mean":, "median":, "min":, "min_frame":, "max":, "max_frame":, "frames":}, ...}; frames
-  /// without a value do not count, null where none has one.
+  /// without a value do not count; null if none has one.
   nlohmann::json toJson() const;
   std::string table() const;
   /// The frame with the worst value of a figure; "" if no frame has one.

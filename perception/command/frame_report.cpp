@@ -13,7 +13,7 @@ namespace {
 void printLine(const nlohmann::json& object) {
   // File names need not be UTF-8.
   std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  std::fflush(stdout);  // a reader follows frame by frame
+  std::fflush(stdout);  // so that readers can follow frame by frame
 }
 
 nlohmann::json displayJson(const DisplayProfile& display) {

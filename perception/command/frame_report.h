@@ -13,19 +13,20 @@
 
 namespace limen::perception {
 
-/// What holds for a whole call. With it and the files a call can be repeated.
+/// What applies to a whole call. With it and the files a call can be repeated.
 struct ReportHeader {
   std::string command;             ///< "compare"
   std::string statement;           ///< one line fit for a paper
-  std::vector<std::string> words;  ///< the call as it was typed
+  std::vector<std::string> words;  ///< the command line as typed
   DisplayProfile display;
-  nlohmann::json settings;                  ///< every parameter with its value
-  nlohmann::json extra;                     ///< further members of the JSON result; an object or null
-  std::vector<std::string> primaryFigures;  ///< shown for each frame of a sequence; the first tells the worst
+  nlohmann::json settings;  ///< every parameter with its value
+  nlohmann::json extra;     ///< further members of the JSON result; an object or null
+  std::vector<std::string>
+      primaryFigures;  ///< shown for each frame of a sequence; the first determines the worst
   bool json = false;
 };
 
-/// What was found for one frame.
+/// The result for one frame.
 struct FrameReport {
   FrameSet frame;
   std::vector<std::pair<std::string, const InputImage*>> inputs;  ///< with their roles
@@ -36,18 +37,19 @@ struct FrameReport {
   std::vector<std::string> warnings;                         ///< beyond those of the inputs
 };
 
-/// "Limen 0.1.0 (commit 0123456789)": who says so.
+/// "Limen 0.1.0 (commit 0123456789)": the program that produced the result.
 std::string limenVersion();
 
-/// Prints what a command finds: text, or with --json one JSON object for a single image; for a sequence a
-/// line for each frame and a last line that sums up. Warnings go to stderr as well.
+/// Prints what a command finds: text, or with --json one JSON object for a single image; for a sequence one
+/// line per frame and a final summary line. Warnings go to stderr as well.
 class ReportPrinter {
  public:
   ReportPrinter(ReportHeader header, size_t frames, std::vector<Limit> limits);
 
-  /// Throws Error if a limit is about a figure that cannot be told.
+  /// Throws Error if a limit is on a figure that cannot be determined.
   void add(const FrameReport& report);
-  /// Sums up. Returns the exit code: kExitFailedRuns if a limit was exceeded (said on stderr), else success.
+  /// Prints the summary. Returns the exit code: kExitFailedRuns if a limit was exceeded (said on stderr),
+  /// else success.
   int finish();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace limen::perception {
 
-/// Each adds one subcommand; `words` is the call as it was typed, which results state.
+/// Each adds one subcommand; `words` is the command line as typed, which is part of results.
 void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
 void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
 void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);

@@ -40,7 +40,7 @@ void toColour(Image& image) {
   image = std::move(colour);
 }
 
-/// Multiplies the image by alpha where it is not multiplied yet.
+/// Multiplies the image by alpha unless it is premultiplied.
 void overBlack(Image& image, const Image& alpha) {
   for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
     for (int c = 0; c < image.channels; ++c)
@@ -51,7 +51,7 @@ std::string countText(int64_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-/// Counts what the display cannot show, into warnings too.
+/// Counts what the display cannot show and adds warnings.
 void checkRange(InputImage& input) {
   const auto channels = static_cast<size_t>(input.linear.channels);
   int64_t above = 0, below = 0;
@@ -68,8 +68,9 @@ void checkRange(InputImage& input) {
     input.clippedPx += over || under;
   }
   if (input.nonFinite > 0)
-    input.warnings.push_back(countText(input.nonFinite, "value is", "values are") +
-                             " infinite or not a number; shown as white where plus infinite, else as black");
+    input.warnings.push_back(
+        countText(input.nonFinite, "value is", "values are") +
+        " infinite or not a number; shown as white if plus infinite, otherwise as black");
   const auto share = [&](int64_t count) {
     return fmt::format("{} ({:.3g} %)", countText(count, "pixel", "pixels"),
                        100.0 * static_cast<double>(count) / static_cast<double>(input.linear.pixels()));
@@ -85,11 +86,12 @@ void checkRange(InputImage& input) {
 const SettingsTable<InputSettings>& InputSettings::table() {
   static const SettingsTable<InputSettings> kTable = {
       {&InputSettings::values, "values",
-       "what files hold. coded: pixel values, light by the display's curve; linear: light, 1 is the "
+       "what files contain. coded: pixel values, converted to light by the display's curve; linear: light, 1 "
+       "is the "
        "display's "
        "white; luminance: light in cd/m2; auto: integers are coded, floating-point numbers linear"},
       {&InputSettings::alpha, "alpha",
-       "over_black: in front of black, in light; ignore: colours as the file has them"}};
+       "over_black: composited over black in linear light; ignore: colours as in the file"}};
   return kTable;
 }
 
@@ -140,7 +142,7 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
                              : file.integer                      ? "coded"
                                                                  : "linear";
   if (values == "luminance" && file.integer)
-    throw Error("'" + path + "' holds integers, which are no cd/m2", "--scene-luminance",
+    throw Error("'" + path + "' holds integers, which cannot be cd/m2", "--scene-luminance",
                 "give EXR, HDR or floating-point TIFF");
   out.assumed = describeAssumption(values, display);
   out.coded = values == "coded";
@@ -152,7 +154,7 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
       value =
           std::isfinite(value) ? static_cast<float>(display.decode(std::clamp(value, 0.0F, 1.0F))) : value;
   } else if (values == "luminance") {
-    // The screen adds its black to all that it shows.
+    // The screen adds its black level to everything it shows.
     const double black = display.blackLevelCdM2(), span = display.whiteLevelCdM2() - black;
     for (float& value : light.data) value = static_cast<float>((double{value} - black) / span);
   }
@@ -163,12 +165,12 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
       out.alpha = "alpha is 1 everywhere";
     } else if (settings.alpha == AlphaHandling::Ignore) {
       out.alpha =
-          file.premultiplied ? "alpha ignored, colours are multiplied by it in the file" : "alpha ignored";
+          file.premultiplied ? "alpha ignored, colours are premultiplied in the file" : "alpha ignored";
     } else {
-      out.alpha = "in front of black";
+      out.alpha = "composited over black";
       if (!file.premultiplied) {
         overBlack(light, file.alpha);
-        out.values = {};  // what a display is sent for half-covered pixels is not in the file
+        out.values = {};  // the file does not contain what a display would be sent for half-covered pixels
       }
     }
   }

@@ -35,17 +35,17 @@ struct InputSettings {
 /// Declaration of how files are read: "values", "alpha".
 const std::vector<Parameter>& inputParameters();
 
-/// An image as a file has it and as the display shows it.
+/// An image as stored in a file and as the display shows it.
 struct InputImage {
   std::string path;
   std::string kind;     ///< "8-bit png"
-  std::string assumed;  ///< what the values were taken for, in words
-  std::string alpha;    ///< what became of alpha, in words; "" without alpha
+  std::string assumed;  ///< how the values were interpreted, as text
+  std::string alpha;    ///< how alpha was treated, as text; "" without alpha
   std::string sha256;   ///< of the file
   bool coded = false;   ///< values are pixel values of a display, not light
   /// Light relative to the display's white, 1 or 3 channels, not clipped; non-finite values are kept.
   Image linear;
-  /// Values of a coded file; empty for files of light, and where alpha changed the picture.
+  /// Values of a coded file; empty for files of light, and if alpha changed the picture.
   Image values;
   int64_t nonFinite = 0;  ///< values (all channels) that are infinite or not a number
   int64_t clippedPx = 0;  ///< pixels with a channel that the display cannot show and clips
@@ -53,20 +53,20 @@ struct InputImage {
 
   int width() const { return linear.width; }
   int height() const { return linear.height; }
-  /// What the display shows: 3 channels in [0, 1]; not a number counts as 0, plus infinity as 1.
+  /// What the display shows: 3 channels in [0, 1]; NaN counts as 0, plus infinity as 1.
   Image shown() const;
   nlohmann::json toJson() const;
   /// "a.png: 8-bit png, 64 x 48, display-coded (sRGB curve)"
   std::string line() const;
 };
 
-/// Reads `path` for `display`. Throws Error as readImageFile() does.
+/// Reads `path` for `display`. Throws Error like readImageFile().
 InputImage readInput(const std::string& path, const DisplayProfile& display, const ParameterValues& input);
 
-/// Throws Error unless both have the same size. Grey beside colour becomes colour.
+/// Throws Error unless both have the same size. Grey paired with colour becomes colour.
 void matchInputs(InputImage& first, InputImage& second);
 
-/// A map of `channels` channels or more and of the size of `like` (displacement, weight). Non-finite values
+/// A map of at least `channels` channels and the size of `like` (displacement, weight). Non-finite values
 /// are kept. Throws Error.
 Image readMap(const std::string& path, const std::string& option, int channels, const InputImage& like);
 

@@ -12,7 +12,7 @@
 namespace limen::perception {
 namespace {
 
-/// Metrics that mean the same on pixel values as on light, where most publications take them.
+/// Metrics that are also meaningful on pixel values, where most publications compute them.
 const std::vector<std::string>& codedMetrics() {
   static const std::vector<std::string> kNames = {"rmse", "mae", "largest_error", "psnr"};
   return kNames;
@@ -22,7 +22,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The reference with what the display shows in place of what is no number.
+/// The reference with non-finite values replaced by what the display shows.
 Image finite(const Image& image) {
   Image out = image;
   for (float& value : out.data)
@@ -47,7 +47,7 @@ struct ImageMetrics::Entry {
 };
 
 std::vector<std::string> defaultMetrics() {
-  // The others registered evaluate visibility alone.
+  // The other registered metrics evaluate visibility only.
   return {"rmse", "mae",  "signed_error", "largest_error", "p99_error",
           "psnr", "ssim", "de94",         "flip",          "non_finite"};
 }

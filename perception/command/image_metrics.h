@@ -33,11 +33,11 @@ class ImageMetrics {
   ImageMetrics(const ImageMetrics&) = delete;
   ImageMetrics& operator=(const ImageMetrics&) = delete;
 
-  /// What run() gives, without values.
+  /// What run() returns, without values.
   Figures declared() const;
-  /// Figures of the metrics, then rmse_coded and its like: the same on coded values, where both images are
-  /// coded. A non-finite reference value counts as what the display shows for it; one of the test counts as
-  /// the metrics' own rule says. `maps` (may be null) takes each map once.
+  /// Figures of the metrics, then rmse_coded and equivalents: the same on coded values, if both images are
+  /// coded. A non-finite reference value counts as what the display shows for it; one of the test is treated
+  /// by the metrics' own rule. `maps` (may be null) receives each map once.
   Figures run(const InputImage& test, const InputImage& reference, std::vector<MetricMap>* maps);
   /// Name, version and device of each metric, for the result.
   nlohmann::json facts() const;
@@ -46,7 +46,7 @@ class ImageMetrics {
   struct Gpu;
   struct Entry;
 
-  /// Makes the OpenGL context at the first call; null, with the reason kept, where there is none.
+  /// Makes the OpenGL context at the first call; null, with the reason recorded, if there is none.
   Gpu* gpu();
 
   std::vector<Entry> entries_;

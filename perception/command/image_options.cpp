@@ -12,7 +12,7 @@ namespace limen::perception {
 
 ParameterValues ImageOptions::input() const {
   if (int{coded} + int{linear} + int{sceneLuminance} > 1)
-    throw Error("--coded, --linear and --scene-luminance exclude one another", {}, "give one of them");
+    throw Error("--coded, --linear and --scene-luminance exclude each other", {}, "give one of them");
   std::map<std::string, ParameterValue> given = {{"alpha", alpha}};
   if (coded) given["values"] = std::string("coded");
   if (linear) given["values"] = std::string("linear");
@@ -36,16 +36,16 @@ void addImageOptions(CLI::App& command, ImageOptions& options) {
                        "Files hold light in cd/m2, clipped to what the display shows");
   linear->excludes(coded);
   luminance->excludes(coded)->excludes(linear);
-  command.add_option("--alpha", options.alpha, "over_black: in front of black; ignore: colours as stored")
+  command
+      .add_option("--alpha", options.alpha, "over_black: composited over black; ignore: colours as stored")
       ->type_name("RULE")
       ->capture_default_str();
   command.add_option("--set", options.set, "A setting of the model (below; --list); may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_flag("--list", options.list,
-                   "Print the settings with ranges, defaults and sources; do nothing else");
+  command.add_flag("--list", options.list, "Print the settings with ranges, defaults and sources, and exit");
   command.add_flag("--json", options.json,
-                   "JSON on standard output: an object, or a line for each frame and a last one");
+                   "JSON on standard output: an object, or one line per frame and a summary line");
 }
 
 void addSettingsHelp(CLI::App& command, const std::function<std::vector<SettingsGroup>()>& settings) {

@@ -27,7 +27,7 @@ struct ImageOptions {
 void addImageOptions(CLI::App& command, ImageOptions& options);
 /// Help ends with the settings as they are declared.
 void addSettingsHelp(CLI::App& command, const std::function<std::vector<SettingsGroup>()>& settings);
-/// Prints what --list promises.
+/// Prints the output of --list.
 void printSettings(const ImageOptions& options, const std::vector<SettingsGroup>& groups);
 
 }  // namespace limen::perception

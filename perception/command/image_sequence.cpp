@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// A file name split at its number.
 struct NumberPlace {
   std::string before, after;
-  size_t width = 0;  ///< digits at least
+  size_t width = 0;  ///< smallest number of digits
   bool padded = false;
 };
 
@@ -41,7 +41,7 @@ std::optional<NumberPlace> findPlace(const std::string& name) {
   return place;
 }
 
-/// The number of `name`, if it is one that the pattern would give.
+/// The number in `name`, if the pattern could produce it.
 std::optional<int64_t> numberIn(const NumberPlace& place, const std::string& name) {
   const size_t around = place.before.size() + place.after.size();
   if (name.size() <= around || name.compare(0, place.before.size(), place.before) != 0 ||
@@ -56,7 +56,7 @@ std::optional<int64_t> numberIn(const NumberPlace& place, const std::string& nam
   return number;
 }
 
-/// Digits compare as the numbers that they are.
+/// Digits compare as numbers.
 bool naturallyLess(const std::string& a, const std::string& b) {
   const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
   size_t i = 0, j = 0;
@@ -160,7 +160,7 @@ ImageSequence expandImages(const std::string& argument) {
     throw Error("no such image '" + argument + "'", {}, "check the path");
   }
   if (sequence.frames.empty())
-    throw Error("no file fits '" + argument + "'", {}, "check the path and the pattern");
+    throw Error("no file matches '" + argument + "'", {}, "check the path and the pattern");
   return sequence;
 }
 

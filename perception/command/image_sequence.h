@@ -11,11 +11,11 @@ namespace limen::perception {
 /// One image of a call, or of each frame of it.
 struct SequenceFrame {
   std::string path;
-  std::optional<int64_t> number;  ///< as the name has it; none for single files and globs
+  std::optional<int64_t> number;  ///< from the name; none for single files and globs
 };
 
-/// What one command-line argument stands for. In frames' order: by number for numbered patterns, else by name
-/// with digits read as numbers (frame_2 before frame_10).
+/// What one command-line argument refers to. In frame order: by number for numbered patterns, otherwise by
+/// name with digits read as numbers (frame_2 before frame_10).
 struct ImageSequence {
   std::string argument;
   bool single = true;  ///< the name of one file, not a pattern
@@ -24,8 +24,8 @@ struct ImageSequence {
 };
 
 /// `argument` is the name of a file, or a pattern whose file name has one number: "%04d" or "####" (digits
-/// padded with zeros to that width), "%d" (not padded), or a glob with *, ? or [...]. A file that is really
-/// called like that comes first. Throws Error: nothing fits, two numbers, a folder.
+/// padded with zeros to that width), "%d" (not padded), or a glob with *, ? or [...]. A file with literally
+/// that name takes precedence. Throws Error: nothing matches, two numbers, a folder.
 ImageSequence expandImages(const std::string& argument);
 
 /// Images that belong together: one of each argument.
@@ -37,13 +37,13 @@ struct FrameSet {
   std::string label() const;
 };
 
-/// Frames of sequences side by side: by number where all have numbers, else in order. A single file goes with
-/// every frame; an empty argument (frames empty) with none. Throws Error where counts or numbers differ.
+/// Frames of sequences side by side: by number if all have numbers, otherwise in order. A single file is used
+/// for every frame; an empty argument (frames empty) for none. Throws Error if counts or numbers differ.
 std::vector<FrameSet> alignSequences(const std::vector<ImageSequence>& sequences);
 
-/// True where a name holds a place for a frame's number.
+/// True if a name has a placeholder for a frame's number.
 bool hasNumberPlace(const std::string& path);
-/// `pattern` with the frame's number (without one its position from 1) in its place.
+/// `pattern` with the frame's number (its position from 1 if it has none) filled in.
 std::string fillNumber(const std::string& pattern, const FrameSet& frame);
 
 }  // namespace limen::perception

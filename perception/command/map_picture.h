@@ -7,8 +7,8 @@
 
 namespace limen::perception {
 
-/// Round scale for a picture of a map: one that a pixel in a hundred exceeds at most, so that a few do not
-/// darken all others; of a map that is 0 nearly everywhere, one that none exceeds.
+/// Round scale for a picture of a map: one that at most one pixel in a hundred exceeds, so that a few do not
+/// darken all others; for a map that is 0 nearly everywhere, one that none exceeds.
 double pictureScale(const Image& map);
 
 /// Writes the map in colours, with the scale and `description` in the file. Returns what the colours mean:

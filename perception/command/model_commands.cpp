@@ -74,7 +74,7 @@ std::vector<double> readNumbers(const std::string& text, const std::string& opti
       continue;
     }
     if (ends.size() != 3 || !parse(ends[0], low) || !parse(ends[1], high) || !parse(ends[2], count))
-      throw Error("'" + part + "' is no number", option, hint);
+      throw Error("'" + part + "' is not a number", option, hint);
     if (!(low > 0.0) || !(high > low) || count != std::trunc(count) || count < 2.0 ||
         count > static_cast<double>(kMostNumbers))
       throw Error("range '" + part + "' is empty", option, "give 0 < low < high and a count from 2 to 10000");
@@ -96,7 +96,7 @@ std::string optionOf(const std::string& argument) { return "--" + argument.subst
 void PointOptions::add(CLI::App& command) {
   static const std::map<std::string, std::string> kHelp = {
       {"frequency_cpd", "spatial frequency [cpd]"},
-      {"velocity_deg_s", "velocity on the retina [deg/s]; 0.15: the drift of a fixating eye"},
+      {"velocity_deg_s", "retinal velocity [deg/s]; 0.15: the drift of a fixating eye"},
       {"luminance_cd_m2", "adaptation luminance [cd/m2]"},
       {"area_deg2", "area of the stimulus [deg2]"},
       {"width_deg", "angular width of the display [deg]"},
@@ -152,7 +152,7 @@ std::map<std::string, ParameterValue> ConstantOptions::read(const std::vector<Pa
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const DeclaredAt& at) { return at.path == name; });
     if (found == known.end())
-      throw Error("'" + name + "' is no constant of " + model, place,
+      throw Error("'" + name + "' is not a constant of " + model, place,
                   names.empty() ? "it has none" : suggest(name, names));
     if (!out.emplace(name, validate(*found->parameter, readValue(*found->parameter, text), place)).second)
       throw Error("'" + name + "' is given twice", place, "keep one");

@@ -10,7 +10,7 @@
 #include "experiments/base/parameter.h"
 #include "perception/vision/csf.h"
 
-/// What the commands about vision models share.
+/// What the vision model commands share.
 namespace limen::perception {
 
 void addCsfCommand(CLI::App& app);
@@ -21,7 +21,7 @@ void addDisplayCommand(CLI::App& app);
 
 enum class Form { Text, Csv, Json };
 
-/// "0.5", "1,2,4" or "0.1:60:25" (so many from low to high, equal steps of the logarithm). Throws Error
+/// "0.5", "1,2,4" or "0.1:60:25" (this many from low to high, logarithmically spaced). Throws Error
 /// naming `option`.
 std::vector<double> readNumbers(const std::string& text, const std::string& option);
 /// One of them. Throws Error if there are several.
@@ -32,9 +32,9 @@ struct PointOptions {
   std::map<std::string, std::string> given;  ///< by the argument's name
   void add(CLI::App& command);
   bool has(const std::string& argument) const { return !text(argument).empty(); }
-  /// Default of CsfPoint where nothing is given.
+  /// Default of CsfPoint if nothing is given.
   std::vector<double> values(const std::string& argument) const;
-  /// Of arguments that have one value.
+  /// For arguments with a single value.
   CsfPoint point() const;
 
  private:
@@ -47,11 +47,11 @@ std::string optionOf(const std::string& argument);
 struct ConstantOptions {
   std::vector<std::string> set;
   std::map<std::string, std::string> given;  ///< by name; empty: not given
-  /// Adds an option for each name in `declared` that the command has no option for yet; the help leaves them
-  /// out, being too many.
+  /// Adds an option for each name in `declared` for which the command has none yet; help omits them, since
+  /// there are too many.
   void add(CLI::App& command, const std::vector<std::vector<Parameter>>& declared);
   bool empty() const;
-  /// Throws Error on what `declared`, the constants of `model`, does not hold.
+  /// Throws Error on anything that is not in `declared`, the constants of `model`.
   std::map<std::string, ParameterValue> read(const std::vector<Parameter>& declared,
                                              const std::string& model) const;
 };
@@ -60,7 +60,7 @@ void refuseExtras(const CLI::App& command);
 /// "  --c0 NUMBER  what it is (default 1.14; source)": lines of help.
 std::string describeConstants(const std::vector<Parameter>& declared);
 
-/// Prints a JSON object on one line, with the program's version in it.
+/// Prints a JSON object on one line, including the program's version.
 void printJson(nlohmann::json object);
 /// Six significant digits, for tables that people read.
 std::string readable(double value);
@@ -79,7 +79,7 @@ struct Plot {
   std::vector<Curve> curves;
 };
 /// Writes FILE (.svg, .png or .pdf) and beside it the script (.gp) and data (.dat) that made it. Both axes
-/// are logarithmic; points not above 0 are left out. Throws Error.
+/// are logarithmic; points not above 0 are omitted. Throws Error.
 void drawPlot(const Plot& plot, const std::string& file);
 
 }  // namespace limen::perception

@@ -70,7 +70,7 @@ void printModels(const CsfOptions& options) {
       std::printf(" %s %s to %s %s%s", optionOf(one.name).c_str(), readable(one.validLow).c_str(),
                   readable(one.validHigh).c_str(), one.unit.c_str(),
                   &one == &info->arguments.back() ? "\n" : ",");
-    // All constants only where one asks for a model: some have dozens.
+    // All constants only if a model was named: some have dozens.
     if (!options.models.empty()) std::printf("  Constants:\n%s", describeConstants(info->parameters).c_str());
   }
   if (options.models.empty())
@@ -90,7 +90,7 @@ std::vector<Model> makeModels(const CsfOptions& options) {
   return out;
 }
 
-/// Every combination of the arguments that have several values, but for the frequency.
+/// Every combination of the arguments that have several values, except the frequency.
 std::vector<CsfPoint> combinations(const CsfOptions& options, std::vector<std::string>& varied) {
   std::vector<CsfPoint> out = {options.point.point()};
   for (const std::string& argument : csfArgumentNames()) {
@@ -115,7 +115,7 @@ bool reads(const CsfInfo& info, const std::string& argument) {
                      [&](const CsfArgument& one) { return one.name == argument; });
 }
 
-/// Arguments given that the model does not know: better said than passed over.
+/// Arguments that the model does not know: better reported than silently ignored.
 std::vector<std::string> ignored(const CsfOptions& options, const CsfInfo& info) {
   std::vector<std::string> out;
   for (const std::string& argument : csfArgumentNames())
@@ -188,7 +188,7 @@ struct Column {
   std::string label;
 };
 
-/// A model that does not read what varies has one column only.
+/// A model that does not depend on what varies has only one column.
 std::vector<Column> columnsOf(const std::vector<Model>& models, const std::vector<CsfPoint>& points,
                               const std::vector<std::string>& varied) {
   std::vector<Column> out;
@@ -241,7 +241,7 @@ void printCsv(const std::vector<Column>& columns, const std::vector<double>& fre
     for (const double frequency : frequencies) {
       const CsfPoint point = at(column.point, frequency);
       std::string line = column.model->info->name;
-      // Empty where the model does not read the argument.
+      // Empty if the model does not read the argument.
       for (const std::string& argument : csfArgumentNames())
         line +=
             "," + (reads(*column.model->info, argument) ? shortestNumber(argumentOf(point, argument)) : "");
@@ -283,8 +283,7 @@ void plot(const CsfOptions& options, const std::vector<Column>& columns,
     for (const double frequency : frequencies) {
       const CsfPoint point = at(column.point, frequency);
       const double value = column.model->csf->sensitivity(point);
-      // A contrast above 1 does not exist; what lies far below a sensitivity of 1 would only stretch the
-      // axis.
+      // A contrast above 1 does not exist; anything far below a sensitivity of 1 would only stretch the axis.
       if (value >= 0.1)
         curve.points.push_back({frequency, value, !outsideValidRange(*column.model->info, point).empty()});
     }
@@ -296,7 +295,7 @@ void plot(const CsfOptions& options, const std::vector<Column>& columns,
 void runCsf(const CsfOptions& options) {
   if (options.list || options.models.empty()) {
     if (!options.constants.empty() || !options.plot.empty())
-      throw Error("no model is named", "csf", "write limen-perceive csf MODEL; --list shows them");
+      throw Error("no model given", "csf", "write limen-perceive csf MODEL; --list shows them");
     return printModels(options);
   }
   if (options.json && options.csv) throw Error("--json and --csv exclude each other", "csf", "give one");
@@ -336,20 +335,20 @@ void addCsfCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("csf", "Contrast sensitivity by a model, as a table, a chart or one number.");
   command->add_option("MODEL", options->models, "name of a model, or several; none: a list of them");
-  command->add_flag("--list", options->list, "lists the models, or what MODEL takes");
+  command->add_flag("--list", options->list, "lists the models, or the constants of MODEL");
   options->point.add(*command);
   command->add_flag("--json", options->json, "prints one JSON object");
   command->add_flag("--csv", options->csv, "prints comma-separated values");
   command
       ->add_option("--plot", options->plot,
-                   "draws FILE.svg, .png or .pdf; script and data come to lie beside it")
+                   "draws FILE.svg, .png or .pdf; script and data are written beside it")
       ->type_name("FILE");
   std::vector<std::vector<Parameter>> constants;
   for (const auto& [name, info] : CsfRegistry::instance().all()) constants.push_back(info.parameters);
   options->constants.add(*command, constants);
   command->allow_extras();
   command->footer(
-      "NUMBERS are a number, several as 1,2,4 or low:high:count in equal steps of the logarithm.\n"
+      "NUMBERS are a number, several as 1,2,4 or low:high:count, logarithmically spaced.\n"
       "One frequency and no other list prints one value. csf MODEL --list shows the constants of a model.");
   command->callback([options, command] {
     refuseExtras(*command);

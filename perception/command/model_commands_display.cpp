@@ -114,7 +114,7 @@ void runDisplay(const DisplayOptions& options) {
                                             readable(display.whiteLevelCdM2())));
   if (!options.velocity.empty()) {
     const double screen = out["motion"]["screen_deg_s"];
-    line("velocity on the screen", readable(screen) + " deg/s");
+    line("screen velocity", readable(screen) + " deg/s");
     for (const Eye& eye : kEyes)
       line((std::string("on the retina, ") + eye.name).c_str(),
            readable(retinalVelocityDegS(screen, eye.model)) + " deg/s");
@@ -129,10 +129,11 @@ void addDisplayCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("display", "Display profiles and what follows from them.");
   command->add_option("DISPLAY", options->display, "preset or file (YAML); none: a list of presets");
   command->add_flag("--list", options->list, "lists the presets");
-  command->add_option("--at", options->at, "pixels per degree so many pixels off the centre")
+  command->add_option("--at", options->at, "pixels per degree at this many pixels off the centre")
       ->type_name("PX");
   command
-      ->add_option("--velocity", options->velocity, "what a motion of so many pixels a frame is to the eye")
+      ->add_option("--velocity", options->velocity,
+                   "what a motion of this many pixels per frame is to the eye")
       ->type_name("PX");
   command->add_flag("--yaml", options->yaml, "prints the profile as a file to start from");
   command->add_flag("--json", options->json, "prints one JSON object");

@@ -24,7 +24,7 @@ struct Set {
   std::vector<CsfMeasurement> data;
 };
 
-/// One for each data set, in order of appearance, and one with all if there are several.
+/// One per data set, in order of appearance, and one for all if there are several.
 std::vector<Set> readSets(const ErrorOptions& options, double distanceM) {
   std::vector<Set> out;
   Set all{"all", {}};
@@ -51,7 +51,7 @@ void runError(const ErrorOptions& options) {
   const double least = readNumber(options.leastVelocity, "--least-velocity");
   if (least < 0.0) throw Error("'" + options.leastVelocity + "' is negative", "--least-velocity");
   const std::vector<Set> sets = readSets(options, positive(options.distance, "--distance"));
-  // What was measured with luminance says nothing about models of colour, unless one asks for them.
+  // Measurements of luminance say nothing about chromatic models, unless those were requested.
   const std::vector<std::string> models =
       options.models.empty() ? csfNames(Channel::Achromatic) : options.models;
   nlohmann::json results = nlohmann::json::array();
@@ -67,7 +67,7 @@ void runError(const ErrorOptions& options) {
     for (const Set& set : sets) {
       const CsfError error = csfError(info, *csf, set.data, least);
       line.errors.push_back(error);
-      // Nothing predicted is no error of 0.
+      // Without predictions the error is not 0.
       const auto number = [&](double db) { return error.count == 0 ? nlohmann::json() : nlohmann::json(db); };
       results.push_back({{"model", name},
                          {"model_version", info.version},
@@ -108,7 +108,8 @@ void runError(const ErrorOptions& options) {
     std::printf("\n");
   }
   std::printf(
-      "\nStimuli slower than %s deg/s count as that fast: what the eye's drift makes of static ones.\n",
+      "\nStimuli slower than %s deg/s are treated as that fast: the effect of the eye's drift on static "
+      "ones.\n",
       shortestNumber(least).c_str());
   if (unpredicted)
     std::printf(
@@ -119,16 +120,20 @@ void runError(const ErrorOptions& options) {
 
 void addCsfErrorCommand(CLI::App& app) {
   const auto options = std::make_shared<ErrorOptions>();
-  CLI::App* command = app.add_subcommand(
-      "csf-error", "How far the models of contrast sensitivity are from measured thresholds.");
+  CLI::App* command =
+      app.add_subcommand("csf-error", "Errors of contrast sensitivity models against measured thresholds.");
   command
       ->add_option("DATA", options->files,
                    "comma-separated values with columns luminance, s_frequency, sensitivity, and if known "
                    "t_frequency, area or ge_sigma, orientation, eccentricity, dataset")
       ->required();
-  command->add_option("--model", options->models, "model to evaluate; may be repeated; else all of luminance")
+  command
+      ->add_option("--model", options->models,
+                   "model to evaluate; may be repeated (default: all achromatic models)")
       ->take_all();
-  command->add_option("--least-velocity", options->leastVelocity, "slower stimuli count as this [deg/s]")
+  command
+      ->add_option("--least-velocity", options->leastVelocity,
+                   "slower stimuli are treated as having this velocity [deg/s]")
       ->capture_default_str();
   command->add_option("--distance", options->distance, "viewing distance [m]")->capture_default_str();
   command->add_flag("--json", options->json, "prints one JSON object");

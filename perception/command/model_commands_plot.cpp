@@ -46,7 +46,7 @@ std::string data(const Plot& plot) {
     for (size_t i = 0; i < curve.points.size(); ++i) {
       const auto& [x, y, outside] = curve.points[i];
       if (!(x > 0.0) || !(y > 0.0)) continue;
-      // The thin line goes on to the first point inside, so that the two meet.
+      // The thin line continues to the first point inside, so that the two meet.
       const bool beside = (i > 0 && curve.points[i - 1].outside) ||
                           (i + 1 < curve.points.size() && curve.points[i + 1].outside);
       const std::string value = shortestNumber(y);
@@ -54,7 +54,7 @@ std::string data(const Plot& plot) {
              "\n";
       any = true;
     }
-    // An empty data set would shift the numbers of those after it.
+    // An empty data set would shift the indices of those after it.
     if (!any) out += "NaN NaN NaN\n";
   }
   return out;

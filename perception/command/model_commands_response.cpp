@@ -28,9 +28,10 @@ void listTvi(bool json) {
   const std::vector<std::pair<std::string, std::string>> kSources = {
       {"ward",
        "Ward et al. 1997; Schwarz 2009, (9.6). Two downward steps: 2.8 % at 0.0363 and 0.7 % at 79.4 cd/m2"},
-      {"ward_smoothed", "the same without the steps: branches shifted to meet, from 100 cd/m2 outward"},
+      {"ward_smoothed", "the same without the steps: branches shifted to meet, starting at 100 cd/m2"},
       {"from_csf", "L / largest sensitivity at L of --csf MODEL; Schwarz 2009, section 9.1.1"},
-      {"from_csf_scaled", "the same, made to meet Ward's at 100 cd/m2 (--scaled); Schwarz 2009, figure 9.3"}};
+      {"from_csf_scaled",
+       "the same, scaled to match Ward's at 100 cd/m2 (--scaled); Schwarz 2009, figure 9.3"}};
   nlohmann::json models = nlohmann::json::array();
   for (const auto& [name, source] : kSources) {
     models.push_back({{"model", name}, {"source", source}});
@@ -68,7 +69,7 @@ void runTvi(const TviOptions& options) {
                                              ? options.point.values("luminance_cd_m2")
                                              : readNumbers("1e-5:1e4:28", "--luminance");
   const auto value = [&](double l) { return options.cvi ? cvi(tvi(l), l) : tvi(l); };
-  // Ferwerda et al. 1996, whom Ward combines, measured 1e-6 to 1e4 cd/m2.
+  // The data of Ferwerda et al. 1996, which Ward combines, span 1e-6 to 1e4 cd/m2.
   const auto outside = [&](double l) {
     if (fromCsf) {
       point.luminanceCdM2 = l;
@@ -158,7 +159,7 @@ struct ExtendedMaskingSettings {
   }
 };
 
-/// "extended" needs a second argument, which is why it is no point-wise model of the registry.
+/// "extended" needs a second argument, so it is not one of the registry's point-wise models.
 MaskingInfo extendedInfo(double neighbourMean) {
   const char* const source = "JPEG 2000 Part 2, reconstructed; Schwarz 2009, section 9.1.2";
   return {"extended",
@@ -204,7 +205,7 @@ void runMasking(const MaskingOptions& options) {
     throw Error("--neighbour-mean is missing", "masking extended",
                 "give the mean of |x|^beta over the neighbours");
   if (!isExtended && !options.neighbourMean.empty())
-    throw Error("'" + options.model + "' knows no neighbours", "--neighbour-mean", "use extended");
+    throw Error("'" + options.model + "' does not use neighbours", "--neighbour-mean", "use extended");
   const double mean = isExtended ? readNumber(options.neighbourMean, "--neighbour-mean") : 0.0;
   if (mean < 0.0) throw Error("'" + options.neighbourMean + "' is negative", "--neighbour-mean");
   const MaskingInfo info = isExtended ? extendedInfo(mean) : MaskingRegistry::instance().get(options.model);
@@ -269,7 +270,7 @@ void runMasking(const MaskingOptions& options) {
 void addFormats(CLI::App& command, bool& json, bool& csv, std::string& plot) {
   command.add_flag("--json", json, "prints one JSON object");
   command.add_flag("--csv", csv, "prints comma-separated values");
-  command.add_option("--plot", plot, "draws FILE.svg, .png or .pdf; script and data come to lie beside it")
+  command.add_option("--plot", plot, "draws FILE.svg, .png or .pdf; script and data are written beside it")
       ->type_name("FILE");
 }
 
@@ -277,13 +278,13 @@ void addFormats(CLI::App& command, bool& json, bool& csv, std::string& plot) {
 
 void addTviCommand(CLI::App& app) {
   const auto options = std::make_shared<TviOptions>();
-  CLI::App* command = app.add_subcommand("tvi", "Just visible increment over adaptation luminance.");
+  CLI::App* command = app.add_subcommand("tvi", "Just noticeable increment over adaptation luminance.");
   command->add_option("MODEL", options->model,
                       "ward, ward_smoothed, from_csf or from_csf_scaled; none: a list");
   command->add_flag("--list", options->list, "lists the models");
   options->point.add(*command);
-  command->add_option("--csf", options->csf, "model that from_csf takes")->capture_default_str();
-  command->add_flag("--scaled", options->scaled, "from_csf: made to meet Ward's at 100 cd/m2");
+  command->add_option("--csf", options->csf, "model used by from_csf")->capture_default_str();
+  command->add_flag("--scaled", options->scaled, "from_csf: scaled to match Ward's at 100 cd/m2");
   command->add_flag("--cvi", options->cvi, "value is the contrast, increment / luminance");
   addFormats(*command, options->json, options->csv, options->plot);
   std::vector<std::vector<Parameter>> constants;

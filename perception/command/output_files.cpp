@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file's one name: absolute, links followed.
+/// The file's canonical name: absolute, links resolved.
 std::string resolved(const std::string& path) {
   std::error_code code;
   const fs::path whole = fs::weakly_canonical(fs::absolute(path, code), code);
@@ -51,7 +51,7 @@ void OutputFiles::refuseInputs(const std::string& option, const std::string& pat
   if (isInput)
     throw Error("'" + path + "' is an input", option, "inputs are never overwritten: give another name");
   if (taken_.count(name))
-    throw Error("'" + path + "' is written twice", option, "give each output a name of its own");
+    throw Error("'" + path + "' is written twice", option, "give each output its own name");
   if (fs::is_directory(path, code)) throw Error("'" + path + "' is a folder", option, "name a file");
 }
 
@@ -60,7 +60,7 @@ void OutputFiles::addFile(const std::string& option, const std::string& pattern,
   if (pattern.empty()) return;
   if (std::find(endings.begin(), endings.end(), lowerExtension(pattern)) == endings.end())
     throw Error("'" + pattern + "' does not end in " + join(endings, " or "), option,
-                "the ending says what is written");
+                "the ending selects the format");
   if (frames_.size() > 1 && !hasNumberPlace(pattern))
     throw Error(fmt::format("'{}' has no place for the numbers of {} frames", pattern, frames_.size()),
                 option, "put %04d in the name");
@@ -75,7 +75,7 @@ void OutputFiles::addFolder(const std::string& option, const std::string& folder
   if (folder.empty()) return;
   std::error_code code;
   if (fs::exists(folder, code) && !fs::is_directory(folder, code))
-    throw Error("'" + folder + "' is no folder", option, "name a folder; it is made if it is missing");
+    throw Error("'" + folder + "' is not a folder", option, "name a folder; it is created if it is missing");
   for (const FrameSet& frame : frames_) {
     const std::string inside = resolved(this->folder(folder, frame));
     for (const std::string& input : inputs_)

@@ -16,16 +16,16 @@ class OutputFiles {
   /// `inputs`: every file that the call reads.
   OutputFiles(const std::vector<FrameSet>& frames, const std::vector<std::string>& inputs);
 
-  /// A file (of each frame) named by an option; "" is passed over. Throws Error: an ending other than
+  /// A file (of each frame) named by an option; "" is ignored. Throws Error: an ending other than
   /// `endings` (".png"), a sequence without a place for the number, an output that is an input or another
   /// output.
   void addFile(const std::string& option, const std::string& pattern,
                const std::vector<std::string>& endings);
-  /// A folder named by an option; frames of a sequence get folders of their own in it. Throws Error if it is
+  /// A folder named by an option; frames of a sequence get their own folders in it. Throws Error if it is
   /// a file, or holds an input.
   void addFolder(const std::string& option, const std::string& folder);
 
-  /// What the pattern or folder means for a frame.
+  /// The pattern or folder resolved for a frame.
   std::string file(const std::string& pattern, const FrameSet& frame) const {
     return fillNumber(pattern, frame);
   }

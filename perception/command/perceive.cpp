@@ -9,7 +9,7 @@
 namespace limen::perception {
 
 int perceiveMain(int argc, char** argv) {
-  CLI::App app("Says what a viewer sees: vision models, threshold maps, popping, image differences.",
+  CLI::App app("Predicts what a viewer sees: vision models, threshold maps, popping, image differences.",
                "limen-perceive");
   app.set_version_flag("--version", versionText("limen-perceive"));
   app.require_subcommand(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-perceive pop: where a change from one frame to another is seen to pop, and how strongly.
+// limen-perceive pop: where a change from one frame to another pops visibly, and how strongly.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -35,7 +35,7 @@ Figures allFigures() {
 /// Sequences of the call, in the order of FrameSet::paths.
 enum Role : size_t { kOld, kNew, kMotion, kOldMotion, kFirstWeight };
 
-/// Leaves out maps of frames that are not evaluated, such as the first one of all.
+/// Drops maps of frames that are not evaluated, such as the very first one.
 void keepNumbersOf(const ImageSequence& frames, ImageSequence& maps) {
   if (frames.single || maps.single || maps.frames.empty() || !frames.frames.front().number ||
       !maps.frames.front().number)
@@ -56,16 +56,16 @@ std::vector<FrameSet> alignFrames(const PopOptions& options) {
   ImageSequence before = expandImages(options.before), after = optional(options.after);
   if (after.frames.empty()) {
     if (before.single || before.frames.size() < 2)
-      throw Error(
-          "'" + options.before + "' is one image", "pop",
-          "name two: limen-perceive pop OLD NEW; or a sequence, whose frames are compared with the next");
+      throw Error("'" + options.before + "' is one image", "pop",
+                  "give two: limen-perceive pop OLD NEW; or a sequence, of which each frame is compared with "
+                  "the next");
     if (!before.missing.empty())
       throw Error("'" + options.before + "' lacks frame " + std::to_string(before.missing.front()), "pop",
-                  "frames that are compared with the next must follow one another");
+                  "frames compared with the next one must be consecutive");
     after = before;
     after.frames.erase(after.frames.begin());
     before.frames.pop_back();
-    // A pair bears the number of its new frame.
+    // A pair has the number of its new frame.
     for (size_t i = 0; i < before.frames.size(); ++i) before.frames[i].number = after.frames[i].number;
   }
   std::vector<ImageSequence> sequences = {before, after, optional(options.motion),
@@ -160,7 +160,7 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
     return kExitSuccess;
   }
   if (options.before.empty())
-    throw Error("images are missing", "pop", "name two: limen-perceive pop OLD NEW");
+    throw Error("images are missing", "pop", "give two: limen-perceive pop OLD NEW");
   const std::vector<ParameterValues> values = parseSettings(options.set, poppingGroups(), "--set");
   Call call{options,
             readDisplay(options.displayName),
@@ -188,7 +188,7 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   header.display = call.display;
   header.settings = valuesAsJson(poppingGroups(), values);
   header.settings["input"] = call.input.toJson();
-  header.extra = {{"frames_are", options.after.empty() ? "each compared with the one before" : "pairs"}};
+  header.extra = {{"frames_are", options.after.empty() ? "each compared with the previous one" : "pairs"}};
   header.primaryFigures = {"rating", "region_count", "largest_jnd", "max_de94"};
   header.json = options.json;
   ReportPrinter printer(header, frames.size(), limits);
@@ -201,21 +201,21 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
 void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
   const auto options = std::make_shared<PopOptions>();
   CLI::App* const command = app.add_subcommand(
-      "pop", "Popping: regions in which the change from an old to a new level of detail is seen");
+      "pop", "Popping: regions in which the change from an old to a new level of detail is visible");
   command
       ->add_option(
           "OLD", options->before,
-          "The frame as the old level of detail shows it, or a sequence: frame_%04d.png, frame_####.png, "
-          "'frames/*.png'; alone: each frame against the next, for a camera and scene that hold still")
+          "The frame with the old level of detail, or a sequence: frame_%04d.png, frame_####.png, "
+          "'frames/*.png'; if given alone: each frame against the next, for a static camera and scene")
       ->type_name("");
-  command->add_option("NEW", options->after, "The same frame as the new level of detail shows it")
-      ->type_name("");
+  command->add_option("NEW", options->after, "The same frame with the new level of detail")->type_name("");
   const auto file = [&](const char* name, std::string& target, const char* text) {
     command->add_option(name, target, text)->type_name("FILE");
   };
   file("--motion", options->motion,
-       "EXR: displacement of each pixel against the previous frame (x, y; pixels). Without: nothing moves");
-  file("--old-motion", options->oldMotion, "The same for the old level of detail; without: that of --motion");
+       "EXR: displacement of each pixel against the previous frame (x, y; pixels). Default: nothing moves");
+  file("--old-motion", options->oldMotion,
+       "The same for the old level of detail (default: that of --motion)");
   command
       ->add_option("--weight", options->weights,
                    "Map of factors 0..1 on the difference (disocclusion, flicker); may be repeated")
@@ -223,11 +223,14 @@ void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>&
       ->allow_extra_args(false);
   file("--overlay", options->overlay, "PNG: regions coloured by rating on the new frame");
   file("--jnd", options->jnd, "EXR of the difference map in JND");
-  command->add_option("--stages", options->stages, "Folder for an EXR of every stage of the model")
+  command
+      ->add_option("--stages", options->stages,
+                   "Folder for EXR files of all intermediate images of the model")
       ->type_name("DIR");
   command
-      ->add_option("--fail-above", options->failAbove,
-                   "Exit with 1 if the rating (or FIGURE=VALUE: another figure) is above; may be repeated")
+      ->add_option(
+          "--fail-above", options->failAbove,
+          "Exit with 1 if the rating (or FIGURE=VALUE: another figure) is above a limit; may be repeated")
       ->type_name("RATING")
       ->allow_extra_args(false);
   addImageOptions(*command, *options);

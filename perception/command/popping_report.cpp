@@ -31,21 +31,22 @@ std::string poppingModelText(const PoppingSettings& settings) {
 }
 
 Figures declaredPoppingFigures() {
-  return {{"rating",
-           "",
-           "highest rating R of a region; below 1 rarely visible, above 3 easily detected",
-           false,
-           {},
-           {}},
-          {"detection_probability", "", "that a viewer who attends to it reports it", false, {}, {}},
-          {"region_count", "", "popping regions", false, {}, {}},
-          {"coverage", "", "share of the image in popping regions", false, {}, {}},
-          {"largest_jnd", "JND", "largest difference", false, {}, {}},
-          {"mean_jnd", "JND", "mean difference", false, {}, {}},
-          {"median_jnd", "JND", "median difference", false, {}, {}},
-          {"p95_jnd", "JND", "95th percentile of the difference", false, {}, {}},
-          {"p99_jnd", "JND", "99th percentile of the difference", false, {}, {}},
-          {"visible_share", "", "share of the pixels that differ by 1 JND or more", false, {}, {}}};
+  return {
+      {"rating",
+       "",
+       "highest rating R of a region; below 1 rarely visible, above 3 easily detected",
+       false,
+       {},
+       {}},
+      {"detection_probability", "", "probability that a viewer who attends to it reports it", false, {}, {}},
+      {"region_count", "", "popping regions", false, {}, {}},
+      {"coverage", "", "share of the image in popping regions", false, {}, {}},
+      {"largest_jnd", "JND", "largest difference", false, {}, {}},
+      {"mean_jnd", "JND", "mean difference", false, {}, {}},
+      {"median_jnd", "JND", "median difference", false, {}, {}},
+      {"p95_jnd", "JND", "95th percentile of the difference", false, {}, {}},
+      {"p99_jnd", "JND", "99th percentile of the difference", false, {}, {}},
+      {"visible_share", "", "share of pixels that differ by 1 JND or more", false, {}, {}}};
 }
 
 Figures poppingFigures(const PoppingResult& result) {
@@ -65,7 +66,7 @@ Figures poppingFigures(const PoppingResult& result) {
                            nearestRank(jnd, 0.99),
                            static_cast<double>(visible) / pixels};
   for (size_t i = 0; i < figures.size(); ++i) figures[i].value = values[i];
-  // Without a region there is nothing to rate: minus infinity, which JSON does not know.
+  // Without a region there is nothing to rate: minus infinity, which JSON cannot represent.
   if (!any || !std::isfinite(result.summary.largestRating)) figures[0].value.reset();
   return figures;
 }

@@ -10,10 +10,10 @@
 
 namespace limen::perception {
 
-/// "Schwarz 2009; daly98+kelly83, masking schwarz, eye movement monotone": the model in a few words.
+/// "Schwarz 2009; daly98+kelly83, masking schwarz, eye movement monotone": the model in brief.
 std::string poppingModelText(const PoppingSettings& settings);
 
-/// What poppingFigures() gives, without values.
+/// What poppingFigures() returns, without values.
 Figures declaredPoppingFigures();
 /// Figures of a prediction: rating, probability, regions, coverage, statistics of the difference map.
 Figures poppingFigures(const PoppingResult& result);
@@ -21,7 +21,7 @@ Figures poppingFigures(const PoppingResult& result);
 /// The regions, highest rating first: a table of at most `most` lines, and all of them as JSON.
 std::string regionTable(const PoppingResult& result, size_t most = 20);
 nlohmann::json regionsAsJson(const PoppingResult& result);
-/// What the model works with for this display and size.
+/// The model's derived quantities for this display and size.
 nlohmann::json poppingModelAsJson(const PoppingModel& model);
 /// Warnings: non-finite inputs, guarded contrasts.
 std::vector<std::string> poppingWarnings(const PoppingResult& result);

@@ -86,7 +86,7 @@ nlohmann::json settingsAsJson(const std::vector<SettingsGroup>& groups) {
   nlohmann::json out = nlohmann::json::array();
   for (const DeclaredAt& at : flatten(declared)) {
     nlohmann::json entry = toJson(*at.parameter);
-    entry.erase("alternatives");  // they have entries of their own
+    entry.erase("alternatives");  // they have their own entries
     entry["name"] = at.path;
     if (!at.when.empty()) entry["when"] = at.when;
     out.push_back(entry);

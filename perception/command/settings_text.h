@@ -24,11 +24,11 @@ std::vector<ParameterValues> parseSettings(const std::vector<std::string>& texts
 /// Names, ranges, defaults, descriptions and sources, as --list prints them.
 std::string listSettings(const std::vector<SettingsGroup>& groups);
 nlohmann::json settingsAsJson(const std::vector<SettingsGroup>& groups);
-/// One object: those of the unnamed group on top, each other group under its name.
+/// One object: those of the unnamed group at the top level, every other group under its name.
 nlohmann::json valuesAsJson(const std::vector<SettingsGroup>& groups,
                             const std::vector<ParameterValues>& values);
 
-/// "name 0.5, other true": what departs from its default; "" if nothing does.
+/// "name 0.5, other true": whatever differs from its default; "" if nothing does.
 std::string changedSettings(const std::vector<SettingsGroup>& groups,
                             const std::vector<ParameterValues>& values);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-perceive threshold: what luminance differences stay invisible in an image.
+// limen-perceive threshold: which luminance differences stay invisible in an image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Figures thresholdFigures(const ThresholdMap& map) {
           {"mean", unit, "", false, sum.value() / pixels, {}},
           {"mean_adaptation",
            unit,
-           "luminance that the eye is adapted to",
+           "luminance to which the eye is adapted",
            false,
            luminance.value() / pixels,
            {}}};
@@ -68,7 +68,7 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
     return kExitSuccess;
   }
   if (options.image.empty())
-    throw Error("an image is missing", "threshold", "name one: limen-perceive threshold IMAGE");
+    throw Error("an image is missing", "threshold", "give one: limen-perceive threshold IMAGE");
   const DisplayProfile display = readDisplay(options.displayName);
   const std::vector<ParameterValues> values = parseSettings(options.set, thresholdGroups(), "--set");
   const ThresholdMapSettings settings = ThresholdMapSettings::table().read(values.front());
@@ -93,7 +93,7 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
   header.json = options.json;
   header.primaryFigures = {"median", "min", "max"};
   ReportPrinter printer(header, frames.size(), {});
-  // Pictures of a sequence share one scale, that of the first frame.
+  // Pictures of a sequence share the scale of the first frame.
   double scale = options.scaleCdM2;
   for (const FrameSet& frame : frames) {
     const InputImage image = readInput(frame.paths.front(), display, input);
@@ -135,13 +135,12 @@ void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::st
       ->type_name("");
   command
       ->add_option("-o,--output", options->outputs,
-                   "EXR of the thresholds in cd/m2, or PNG to look at; may be repeated")
+                   "EXR of the thresholds in cd/m2, or PNG for viewing; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--scale", options->scaleCdM2,
-          "Threshold in cd/m2 that a PNG shows as its brightest colour (default: from the first map)")
+      ->add_option("--scale", options->scaleCdM2,
+                   "Threshold in cd/m2 shown as the brightest colour in a PNG (default: from the first map)")
       ->type_name("CD_M2")
       ->check(CLI::PositiveNumber);
   addImageOptions(*command, *options);

@@ -27,7 +27,7 @@ double clampToDisplay(double value) { return std::clamp(value, 0.0, 1.0); }
 const SettingsTable<ComparedRegion>& ComparedRegion::table() {
   static const SettingsTable<ComparedRegion> kTable = {
       {&ComparedRegion::region, "region",
-       "pixels that are compared; penumbra: receivers whose reference visibility is between 0 and 1"}};
+       "pixels to compare; penumbra: receivers whose reference visibility is between 0 and 1"}};
   return kTable;
 }
 

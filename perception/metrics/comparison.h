@@ -31,7 +31,7 @@ struct ComparedRegion {
 class Comparison {
  public:
   /// Throws Error if an image is missing, if sizes or channels differ, if the reference has a non-finite
-  /// value, or if a penumbra is asked for in a colour product. `metric` is named in errors.
+  /// value, or if the penumbra is requested for a colour product. `metric` is named in errors.
   Comparison(const ComparisonInput& input, const std::string& metric, Region region);
 
   /// Throws Error unless the products are visibility images.
@@ -39,7 +39,7 @@ class Comparison {
 
   int width() const { return test_.width; }
   int height() const { return test_.height; }
-  /// 1 or 3: alpha is no part of a product.
+  /// 1 or 3: alpha is not part of a product.
   int channels() const { return test_.channels < 3 ? 1 : 3; }
   const Image& test() const { return test_; }
   const Image& reference() const { return reference_; }
@@ -50,7 +50,7 @@ class Comparison {
     if (mask_ && !(mask_->at(x, y) > 0.5F)) return false;
     return region_ == Region::Receivers || (reference_.at(x, y) > 0.0F && reference_.at(x, y) < 1.0F);
   }
-  /// test - reference. Non-finite test values: -1 for minus infinity, else +1.
+  /// test - reference. Non-finite test values: -1 for minus infinity, otherwise +1.
   double error(int x, int y, int channel) const {
     const double test = test_.at(x, y, channel);
     if (!std::isfinite(test)) return std::isinf(test) && test < 0.0 ? -1.0 : 1.0;

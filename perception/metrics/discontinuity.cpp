@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of a visibility image where its reference has none. Where methods change from pixel to pixel how
-// coarsely they work, their error changes there from one pixel to the next; but it also changes wherever the
-// occluders do, and the more the coarser all of the work is. So this ranks choices of levels by what they
-// spend as much as by their discontinuities; what a change of level does by itself is counted by the
-// techniques that choose levels (level_step_max and others).
+// Steps of a visibility image where its reference has none. If a method changes its coarseness from pixel to
+// pixel, its error changes there; but it also changes wherever the occluders do, and the more the coarser the
+// method is overall. So this ranks choices of levels by their cost as much as by their discontinuities; the
+// effect of a level change alone is counted by the techniques that choose levels (level_step_max and others).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -24,7 +23,7 @@ struct StepSettings {
          "share",
          {0.0, 1.0},
          "",
-         "share of the pairs of neighbours whose change is at most the figure; 1: all"}};
+         "share of neighbour pairs whose change is at most the figure; 1: all"}};
     return kTable;
   }
 };
@@ -57,8 +56,8 @@ MetricResult measureDiscontinuity(const ComparisonInput& input, const StepSettin
 
 const RegisteredMetric<StepSettings> kRegistered{
     {.name = "discontinuity",
-     .summary = "change of the error from a pixel to its neighbour (level discontinuities and all else of it "
-                "that is not smooth), the largest or one that a share of all pairs does not exceed",
+     .summary = "change of the error from a pixel to its neighbour (level discontinuities and any other "
+                "unsmoothness), the largest or one that a share of all pairs does not exceed",
      .title = "Step of the error between neighbours"},
     &measureDiscontinuity};
 

@@ -9,10 +9,10 @@ namespace limen::perception {
 /// errors.
 double errorScale(const Image& map);
 
-/// A 1-channel map as a picture to look at: 3 channels, ready for writePng(). Painted in "magma", a colour
-/// map of even perceptual steps from black (0 and below) to pale yellow (`scale` and above). Non-finite
-/// values are bright green, a colour that the map does not hold. `scale` 0 stands for errorScale(map); state
-/// the scale beside the picture, and give the same one for pictures that are to be compared.
+/// A 1-channel map as a viewable picture: 3 channels, ready for writePng(). Coloured in "magma", a
+/// perceptually uniform colour map from black (0 and below) to pale yellow (`scale` and above). Non-finite
+/// values are bright green, a colour that is not in the map. `scale` 0 means errorScale(map); state the scale
+/// beside the picture, and use the same one for pictures to be compared.
 Image errorPicture(const Image& map, double scale = 0.0);
 
 /// A product as an sRGB display shows it: clamped to [0, 1] and coded, 3 channels, ready for writePng().

@@ -21,31 +21,30 @@ namespace limen::perception {
 
 class MetricGpu;
 
-/// One pair of products to compare. All images have the same size. The textures are what the technique made;
-/// the images are the same values read back (once, for all metrics of a run).
+/// One pair of products to compare. All images have the same size. The textures are the technique's output;
+/// the images are the same values read back (once for all metrics of a run).
 struct ComparisonInput {
-  const gl::Texture* testTexture =
-      nullptr;  ///< R32F or RGBA32F; null: made from the image where one is needed
+  const gl::Texture* testTexture = nullptr;       ///< R32F or RGBA32F; null: made from the image if needed
   const gl::Texture* referenceTexture = nullptr;  ///< same format
   const Image* test = nullptr;  ///< 1 (visibility) or 3..4 channels (linear RGB; alpha is ignored)
   const Image* reference = nullptr;
-  /// 1 where the product means something (receivers), 0 elsewhere; 1 channel. Null: everywhere.
+  /// 1 where the product is meaningful (receivers), 0 elsewhere; 1 channel. Null: everywhere.
   const Image* mask = nullptr;
-  MetricGpu* gpu = nullptr;  ///< for metrics with needsGl; null where no GL context exists
+  MetricGpu* gpu = nullptr;  ///< for metrics with needsGl; null if there is no GL context
 };
 
 struct MetricResult {
   double value = 0.0;
-  /// Per-pixel map (1 channel, larger is worse), where the metric has one.
+  /// Per-pixel map (1 channel, larger is worse), if the metric has one.
   std::optional<Image> map;
   std::string mapName;  ///< "absolute_error", "flip", ...
-  /// Pixels that were evaluated. With none (an empty region) `value` is what a perfect product would get.
+  /// Pixels that were evaluated. If there are none (an empty region), `value` is that of a perfect product.
   int64_t evaluatedPixels = 0;
 };
 
-/// Registration of a metric: `compare` evaluates a test product against a reference. It throws Error where
-/// the images do not fit together or the reference holds non-finite values. A non-finite test value counts as
-/// an error of 1, the whole range of a product, so that every figure stays finite; non_finite tells such a
+/// Registration of a metric: `compare` evaluates a test product against a reference. It throws Error if the
+/// images do not match or the reference holds non-finite values. A non-finite test value counts as an error
+/// of 1, the whole range of a product, so that every figure stays finite; non_finite distinguishes such a
 /// product from a bad one.
 struct MetricInfo {
   static constexpr const char* kKind = "metric";
@@ -57,7 +56,7 @@ struct MetricInfo {
   std::string unit = {};   ///< "" for pure numbers
   Direction direction = Direction::LowerIsBetter;
   bool needsGl = false;
-  bool needsReference = true;  ///< false: evaluates the test product alone (non-finite count)
+  bool needsReference = true;  ///< false: evaluates only the test product (non-finite count)
   ParameterList parameters = {};
   std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare = {};
 
@@ -66,7 +65,7 @@ struct MetricInfo {
 };
 using MetricRegistry = Registry<MetricInfo>;
 
-/// Settings of a metric that has none.
+/// Empty settings, for metrics without any.
 struct NoMetricSettings {
   static const SettingsTable<NoMetricSettings>& table() {
     static const SettingsTable<NoMetricSettings> kTable = {};
@@ -74,7 +73,7 @@ struct NoMetricSettings {
   }
 };
 
-/// Registers a metric with settings S (settings_table.h) at program start. `info` says the rest; its
+/// Registers a metric with settings S (settings_table.h) at program start. `info` provides the rest; its
 /// parameters and compare are filled in.
 template <class S>
 struct RegisteredMetric {

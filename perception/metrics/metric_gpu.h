@@ -9,8 +9,8 @@
 
 namespace limen::perception {
 
-/// What metrics that run on the GPU share: the context, and the objects that they keep from one call to the
-/// next so that comparing allocates and compiles nothing. Dies before the context.
+/// What metrics that run on the GPU share: the context, and objects kept between calls so that comparing
+/// allocates and compiles nothing. Destroyed before the context.
 class MetricGpu {
  public:
   explicit MetricGpu(gl::Context& context) : context_(context) {}
@@ -18,7 +18,7 @@ class MetricGpu {
   MetricGpu& operator=(const MetricGpu&) = delete;
 
   gl::Context& context() { return context_; }
-  /// What the metric of that name keeps; null at first. Only that metric knows its type.
+  /// Objects kept by the metric of that name; initially null. Only that metric knows their type.
   std::shared_ptr<void>& kept(const std::string& metric) { return kept_[metric]; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors pixel by pixel: rmse, mae, largest_error, signed_error, p99_error and psnr. Means run over pixels
-// and colour channels; a pixel's own error, where one figure is wanted (largest, p99, map), is that of its
-// worst channel.
+// and colour channels; a pixel's own error, for figures per pixel (largest, p99, map), is that of its worst
+// channel.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace limen::perception {
 namespace {
 
-/// Equal images have no finite PSNR; this is what they get, as does any error below 1e-10.
+/// Equal images have no finite PSNR; they get this value, as does any error below 1e-10.
 constexpr double kPsnrCapDb = 200.0;
 
 /// Mean of function(error) over evaluated pixels and channels; 0 for an empty region.
@@ -104,7 +104,7 @@ const auto kMae = pixelMetric(
     {.name = "mae", .summary = "mean absolute error", .title = "Mean absolute error"}, &meanAbsolute, true);
 const auto kSigned =
     pixelMetric({.name = "signed_error",
-                 .summary = "mean of test minus reference; below 0 the test is too dark (over-shadowed)",
+                 .summary = "mean of test minus reference; below 0: the test is too dark (over-shadowed)",
                  .title = "Mean signed error",
                  .direction = Direction::Neither},
                 &meanSigned, false);

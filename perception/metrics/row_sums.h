@@ -22,8 +22,8 @@ class CompensatedSum {
   double sum_ = 0.0, compensation_ = 0.0;
 };
 
-/// Calls work(row) once for each row, on all cores where there is enough to do. Rows must not share what they
-/// write. An exception of a row ends up with the caller.
+/// Calls work(row) once for each row, on all cores if there is enough to do. Rows must not write to shared
+/// data. An exception in a row is passed on to the caller.
 void forEachRow(int rows, size_t pixelsPerRow, const std::function<void(int)>& work);
 
 /// Sum of rowSum(row), added in the order of the rows whatever the number of cores.

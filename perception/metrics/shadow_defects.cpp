@@ -48,7 +48,7 @@ MetricResult shareWith(const ComparisonInput& input, const std::string& metric, 
 }
 
 /// Longest run of pixels in a row or column that are too light where the reference has shadow. A shadow that
-/// a bias detaches from its caster leaves one as long as the gap, however small a share of the image that is.
+/// a bias detaches from its caster leaves a run as long as the gap, however small its share of the image.
 MetricResult measureContactGap(const ComparisonInput& input, const NoMetricSettings&) {
   const Comparison pair(input, "contact_gap", Region::Receivers);
   pair.requireVisibility("contact_gap");
@@ -102,7 +102,8 @@ MetricResult measureBandStep(const ComparisonInput& input, const ComparedRegion&
 
 const RegisteredMetric<NoMetricSettings> kLeaks{
     {.name = "leaks",
-     .summary = "share of receivers in full shadow (reference below 0.02) that get over 0.05 too much light",
+     .summary =
+         "share of receivers in full shadow (reference below 0.02) that get more than 0.05 too much light",
      .title = "Share of receivers that leak"},
     [](const ComparisonInput& input, const NoMetricSettings&) { return shareWith(input, "leaks", leaks); }};
 const RegisteredMetric<NoMetricSettings> kAcne{
@@ -113,14 +114,14 @@ const RegisteredMetric<NoMetricSettings> kAcne{
 const RegisteredMetric<NoMetricSettings> kContactGap{
     {.name = "contact_gap",
      .summary = "longest run of pixels in a row or column that are in shadow (reference below 0.5) and get "
-                "over 0.25 too much light: how far shadows stand off their casters",
+                "more than 0.25 too much light: how far shadows are detached from their casters",
      .title = "Longest gap at a contact",
      .unit = "px"},
     &measureContactGap};
 const RegisteredMetric<ComparedRegion> kBandStep{
     {.name = "band_step",
-     .summary = "largest step between neighbouring pixels, less that of the reference (bands, level "
-                "discontinuities); use region: penumbra where the reference has hard edges",
+     .summary = "largest step between neighbouring pixels, minus that of the reference (bands, level "
+                "discontinuities); use region: penumbra if the reference has hard edges",
      .title = "Largest step beyond the reference's"},
     &measureBandStep};
 

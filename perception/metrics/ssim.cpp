@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Structural similarity after Wang, Bovik, Sheikh and Simoncelli, "Image Quality Assessment: From Error
 // Visibility to Structural Similarity", IEEE Transactions on Image Processing 13(4), 2004: Gaussian window of
-// 11 x 11 pixels with standard deviation 1.5, K1 = 0.01, K2 = 0.03, only windows that lie wholly in the
-// image. An image smaller than the window is evaluated with a window as large as it. The image evaluated is
+// 11 x 11 pixels with standard deviation 1.5, K1 = 0.01, K2 = 0.03, only windows entirely within the image.
+// An image smaller than the window is evaluated with a window of the image's size. The image evaluated is
 // Rec. 709 luminance in sRGB coding, range 1.
 #include <algorithm>
 #include <array>
@@ -84,7 +84,7 @@ MetricResult measure(const ComparisonInput& input, const NoMetricSettings&) {
   MetricResult result;
   result.evaluatedPixels = pair.evaluatedPixels();
   result.value = sum / (static_cast<double>(columns) * rows);
-  // Each pixel shows the window centred on it, pixels at the rim the nearest window.
+  // Each pixel shows the window centred on it, pixels near the border the nearest window.
   Image map(width, height, 1);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

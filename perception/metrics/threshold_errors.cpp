@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of quantities that are positive and span decades, such as thresholds: relative_error, its percentile
-// and mean, decisions that flip, and how visible a pyramid's grid is.
+// Errors of positive quantities that span decades, such as thresholds: relative_error, its percentile and
+// mean, flipped decisions, and the visibility of a pyramid's grid.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,7 +14,7 @@ namespace limen::perception {
 namespace {
 
 /// |test - reference| / max(|reference|, least) of each evaluated pixel, worst channel; non-finite test
-/// values count as 1. Where that divisor is 0 the error itself counts.
+/// values count as 1. If that divisor is 0 the error itself counts.
 double relativeError(const Comparison& pair, int x, int y, double least) {
   double largest = 0.0;
   for (int c = 0; c < pair.channels(); ++c) {
@@ -55,7 +55,7 @@ struct RelativeErrorSettings {
          "least_reference",
          {0.0, 1e6},
          "product's unit",
-         "a smaller reference counts as this: below, the error is in its shares"}};
+         "a smaller reference counts as this: below it, the error is relative to this value"}};
     return kTable;
   }
 };
@@ -151,15 +151,14 @@ const auto kMean = relativeMetric({.name = "mean_relative_error",
                                   &meanOf);
 const RegisteredMetric<FlipSettings> kFlips{{.name = "decision_flips",
                                              .summary = "share of pixels where a luminance difference is "
-                                                        "above the one threshold map and not above the other",
+                                                        "above one threshold map but not above the other",
                                              .source = "Schwarz 2009, section 9.2",
-                                             .title = "Share of pixels decided otherwise"},
+                                             .title = "Share of pixels with flipped decisions"},
                                             &countFlips};
 const RegisteredMetric<BlockSettings> kBlocks{
     {.name = "block_artifacts",
-     .summary =
-         "median second difference on the grid of a pyramid level over that beside it (first channel); 1: no "
-         "grid. For sizes that are multiples of 2^level",
+     .summary = "median second difference on the grid of a pyramid level, relative to that beside it (first "
+                "channel); 1: no grid. For sizes that are multiples of 2^level",
      .source = "Schwarz 2009, section 9.4, figure 9.6",
      .title = "Visibility of the pyramid's grid",
      .needsReference = false},

@@ -55,7 +55,7 @@ std::complex<double> amplitude(const double* samples, const std::vector<double>&
   return sum / weights;
 }
 
-/// Where a level's samples lie, in pixels of the finest level.
+/// Positions of a level's samples, in pixels of the finest level.
 std::vector<double> samplePositions(int finest, int size, const Kernel& kernel) {
   std::vector<double> out;
   const double scale = static_cast<double>(finest) / size;
@@ -146,8 +146,8 @@ std::vector<BandPeak> measureBandPeaks(const std::function<std::vector<Plane>(co
     if (cycles == previous) continue;
     previous = cycles;
     const double w = 2.0 * kPi * cycles / width;
-    // e^iwx in two parts: a cosine alone would be taken for its conjugate where a coarse level's samples
-    // cannot tell the two.
+    // e^iwx in two parts: a cosine alone would be mistaken for its conjugate where a coarse level's samples
+    // cannot distinguish the two.
     Plane cosine(width, sweep.heightPx), sine = cosine;
     for (int y = 0; y < cosine.height; ++y)
       for (int x = 0; x < width; ++x) {

@@ -24,7 +24,7 @@ struct Plane {
   double at(int x, int y) const { return row(y)[x]; }
 };
 
-/// Calls work(firstRow, endRow) on consecutive blocks of rows, on all cores where there is enough to do.
+/// Calls work(firstRow, endRow) on consecutive blocks of rows, on all cores if there is enough to do.
 /// Blocks must not share what they write; what they write must not depend on where blocks end.
 void forRowBlocks(int rows, size_t costPerRow, const std::function<void(int, int)>& work);
 

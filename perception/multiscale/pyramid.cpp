@@ -24,7 +24,7 @@ Plane difference(const Plane& a, const Plane& b) {
   return out;
 }
 
-/// (numerator - subtrahend) / denominator, guarded. Returns how many were.
+/// (numerator - subtrahend) / denominator, guarded. Returns the number of guarded pixels.
 int64_t divide(const Plane& minuend, const Plane& subtrahend, const Plane& denominator, double epsilon,
                Plane& out) {
   int64_t guarded = 0;

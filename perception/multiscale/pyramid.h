@@ -13,16 +13,16 @@
 namespace limen::perception {
 
 struct PyramidSettings {
-  int levels = 7;  ///< of the Gaussian pyramid; fewer where the image is too small
+  int levels = 7;  ///< of the Gaussian pyramid; fewer if the image is too small
   Kernel kernel = Kernel::binomial5();
   Upsampler upsampler = Upsampler::Successive;
   Border border = Border::Clamp;
 };
 
-/// Levels that an image has at most: floor(lg2(min(width, height))) + 1.
+/// Largest number of levels of an image: floor(lg2(min(width, height))) + 1.
 int mostLevels(int width, int height);
 
-/// Level 0 is the image, each next one is filtered and halved (rounding down).
+/// Level 0 is the image; each further level is filtered and halved (rounding down).
 std::vector<Plane> gaussianPyramid(const Plane& image, const PyramidSettings& settings);
 /// Level `from` of a pyramid brought to the size of level `to` < `from` with the settings' upsampler.
 Plane upsampleLevel(const std::vector<Plane>& pyramid, int from, int to, const PyramidSettings& settings);
@@ -30,8 +30,8 @@ Plane upsampleLevel(const std::vector<Plane>& pyramid, int from, int to, const P
 std::vector<Plane> laplacianPyramid(const std::vector<Plane>& gaussian, const PyramidSettings& settings);
 /// Inverse of laplacianPyramid().
 Plane collapse(const std::vector<Plane>& laplacian, const PyramidSettings& settings);
-/// Every level brought to the size of level 0: the thesis's Gaussian stack (Successive) or what sampling the
-/// pyramid directly amounts to (Bilinear).
+/// Every level upsampled to the size of level 0: the thesis's Gaussian stack (Successive) or the equivalent
+/// of sampling the pyramid directly (Bilinear).
 std::vector<Plane> upsampledStack(const std::vector<Plane>& pyramid, const PyramidSettings& settings);
 
 /// True Gaussian stack: the image convolved with Gaussians of sigma, 2 sigma, 4 sigma ... at full resolution;
@@ -45,7 +45,7 @@ std::vector<Plane> repeatedStack(const Plane& image, const PyramidSettings& sett
 /// G_i - G_i+1 of a stack, and the last level as it is.
 std::vector<Plane> differences(const std::vector<Plane>& stack);
 
-/// Contrast levels with what had to be guarded.
+/// Contrast levels, with the number of guarded pixels.
 struct ContrastLevels {
   std::vector<Plane> levels;  ///< n - 2 of n Gaussian levels, none for n < 3
   int64_t guarded = 0;        ///< pixels, over all levels, whose denominator lay below epsilon
@@ -54,7 +54,7 @@ struct ContrastLevels {
 /// (0 where the display's black is 0) are counted.
 ContrastLevels contrastPyramid(const std::vector<Plane>& gaussian, const PyramidSettings& settings,
                                double epsilon = 1e-4);
-/// The same of levels of one size.
+/// The same for levels of equal size.
 ContrastLevels contrastStack(const std::vector<Plane>& stack, double epsilon = 1e-4);
 
 /// Copy with NaN and negative values set to 0 and others limited to `largest`.
@@ -66,7 +66,7 @@ Plane finiteNonNegative(const Plane& image, double largest);
 struct BlockMetric {
   double onGrid = 0.0, offGrid = 0.0;  ///< RMS
   double onGridMedian = 0.0,
-         offGridMedian = 0.0;  ///< of magnitudes: edges of the image do not drown the grid
+         offGridMedian = 0.0;  ///< of magnitudes: so that image edges do not mask the grid
   double ratio() const { return over(onGrid, offGrid); }
   double medianRatio() const { return over(onGridMedian, offGridMedian); }
 

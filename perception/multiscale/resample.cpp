@@ -89,7 +89,7 @@ AxisTaps reductionTaps(int size, const Kernel& kernel, Border border) {
   }
   AxisTaps out = emptyTaps(outputs, 6);
   for (int x = 0; x < outputs; ++x) {
-    // In pixel centres: where the coarse pixel's centre lies among the fine ones.
+    // In pixel centres: the position of the coarse pixel's centre among the fine ones.
     const double position = (x + 0.5) * size / outputs - 0.5;
     if (kernel.nineFetch) {
       setNineFetch(out, x, position, size, border);

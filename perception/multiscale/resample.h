@@ -9,7 +9,7 @@
 
 namespace limen::perception {
 
-/// What lies beyond the edge of an image.
+/// How an image is extended beyond its edge.
 enum class Border {
   Clamp,  ///< the nearest pixel
   Mirror  ///< the image reflected at its edge: pixel -1 is pixel 0
@@ -26,7 +26,7 @@ int borderIndex(int index, int size, Border border);
 struct Kernel {
   std::array<double, 5> taps{};
   bool fused = false;      ///< with a bilinear 2:1 step
-  bool nineFetch = false;  ///< fused only: as three bilinear fetches an axis, at -5/3, 0, 5/3 texels
+  bool nineFetch = false;  ///< fused only: as three bilinear fetches per axis, at -5/3, 0, 5/3 texels
 
   static Kernel binomial5();        ///< 1 4 6 4 1, cosited
   static Kernel fused6();           ///< the same, fused
@@ -37,14 +37,14 @@ struct Kernel {
   double transfer(double w) const;  ///< at w radians per pixel of the finer level, alignment aside
 };
 
-/// How a coarser level is brought to the size of a finer one.
+/// How a coarser level is upsampled to the size of a finer one.
 enum class Upsampler {
   Bilinear,    ///< in one step, whatever the factor: blocky beyond a factor of 2
   Successive,  ///< bilinear, level by level
   Expand       ///< the kernel itself transposed (Burt and Adelson's EXPAND), level by level
 };
 
-/// Weighted sums that make each sample of one axis from another axis's: `taps` pairs for each output.
+/// Weighted sums that produce each sample of one axis from those of another: `taps` pairs for each output.
 struct AxisTaps {
   int outputs = 0, taps = 0;
   std::vector<int> index;      ///< [output][tap], inside the source
@@ -58,12 +58,12 @@ AxisTaps bilinearTaps(int from, int to, bool cosited, int levels, Border border)
 AxisTaps expansionTaps(int from, int to, const Kernel& kernel, Border border);
 /// Convolution with a sampled Gaussian cut off at 6 sigma; sigma 0 copies.
 AxisTaps gaussianTaps(int size, double sigmaPx, Border border);
-/// Mean of `sidePx` samples about each; an even count leans to the left.
+/// Mean of `sidePx` samples around each; an even count is off-centre to the left.
 AxisTaps boxTaps(int size, int sidePx, Border border);
 /// The kernel with its taps `dilation` pixels apart (cosited kernels only).
 AxisTaps dilatedTaps(int size, const Kernel& kernel, int dilation, Border border);
 
-/// Applies `columns` along x and `rows` along y. Sources and outputs need not be of one size.
+/// Applies `columns` along x and `rows` along y. Sources and outputs may differ in size.
 Plane resample(const Plane& source, const AxisTaps& columns, const AxisTaps& rows);
 
 }  // namespace limen::perception

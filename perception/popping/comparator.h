@@ -5,7 +5,7 @@
 
 namespace limen::perception {
 
-/// What the predictor is measured against in Schwarz 2009, section 10.4: the largest CIE94 colour difference
+/// What the predictor is compared with in Schwarz 2009, section 10.4: the largest CIE94 colour difference
 /// (graphic arts) between the frames, wherever it is. The actual frame is the reference of the formula.
 struct LargestColourDifference {
   double value = 0.0;  ///< dE94
@@ -13,7 +13,7 @@ struct LargestColourDifference {
 };
 
 /// Colours are those of the light between the display's black and white level, clamped to [0, 1]; the black
-/// level itself, weights and displacement play no part. Throws Error as predictPopping().
+/// level itself, weights and displacement are not used. Throws Error like predictPopping().
 LargestColourDifference largestColourDifference(const PoppingInput& input, const DisplayProfile& display);
 
 }  // namespace limen::perception

@@ -19,7 +19,7 @@ namespace limen::perception {
 double DetectionModel::probability(double rating) const {
   const double exponent =
       std::isnan(rating) ? -std::numeric_limits<double>::infinity() : (rating - midpointR) / scaleR;
-  // Of the two forms the one whose exponential cannot overflow.
+  // Of the two forms, the one whose exponential cannot overflow.
   const double logistic =
       exponent >= 0.0 ? 1.0 / (1.0 + std::exp(-exponent)) : std::exp(exponent) / (1.0 + std::exp(exponent));
   return guessRate + (1.0 - guessRate - lapseRate) * logistic;
@@ -45,11 +45,10 @@ const SettingsTable<DetectionModel>& DetectionModel::table() {
       Binding(&S::guessRate, "guess_rate", Range{0.0, 0.49}, "", "detections reported without popping",
               "Schwarz 2009, section 10.4")
           .formerly({"guess_rate"}),
-      Binding(&S::lapseRate, "lapse_rate", Range{0.0, 0.49}, "", "pops missed however strong they are",
-              "choice")
+      Binding(&S::lapseRate, "lapse_rate", Range{0.0, 0.49}, "", "pops missed however strong", "choice")
           .formerly({"lapse_rate"}),
       Binding(&S::midpointR, "midpoint", Range{-10.0, 20.0}, "",
-              "rating R that is detected half the time, guesses and lapses aside", derived)
+              "rating R that is detected half the time, apart from guesses and lapses", derived)
           .formerly({"rating_midpoint"}),
       Binding(&S::scaleR, "scale", Range{0.01, 10.0}, "", "scale of the logistic of detection over R",
               derived)

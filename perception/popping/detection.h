@@ -12,7 +12,7 @@ namespace limen::perception {
 /// derived from what Schwarz 2009 prints (see detection.cpp) until a study's answers are fitted.
 struct DetectionModel {
   double guessRate = 0.0446;  ///< g: reports without popping
-  double lapseRate = 0.02;    ///< l: missed whatever R is
+  double lapseRate = 0.02;    ///< l: missed regardless of R
   double midpointR = 2.0;     ///< m
   double scaleR = 0.45512;    ///< s
 

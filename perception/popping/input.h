@@ -11,7 +11,7 @@ namespace limen::perception {
 /// Throws Error if sizes differ or channels are missing, naming the image.
 void checkPoppingInput(const PoppingInput& input);
 
-/// Values of a pixel as they are, grey as three equal ones; what is not finite counts as 0.
+/// Values of a pixel as they are, grey as three equal ones; non-finite values count as 0.
 std::array<double, 3> pixelValues(const Image& image, int x, int y);
 
 /// Relative light of a pixel, >= 0.

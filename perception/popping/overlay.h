@@ -10,8 +10,8 @@ namespace limen::perception {
 
 struct OverlayOptions {
   double opacity = 0.65;  ///< of a region's colour over the grey context
-  bool outlines = true;   ///< dark pixels around each region, so that small ones are found
-  bool legend = true;     ///< a scale of R below the image, where it is wide enough
+  bool outlines = true;   ///< dark pixels around each region, so that small ones can be spotted
+  bool legend = true;     ///< a scale of R below the image, if it is wide enough
 };
 
 /// Colour of a rating, sRGB in [0, 1]: blue up to R = 0, green at 1 (below: rarely visible), yellow at 2,
@@ -20,9 +20,9 @@ std::array<double, 3> ratingColour(double rating);
 
 /// Popping regions in context (Schwarz 2009, Fig. 10.5): the picture in grey, each region in the colour of
 /// its rating. `context` is display-coded, 1 or 3 or more channels, of the map's size. The result has 3
-/// channels and is as wide; with a legend legendHeightPx(width) rows higher. Throws Error on another size.
+/// channels and the same width; a legend adds legendHeightPx(width) rows. Throws Error on another size.
 Image poppingOverlay(const Image& context, const RegionMap& regions, const OverlayOptions& options = {});
-/// 0 where there is no room for one.
+/// 0 if there is no room for one.
 int legendHeightPx(int width);
 
 }  // namespace limen::perception

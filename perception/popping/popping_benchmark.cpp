@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-popping-benchmark: GPU times of the popping predictor by stage, the reference's time on the CPU, and
-// how far the two agree, as CSV on standard output. Arguments: none, or "quick" for one small size.
+// limen-popping-benchmark: GPU times of the popping predictor by pass, the reference's time on the CPU, and
+// the agreement of the two, as CSV on standard output. Arguments: none, or "quick" for one small size.
 #include <epoxy/gl.h>
 #include <fmt/core.h>
 
@@ -95,7 +95,7 @@ void measure(gl::Context& context, glm::ivec2 size, const std::string& content, 
     frame(false);
     glFinish();
   } while (seconds(HostClock::now() - start) < kWarmUpS);
-  // Once without timestamps between the stages, which keep kernels from overlapping, and once with them.
+  // Once without timestamps between the passes, which keep kernels from overlapping, and once with them.
   for (const bool stages : {false, true}) {
     const int frames = software ? 3 : 200;
     passes.startRecording(software ? gl::Clock::Wall : gl::Clock::Gpu, frames);

@@ -12,6 +12,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "perception/popping/gpu/open_pass.h"
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/sensitivity.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/masking.h"
@@ -22,16 +23,16 @@ namespace {
 using gl::Access;
 using gl::Format;
 
-constexpr glm::ivec2 kGroup{32, 8};
+constexpr glm::ivec2 kGroup{kPoppingGroupX, kPoppingGroupY};
 const std::string kFolder = "perception/popping/gpu/";
 
 // Nodes of the sensitivity table in a decade of velocity or luminance: sensitivities are straight enough
 // between them for an error below 1e-3 of their value.
 constexpr double kNodesPerDecade = 65.0;
 constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
-constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is held to this range
+constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is clamped to this range
 
-/// What adaptation luminance is read from, as response.glsl tells them apart.
+/// Sources of adaptation luminance, as distinguished in response.glsl.
 enum class AdaptationSource { Level, Mean, Fixed };
 constexpr EnumNames<AdaptationSource, 3> enumNames(AdaptationSource) {
   return {{{{AdaptationSource::Level, "level"},
@@ -47,7 +48,7 @@ AdaptationSource sourceOf(const PoppingSettings& settings) {
 
 PoppingModel modelOf(glm::ivec2 sizePx, const DisplayProfile& display, const PoppingSettings& settings) {
   if (settings.bands.isStack())
-    throw Error("decomposition 'stack' does not run on the GPU", "popping", "take pyramid, or the CPU");
+    throw Error("decomposition 'stack' does not run on the GPU", "popping", "use pyramid, or the CPU");
   return poppingModel(sizePx.x, sizePx.y, display, settings);
 }
 
@@ -77,10 +78,10 @@ gl::ShaderDefines maskingDefines(const ChosenEntry& masking) {
   }
   if (name == "self") return {{"MASKING_ALPHA", number(SelfMasking::table().read(values).alpha)}};
   throw Error("masking model '" + name + "' does not run on the GPU", "popping",
-              "take none, daly, lubin, schwarz or self");
+              "use none, daly, lubin, schwarz or self");
 }
 
-/// Velocity of the table's first node: the least that the eye model leaves on the retina.
+/// Velocity of the table's first node: the smallest retinal velocity of the eye model.
 double slowest(const PoppingSettings& settings) {
   const EyeMovement model = settings.eyeModel();
   const bool hasFloor = model == EyeMovement::Floor || model == EyeMovement::Monotone;
@@ -129,8 +130,8 @@ Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& disp
   return table;
 }
 
-/// Tables take a tenth of a second and more and are the same for all runs of a sweep on one display: the last
-/// few are kept. The key is all that makeSensitivityTable() reads.
+/// Tables take a tenth of a second or more and are the same for all runs of a sweep on one display: the last
+/// few are cached. The key is everything that makeSensitivityTable() reads.
 std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
                                               const PoppingSettings& settings, const TableGrid& grid) {
   constexpr size_t kKept = 8;
@@ -177,7 +178,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       sensitivities_(Format::RGBA32F, tablePx(model_, tableSize_)),
       jnd_(Format::R32F, sizePx),
       seeds_(Format::R8UI, sizePx),
-      counters_(8, nullptr),
+      counters_(sizeof(PoppingCounters), nullptr),
       mean_(8, nullptr),
       regions_(context, sizePx, settings) {
   defineEnum(defines_, "EYE_MOVEMENT", settings.eyeModel());
@@ -214,13 +215,13 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
         input.actualDisplacement ? input.actualDisplacement : input.predictedDisplacement;
     const gl::Texture* predictedMove =
         input.predictedDisplacement ? input.predictedDisplacement : input.actualDisplacement;
-    input.actual->bindTexture(0);
-    input.predicted->bindTexture(1);
-    (actualMove ? actualMove : input.actual)->bindTexture(2);
-    (predictedMove ? predictedMove : input.predicted)->bindTexture(3);
-    cones_.bindImage(0, Access::Write);
-    seeds_.bindImage(1, Access::Write);
-    counters_.bindStorage(0);
+    input.actual->bindTexture(kLightActualUnit);
+    input.predicted->bindTexture(kLightPredictedUnit);
+    (actualMove ? actualMove : input.actual)->bindTexture(kLightActualDisplacementUnit);
+    (predictedMove ? predictedMove : input.predicted)->bindTexture(kLightPredictedDisplacementUnit);
+    cones_.bindImage(kLightConesImage, Access::Write);
+    seeds_.bindImage(kLightSeedsImage, Access::Write);
+    counters_.bindStorage(kPoppingCountersBuffer);
     light.set("frameCount", 2);
     light.set("grey", grey ? 1 : 0);
     light.set("transfer", input.linear ? 2 : static_cast<int>(display_.transfer));
@@ -240,7 +241,7 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
     for (int level = 1; level < model_.contrastLevels; ++level) {
       const gl::Program& difference = program("difference");
       bindResponse(difference, level);
-      differences_.bindImage(0, Access::Write, level - 1);
+      differences_.bindImage(kDifferencesImage, Access::Write, level - 1);
       difference.set("exponent", static_cast<float>(settings_.minkowskiExponent));
       difference.dispatch(levelSize(level), kGroup);
     }
@@ -257,10 +258,10 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
   const std::array<double, 5> taps = settings_.bands.kernel().taps;
   const gl::Program& reduce = program("reduce");
   reduce.set("taps", glm::vec3(taps[0], taps[1], taps[2]));
-  cones_.bindTexture(0);
+  cones_.bindTexture(kReduceConesUnit);
   for (int level = 0; level + 1 < model_.gaussianLevels; ++level) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    cones_.bindImage(0, Access::Write, level + 1);
+    cones_.bindImage(kReduceCoarserImage, Access::Write, level + 1);
     reduce.set("level", level);
     reduce.use();
     const glm::ivec2 groups = (levelSize(level + 1) + kGroup - 1) / kGroup;
@@ -269,7 +270,7 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   if (!std::holds_alternative<MeanAdaptation>(settings_.adaptation)) return;
   const gl::Program& mean = program("mean");
-  mean_.bindStorage(1);
+  mean_.bindStorage(kMeanLuminanceBuffer);
   mean.set("level", model_.gaussianLevels - 1);
   mean.set("luminanceOfCones", luminanceOfCones_);
   mean.dispatch({2, 1}, {1, 1});
@@ -277,10 +278,10 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
 }
 
 void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
-  cones_.bindTexture(0);
-  sensitivities_.bindTexture(2);
-  counters_.bindStorage(0);
-  mean_.bindStorage(1);
+  cones_.bindTexture(kResponseConesUnit);
+  sensitivities_.bindTexture(kResponseSensitivitiesUnit);
+  counters_.bindStorage(kPoppingCountersBuffer);
+  mean_.bindStorage(kMeanLuminanceBuffer);
   const std::array<double, 5> taps = settings_.bands.kernel().taps;
   const bool expand = settings_.bands.upsampler() == Upsampler::Expand;
   const auto* fixed = std::get_if<FixedAdaptation>(&settings_.adaptation);
@@ -308,12 +309,12 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
 void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown) {
   const gl::Program& collapse = program("collapse");
   bindResponse(collapse, 0);
-  differences_.bindTexture(3);
+  differences_.bindTexture(kCollapseDifferencesUnit);
   const bool disocclusion = input.disocclusion && settings_.usesDisocclusion();
   const bool flicker = input.flicker && settings_.usesFlicker();
-  (disocclusion ? input.disocclusion : input.actual)->bindTexture(4);
-  (flicker ? input.flicker : input.actual)->bindTexture(5);
-  target.bindImage(0, Access::Write);
+  (disocclusion ? input.disocclusion : input.actual)->bindTexture(kCollapseDisocclusionUnit);
+  (flicker ? input.flicker : input.actual)->bindTexture(kCollapseFlickerUnit);
+  target.bindImage(kCollapseJndImage, Access::Write);
   collapse.set("contrastLevels", model_.contrastLevels);
   collapse.set("exponent", static_cast<float>(settings_.minkowskiExponent));
   collapse.set("hasWeight", glm::ivec2(disocclusion, flicker));
@@ -322,8 +323,8 @@ void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Textu
 }
 
 PoppingPredictorGpu::Counts PoppingPredictorGpu::readCounts() const {
-  const std::vector<uint32_t> counts = counters_.read<uint32_t>();
-  return {counts[0], counts[1]};
+  const PoppingCounters counts = counters_.read<PoppingCounters>().front();
+  return {counts.flushed, counts.guarded};
 }
 
 Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuInput& input) {
@@ -347,15 +348,15 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
       if (map.labels[p]) image.data[p] = static_cast<float>(map.regions[map.labels[p] - 1].rating);
     return image;
   }
-  const uint32_t counts[2] = {readCounts().flushedInputs, readCounts().guardedContrasts};
+  const PoppingCounters counts{readCounts().flushedInputs, readCounts().guardedContrasts};
   const auto restoreCounts = [&] {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    counters_.write(0, 8, counts);
+    counters_.write(0, sizeof counts, &counts);
   };
   if (name == "jnd" || name == "weight" || name == "signed_jnd") {
     if (name == "signed_jnd" && settings_.collapse == Collapse::Magnitude)
       throw Error("no stage 'signed_jnd' on the GPU with collapse: magnitude", "popping",
-                  "take collapse: signed");
+                  "use collapse: signed");
     const gl::Texture target(Format::R32F, sizePx_);
     collapse(input, target, name == "jnd" ? 1 : name == "weight" ? 2 : 3);
     restoreCounts();
@@ -380,7 +381,7 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
   const gl::Texture target(Format::RGBA32F, levelSize(level));
   const gl::Program& difference = program("difference", true);
   bindResponse(difference, level);
-  target.bindImage(0, Access::Write);
+  target.bindImage(kDifferencesImage, Access::Write);
   difference.set("shownFrame", isPredicted ? 1 : 0);
   difference.set("shownStage", static_cast<int>(index));
   difference.dispatch(levelSize(level), kGroup);

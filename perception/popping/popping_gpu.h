@@ -13,8 +13,8 @@
 
 namespace limen::perception {
 
-/// As PoppingInput, on the GPU. Textures are of the predictor's size and live until run() has returned; for
-/// debugImage() until that has.
+/// Like PoppingInput, on the GPU. Textures have the predictor's size and must live until run() has returned;
+/// for debugImage() until that has.
 struct PoppingGpuInput {
   const gl::Texture* actual = nullptr;  ///< any colour format; one channel is grey
   const gl::Texture* predicted = nullptr;
@@ -25,13 +25,12 @@ struct PoppingGpuInput {
   const gl::Texture* flicker = nullptr;
 };
 
-/// The popping predictor on the GPU: predictPopping() in single precision, sensitivities from a table. Makes
-/// all it needs once, for one image size; run() neither allocates nor reads back. Equal frames give a
+/// The popping predictor on the GPU: predictPopping() in single precision, sensitivities from a table.
+/// Allocates everything once, for one image size; run() neither allocates nor reads back. Equal frames give a
 /// difference of exactly 0, and the same input the same bytes. Source: Schwarz 2009, section 10.3.
 class PoppingPredictorGpu {
  public:
-  /// Throws Error as poppingModel(), and on a masking model or decomposition that has no form for the
-  /// GPU.
+  /// Throws Error like poppingModel(), and on a masking model or decomposition without a GPU version.
   PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
                       const PoppingSettings& settings = {});
 
@@ -44,7 +43,7 @@ class PoppingPredictorGpu {
   const gl::Texture& labels() const { return regions_.labels(); }
   /// Count and records of the regions (gpu/region_table.glsl), for use on the GPU.
   const gl::Buffer& regionTable() const { return regions_.table(); }
-  /// Regions of the last run; waits for the GPU, as all that follows.
+  /// Regions of the last run; waits for the GPU, as do all members below.
   RegionMap readRegions() const { return regions_.read(); }
   struct Counts {
     uint32_t flushedInputs = 0, guardedContrasts = 0;  ///< as in PoppingResult

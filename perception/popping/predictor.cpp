@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Schwarz 2009, section 10.3, step by step as the headings below. Where the thesis leaves a choice:
+// Schwarz 2009, section 10.3, step by step under the headings below. Where the thesis leaves a choice:
 //  - displacements enter as speed, which is filtered and halved like the colours, so that each level has the
-//    velocity of what its pixels show;
+//  velocity of its pixels' content;
 //  - adaptation luminance is interpolated linearly from the level of about a degree; levels coarser than that
 //    use their own;
 //  - differences of coarse levels are interpolated linearly, sign and all, before they are raised
@@ -156,7 +156,7 @@ class Predictor {
     return levels;
   }
 
-  // Luminance that the eye is adapted to, at the size of a level.
+  // Adaptation luminance, at the size of a level.
   Plane adaptation(const FrameLevels& frame, int level) const {
     const Plane& own = frame.lms[0][static_cast<size_t>(level)];
     if (const auto* fixed = std::get_if<FixedAdaptation>(&settings_.adaptation))

@@ -14,22 +14,23 @@
 namespace limen::perception {
 
 /// What the predictor compares: the frame as it was rendered with the new level of detail (actual) and the
-/// same frame with the old one (predicted). All images are of one size, row 0 on top.
+/// same frame with the old one (predicted). All images have the same size, row 0 at the top.
 struct PoppingInput {
   /// 1 channel (grey) or 3 or more (RGB, others ignored).
   Image actual, predicted;
   /// Values are light (Rec. 709, 1: the display's white); those above 1 are brighter than the display's
-  /// white. Else they are pixel values, which the display's transfer curve turns into light.
+  /// white. Otherwise they are pixel values, which the display's transfer curve turns into light.
   bool linear = false;
   /// Displacement of each pixel against the previous frame: 2 or more channels, pixels per frame. Empty:
-  /// nothing moves. A single one given serves both frames.
+  /// nothing moves. If only one is given, it is used for both frames.
   Image actualDisplacement, predictedDisplacement;
   /// Factors in [0, 1] on the difference map, 1 channel, e.g. disocclusionWeight() and flickerWeight().
   /// Empty: 1 everywhere.
   Image disocclusion, flicker;
 };
 
-/// What the model works with for one display and image size; part of every result, so that it can be printed.
+/// Derived quantities of the model for one display and image size; part of every result, so that they can be
+/// printed.
 struct PoppingModel {
   double pixelsPerDegree = 0.0;
   double areaDeg2 = 0.0, widthDeg = 0.0;  ///< of the images on the display
@@ -41,7 +42,7 @@ struct PoppingModel {
 struct PoppingSummary {
   double largestJnd = 0.0, meanJnd = 0.0;
   /// Mean of the signed difference map: positive where the actual frame has the stronger response. Swapping
-  /// the frames turns its sign.
+  /// the frames flips its sign.
   double signedMeanJnd = 0.0;
   int64_t aboveThresholdPx = 0;       ///< pixels of at least regionThresholdJnd
   int64_t seedPx = 0;                 ///< those whose input colours differ
@@ -57,15 +58,15 @@ struct PoppingResult {
   RegionMap regions;
   PoppingSummary summary;
   PoppingModel model;
-  int64_t flushedInputs = 0;     ///< non-finite input values that were taken as 0 (weights: as 1)
+  int64_t flushedInputs = 0;     ///< non-finite input values that were replaced by 0 (weights: by 1)
   int64_t guardedContrasts = 0;  ///< contrasts whose denominator was raised to denominatorEpsilon
-  /// Stages asked for, by name, each of the size of its pyramid level (see poppingStages()).
+  /// Requested stages, by name, each with the size of its pyramid level (see poppingStages()).
   std::map<std::string, Image> stages;
 };
 
 struct PoppingOptions {
-  /// Sensitivities: false evaluates each pixel's; true reads fine tables (see sensitivity.h), which is faster
-  /// and differs by less than 1e-6 of the value.
+  /// Sensitivities: false evaluates the model for each pixel; true reads fine tables (see sensitivity.h),
+  /// which is faster and differs by less than 1e-6 of the value.
   bool tables = true;
   /// Names of stages to return; "all" for every one.
   std::vector<std::string> stages;
@@ -78,14 +79,14 @@ struct PoppingOptions {
 /// "weighted_jnd", "seeds", "labels", "rating".
 std::vector<std::string> poppingStages(const PoppingModel& model);
 
-/// The model that predictPopping() uses. Throws Error as it does.
+/// The model that predictPopping() uses. Throws Error like that.
 PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& display,
                           const PoppingSettings& settings);
 
 /// The predictor in double precision: the reference for the GPU's. Finite on every input. Throws Error on
 /// images of different sizes or too few channels, and on an unknown stage. Source: Schwarz 2009,
-/// section 10.3. What is uniform over the frame has no contrast and is never seen to pop, however much it
-/// changes: a property of the model.
+/// section 10.3. Uniform content has no contrast and never pops, however much it changes: a property of the
+/// model.
 PoppingResult predictPopping(const PoppingInput& input, const DisplayProfile& display,
                              const PoppingSettings& settings = {}, const PoppingOptions& options = {});
 

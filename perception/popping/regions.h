@@ -10,13 +10,13 @@
 
 namespace limen::perception {
 
-/// A connected region in which popping may be seen.
+/// A connected region in which popping may be visible.
 struct PoppingRegion {
   uint32_t label = 0;  ///< from 1, in order of the regions' first pixels, row by row
   int64_t sizePx = 0;
   double sigma = 0.0;            ///< Minkowski sum of the difference over its pixels [JND]
   double rating = 0.0;           ///< R = ln(0.375 sigma) / ln 2.25; below 1 rarely, above 3 easily seen
-  glm::ivec2 least{0}, most{0};  ///< bounding box, both corners inside
+  glm::ivec2 least{0}, most{0};  ///< bounding box, both corners inclusive
   double largestJnd = 0.0;
   glm::dvec2 centroidPx{0.0};  ///< mean of pixel centres; (0.5, 0.5) is the first pixel's
   double coverage = 0.0;       ///< share of the image
@@ -31,7 +31,7 @@ struct RegionMap {
 
   /// Region at a pixel; null if there is none or the pixel lies outside.
   const PoppingRegion* at(int x, int y) const;
-  /// Regions with pixels in the rectangle (corners inside), with how many; most first.
+  /// Regions with pixels in the rectangle (corners inclusive) and their pixel counts, largest first.
   struct Share {
     const PoppingRegion* region = nullptr;
     int64_t pixels = 0;
@@ -44,7 +44,7 @@ struct RegionMap {
 /// R(Sigma) = ln(scale * Sigma) / ln(base). Minus infinity for Sigma = 0.
 double poppingRating(double sigma, const PoppingSettings& settings = {});
 
-/// Pixels of jnd >= threshold, connected, kept where a seed pixel of that threshold lies in them. `seeds`
+/// Connected pixels with jnd >= threshold, kept if they contain a seed pixel. `seeds`
 /// empty: every pixel is a seed. `jnd` row by row; values that are not finite count as 0.
 RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>& seeds, int width,
                       int height, const PoppingSettings& settings = {});

@@ -30,7 +30,7 @@ class FineTable {
 };
 
 /// Calibrated sensitivities of the channels A, a, b for each level of the contrast pyramid: contrast times
-/// sensitivity is in units of the just visible.
+/// sensitivity is in units of the visibility threshold.
 class Sensitivity {
  public:
   /// `tables`: see PoppingOptions.
@@ -40,7 +40,7 @@ class Sensitivity {
   std::array<double, 3> at(int level, double velocityDegS, double luminanceCdM2) const;
 
  private:
-  /// One channel's model. How it is evaluated depends on what it reads.
+  /// One channel's model. How it is evaluated depends on its inputs.
   struct Channel {
     std::shared_ptr<const Csf> csf;
     double scale = 1.0;
@@ -61,7 +61,7 @@ class Sensitivity {
 /// Factors that bring the peaks of the settings' sensitivities to 1 / threshold: K_A, K_a, K_b. Throws Error
 /// on an unknown model or one whose peak is 0 there.
 std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoint& viewing);
-/// What a model reads of the viewer besides frequency, velocity and luminance.
+/// What a model needs about the viewer besides frequency, velocity and luminance.
 CsfPoint viewingPoint(double areaDeg2, double widthDeg, const DisplayProfile& display);
 
 }  // namespace limen::perception

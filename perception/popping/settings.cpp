@@ -19,7 +19,7 @@ std::vector<std::string> chromaticCsfNames() {
   return {names.begin(), names.end()};
 }
 
-/// A CSF by name: its constants are those of the registry, but for the scale of Kelly 1983.
+/// A CSF by name, with the registry's constants except for the scale of Kelly 1983.
 template <class S>
 Binding<S> csfChoice(std::vector<std::string> names, std::string description) {
   settings::EntryOptions options{
@@ -32,7 +32,7 @@ Binding<S> csfChoice(std::vector<std::string> names, std::string description) {
 }
 
 constexpr Range kContrast{1e-5, 1.0}, kLuminance{1e-3, 1e4}, kDrift{1e-3, 10.0};
-constexpr const char* kDriftText = "retinal velocity that drift leaves at least";
+constexpr const char* kDriftText = "smallest retinal velocity, due to drift";
 
 }  // namespace
 
@@ -42,10 +42,10 @@ const SettingsTable<AchromaticSettings>& AchromaticSettings::table() {
       csfChoice<S>(csfNames(Channel::Achromatic), "contrast sensitivity of the channel")
           .formerly({"csf_achromatic"}),
       Binding(&S::threshold, "threshold", kContrast, "contrast",
-              "contrast that is just seen at the peak of sensitivity", kModel)
+              "contrast threshold at the peak of sensitivity", kModel)
           .formerly({"threshold_achromatic"}),
       Binding(&S::luminanceCdM2, "luminance_cd_m2", kLuminance, "cd/m2",
-              "adaptation luminance that the threshold refers to", kOwn)
+              "adaptation luminance to which the threshold refers", kOwn)
           .formerly({"calibration_luminance_cd_m2"})};
   return kTable;
 }
@@ -56,10 +56,10 @@ const SettingsTable<ChromaticSettings>& ChromaticSettings::table() {
       csfChoice<S>(chromaticCsfNames(), "contrast sensitivity of the channel")
           .formerly({"csf_red_green", "csf_blue_yellow"}),
       Binding(&S::threshold, "threshold", kContrast, "contrast",
-              "contrast that is just seen at the peak of sensitivity", kModel)
+              "contrast threshold at the peak of sensitivity", kModel)
           .formerly({"threshold_red_green", "threshold_blue_yellow"}),
       Binding(&S::luminanceCdM2, "luminance_cd_m2", kLuminance, "cd/m2",
-              "adaptation luminance that the threshold refers to", kOwn)
+              "adaptation luminance to which the threshold refers", kOwn)
           .formerly({"calibration_chromatic_cd_m2"})};
   return kTable;
 }
@@ -67,7 +67,7 @@ const SettingsTable<ChromaticSettings>& ChromaticSettings::table() {
 const SettingsTable<Kelly83Scale>& Kelly83Scale::table() {
   static const SettingsTable<Kelly83Scale> kTable = {
       Binding(&Kelly83Scale::referenceCdM2, "reference_cd_m2", kLuminance, "cd/m2",
-              "luminance of the sensitivity's data, at which it needs no scale", kModel)
+              "luminance of the sensitivity's data, at which the scale is 1", kModel)
           .formerly({"chromatic_reference_cd_m2"})};
   return kTable;
 }
@@ -89,7 +89,7 @@ const SettingsTable<SensitivitySettings>& SensitivitySettings::table() {
       {&S::redGreen, "red_green", "channel a"},
       {&S::blueYellow, "blue_yellow", "channel b"},
       Binding(&S::velocityDegS, "velocity_deg_s", Range{0.01, 100.0}, "deg/s",
-              "retinal velocity that the thresholds refer to", kOwn)
+              "retinal velocity to which the thresholds refer", kOwn)
           .formerly({"calibration_velocity_deg_s"}),
       Binding(&S::stimulusArea, "stimulus_area", "area in Barten's sensitivity", kModel)
           .formerly({"stimulus_area_deg2"}),
@@ -116,7 +116,7 @@ const SettingsTable<MonotoneTracking>& MonotoneTracking::table() {
 const SettingsTable<LevelsByPeak>& LevelsByPeak::table() {
   static const SettingsTable<LevelsByPeak> kTable = {
       Binding(&LevelsByPeak::leastPeakCpd, "least_peak_cpd", Range{0.01, 30.0}, "cpd",
-              "least peak frequency of the coarsest contrast level", kModel)
+              "smallest peak frequency of the coarsest contrast level", kModel)
           .formerly({"least_peak_cpd"})};
   return kTable;
 }
@@ -132,7 +132,7 @@ const SettingsTable<LevelCount>& LevelCount::table() {
 const SettingsTable<PyramidBands>& PyramidBands::table() {
   static const SettingsTable<PyramidBands> kTable = {
       Binding(&PyramidBands::upsampler, "upsampler",
-              "how coarser levels reach the size of finer ones: the kernel transposed, or linearly", kOwn)
+              "how coarser levels are upsampled: with the transposed kernel, or linearly", kOwn)
           .formerly({"upsampler"})};
   return kTable;
 }
@@ -143,16 +143,16 @@ const SettingsTable<BandSettings>& BandSettings::table() {
       Binding(&S::decomposition, "decomposition",
               "bands from a halving pyramid, or all at full size (slow, CPU only)", kModel)
           .formerly({"decomposition"}),
-      {&S::levels, "levels", "how many there are", kModel},
+      {&S::levels, "levels", "number of levels", kModel},
       Binding(&S::kernelCentre, "kernel_centre", Range{0.3, 0.5}, "",
               "centre of the five-tap low-pass of Burt and Adelson; 0.375: binomial", kModel)
           .formerly({"kernel_centre"}),
-      Binding(&S::peakModel, "peak_model", "frequency that a level stands for", kModel)
+      Binding(&S::peakModel, "peak_model", "frequency that a level represents", kModel)
           .formerly({"peak_model"}),
       Binding(&S::compensateGain, "compensate_gain", "divide a level's contrast by its filter's gain", kModel)
           .formerly({"compensate_gain"}),
       Binding(&S::denominatorEpsilon, "denominator_epsilon", Range{1e-9, 10.0}, "cd/m2",
-              "least cone response that a contrast is divided by", kOwn)
+              "smallest cone response used as a contrast's denominator", kOwn)
           .formerly({"denominator_epsilon"})};
   return kTable;
 }
@@ -166,7 +166,7 @@ Upsampler BandSettings::upsampler() const {
 const SettingsTable<FixedAdaptation>& FixedAdaptation::table() {
   static const SettingsTable<FixedAdaptation> kTable = {Binding(&FixedAdaptation::luminanceCdM2,
                                                                 "luminance_cd_m2", Range{1e-4, 1e4}, "cd/m2",
-                                                                "luminance that the eye is adapted to", kOwn)
+                                                                "luminance to which the eye is adapted", kOwn)
                                                             .formerly({"fixed_luminance_cd_m2"})};
   return kTable;
 }
@@ -183,11 +183,12 @@ const SettingsTable<RegionSettings>& RegionSettings::table() {
   using S = RegionSettings;
   static const SettingsTable<S> kTable = {
       Binding(&S::thresholdJnd, "threshold_jnd", Range{1e-3, 1e3}, "JND",
-              "difference of a region's pixels, at least", kRegions)
+              "smallest difference of a region's pixels", kRegions)
           .formerly({"region_threshold_jnd"}),
       Binding(&S::connectivity, "connectivity", oneOf({4, 8}), "", "neighbours of a pixel", kRegions)
           .formerly({"connectivity"}),
-      Binding(&S::seeds, "seeds", "pixels that a region needs one of: where the input colours differ, or any",
+      Binding(&S::seeds, "seeds",
+              "pixels of which a region must contain one: those where the input colours differ, or any",
               kRegions)
           .formerly({"seed_rule"})};
   return kTable;
@@ -206,17 +207,18 @@ const SettingsTable<RatingSettings>& RatingSettings::table() {
 const SettingsTable<PoppingSettings>& PoppingSettings::table() {
   using S = PoppingSettings;
   static const SettingsTable<S> kTable = {
-      {&S::sensitivity, "sensitivity", "contrast sensitivities of the channels, and what they refer to"},
-      {&S::eyeMovement, "eye_movement", "how the eye's tracking leaves velocity on the retina", kModel},
+      {&S::sensitivity, "sensitivity",
+       "contrast sensitivities of the channels, and their reference conditions"},
+      {&S::eyeMovement, "eye_movement", "retinal velocity that remains after the eye's tracking", kModel},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
-      {&S::bands, "bands", "how pictures are taken apart into bands of frequency"},
-      {&S::adaptation, "adaptation", "luminance that the eye is adapted to", kModel},
+      {&S::bands, "bands", "how pictures are decomposed into frequency bands"},
+      {&S::adaptation, "adaptation", "luminance to which the eye is adapted", kModel},
       {&S::minkowskiExponent,
        "minkowski_exponent",
        {1.0, 8.0},
        "",
-       "of the sums over levels and channels, and over a region",
+       "exponent of the sums over levels and channels, and over a region",
        kRegions},
       {&S::collapse, "collapse",
        "whether coarse differences are interpolated before or after they are raised", kOwn},

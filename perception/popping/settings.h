@@ -16,8 +16,8 @@ namespace limen::perception {
 /// Sensitivity of channel A.
 struct AchromaticSettings {
   ChosenEntry csf{"daly98", {}};  ///< of CsfRegistry
-  double threshold = 0.005;       ///< contrast that is just seen at the peak of sensitivity
-  double luminanceCdM2 = 100.0;   ///< adaptation luminance that the threshold refers to
+  double threshold = 0.005;       ///< contrast threshold at the peak of sensitivity
+  double luminanceCdM2 = 100.0;   ///< adaptation luminance to which the threshold refers
   static const SettingsTable<AchromaticSettings>& table();
 };
 /// Of channel a or b.
@@ -29,7 +29,7 @@ struct ChromaticSettings {
 };
 /// How a predictor scales Kelly 1983 with luminance.
 struct Kelly83Scale {
-  double referenceCdM2 = 35.0;  ///< luminance of the data, at which there is no scale
+  double referenceCdM2 = 35.0;  ///< luminance of the data, at which the scale is 1
   static const SettingsTable<Kelly83Scale>& table();
   /// Those of a CSF chosen for a chromatic channel.
   static Kelly83Scale of(const ChosenEntry& csf);
@@ -47,32 +47,33 @@ struct FixedArea {
 struct SensitivitySettings {
   AchromaticSettings achromatic;
   ChromaticSettings redGreen, blueYellow{.threshold = 0.012};
-  double velocityDegS = 0.15;                       ///< retinal velocity that the thresholds refer to
+  double velocityDegS = 0.15;                       ///< retinal velocity to which the thresholds refer
   std::variant<ImageArea, FixedArea> stimulusArea;  ///< of Barten's CSF
   bool divideGreyGain = true;                       ///< divide A by 3.05, so that it is luminance contrast
   static const SettingsTable<SensitivitySettings>& table();
 };
 
-// How the eye's tracking leaves velocity on the retina; see EyeMovement.
+// Retinal velocity that remains after the eye's tracking; see EyeMovement.
 struct LiteralTracking {
   static constexpr const char *kKind = "literal", *kSummary = "as published, vanishing at 0.833 deg/s";
 };
 struct FlooredTracking {
-  static constexpr const char *kKind = "floor", *kSummary = "as published, but never less than drift leaves";
-  double leastVelocityDegS = kLeastRetinalVelocityDegS;  ///< what drift leaves
+  static constexpr const char *kKind = "floor",
+                              *kSummary = "as published, but never below the drift velocity";
+  double leastVelocityDegS = kLeastRetinalVelocityDegS;  ///< drift velocity
   static const SettingsTable<FlooredTracking>& table();
 };
 struct MonotoneTracking {
   static constexpr const char *kKind = "monotone",
-                              *kSummary = "growing with speed, and never less than drift leaves";
+                              *kSummary = "growing with speed, and never below the drift velocity";
   double leastVelocityDegS = kLeastRetinalVelocityDegS;
   static const SettingsTable<MonotoneTracking>& table();
 };
 struct NoTracking {
-  static constexpr const char *kKind = "none", *kSummary = "the velocity on the screen";
+  static constexpr const char *kKind = "none", *kSummary = "the screen velocity";
 };
 
-/// How many levels there are.
+/// Number of levels.
 struct LevelsByPeak {
   static constexpr const char *kKind = "by_peak", *kSummary = "all contrast levels whose peak is fine enough";
   double leastPeakCpd = 0.5;  ///< of the coarsest contrast level
@@ -99,7 +100,7 @@ struct PyramidBands {
 struct StackBands {
   static constexpr const char *kKind = "stack",
                               *kSummary =
-                                  "every level at full size, what the pyramid approximates; on the "
+                                  "every level at full size, which the pyramid approximates; on the "
                                   "CPU only";
 };
 
@@ -109,7 +110,7 @@ struct BandSettings {
   double kernelCentre = 0.375;  ///< a of the low-pass 1/4 - a/2, 1/4, a, 1/4, 1/4 - a/2; 0.375: binomial
   PeakModel peakModel = PeakModel::WithUpsample;
   bool compensateGain = true;        ///< divide a level's contrast by its filter's gain
-  double denominatorEpsilon = 1e-3;  ///< least cone response that a contrast is divided by [cd/m2]
+  double denominatorEpsilon = 1e-3;  ///< smallest cone response used as a contrast's denominator [cd/m2]
   static const SettingsTable<BandSettings>& table();
 
   Kernel kernel() const { return Kernel::burt5(kernelCentre); }
@@ -118,10 +119,10 @@ struct BandSettings {
   Upsampler upsampler() const;
 };
 
-// Luminance that the eye is adapted to.
+// Luminance to which the eye is adapted.
 struct LocalAdaptation {
   static constexpr const char *kKind = "local",
-                              *kSummary = "of the level whose pixels are nearest to a degree";
+                              *kSummary = "of the level whose pixels are closest to one degree";
 };
 struct MeanAdaptation {
   static constexpr const char *kKind = "mean", *kSummary = "mean of the frame";
@@ -139,7 +140,7 @@ struct LevelAdaptation {
 
 /// How a coarse level's response difference reaches the pixels of the finest.
 enum class Collapse {
-  Signed,    ///< interpolated, then raised: as if every level had been kept at full size
+  Signed,    ///< interpolated, then raised: as if every level had full size
   Magnitude  ///< raised, then interpolated
 };
 constexpr EnumNames<Collapse, 2> enumNames(Collapse) {
@@ -176,15 +177,15 @@ struct PoppingSettings {
   std::variant<LocalAdaptation, MeanAdaptation, FixedAdaptation, LevelAdaptation> adaptation;
   double minkowskiExponent = 2.4;
   Collapse collapse = Collapse::Signed;
-  std::variant<DisocclusionSettings, IgnoredWeight> disocclusion;  ///< heeded where it is given
-  std::variant<FlickerSettings, IgnoredWeight> flicker;            ///< heeded where it is given
+  std::variant<DisocclusionSettings, IgnoredWeight> disocclusion;  ///< used if given
+  std::variant<FlickerSettings, IgnoredWeight> flicker;            ///< used if given
   RegionSettings regions;
   RatingSettings rating;
   DetectionModel detection;
   static const SettingsTable<PoppingSettings>& table();
 
   EyeMovement eyeModel() const;
-  /// What drift leaves on the retina at least; that of the default where the eye model has none.
+  /// Smallest retinal velocity, due to drift; the default's if the eye model has none.
   double leastVelocityDegS() const;
   bool usesDisocclusion() const { return std::holds_alternative<DisocclusionSettings>(disocclusion); }
   bool usesFlicker() const { return std::holds_alternative<FlickerSettings>(flicker); }

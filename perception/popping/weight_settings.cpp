@@ -13,7 +13,7 @@ const SettingsTable<DisocclusionSettings>& DisocclusionSettings::table() {
   using S = DisocclusionSettings;
   static const SettingsTable<S> kTable = {
       Binding(&S::outsideVisibility, "outside_visibility", Range{0.0, 1.0}, "",
-              "visibility of what was outside the previous frame", kNotGiven)
+              "visibility of points that were outside the previous frame", kNotGiven)
           .formerly({"outside_visibility"}),
       Binding(&S::pcfRadiusPx, "pcf_radius_px", Range{0, 8}, "px",
               "radius of the previous depth comparison; 0: the four nearest texels", kNotGiven)
@@ -27,11 +27,12 @@ const SettingsTable<FlickerSettings>& FlickerSettings::table() {
   using S = FlickerSettings;
   static const SettingsTable<S> kTable = {
       Binding(&S::kappa, "kappa", Range{0.0, 10.0}, "",
-              "colour difference over time, over that of the levels of detail, that counts as flicker",
+              "colour difference over time, relative to that between the levels of detail, that counts as "
+              "flicker",
               kNotGiven)
           .formerly({"flicker_kappa"}),
       Binding(&S::maxDisplacementPx, "max_displacement_px", Range{0.0, 1e4}, "px",
-              "displacement from which on nothing counts as flicker", kNotGiven)
+              "displacement from which nothing counts as flicker", kNotGiven)
           .formerly({"flicker_max_displacement_px"}),
       Binding(&S::weight, "weight", Range{0.0, 1.0}, "", "weight of a flickering pixel", kNotGiven)
           .formerly({"flicker_weight"}),

@@ -5,12 +5,12 @@
 
 namespace limen::perception {
 
-/// How much of a pixel's difference counts by what of it was seen in the frame before. Schwarz 2009, section
+/// Weight of a pixel's difference by how visible it was in the previous frame. Schwarz 2009, section
 /// 10.3.4.
 struct DisocclusionSettings {
-  static constexpr const char *kKind = "weighted", *kSummary = "by what was hidden in the frame before";
-  double outsideVisibility = 0.0;  ///< of a pixel whose previous place lies outside the frame
-  int pcfRadiusPx = 0;             ///< taps of the depth comparison: (2 r + 1)^2 places, four texels each
+  static constexpr const char *kKind = "weighted", *kSummary = "by what was hidden in the previous frame";
+  double outsideVisibility = 0.0;  ///< of a pixel whose previous position lies outside the frame
+  int pcfRadiusPx = 0;             ///< taps of the depth comparison: (2 r + 1)^2 positions, four texels each
   double depthTolerance = 0.01;    ///< relative difference of linear depth that is still the same surface
   static const SettingsTable<DisocclusionSettings>& table();
 };

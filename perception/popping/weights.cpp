@@ -14,7 +14,7 @@ namespace {
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
-/// Previous place of a pixel's centre, in pixels; (0.5, 0.5) is the first pixel's centre.
+/// Previous position of a pixel's centre, in pixels; (0.5, 0.5) is the first pixel's centre.
 glm::dvec2 previousPlace(const Image& displacement, int x, int y) {
   return glm::dvec2(x + 0.5, y + 0.5) -
          glm::dvec2(finite(displacement.at(x, y, 0)), finite(displacement.at(x, y, 1)));
@@ -31,7 +31,7 @@ bool seen(double pointDepth, double mapDepth, double tolerance) {
   return pointDepth <= mapDepth * (1.0 + tolerance);
 }
 
-/// Calls use(x, y, weight) for the four texels around a place, clamped to the image.
+/// Calls use(x, y, weight) for the four texels around a position, clamped to the image.
 template <class Use>
 void forBilinear(glm::dvec2 place, int width, int height, const Use& use) {
   const double x = place.x - 0.5, y = place.y - 0.5;

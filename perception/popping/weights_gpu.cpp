@@ -5,10 +5,12 @@
 
 #include <cassert>
 
+#include "perception/popping/gpu/popping_bindings.h"
+
 namespace limen::perception {
 namespace {
 
-constexpr glm::ivec2 kGroup{32, 8};
+constexpr glm::ivec2 kGroup{kPoppingGroupX, kPoppingGroupY};
 const char* const kDisocclusion = "perception/popping/gpu/disocclusion.comp.glsl";
 const char* const kFlicker = "perception/popping/gpu/flicker.comp.glsl";
 
@@ -29,11 +31,16 @@ void PoppingWeightsGpu::disocclusion(const std::vector<DisocclusionTextures>& vi
   const gl::Program& program = context_.programs().compute(kDisocclusion);
   for (uint32_t i = 0; i < 2; ++i) {
     const DisocclusionTextures& view = views[i < views.size() ? i : 0];
-    view.previousDepthOfPixel->bindTexture(3 * i);
-    view.displacement->bindTexture(3 * i + 1);
-    view.previousDepth->bindTexture(3 * i + 2);
+    static_assert(kDisocclusionDisplacement1Unit - kDisocclusionDisplacement0Unit ==
+                      kDisocclusionDepthOfPixel1Unit - kDisocclusionDepthOfPixel0Unit &&
+                  kDisocclusionPreviousDepth1Unit - kDisocclusionPreviousDepth0Unit ==
+                      kDisocclusionDepthOfPixel1Unit - kDisocclusionDepthOfPixel0Unit);
+    const uint32_t first = i * (kDisocclusionDepthOfPixel1Unit - kDisocclusionDepthOfPixel0Unit);
+    view.previousDepthOfPixel->bindTexture(kDisocclusionDepthOfPixel0Unit + first);
+    view.displacement->bindTexture(kDisocclusionDisplacement0Unit + first);
+    view.previousDepth->bindTexture(kDisocclusionPreviousDepth0Unit + first);
   }
-  weight.bindImage(0, gl::Access::Write);
+  weight.bindImage(kDisocclusionWeightsImage, gl::Access::Write);
   program.set("viewCount", static_cast<int>(views.size()));
   program.set("pcfRadius", disocclusion_.pcfRadiusPx);
   program.set("depthTolerance", static_cast<float>(disocclusion_.depthTolerance));
@@ -46,14 +53,14 @@ void PoppingWeightsGpu::flicker(const FlickerTextures& input, const gl::Texture&
   const bool compareDepth = input.previousDepthOfPixel && input.previousDepth;
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   const gl::Program& program = context_.programs().compute(kFlicker);
-  input.actual->bindTexture(0);
-  input.predicted->bindTexture(1);
-  input.previousShading->bindTexture(2);
-  input.previousFrame->bindTexture(3);
-  input.displacement->bindTexture(4);
-  (compareDepth ? input.previousDepthOfPixel : input.displacement)->bindTexture(5);
-  (compareDepth ? input.previousDepth : input.displacement)->bindTexture(6);
-  weight.bindImage(0, gl::Access::Write);
+  input.actual->bindTexture(kFlickerActualUnit);
+  input.predicted->bindTexture(kFlickerPredictedUnit);
+  input.previousShading->bindTexture(kFlickerPreviousShadingUnit);
+  input.previousFrame->bindTexture(kFlickerPreviousFrameUnit);
+  input.displacement->bindTexture(kFlickerDisplacementUnit);
+  (compareDepth ? input.previousDepthOfPixel : input.displacement)->bindTexture(kFlickerDepthOfPixelUnit);
+  (compareDepth ? input.previousDepth : input.displacement)->bindTexture(kFlickerPreviousDepthUnit);
+  weight.bindImage(kFlickerWeightsImage, gl::Access::Write);
   program.set("compareDepth", compareDepth ? 1 : 0);
   program.set("kappa", static_cast<float>(flicker_.kappa));
   program.set("largestDisplacement", static_cast<float>(flicker_.maxDisplacementPx));

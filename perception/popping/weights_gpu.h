@@ -9,14 +9,15 @@
 
 namespace limen::perception {
 
-/// As DisocclusionView: depths are linear, R32F, <= 0 for background; displacement has two channels, pixels.
+/// Like DisocclusionView: depths are linear, R32F, <= 0 for background; displacement has two channels,
+/// pixels.
 struct DisocclusionTextures {
   const gl::Texture* previousDepthOfPixel = nullptr;
   const gl::Texture* displacement = nullptr;
   const gl::Texture* previousDepth = nullptr;
 };
 
-/// As FlickerInput. Both depths may be null.
+/// Like FlickerInput. Both depths may be null.
 struct FlickerTextures {
   const gl::Texture* actual = nullptr;
   const gl::Texture* predicted = nullptr;

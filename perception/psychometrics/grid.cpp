@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kMostValues = 1'000'000;  // of one axis; more is a slip of the step
+constexpr size_t kMostValues = 1'000'000;  // per axis; more points to a wrong step
 
 const char* const kAllowed =
     "a number, a list of ascending numbers, or {from, to, step or count, spacing, unit}";
@@ -34,7 +34,7 @@ std::vector<double> readList(const json& list, const std::string& where) {
   for (const json& entry : list) {
     values.push_back(finiteNumber(entry, where));
     if (values.size() > 1 && !(values.back() > values[values.size() - 2])) {
-      throw Error(shortestNumber(values.back()) + " does not lie above the value before it", where,
+      throw Error(shortestNumber(values.back()) + " is not above the value before it", where,
                   "list the values in ascending order, each once");
     }
   }
@@ -46,7 +46,7 @@ size_t countFromStep(double from, double to, double step, bool logarithmic, cons
   const double range = logarithmic ? std::log10(to) - std::log10(from) : to - from;
   const double steps = range / step;
   if (!(steps < static_cast<double>(kMostValues))) {
-    throw Error("the step makes " + shortestNumber(std::floor(steps) + 1.0) + " values", where + ".step",
+    throw Error("the step gives " + shortestNumber(std::floor(steps) + 1.0) + " values", where + ".step",
                 "give at most a million values");
   }
   const double whole = std::max(1.0, std::round(steps));
@@ -67,7 +67,7 @@ size_t readCount(const json& value, const std::string& where) {
 
 std::string readUnit(const json& object, const std::string& where) {
   if (!object.contains("unit")) return {};
-  if (!object["unit"].is_string()) throw Error("the unit is no text", where + ".unit", "give a text");
+  if (!object["unit"].is_string()) throw Error("the unit is not a text", where + ".unit", "give a text");
   return object["unit"].get<std::string>();
 }
 
@@ -82,7 +82,7 @@ void readRange(const json& object, const std::string& where, GridAxis& axis) {
   }
   const double from = finiteNumber(object["from"], where + ".from");
   const double to = finiteNumber(object["to"], where + ".to");
-  if (!(from < to)) throw Error("'from' does not lie below 'to'", where, "list a single value as a number");
+  if (!(from < to)) throw Error("'from' is not below 'to'", where, "list a single value as a number");
   if (object.contains("spacing")) {
     const json& spacing = object["spacing"];
     if (spacing != "linear" && spacing != "log") {
@@ -107,7 +107,7 @@ std::vector<double> linearValues(double from, double to, size_t count) {
   assert(count >= 2);
   std::vector<double> values(count);
   const auto last = static_cast<double>(count - 1);
-  // Weights of both ends, so that no rounding of a step adds up.
+  // Weights of both ends, so that rounding of the step does not accumulate.
   for (size_t i = 0; i < count; ++i) {
     const auto place = static_cast<double>(i);
     values[i] = (from * (last - place) + to * place) / last;

@@ -13,29 +13,27 @@ struct GridAxis {
   std::string name;
   std::string unit;  ///< "" for pure numbers
   std::vector<double> values;
-  bool logarithmic = false;  ///< evenly spaced in the logarithm: so are the borders between values
+  bool logarithmic = false;  ///< logarithmically spaced, as are the borders between values
 
   size_t size() const { return values.size(); }
 };
 
-/// `count` >= 2 values from `from` to `to`, both exactly so.
+/// `count` >= 2 values from `from` to `to`, both exact.
 std::vector<double> linearValues(double from, double to, size_t count);
-/// The same, evenly spaced in the logarithm; 0 < from < to.
+/// The same, logarithmically spaced; 0 < from < to.
 std::vector<double> logarithmicValues(double from, double to, size_t count);
 
 /// Reads an axis: a number, a list of numbers in ascending order, or an object with
 ///     from, to             exact end points
-///     step or count        of the values; a step is one of log10 units where the spacing is "log" and has to
-///                          divide the range
-///     spacing              "linear" (default) or "log"
-///     unit                 text
+///     step or count        of the values; a step is in log10 units if the spacing is "log" and has to divide
+///     the range spacing              "linear" (default) or "log" unit                 text
 /// or with `values` (a number or a list) and `unit`. Throws Error that names `where` and the key.
 GridAxis readAxis(const nlohmann::json& json, const std::string& name, const std::string& where);
 
 /// An object that readAxis() reads back to the same axis, every value written out.
 nlohmann::json toJson(const GridAxis& axis);
 
-/// Points of a product of axes, the last axis fastest. A point's number is its place in that order.
+/// Points of a product of axes, the last axis fastest. A point's index is its position in that order.
 class ProductGrid {
  public:
   explicit ProductGrid(std::vector<GridAxis> axes);
@@ -43,7 +41,7 @@ class ProductGrid {
   const std::vector<GridAxis>& axes() const { return axes_; }
   size_t dimensions() const { return axes_.size(); }
   size_t size() const { return size_; }
-  /// Place on axis `dimension` of point `point`.
+  /// Index on axis `dimension` of point `point`.
   size_t indexOf(size_t point, size_t dimension) const {
     return point / strides_[dimension] % axes_[dimension].size();
   }

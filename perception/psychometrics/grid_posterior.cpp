@@ -16,11 +16,12 @@ namespace {
 
 using nlohmann::json;
 
-const char* const kPriors = "uniform, {normal: {mean, sd}}, {beta: {a, b}} or a list of weights, one a value";
+const char* const kPriors =
+    "uniform, {normal: {mean, sd}}, {beta: {a, b}} or a list of weights, one per value";
 
 double priorNumber(const json& object, const char* key, const std::string& where) {
   if (!object.contains(key) || !object[key].is_number()) {
-    throw Error(std::string("'") + key + "' is missing or no number", where, "give a number");
+    throw Error(std::string("'") + key + "' is missing or not a number", where, "give a number");
   }
   return object[key].get<double>();
 }
@@ -38,7 +39,7 @@ std::vector<double> normalWeights(const json& settings, const GridAxis& axis, co
   allowKeys(settings, {"mean", "sd"}, where);
   const double mean = priorNumber(settings, "mean", where), sd = priorNumber(settings, "sd", where);
   if (!(sd > 0.0)) throw Error("the standard deviation is not above 0", where + ".sd");
-  // Relative to the likeliest value: a mean far off the axis still leaves a prior.
+  // Relative to the most likely value: a mean far off the axis still gives a prior.
   double least = std::numeric_limits<double>::infinity();
   for (double value : axis.values) least = std::min(least, std::abs(value - mean) / sd);
   std::vector<double> weights;
@@ -52,7 +53,7 @@ std::vector<double> normalWeights(const json& settings, const GridAxis& axis, co
 std::vector<double> betaWeights(const json& settings, const GridAxis& axis, const std::string& where) {
   allowKeys(settings, {"a", "b"}, where);
   const double a = priorNumber(settings, "a", where), b = priorNumber(settings, "b", where);
-  if (!(a > 0.0 && b > 0.0)) throw Error("'a' and 'b' of a beta prior are above 0", where);
+  if (!(a > 0.0 && b > 0.0)) throw Error("'a' and 'b' of a beta prior must be above 0", where);
   if (axis.values.front() < 0.0 || axis.values.back() > 1.0) {
     throw Error("a beta prior is for values from 0 to 1", where, "change the values or the prior");
   }
@@ -61,7 +62,7 @@ std::vector<double> betaWeights(const json& settings, const GridAxis& axis, cons
     const double weight = std::pow(value, a - 1.0) * std::pow(1.0 - value, b - 1.0);
     if (!std::isfinite(weight)) {
       throw Error("the beta prior is infinite at " + shortestNumber(value), where,
-                  "leave that value out or take a and b of at least 1");
+                  "leave that value out or use a and b of at least 1");
     }
     weights.push_back(weight);
   }
@@ -72,7 +73,7 @@ std::vector<double> listedWeights(const json& list, const GridAxis& axis, const 
   if (list.size() != axis.size()) {
     throw Error("the prior has " + std::to_string(list.size()) + " weights for " +
                     std::to_string(axis.size()) + " values",
-                where, "give one weight a value");
+                where, "give one weight per value");
   }
   std::vector<double> weights;
   for (const json& entry : list) {
@@ -108,7 +109,7 @@ struct Histogram {
   }
 
   double quantile(double p) const {
-    const double target = p * below.back();  // the sum is 1 but for rounding
+    const double target = p * below.back();  // the sum is 1 up to rounding
     size_t i = 0;
     while (i + 2 < below.size() && below[i + 1] < target) ++i;
     const double mass = below[i + 1] - below[i];
@@ -241,7 +242,7 @@ CredibleInterval GridPosterior::equalTailed(size_t dimension, double level) cons
 CredibleInterval GridPosterior::highestDensity(size_t dimension, double level) const {
   const GridAxis& axis = grid_.axes()[dimension];
   const Histogram histogram(axis, marginal(dimension));
-  // The length of [Q(a), Q(a + level)] is piecewise linear in a: shortest where one of both ends is a border.
+  // The length of [Q(a), Q(a + level)] is piecewise linear in a: shortest where one of the ends is a border.
   std::vector<double> starts = {0.0, 1.0 - level};
   for (double below : histogram.below) {
     if (below <= 1.0 - level) starts.push_back(below);

@@ -35,7 +35,7 @@ PsychometricFunction PsychometricFunction::watsonPelli(double threshold, double 
   return {Sigmoid::weibullLog10(threshold, beta), gamma, delta * (1.0 - gamma)};
 }
 
-// Sums of terms that are not negative: nothing cancels.
+// Sums of non-negative terms: no cancellation.
 double PsychometricFunction::probability(double x) const {
   return guess_ + (1.0 - guess_ - lapse_) * sigmoid_.value(x);
 }

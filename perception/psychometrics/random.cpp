@@ -41,7 +41,7 @@ double Random::uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
 uint64_t Random::below(uint64_t n) {
   assert(n > 0);
-  // The last, incomplete run of n numbers is drawn again.
+  // Values in the last, incomplete run of n numbers are redrawn.
   const uint64_t incomplete = (UINT64_MAX % n + 1) % n;
   uint64_t draw = bits();
   while (draw > UINT64_MAX - incomplete) draw = bits();

@@ -9,8 +9,8 @@
 
 namespace limen::psychometrics {
 
-/// Seed of a part, made from the seed of the whole and a text that names the part, without any state: what
-/// trial "7" draws depends on the seed and on "7" alone. First 64 bits of the SHA-256 of "SEED:TEXT".
+/// Seed of a part, derived statelessly from the overall seed and a text that names the part: what trial "7"
+/// draws depends only on the seed and "7". First 64 bits of the SHA-256 of "SEED:TEXT".
 uint64_t childSeed(uint64_t seed, std::string_view text);
 
 /// xoshiro256** (Blackman and Vigna 2021, ACM TOMS 47(4)), its state filled by SplitMix64 (Steele, Lea and
@@ -24,9 +24,9 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   uint64_t below(uint64_t n);  ///< 0 ... n - 1 without bias; n > 0
   bool chance(double p) { return uniform() < p; }
-  double normal();  ///< mean 0, SD 1, by inversion: one number of the generator each
+  double normal();  ///< mean 0, SD 1, by inversion: one generator output each
   double normal(double mean, double sd) { return mean + sd * normal(); }
-  int binomial(int n, double p);  ///< successes in n trials; takes time in proportion to n
+  int binomial(int n, double p);  ///< successes in n trials; time proportional to n
   /// Index drawn with these probabilities, which sum to 1.
   size_t category(const std::vector<double>& probabilities);
 

@@ -11,7 +11,7 @@ enum class StimulusAxis { Linear, Logarithmic };
 /// A sigmoid F of a stimulus x: F(x) = S((u - location) / scale) with S the standard form of its family and
 /// u = x or ln x. It rises from 0 to 1; guesses and lapses are PsychometricFunction's.
 ///
-/// The same curve in other terms:
+/// The same curve in other parametrisations:
 ///   - threshold and width (psignifit 4; Schuett et al. 2016): threshold is the x at which F has `level`
 ///     (one half unless stated), width the distance on the axis from F = 0.05 to 0.95. On a logarithmic axis
 ///     the threshold is in units of x and the width in units of ln x;
@@ -20,11 +20,11 @@ enum class StimulusAxis { Linear, Logarithmic };
 ///   - threshold and slope dF/dx there.
 class Sigmoid {
  public:
-  /// `scale` > 0. Weibull is taken as logarithmic whatever `axis` says: it is the Gumbel of ln x.
+  /// `scale` > 0. Weibull is always logarithmic, whatever `axis` says: it is the Gumbel of ln x.
   Sigmoid(SigmoidFamily family, StimulusAxis axis, double location, double scale);
 
   /// `width` > 0, 0 < `level` < 1; on a logarithmic axis `threshold` > 0. `tail` is the F at which the width
-  /// begins; 1 - tail is where it ends.
+  /// begins; it ends at 1 - tail.
   static Sigmoid fromThresholdWidth(SigmoidFamily family, StimulusAxis axis, double threshold, double width,
                                     double level = 0.5, double tail = 0.05);
   /// `slope` = dF/dx at the threshold, in units of 1/x on either axis; > 0.
@@ -52,13 +52,13 @@ class Sigmoid {
 
   SigmoidFamily family() const { return family_; }
   StimulusAxis axis() const { return axis_; }
-  double location() const { return location_; }  ///< on the axis: of ln x where that is logarithmic
+  double location() const { return location_; }  ///< on the axis: of ln x if that is logarithmic
   double scale() const { return scale_; }        ///< on the axis; the SD of a normal
   double threshold(double level = 0.5) const { return inverse(level); }
   double width(double tail = 0.05) const;
   double slopeAtThreshold(double level = 0.5) const { return derivative(inverse(level)); }
   /// Classic forms of logarithmic axes: exp(location), Weibull's alpha, and 1/scale, its beta. On linear axes
-  /// alpha is the location and beta 1/scale as the logistic has them.
+  /// alpha is the location and beta 1/scale as for the logistic.
   double alpha() const;
   double beta() const { return 1.0 / scale_; }
 

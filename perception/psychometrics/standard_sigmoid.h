@@ -14,7 +14,7 @@ namespace limen::psychometrics {
 ///     reversed_gumbel    exp(-exp(-z))
 ///     hyperbolic_secant  (2/pi) atan(exp(pi z / 2))
 ///     student_t          1/2 + atan(z)/pi, Student's t with one degree of freedom (Cauchy), as in psignifit
-///     4 weibull            the Gumbel; that its axis is logarithmic is the business of Sigmoid
+///     4 weibull            the Gumbel; its logarithmic axis is handled by Sigmoid
 ///
 /// (Schuett, Harmeling, Macke and Wichmann 2016, Vision Research 122; Kingdom and Prins 2016, chapter 4.)
 enum class SigmoidFamily { Logistic, Normal, Weibull, Gumbel, ReversedGumbel, HyperbolicSecant, StudentT };
@@ -25,9 +25,9 @@ const std::string& nameOf(SigmoidFamily family);
 /// Throws Error with the nearest known name.
 SigmoidFamily sigmoidFamily(const std::string& name, const std::string& where = {});
 
-/// All of these keep twelve digits wherever the result is a normal number, in both tails: the small one of S
-/// and 1 - S is never got by subtraction, and neither logarithm by the logarithm of a rounded 1 or 0.
-/// `z` may be infinite.
+/// All of these keep twelve digits wherever the result is a normal number, in both tails: the smaller of S
+/// and 1 - S is never obtained by subtraction, and neither logarithm from a rounded 1 or 0. `z` may be
+/// infinite.
 double standardValue(SigmoidFamily family, double z);          ///< S(z)
 double standardComplement(SigmoidFamily family, double z);     ///< 1 - S(z)
 double standardLogValue(SigmoidFamily family, double z);       ///< ln S(z)
@@ -35,7 +35,7 @@ double standardLogComplement(SigmoidFamily family, double z);  ///< ln(1 - S(z))
 double standardDerivative(SigmoidFamily family, double z);     ///< dS/dz
 /// The z with S(z) = p, 0 <= p <= 1; -infinity and infinity at the ends.
 double standardInverse(SigmoidFamily family, double p);
-/// The z with 1 - S(z) = q: for values so near to 1 that p = 1 - q would lose them.
+/// The z with 1 - S(z) = q: for values so close to 1 that p = 1 - q would lose precision.
 double standardInverseComplement(SigmoidFamily family, double q);
 
 }  // namespace limen::psychometrics

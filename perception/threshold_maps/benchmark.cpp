@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen-threshold-benchmark: GPU time of threshold maps, CSV on standard output. Table 9.1 of Schwarz 2009
-// and larger sizes. Arguments: none; --small for sizes up to 1024 x 768, which a software renderer can do;
-// or one size, 1600x1200, of which only the exact stack in 32 bits is measured.
+// and larger sizes. Arguments: none; --small for sizes up to 1024 x 768, which a software renderer can
+// handle; or one size, 1600x1200, of which only the exact stack in 32 bits is measured.
 #include <epoxy/gl.h>
 #include <fmt/core.h>
 
@@ -17,6 +17,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/standard_output.h"
 #include "perception/threshold_maps/reference.h"
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
 
 namespace {
@@ -30,7 +31,7 @@ using HostClock = std::chrono::steady_clock;
 constexpr double kWarmUpS = 0.6;  ///< an idle GPU takes up to a third of a second to raise its clock
 constexpr int kFrames = 200;
 constexpr int kSoftwareFrames = 3;
-constexpr int64_t kMostCheckedPx = 1024 * 768;  ///< the double reference takes seconds beyond
+constexpr int64_t kMostCheckedPx = 1024 * 768;  ///< beyond this the double-precision reference takes seconds
 
 double seconds(HostClock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -139,9 +140,9 @@ double copyGbS(gl::Context& context) {
   const gl::Program& copy = context.programs().compute("perception/threshold_maps/copy.comp.glsl");
   const Times times = measure(
       [&] {
-        source.bindTexture(0);
-        target.bindImage(0, gl::Access::Write);
-        copy.dispatch(size, {32, 8});
+        source.bindTexture(perception::kCopySourceUnit);
+        target.bindImage(perception::kCopyImage, gl::Access::Write);
+        copy.dispatch(size, {perception::kCopyGroupX, perception::kCopyGroupY});
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
       },
       software);
@@ -198,9 +199,10 @@ int main(int argc, char** argv) {
     glm::ivec2 only(0);
     if (argc > 1 && !small &&
         (argc > 2 || std::sscanf(argv[1], "%dx%d", &only.x, &only.y) != 2 || only.x < 1 || only.y < 1)) {
-      fmt::print(stderr,
-                 "limen-threshold-benchmark: '{}' is no argument; give --small, WIDTHxHEIGHT or nothing\n",
-                 argv[1]);
+      fmt::print(
+          stderr,
+          "limen-threshold-benchmark: '{}' is not an argument; give --small, WIDTHxHEIGHT or nothing\n",
+          argv[1]);
       return kExitBadInput;
     }
     const auto context = gl::createHeadlessContext();

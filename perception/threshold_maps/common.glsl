@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the passes of a threshold map share: constants of a run, and where samples of one axis lie on another.
-layout(std140, binding = 0) uniform Run {
-  vec4 kernel;   // five taps: outer, inner, centre
-  vec4 light;    // black level, white less black, largest luminance [cd/m2], least denominator [cd/m2]
-  vec4 rule;     // blend to the next level for adaptation, flat epsilon, share of the TVI
-  vec4 masking;  // constants of the masking model
-  vec4 bands[7]; // frequency [cpd], 1 / gain, F where it is constant else 0, 1 where F is held to 1
-} run;
+#include "perception/threshold_maps/threshold_map_bindings.h"
+
+layout(std140, binding = kThresholdRunBlock) uniform Run { ThresholdRun run; };
 
 // Where samples lie on another level, as (left, t): at left + t of its axis. For each pair of neighbouring levels
 // the finer one's columns and rows on the coarser one, then the coarser one's on the finer one.
-layout(std430, binding = 2) readonly buffer Places { vec2 places[]; };
+layout(std430, binding = kThresholdPlacesBuffer) readonly buffer Places { vec2 places[]; };
 
 // Luminance [cd/m2], finite. Comparisons are false for NaN.
 float finiteLuminance(float y) { return y > 0.0 ? min(y, run.light.z) : 0.0; }

@@ -3,22 +3,23 @@
 // samples of all levels around its tile to shared memory and brings them to the tile's columns; each pixel then
 // brings them to its row. How a level comes up, directly (pyramid) or by way of the levels between (stack), is in
 // the taps: along an axis either is a weighted mean of three samples at most.
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/common.glsl"
 #include "perception/threshold_maps/model.glsl"
 
 layout(local_size_x = THREADS) in;
-layout(binding = 0) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
-layout(binding = 1) uniform sampler2D gaussian;   // levels from 1
-layout(binding = 0, r32f) uniform writeonly image2D threshold;
+layout(binding = kEvaluateFinestUnit) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
+layout(binding = kEvaluateGaussianUnit) uniform sampler2D gaussian;   // levels from 1
+layout(binding = kEvaluateImage, r32f) uniform writeonly image2D threshold;
 #if STAGES
-layout(binding = 1, rg32f) uniform writeonly image2D stages;
+layout(binding = kEvaluateStagesImage, rg32f) uniform writeonly image2D stages;
 #endif
 // For each tile column, then each tile row: first sample and count at each level from 1.
-layout(std430, binding = 1) readonly buffer Patches { ivec2 patches[]; };
+layout(std430, binding = kEvaluatePatchesBuffer) readonly buffer Patches { ivec2 patches[]; };
 uniform int tileColumns;
 // For each level from 1 all columns of the map, then likewise all rows: first sample, its weight, the third's;
 // the second has the rest.
-layout(std430, binding = 4) readonly buffer Taps { vec4 taps[]; };
+layout(std430, binding = kEvaluateTapsBuffer) readonly buffer Taps { vec4 taps[]; };
 
 const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
@@ -34,9 +35,9 @@ float decoded(float code) {
 }
 
 #if LEVELS > 1
-// Most samples around a tile at levels 1, 2 ... and where those of a level start in shared memory.
-const int kWidth[8] = int[8](36, 20, 12, 8, 6, 5, 5, 5);
-const int kHeight[8] = int[8](20, 12, 8, 6, 5, 5, 5, 5);
+// Most samples around a tile, and where those of a level start in shared memory.
+const int kWidth[8] = int[8](LIMEN_MOST_SAMPLE_COLUMNS);
+const int kHeight[8] = int[8](LIMEN_MOST_SAMPLE_ROWS);
 const int kStart[9] = int[9](0, 720, 960, 1056, 1104, 1134, 1159, 1184, 1209);
 const int kFirstRow[9] = int[9](0, 20, 32, 40, 46, 51, 56, 61, 66);
 shared float samples[kStart[kPlanes]];

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Luminance of the input, for the thesis's own way down the pyramid and for images too small for one.
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/common.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
-layout(binding = 0) uniform sampler2D source;
+layout(local_size_x = kThresholdGroupSide, local_size_y = kThresholdGroupSide) in;
+layout(binding = kLuminanceSourceUnit) uniform sampler2D source;
 #if HALF
-layout(binding = 0, r16f) uniform writeonly image2D luminance;
+layout(binding = kLuminanceImage, r16f) uniform writeonly image2D luminance;
 #else
-layout(binding = 0, r32f) uniform writeonly image2D luminance;
+layout(binding = kLuminanceImage, r32f) uniform writeonly image2D luminance;
 #endif
 
 void main() {

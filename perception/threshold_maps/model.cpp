@@ -16,7 +16,7 @@ constexpr int kNodesPerDecade = 100;
 constexpr int kNodes = static_cast<int>((kLgHigh - kLgLow) * kNodesPerDecade) + 1;
 // Fits end here, and so do the GPU's tables.
 constexpr double kLeastCdM2 = 1e-4, kLargestCdM2 = 1e6;
-constexpr double kLargestElevation = 1e12;  ///< as frequencyFactor() holds it
+constexpr double kLargestElevation = 1e12;  ///< as clamped by frequencyFactor()
 
 using Settings = ThresholdMapSettings;
 
@@ -37,7 +37,7 @@ double levelWidthPx(const Settings& settings, int level) {
   } else if (std::holds_alternative<RepeatedStack>(settings.decomposition)) {
     variance = Kernel::binomial5().variancePx2() * level;
   } else if (settings.isPyramid()) {
-    // A tent of half-width 2^level, less what sampling it on pixels leaves.
+    // A tent of half-width 2^level, minus the effect of sampling it on pixels.
     variance += powers / 6.0;
   } else {
     // 1 3 3 1 of 8 (variance 3/4) at every step, or the kernel again.

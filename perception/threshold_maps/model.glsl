@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The psychophysical part: adaptation luminance and contrasts to a threshold. ThresholdModel in GLSL.
+#include "perception/threshold_maps/threshold_map_bindings.h"
+
 struct Cell {  // of tables over lg luminance: values at its two ends
   vec2 tvi, peak;
 };
-layout(std430, binding = 0) readonly buffer Tables { vec4 tables[]; };
+layout(std430, binding = kThresholdTablesBuffer) readonly buffer Tables { vec4 tables[]; };
 // Elevation over contrast in CSF-normalised units: kSegments an octave from 2^-20, each (value at its start,
 // rise over it).
-layout(std430, binding = 3) readonly buffer Elevations { vec2 elevations[]; };
+layout(std430, binding = kThresholdElevationsBuffer) readonly buffer Elevations { vec2 elevations[]; };
 
 const float kLgLow = -4.0, kCellsPerDecade = 250.0;
 const int kCells = 2500;

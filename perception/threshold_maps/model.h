@@ -21,11 +21,11 @@ struct AdaptationBlend {
 AdaptationBlend adaptationBlend(const ThresholdMapSettings& settings, double pixelsPerDegree, int levels);
 double levelWidthPx(const ThresholdMapSettings& settings, int level);
 
-/// The psychophysical part of a threshold map, bound to one image size and viewing distance: all that is
-/// needed to make dL of adaptation luminance and contrasts. Luminances are held to 1e-4 to 1e6 cd/m2.
+/// The psychophysical part of a threshold map, bound to one image size and viewing distance: everything
+/// needed to compute dL from adaptation luminance and contrasts. Luminances are clamped to 1e-4 to 1e6 cd/m2.
 class ThresholdModel {
  public:
-  /// Throws Error on names that are not known.
+  /// Throws Error on unknown names.
   ThresholdModel(const ThresholdMapSettings& settings, double pixelsPerDegree, int widthPx, int heightPx);
   ThresholdModel(const ThresholdModel&) = delete;
   ThresholdModel& operator=(const ThresholdModel&) = delete;
@@ -36,13 +36,13 @@ class ThresholdModel {
   const std::vector<BandPeak>& peaks() const { return peaks_; }
   const AdaptationBlend& adaptation() const { return adaptation_; }
 
-  /// Peak over frequency: a smooth function of luminance, and the dearest part. Interpolated by cubics
-  /// through 100 nodes a decade (relative error below 1e-7 for the registered models of smooth shape).
+  /// Peak over frequency: a smooth function of luminance, and the most expensive part. Interpolated by cubics
+  /// through 100 nodes per decade (relative error below 1e-7 for the registered models of smooth shape).
   double peakSensitivity(double luminanceCdM2) const;
   double sensitivity(int band, double luminanceCdM2) const;
-  /// F: by how much frequency raises the threshold.
+  /// F: threshold elevation by frequency.
   double frequencyElevation(int band, double luminanceCdM2) const;
-  /// T_D: by how much contrast raises it; `c` is CSF-normalised.
+  /// T_D: threshold elevation by contrast; `c` is CSF-normalised.
   double maskingElevation(double c) const { return masking_.elevation(c); }
   double tviCdM2(double luminanceCdM2) const;
   /// S of |contrasts| at an adaptation luminance.

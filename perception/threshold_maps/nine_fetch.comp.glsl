@@ -2,14 +2,15 @@
 // One level of the pyramid from the finer one as the thesis does it: 5x5 binomial and bilinear halving at once,
 // with nine bilinear fetches. Along each axis pairs (1, 5), (10, 10), (5, 1) of 32. No special treatment of odd
 // sizes: there the fetches fall elsewhere between texels and the kernel is another one.
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/common.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
-layout(binding = 0) uniform sampler2D source;
+layout(local_size_x = kThresholdGroupSide, local_size_y = kThresholdGroupSide) in;
+layout(binding = kNineFetchSourceUnit) uniform sampler2D source;
 #if HALF
-layout(binding = 0, r16f) uniform writeonly image2D coarser;
+layout(binding = kNineFetchCoarserImage, r16f) uniform writeonly image2D coarser;
 #else
-layout(binding = 0, r32f) uniform writeonly image2D coarser;
+layout(binding = kNineFetchCoarserImage, r32f) uniform writeonly image2D coarser;
 #endif
 uniform int sourceLevel;
 

@@ -4,15 +4,16 @@
 // samples that lie in its tile, and (BAND) the tile less what the coarse samples interpolate to: band 0, or a
 // level of the Laplacian pyramid. Sums are of differences, so that a
 // flat image stays flat to the last bit and a faint band is as exact as a strong one.
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/common.glsl"
 
 layout(local_size_x = THREADS) in;
-layout(binding = 0) uniform sampler2D source;
-layout(binding = 0, r32f) uniform writeonly image2D coarser;
+layout(binding = kCoarsenSourceUnit) uniform sampler2D source;
+layout(binding = kCoarsenCoarserImage, r32f) uniform writeonly image2D coarser;
 #if BAND == 32
-layout(binding = 1, r32f) uniform writeonly image2D band;
+layout(binding = kCoarsenBandImage, r32f) uniform writeonly image2D band;
 #elif BAND == 16
-layout(binding = 1, r16f) uniform writeonly image2D band;
+layout(binding = kCoarsenBandImage, r16f) uniform writeonly image2D band;
 #endif
 uniform int sourceLevel;
 uniform ivec2 upward[1];    // first entries in Places, columns and rows: finer samples on the coarser level

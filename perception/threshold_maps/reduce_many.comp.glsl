@@ -2,16 +2,17 @@
 // STEPS levels of the pyramid at once, for levels so small that starting a pass costs more than the pass. Each
 // group takes a tile of the source level and makes what lies in it on the next levels; what it needs beyond
 // its tile it makes too, so that groups need not wait for one another. Numbers are those of reduce.comp.glsl.
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/common.glsl"
 
 layout(local_size_x = THREADS) in;
-layout(binding = 0) uniform sampler2D source;
-layout(binding = 0, r32f) uniform writeonly image2D coarser1;
+layout(binding = kCoarsenSourceUnit) uniform sampler2D source;
+layout(binding = kCoarsenCoarserImage, r32f) uniform writeonly image2D coarser1;
 #if STEPS > 1
-layout(binding = 1, r32f) uniform writeonly image2D coarser2;
+layout(binding = kCoarsenManyCoarser2Image, r32f) uniform writeonly image2D coarser2;
 #endif
 #if STEPS > 2
-layout(binding = 2, r32f) uniform writeonly image2D coarser3;
+layout(binding = kCoarsenManyCoarser3Image, r32f) uniform writeonly image2D coarser3;
 #endif
 uniform int sourceLevel;
 uniform ivec2 downward[STEPS];  // first entries in Places: coarser samples on the finer level, by step

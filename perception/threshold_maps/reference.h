@@ -11,29 +11,29 @@
 
 namespace limen::perception {
 
-/// A threshold map with what it was made from; all planes have the image's size.
+/// A threshold map with its intermediate results; all planes have the image's size.
 struct ThresholdMap {
   Plane thresholdCdM2;  ///< dL: two images differ visibly where their luminances differ by more
   Plane adaptationCdM2;
   Plane elevation;               ///< S
   std::vector<Plane> contrasts;  ///< |c_i|, finest band first
-  std::vector<Plane> levels;     ///< Gaussian levels as they were sampled
+  std::vector<Plane> levels;     ///< Gaussian levels as sampled
   int64_t guarded = 0;           ///< contrasts, over all bands, whose denominator was too small
 };
 
-/// The double-precision reference; deterministic, without tables. `luminanceCdM2` may hold anything: NaN and
-/// negative values count as 0, others up to settings.largestCdM2. Settings of the GPU alone are ignored.
+/// The double-precision reference; deterministic, without tables. `luminanceCdM2` may contain anything: NaN
+/// and negative values count as 0, others up to settings.largestCdM2. Settings of the GPU alone are ignored.
 /// Throws Error on unknown models or a display without pixels per degree.
 ThresholdMap computeThresholdMap(const Plane& luminanceCdM2, double pixelsPerDegree,
                                  const ThresholdMapSettings& settings);
 
-/// Luminance that a display gives linear RGB (3 or 4 channels), or one channel as it is.
+/// Luminance on a display of linear RGB (3 or 4 channels), or of one channel as is.
 Plane luminancePlane(const Image& linear, const DisplayProfile& display);
 /// Rounded to floats, one channel.
 Image toImage(const Plane& plane);
 
-/// Share of the pixels at which two maps judge a luminance difference differently: |dY| above one threshold
-/// and not the other. All of one size.
+/// Share of the pixels at which two maps disagree on a luminance difference: |dY| is above one threshold but
+/// not the other. All have the same size.
 double decisionFlips(const Plane& thresholdA, const Plane& thresholdB, const Plane& differenceCdM2);
 
 }  // namespace limen::perception

@@ -22,7 +22,7 @@ std::vector<std::string> maskings() { return {"none", "daly", "lubin", "self", "
 const SettingsTable<UpsampledStack>& UpsampledStack::table() {
   static const SettingsTable<UpsampledStack> kTable = {
       Binding(&UpsampledStack::upsampler, "upsampler",
-              "how levels are brought up: bilinearly, or with the kernel (reference only)", kMap)
+              "how levels are upsampled: bilinearly, or with the kernel (reference only)", kMap)
           .formerly({"upsampler"})};
   return kTable;
 }
@@ -59,7 +59,7 @@ const SettingsTable<GivenLevelAdaptation>& GivenLevelAdaptation::table() {
 const SettingsTable<NoLowElevation>& NoLowElevation::table() {
   static const SettingsTable<NoLowElevation> kTable = {
       Binding(&NoLowElevation::belowCpd, "below_cpd", Range{0.0, 60.0}, "cpd",
-              "frequency below which there is none", kFootnote)
+              "frequency below which there is no elevation", kFootnote)
           .formerly({"f_low_cpd"})};
   return kTable;
 }
@@ -74,7 +74,7 @@ const SettingsTable<OriginalElevation>& OriginalElevation::table() {
   using S = OriginalElevation;
   static const SettingsTable<S> kTable = {
       Binding(&S::luminanceCdM2, "luminance_cd_m2", Range{1e-4, 1e5}, "cd/m2",
-              "luminance that it is taken at", "Schwarz 2009, (9.11)")
+              "luminance at which it is evaluated", "Schwarz 2009, (9.11)")
           .formerly({"f_luminance_cd_m2"}),
       Binding(&S::low, "low", "elevation at low frequencies", kFootnote).formerly({"f_low"})};
   return kTable;
@@ -83,7 +83,7 @@ const SettingsTable<OriginalElevation>& OriginalElevation::table() {
 const SettingsTable<SmoothFlat>& SmoothFlat::table() {
   static const SettingsTable<SmoothFlat> kTable = {
       Binding(&SmoothFlat::epsilon, "epsilon", Range{1e-12, 0.1}, "",
-              "contrast that is added; a fiftieth of what is just visible")
+              "added contrast; a fiftieth of the visibility threshold")
           .formerly({"flat_epsilon"})};
   return kTable;
 }
@@ -92,13 +92,12 @@ const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
   using S = ThresholdMapSettings;
   static const SettingsTable<S> kTable = {
       {&S::levels, "levels", {3, 9}, "", "levels of the Gaussian pyramid; two fewer contrast levels", kMap},
-      {&S::decomposition, "decomposition", "where bands of frequency come from", kMap},
+      {&S::decomposition, "decomposition", "source of the frequency bands", kMap},
       Binding(&S::downsample, "downsample",
               "the 5x5 kernel that precedes halving, which the thesis does not name", kMap)
           .formerly({"kernel"}),
-      {&S::border, "border", "what lies beyond the image's edge"},
-      {&S::peakModel, "peak_model",
-       "where the bands' peak frequencies are taken to lie; halving is wrong, to compare with",
+      {&S::border, "border", "extension beyond the image's edge"},
+      {&S::peakModel, "peak_model", "assumed peak frequencies of the bands; halving is wrong, for comparison",
        "Schwarz 2009, section 10.3"},
       {&S::gainCompensation, "gain_compensation", "divide each band by its peak gain",
        "Schwarz 2009, section 10.3"},
@@ -114,14 +113,14 @@ const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
        "tvi_factor",
        {0.0, 10.0},
        "",
-       "share of the TVI that is the threshold",
+       "share of the TVI used as threshold",
        "Schwarz 2009, section 9.2"},
       Binding(&S::flat, "flat", "elevation where there is no contrast").formerly({"flat_rule"}),
       {&S::contrastEpsilonCdM2,
        "contrast_epsilon_cd_m2",
        {1e-9, 10.0},
        "cd/m2",
-       "least denominator of a contrast; smaller ones are counted"},
+       "smallest denominator of a contrast; smaller ones are counted"},
       {&S::largestCdM2,
        "largest_cd_m2",
        {1.0, 1e6},
@@ -165,7 +164,7 @@ const SettingsTable<ThresholdMapGpuSettings>& ThresholdMapGpuSettings::table() {
       {&S::lookup, "lookup",
        "CSF and TVI from tables over luminance, or computed for every pixel (barten89 and ward only)", kMap},
       {&S::levelsPerPass, "levels_per_pass",
-       "pyramid levels that a pass makes from level 1 on; a matter of speed alone"}};
+       "pyramid levels computed per pass from level 1; affects only speed"}};
   return kTable;
 }
 

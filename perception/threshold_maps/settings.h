@@ -11,7 +11,7 @@
 /// Sources: Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4.
 namespace limen::perception {
 
-/// How a stack brings levels up.
+/// How a stack upsamples levels.
 enum class StackUpsampler {
   Bilinear,
   Expand  ///< with the kernel; CPU only
@@ -23,7 +23,7 @@ constexpr EnumNames<StackUpsampler, 2> enumNames(StackUpsampler) {
 // Where bands come from.
 struct UpsampledStack {
   static constexpr const char *kKind = "stack",
-                              *kSummary = "pyramid whose levels are brought up one level at a time";
+                              *kSummary = "pyramid whose levels are upsampled one level at a time";
   StackUpsampler upsampler = StackUpsampler::Bilinear;
   static const SettingsTable<UpsampledStack>& table();
 };
@@ -32,7 +32,7 @@ struct SampledPyramid {
 };
 
 struct KernelSigma {
-  static constexpr const char *kKind = "of_kernel", *kSummary = "as the pyramid's kernel has in the limit";
+  static constexpr const char *kKind = "of_kernel", *kSummary = "that of the pyramid's kernel in the limit";
 };
 struct GivenSigma {
   static constexpr const char *kKind = "given", *kSummary = "a given one";
@@ -40,10 +40,9 @@ struct GivenSigma {
   static const SettingsTable<GivenSigma>& table();
 };
 struct TrueStack {
-  static constexpr const char *kKind = "true_stack",
-                              *kSummary =
-                                  "Gaussians of doubling sigma at full resolution: what the others "
-                                  "stand for (CPU only)";
+  static constexpr const char
+      *kKind = "true_stack",
+      *kSummary = "Gaussians of doubling sigma at full resolution, which the others approximate (CPU only)";
   std::variant<KernelSigma, GivenSigma> sigma;  ///< of level 1
   static const SettingsTable<TrueStack>& table();
 };
@@ -56,7 +55,7 @@ struct RepeatedStack {
 
 // The 5x5 kernel before the bilinear step of halving, which the thesis does not name.
 struct BinomialKernel {
-  static constexpr const char *kKind = "binomial", *kSummary = "binomial, as six taps an axis";
+  static constexpr const char *kKind = "binomial", *kSummary = "binomial, as six taps per axis";
 };
 struct NineFetchKernel {
   static constexpr const char *kKind = "nine_fetch",
@@ -89,7 +88,7 @@ struct GivenLevelAdaptation {
 struct MistakenDegreeAdaptation {
   static constexpr const char *kKind = "mistaken_degree",
                               *kSummary =
-                                  "the image's degrees taken for the pixels to average, a published "
+                                  "the image's degrees mistaken for the pixels to average, a published "
                                   "mistake (section 9.6; CPU only)";
 };
 
@@ -129,7 +128,7 @@ struct ExactFlat {
   static constexpr const char *kKind = "exact", *kSummary = "1 where the sum is exactly 0";
 };
 
-/// The model, as reference and GPU share it.
+/// The model, shared by reference and GPU.
 struct ThresholdMapSettings {
   int levels = 7;
   std::variant<UpsampledStack, SampledPyramid, TrueStack, RepeatedStack> decomposition;
@@ -154,9 +153,9 @@ struct ThresholdMapSettings {
   bool nineFetch() const { return std::holds_alternative<NineFetchKernel>(downsample); }
   bool isTrueStack() const { return std::holds_alternative<TrueStack>(decomposition); }
   bool isPyramid() const { return std::holds_alternative<SampledPyramid>(decomposition); }
-  /// Levels are brought up with the kernel.
+  /// Levels are upsampled with the kernel.
   bool expands() const;
-  /// Of level 1 of a true stack; 0: as of the kernel.
+  /// Of level 1 of a true stack; 0: that of the kernel.
   double stackSigmaPx() const;
 };
 
@@ -168,9 +167,9 @@ constexpr EnumNames<ThresholdLookup, 2> enumNames(ThresholdLookup) {
   return {{{{ThresholdLookup::Tables, "tables"}, {ThresholdLookup::Direct, "direct"}}}};
 }
 
-// Pyramid levels that a pass makes, from level 1 on.
+// Pyramid levels computed per pass, from level 1.
 struct AutomaticLevels {
-  static constexpr const char *kKind = "automatic", *kSummary = "one of large levels, three of small ones";
+  static constexpr const char *kKind = "automatic", *kSummary = "one for large levels, three for small ones";
 };
 struct GivenLevels {
   static constexpr const char *kKind = "given", *kSummary = "a given number";

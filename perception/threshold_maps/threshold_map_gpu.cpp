@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "perception/threshold_maps/model.h"
+#include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/threshold_tables.h"
 
 namespace limen::perception {
@@ -19,24 +20,18 @@ using gl::Format;
 using Settings = ThresholdMapSettings;
 
 constexpr glm::ivec2 kTilePx{64, 32};
-/// Invocations of a group that makes a tile; on an H200 faster than smaller groups, whose tiles overlap more.
+/// Invocations of a group that computes a tile; on an H200 faster than smaller groups, whose tiles overlap
+/// more.
 constexpr int kInvocations = 512;
-/// Levels up to this size are made several at a time: a pass costs some 2 us to start, and making twice the
-/// samples that are needed costs less.
+/// Levels up to this size are computed several at a time: starting a pass costs about 2 us, computing twice
+/// the necessary samples costs less.
 constexpr int64_t kSmallLevelPx = 600'000;
 constexpr int kMostSteps = 3;
 constexpr float kLargestHalfCdM2 = 6e4F;
-// As the shader declares its shared memory.
-constexpr std::array<int, 8> kMostColumns{36, 20, 12, 8, 6, 5, 5, 5};
-constexpr std::array<int, 8> kMostRows{20, 12, 8, 6, 5, 5, 5, 5};
+constexpr std::array<int, 8> kMostColumns{LIMEN_MOST_SAMPLE_COLUMNS};
+constexpr std::array<int, 8> kMostRows{LIMEN_MOST_SAMPLE_ROWS};
 
 constexpr std::array<const char*, kMostSteps> kDownwardNames{"downward[0]", "downward[1]", "downward[2]"};
-
-/// The uniform block, std140.
-struct RunBlock {
-  glm::vec4 kernel{0.0F}, light{0.0F}, rule{0.0F}, masking{0.0F};
-  std::array<glm::vec4, 7> bands{};
-};
 
 glm::ivec2 halvedSize(glm::ivec2 size) { return {halved(size.x), halved(size.y)}; }
 
@@ -53,12 +48,13 @@ void checkSettings(const Settings& settings, const ThresholdMapGpuSettings& gpu)
   refuse(std::holds_alternative<MistakenDegreeAdaptation>(settings.adaptation),
          "the mistaken mean is not computed on the GPU", "adaptation",
          "use one_degree, or the technique perception/threshold_map_reference");
-  refuse(settings.expands(), "levels are brought up bilinearly on the GPU", "decomposition.upsampler",
+  refuse(settings.expands(), "levels are upsampled bilinearly on the GPU", "decomposition.upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
   refuse(gpu.direct() && (settings.csf != "barten89" || settings.tvi != "ward"),
          "only csf: barten89 and tvi: ward are computed directly", "lookup", "use lookup: tables");
-  refuse(settings.nineFetch() && settings.border != Border::Clamp, "bilinear fetches know no mirrored border",
-         "border", "use border: clamp or downsample: binomial");
+  refuse(settings.nineFetch() && settings.border != Border::Clamp,
+         "bilinear fetches do not support a mirrored border", "border",
+         "use border: clamp or downsample: binomial");
 }
 
 /// Model number in the shader and its constants.
@@ -69,13 +65,13 @@ std::pair<int, glm::vec4> maskingConstants(const std::string& name) {
   if (name == "schwarz") return {1, {0.0, SchwarzMasking{}.s, SchwarzMasking{}.b, 0.0}};
   if (name == "lubin") return {2, {lubin.n, lubin.w, 0.0, 0.0}};
   if (name == "self") return {3, {1.0 - SelfMasking{}.alpha, 0.0, 0.0, 0.0}};
-  refuse(name != "none", "this masking model has no form for the GPU", "masking", "use another one");
+  refuse(name != "none", "this masking model has no GPU version", "masking", "use another one");
   return {0, glm::vec4(0.0F)};
 }
 
-RunBlock runBlock(const Settings& settings, const ThresholdMapGpuSettings& gpu, const ThresholdModel& model,
-                  const DisplayProfile& display) {
-  RunBlock block;
+ThresholdRun runBlock(const Settings& settings, const ThresholdMapGpuSettings& gpu,
+                      const ThresholdModel& model, const DisplayProfile& display) {
+  ThresholdRun block{};
   const Kernel kernel = settings.kernel();
   block.kernel = {kernel.taps[0], kernel.taps[1], kernel.taps[2], 0.0};
   const double largest =
@@ -89,8 +85,8 @@ RunBlock runBlock(const Settings& settings, const ThresholdMapGpuSettings& gpu, 
     const BandPeak& peak = model.peaks()[static_cast<size_t>(band)];
     // F at two luminances tells whether it varies.
     const double dim = model.frequencyElevation(band, 0.01), bright = model.frequencyElevation(band, 300.0);
-    block.bands[static_cast<size_t>(band)] = {peak.frequencyCpd(display.pixelsPerDegree()), 1.0 / peak.gain,
-                                              dim == bright ? dim : 0.0, 0.0};
+    block.bands[band] = {peak.frequencyCpd(display.pixelsPerDegree()), 1.0 / peak.gain,
+                         dim == bright ? dim : 0.0, 0.0};
   }
   return block;
 }
@@ -145,7 +141,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     upward_ = std::move(places.upward);
     downward_ = std::move(places.downward);
   }
-  const RunBlock block = runBlock(settings, gpu, model, display);
+  const ThresholdRun block = runBlock(settings, gpu, model, display);
   run_.emplace(int64_t{sizeof block}, &block);
   tables_.emplace(thresholdTables(model));
   elevations_.emplace(elevationTable(model));
@@ -158,7 +154,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"BANDS", std::to_string(model.bands())},
               {"FINEST_LUMINANCE", yes(settings.nineFetch())},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
-              {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // tables know it otherwise
+              {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // with tables, they contain it
               {"FOURTH_ROOT", yes(gpu.direct() && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(std::holds_alternative<SmoothFlat>(settings.flat))},
               {"DIRECT", yes(gpu.direct())},
@@ -201,13 +197,13 @@ void ThresholdMapGpu::keepStages() {
 const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* passes) {
   assert(input.sizePx() == sizePx_ && (gl::channelCount(input.format()) == 4) == colourInput_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  run_->bindUniform(0);
-  tables_->bindStorage(0);
-  elevations_->bindStorage(3);
+  run_->bindUniform(kThresholdRunBlock);
+  tables_->bindStorage(kThresholdTablesBuffer);
+  elevations_->bindStorage(kThresholdElevationsBuffer);
   if (patches_) {
-    patches_->bindStorage(1);
-    places_->bindStorage(2);
-    taps_->bindStorage(4);
+    patches_->bindStorage(kEvaluatePatchesBuffer);
+    places_->bindStorage(kThresholdPlacesBuffer);
+    taps_->bindStorage(kEvaluateTapsBuffer);
   }
   const auto timed = [&](const char* name, const auto& work) {
     if (!passes) return work();
@@ -223,9 +219,9 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
 }
 
 void ThresholdMapGpu::reduce(const gl::Texture& input) {
-  input.bindTexture(0);
-  finest_.bindImage(1, Access::Write);
-  gaussian_->bindImage(0, Access::Write, 0);
+  input.bindTexture(kCoarsenSourceUnit);
+  finest_.bindImage(kCoarsenBandImage, Access::Write);
+  gaussian_->bindImage(kCoarsenCoarserImage, Access::Write, 0);
   // Programs of one step take one pair of levels, those of several steps what is downward of each.
   const auto setPlaces = [&](const gl::Program& program, size_t level, int steps) {
     program.set("upward[0]", upward_[level]);
@@ -235,15 +231,17 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
   setPlaces(*programs_->first, 0, 1);
   programs_->first->dispatch(sizePx_, kTilePx);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  gaussian_->bindTexture(0);
+  gaussian_->bindTexture(kCoarsenSourceUnit);
   glm::ivec2 size = halvedSize(sizePx_);
   for (int level = 1; level + 1 < levels_;) {
     const bool small = int64_t{size.x} * size.y <= kSmallLevelPx;
     const auto* given = std::get_if<GivenLevels>(&gpu_.levelsPerPass);
     const int wanted = given ? given->count : small ? kMostSteps : 1;
     const int steps = std::min(levels_ - 1 - level, wanted);
+    static_assert(kCoarsenManyCoarser2Image == kCoarsenCoarserImage + 1 &&
+                  kCoarsenManyCoarser3Image == kCoarsenCoarserImage + 2);
     for (int step = 0; step < steps; ++step)
-      gaussian_->bindImage(static_cast<uint32_t>(step), Access::Write, level + step);
+      gaussian_->bindImage(kCoarsenCoarserImage + static_cast<uint32_t>(step), Access::Write, level + step);
     const gl::Program& program =
         wanted > 1 ? *programs_->many[static_cast<size_t>(steps - 1)] : *programs_->next;
     program.set("sourceLevel", level - 1);
@@ -256,15 +254,15 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
 }
 
 void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
-  constexpr glm::ivec2 kGroup{16, 16};
-  input.bindTexture(0);
-  finest_.bindImage(0, Access::Write);
+  constexpr glm::ivec2 kGroup(kThresholdGroupSide);
+  input.bindTexture(kLuminanceSourceUnit);
+  finest_.bindImage(kLuminanceImage, Access::Write);
   programs_->first->dispatch(sizePx_, kGroup);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glm::ivec2 size = sizePx_;
   for (int level = 0; level + 1 < levels_; ++level) {
-    (level == 0 ? finest_ : *gaussian_).bindTexture(0);
-    gaussian_->bindImage(0, Access::Write, level);
+    (level == 0 ? finest_ : *gaussian_).bindTexture(kNineFetchSourceUnit);
+    gaussian_->bindImage(kNineFetchCoarserImage, Access::Write, level);
     size = halvedSize(size);
     programs_->next->set("sourceLevel", std::max(level - 1, 0));
     programs_->next->dispatch(size, kGroup);
@@ -273,10 +271,10 @@ void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
 }
 
 void ThresholdMapGpu::evaluate() {
-  finest_.bindTexture(0);
-  if (gaussian_) gaussian_->bindTexture(1);
-  threshold_.bindImage(0, Access::Write);
-  if (stages_) stages_->bindImage(1, Access::Write);
+  finest_.bindTexture(kEvaluateFinestUnit);
+  if (gaussian_) gaussian_->bindTexture(kEvaluateGaussianUnit);
+  threshold_.bindImage(kEvaluateImage, Access::Write);
+  if (stages_) stages_->bindImage(kEvaluateStagesImage, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
   programs_->evaluate->dispatch(sizePx_, kTilePx);
 }
@@ -298,8 +296,8 @@ int64_t ThresholdMapGpu::bytesHeld() const {
 }
 
 int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
-  // The input and the map once; what lies between is written and read again: levels by the next one and by
-  // the evaluation.
+  // The input and the map once; intermediate results are written and read again: levels by the next one and
+  // by the evaluation.
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
   if (settings_.nineFetch()) bytes += finest_.bytes();
   if (gaussian_) bytes += 3 * gaussian_->bytes();

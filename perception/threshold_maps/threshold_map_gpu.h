@@ -18,19 +18,19 @@
 
 namespace limen::perception {
 
-/// Threshold maps of images of one size, on the GPU in compute shaders. Agrees with computeThresholdMap() of
+/// Threshold maps of images of one size, on the GPU in compute shaders. Agrees with computeThresholdMap() for
 /// the same settings within 0.5 % of each pixel's threshold in 32 bits and 2 % in 16 bits (nine fetches in 16
 /// bits aside, which store luminance itself as the thesis does and lose faint contrasts). Luminances outside
 /// 1e-4 to 1e6 cd/m2 are read there from the tables. Source: Schwarz 2009, section 9.4.
 ///
-/// In 16 bits not luminances are stored but band 0, the one intermediate result of full size, as signed
-/// square roots; the levels from 1 on, a third of the texels, stay in 32. Contrasts are differences of
-/// luminances: of 16-bit luminances a contrast of 5e-4 is all rounding, of a 16-bit band it keeps three
-/// digits.
+/// With 16 bits, not luminances are stored but band 0, the only intermediate result of full size, as signed
+/// square roots; levels from 1, a third of the texels, stay in 32 bits. Contrasts are differences of
+/// luminances: with 16-bit luminances a contrast of 5e-4 is all rounding error; with a 16-bit band it keeps
+/// three digits.
 class ThresholdMapGpu {
  public:
   /// Allocates and compiles for inputs of one format: colour (RGBA, linear, relative to `display`) or
-  /// luminance (one channel, cd/m2). Throws Error on settings that only the reference knows (true_stack,
+  /// luminance (one channel, cd/m2). Throws Error on settings that only the reference supports (true_stack,
   /// expand; direct with models other than barten89 and ward).
   ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
                   const ThresholdMapSettings& settings, const ThresholdMapGpuSettings& gpu = {},
@@ -39,7 +39,7 @@ class ThresholdMapGpu {
   ThresholdMapGpu(const ThresholdMapGpu&) = delete;
   ThresholdMapGpu& operator=(const ThresholdMapGpu&) = delete;
 
-  /// Allocates and compiles nothing and does not wait. `passes`: times reduction and evaluation apart.
+  /// Allocates and compiles nothing and does not wait. `passes`: times reduction and evaluation separately.
   const gl::Texture& run(const gl::Texture& linearColourOrLuminance, gl::PassList* passes = nullptr);
   /// R32F, cd/m2.
   const gl::Texture& map() const { return threshold_; }

@@ -26,7 +26,7 @@ std::vector<glm::vec4> thresholdTables(const ThresholdModel& model) {
   std::vector<glm::vec4> out(stride * kCells);
   forRowBlocks(kCells, 20000, [&](int first, int end) {
     for (int cell = first; cell < end; ++cell) {
-      // A hair inside the cell, on the right side of a step.
+      // Just inside the cell, on the correct side of a step.
       constexpr double kInside = 1e-9;
       const double low = std::pow(10.0, kLgLow + static_cast<double>(cell) / kCellsPerDecade + kInside);
       const double high = std::pow(10.0, kLgLow + static_cast<double>(cell + 1) / kCellsPerDecade - kInside);
@@ -83,7 +83,7 @@ std::vector<glm::vec4> levelTaps(int size, int levels, bool direct) {
   for (int level = 1; level < levels; ++level) sizes.push_back(halved(sizes.back()));
   for (int level = 1; level < levels; ++level)
     for (int x = 0; x < size; ++x) {
-      // Weights of samples of one level, which go over to the next coarser one.
+      // Weights of samples of one level, which are passed on to the next coarser one.
       std::map<int, double> weights{{x, 1.0}};
       for (int at = direct ? level : 1; at <= level; ++at) {
         const int fine = sizes[direct ? 0 : static_cast<size_t>(at) - 1],

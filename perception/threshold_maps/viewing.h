@@ -8,8 +8,8 @@
 
 namespace limen::perception {
 
-/// How a picture is seen: `display: desktop_24` for a preset, `display: {kind: desktop_24, distance_m: 0.4}`,
-/// or `display: {kind: file, file: my_display.yaml}` for a profile.
+/// How a picture is viewed: `display: desktop_24` for a preset, `display: {kind: desktop_24, distance_m:
+/// 0.4}`, or `display: {kind: file, file: my_display.yaml}` for a profile.
 struct ViewingSettings {
   ChosenEntry display{"schwarz_2009", {}};  ///< with PresetViewing or FileViewing
   static const SettingsTable<ViewingSettings>& table();

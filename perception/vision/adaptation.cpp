@@ -26,9 +26,8 @@ Csf::Peak barten03Peak(double luminanceCdM2, double areaDeg2) {
   const double l = clampLuminance(luminanceCdM2), area = clampArea(areaDeg2);
   // The slope of ln csf over x = rho^2 is
   //   -o - 0.32 / (p + 0.64 x) + 0.01 e / ((1 - e)^2 (q + 1 / (1 - e))),  e = exp(-0.02 x),
-  // positive below the peak and negative above. Its root is as exact as the arithmetic, where a search for
-  // the largest value only finds half the digits. With s = 1 - e the last term is 0.01 (1 - s) / (s (q s +
-  // 1)).
+  // positive below the peak and negative above. Its root is as exact as the arithmetic, whereas a search for
+  // the maximum only finds half the digits. With s = 1 - e the last term is 0.01 (1 - s) / (s (q s + 1)).
   const double o = 0.0016 * std::pow(1.0 + 100.0 / l, 0.08), p = 1.0 + 144.0 / area;
   const double q = 63.0 / std::pow(l, 0.83);
   const auto slope = [&](double lnX) {

@@ -5,7 +5,7 @@
 
 namespace limen::perception {
 
-/// How the constants of Daly 1998 follow the adaptation luminance: as Barten 2003 moves its peak. Schwarz
+/// How the constants of Daly 1998 follow the adaptation luminance: as the peak of Barten 2003 does. Schwarz
 /// 2009, section 10.3. At 100 cd/m2 they are 1.14 and 0.67. Luminances are clamped to [1e-4, 1e4] cd/m2.
 /// Areas that are not positive count as 1e-4 deg2. Some microseconds each.
 double daly98C0(double luminanceCdM2, double areaDeg2);

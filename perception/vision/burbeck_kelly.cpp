@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Burbeck and Kelly 1980 take the surface of Kelly 1979 apart into an excitation and an inhibition, each a
+// Burbeck and Kelly 1980 decompose the surface of Kelly 1979 into an excitation and an inhibition, each a
 // product of a spatial and a temporal part. The numbers 10 cpd, 19 Hz, 0.5 cpd and 1 Hz choose the cuts
 // through the surface that these parts are read from; as speeds they are 19 Hz / 10 cpd = 1.9 deg/s and 19 Hz
 // / 0.5 cpd = 38 deg/s.
@@ -21,7 +21,7 @@ double kelly79AtHz(double rho, double omega) {
   if (!(rho > 0.0) || !(omega > 0.0) || std::isinf(rho) || std::isinf(omega)) return 0.0;
   const double decay = std::exp(-4.0 * kPi * (omega + 2.0 * rho) / 45.9);
   if (decay == 0.0) return 0.0;
-  // Of quotients too large or small for a double the logarithm is taken apart.
+  // For quotients too large or small for a double, the logarithm is split.
   const double lg = std::abs(std::log10(omega / 3.0) - std::log10(rho));
   return (6.1 + 7.3 * lg * lg * lg) * omega * 4.0 * kPi * kPi * rho * decay;
 }

@@ -28,7 +28,7 @@ glm::dvec3 lmsFromXyz(const glm::dvec3& xyz);
 glm::dvec3 opponentFromLms(const glm::dvec3& lms);
 
 /// CIE94 colour difference for graphic arts (kL = 1, K1 = 0.045, K2 = 0.015). Not symmetric: chroma is
-/// weighed by the reference's. Source: CIE 116-1995.
+/// weighted by the reference's. Source: CIE 116-1995.
 double differenceCie94(const Lab& reference, const Lab& test);
 
 }  // namespace limen::perception

@@ -13,7 +13,8 @@ namespace {
 constexpr double kLowCpd = 0.05, kHighCpd = 60.0;
 
 // Of a smooth function near its maximum: Newton on the logarithm's slope by five-point differences, which
-// finds the place to 1e-10 where comparing values ends at 1e-8. Left alone where it does not settle nearby.
+// finds the position to 1e-10, whereas comparing values ends at 1e-8. Discarded if it does not converge
+// nearby.
 double refine(const std::function<double(double)>& value, double x) {
   constexpr double kStep = 4e-3;
   const double start = x;

@@ -13,7 +13,7 @@
 
 namespace limen::perception {
 
-/// Everything that a contrast sensitivity may depend on; each model reads what it knows of.
+/// Everything that a contrast sensitivity may depend on; each model reads what it uses.
 struct CsfPoint {
   double frequencyCpd = 1.0;     ///< spatial
   double velocityDegS = 0.15;    ///< retinal; the drift of a fixating eye is about 0.15
@@ -28,7 +28,7 @@ struct CsfPoint {
 enum class Channel { Achromatic, RedGreen, BlueYellow };
 
 /// A contrast sensitivity function: 1 / threshold contrast. Finite and >= 0 for every argument, NaN included
-/// (then 0). What lies outside the valid range is clamped to it where the model would run wild, else
+/// (then 0). Arguments outside the valid range are clamped to it if the model would diverge, otherwise
 /// extrapolated; each model's summary says which.
 class Csf {
  public:
@@ -38,7 +38,7 @@ class Csf {
   struct Peak {
     double frequencyCpd = 0.0, sensitivity = 0.0;
   };
-  /// Golden section on lg frequency in [0.05, 60] cpd unless a model knows better.
+  /// Golden section on lg frequency in [0.05, 60] cpd unless a model overrides it.
   virtual Peak peak(const CsfPoint& point) const;
 };
 
@@ -55,7 +55,7 @@ struct CsfInfo {
   static constexpr const char* kKind = "contrast sensitivity function";
   std::string name;
   int version = 1;
-  std::string summary;  ///< with the stated answer outside the valid range
+  std::string summary;  ///< including its behaviour outside the valid range
   std::string source = {};
   Channel channel = Channel::Achromatic;
   std::vector<CsfArgument> arguments = {};
@@ -64,7 +64,7 @@ struct CsfInfo {
 };
 using CsfRegistry = Registry<CsfInfo>;
 
-/// Registers a model with constants S (settings_table.h) at program start. `info` says the rest; its
+/// Registers a model with constants S (settings_table.h) at program start. `info` provides the rest; its
 /// parameters and make are filled in. `defaults` are the constants of this registration.
 template <class S>
 struct RegisteredCsf {

@@ -6,7 +6,7 @@
 
 #include "perception/vision/csf.h"
 
-/// What the files that register contrast sensitivities share.
+/// Shared by the files that register contrast sensitivities.
 namespace limen::perception {
 
 inline CsfArgument frequencyArgument(double low, double high) { return {"frequency_cpd", "cpd", low, high}; }
@@ -18,7 +18,7 @@ inline CsfArgument luminanceArgument(double low, double high) {
 }
 inline CsfArgument areaArgument(double low, double high) { return {"area_deg2", "deg2", low, high}; }
 
-/// Included by every model: the peak that studies report differs by far more than the models' shapes.
+/// Included by every model: reported peaks differ by far more than the models' shapes.
 struct CsfGain {
   double value = 1.0;  ///< factor on the sensitivity
   static const SettingsTable<CsfGain>& table();

@@ -25,7 +25,7 @@ std::vector<std::string> split(const std::string& line) {
   return out;
 }
 
-/// One line's cells by the names in the head.
+/// One line's cells by the names in the header.
 class Row {
  public:
   Row(const std::map<std::string, size_t>& columns, std::vector<std::string> cells, std::string where)
@@ -63,7 +63,7 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path) {
   std::error_code error;
   std::ifstream file(path);
   if (!fs::is_regular_file(path, error) || !file)
-    throw Error("is no readable file", path, "give measurements as comma-separated values");
+    throw Error("is not a readable file", path, "give measurements as comma-separated values");
   std::map<std::string, size_t> columns;
   std::vector<CsfMeasurement> out;
   std::string line;
@@ -80,7 +80,7 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path) {
     }
     if (cells.size() != columns.size())
       throw Error(std::to_string(cells.size()) + " cells under " + std::to_string(columns.size()) + " heads",
-                  where, "each line holds one cell for each column");
+                  where, "each line needs one cell per column");
     const Row row(columns, std::move(cells), where);
     CsfMeasurement one;
     one.line = number;
@@ -101,7 +101,7 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path) {
     one.sensitivity = row.positive("sensitivity");
     out.push_back(std::move(one));
   }
-  if (out.empty()) throw Error("holds no measurement", path, "a head and at least one line are needed");
+  if (out.empty()) throw Error("holds no measurement", path, "a header and at least one line are needed");
   return out;
 }
 

@@ -54,7 +54,7 @@ double csfBarten03(double rho, double l, double areaDeg2, const Barten03Constant
   const double square = rho * rho;
   const double optics = std::exp(-constants.optics * square * std::pow(1.0 + 100.0 / l, 0.08));
   if (optics == 0.0) return 0.0;
-  // 1 - exp(-x) loses its digits for small x, expm1 does not. It is 0 once rho^2 underflows.
+  // 1 - exp(-x) loses precision for small x, expm1 does not. It is 0 once rho^2 underflows.
   const double lateral = -std::expm1(-constants.lateralInhibition * square);
   if (lateral <= 0.0) return 0.0;
   const double integration = 1.0 + constants.area / areaDeg2 + constants.cycles * square;
@@ -78,7 +78,7 @@ double csfMartin92Chromatic(double rho, double l, const MartinChromaticConstants
   const auto [a, b, c, d] = constants;
   const double lg = std::log10(clampLuminance(l));
   double exponent = a + b + (lg <= 2.3 ? 0.5 * lg : 1.15);
-  // The plateau is asked for in cpd, so that rho = 0 never comes to a logarithm.
+  // The plateau is tested in cpd, so that rho = 0 never reaches a logarithm.
   if (rho > std::pow(10.0, d)) exponent -= c * (std::log10(rho) - d) * (std::log10(rho) - d);
   return std::pow(10.0, exponent);
 }
@@ -111,7 +111,7 @@ double csfKelly79(double rho, double v, const Kelly79Constants& constants) {
   if (anyNan(rho, v)) return 0.0;
   v = std::abs(v);
   if (rho <= 0.0 || v == 0.0 || std::isinf(rho) || std::isinf(v)) return 0.0;
-  // The root of the exponential goes into the square, so that neither factor overflows beside the other's 0.
+  // The root of the exponential goes into the square, so that neither factor overflows while the other is 0.
   const double root = std::exp(-2.0 * kPi * rho * (v + 2.0) / constants.k3);
   if (root == 0.0) return 0.0;
   const double alpha = 2.0 * kPi * rho * root;

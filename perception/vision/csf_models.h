@@ -7,7 +7,7 @@
 /// velocities v in deg/s, luminances l in cd/m2. Written in forms that neither overflow nor cancel. Source:
 /// Schwarz 2009, section 9.1.1 (equation numbers beside each), which cites the papers.
 ///
-/// Every result is finite and >= 0. NaN in any argument gives 0. Luminances are clamped to [1e-4, 1e8] but
+/// Every result is finite and >= 0. NaN in any argument gives 0. Luminances are clamped to [1e-4, 1e8] except
 /// for Martin 1992; frequencies below 0 count as 0, velocities by their magnitude; areas, sizes and distances
 /// that are not positive give 0.
 namespace limen::perception {
@@ -17,7 +17,7 @@ struct Barten89Constants {
   double a = 440.0, b = 0.3, c = 0.06;
 };
 inline constexpr double kBarten89SizeGain = 540.0;
-/// Constants of (9.2) in the order in which they stand there.
+/// Constants of (9.2) in the order given there.
 struct Barten03Constants {
   double gain = 5200.0;
   double optics = 0.0016;           ///< blur of the eye [deg2]
@@ -56,7 +56,7 @@ double csfBarten89Size(double rho, double l, double widthDeg, double gain = kBar
                        const Barten89Constants& constants = {});
 double csfBarten03(double rho, double l, double areaDeg2,
                    const Barten03Constants& constants = {});  ///< (9.2)
-/// As printed, not clamped: a cubic in lg l, which runs wild outside [0.5, 60] cpd and [1e-3, 1e3] cd/m2. 0
+/// As printed, not clamped: a cubic in lg l, which diverges outside [0.5, 60] cpd and [1e-3, 1e3] cd/m2. 0
 /// where rho or l is not positive; at most 1e300.
 double csfMartin92Luminance(double rho, double l, const MartinCoefficients& s = kMartin92Luminance);
 double csfMartin92RedGreen(double rho, double l);

@@ -109,7 +109,8 @@ void checkDisplay(const DisplayProfile& profile, const std::string& where) {
   if (aspect < 0.95 || aspect > 1.05)
     throw Error(fmt::format("pixels of {} x {} mm are not square", shortestNumber(1000.0 * profile.pitchM()),
                             shortestNumber(1000.0 * profile.heightM / profile.resolutionPx.y)),
-                where, "width and height of the lit area go with the resolution as the display shows it");
+                where,
+                "give width and height of the lit area to match the resolution that the display shows");
 }
 
 }  // namespace limen::perception

@@ -93,7 +93,8 @@ constexpr Preset kPresets[] = {
      TransferCurve::Srgb,
      2.2,
      60.0,
-     "commonest desktop display: matt IPS panel of 1000:1 in an office (ISO 9241: 500 lux on the desk, less "
+     "most common desktop display: matt IPS panel of 1000:1 in an office (ISO 9241: 500 lux on the desk, "
+     "less "
      "on "
      "the upright screen)"},
     {"desktop_27_4k",
@@ -144,7 +145,7 @@ constexpr Preset kPresets[] = {
      TransferCurve::Srgb,
      2.2,
      60.0,
-     "OLED phone of 457 pixels an inch held at 30 cm indoors"},
+     "OLED phone of 457 pixels per inch held at 30 cm indoors"},
     {"projector",
      {1920, 1080},
      100.0,
@@ -182,7 +183,7 @@ std::string readWhole(const std::string& path) {
   std::error_code error;
   const uintmax_t bytes = fs::file_size(path, error);
   if (error || !fs::is_regular_file(path, error))
-    throw Error("is no readable file", path, "give a display profile (YAML) or a preset");
+    throw Error("is not a readable file", path, "give a display profile (YAML) or a preset");
   if (bytes > kMaxBytes) throw Error("is too large for a display profile", path);
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -219,13 +220,13 @@ class Reader {
   glm::dvec2 pair(const char* key) const {
     const YAML::Node node = need(key);
     if (!node.IsSequence() || node.size() != 2)
-      throw Error(fmt::format("'{}' is no pair", key), at(node.Mark()), "give [width, height]");
+      throw Error(fmt::format("'{}' is not a pair", key), at(node.Mark()), "give [width, height]");
     return {toNumber(node[0], key), toNumber(node[1], key)};
   }
 
   std::string text(const char* key) const {
     const YAML::Node node = need(key);
-    if (!node.IsScalar()) throw Error(fmt::format("'{}' is no text", key), at(node.Mark()));
+    if (!node.IsScalar()) throw Error(fmt::format("'{}' is not a text", key), at(node.Mark()));
     return node.Scalar();
   }
 
@@ -290,9 +291,9 @@ DisplayProfile profileOf(const std::string& text, const std::string& path) {
   if (out.transfer == TransferCurve::Gamma) {
     out.gamma = file.number("gamma");
   } else if (file.has("gamma")) {
-    throw Error("'gamma' without 'transfer: gamma'", file.where("gamma"), "say which of the two is meant");
+    throw Error("'gamma' without 'transfer: gamma'", file.where("gamma"), "give the one that is meant");
   }
-  // checkDisplay() names the key; the line it stands on is found again for the message.
+  // checkDisplay() names the key; its line is looked up again for the message.
   try {
     checkDisplay(out, path);
   } catch (const Error& error) {

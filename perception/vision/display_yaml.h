@@ -7,8 +7,8 @@
 
 namespace limen::perception {
 
-/// The profile that toYaml() wrote, as a result store keeps it. Throws Error as readDisplay() does of a file,
-/// `where` standing for its path.
+/// The profile written by toYaml(), as stored in a result store. Throws Error like readDisplay() for a file,
+/// with `where` in place of its path.
 DisplayProfile displayFromYaml(const std::string& text, const std::string& where);
 
 }  // namespace limen::perception

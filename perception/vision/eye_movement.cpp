@@ -23,8 +23,8 @@ double retinalVelocityDegS(double screenDegS, EyeMovement model, double leastDeg
     case EyeMovement::Floor:
       return std::max(std::abs(screen - eye), least);
     case EyeMovement::Monotone:
-      // Without the magnitude: an eye that drifts past a slow target sees it move at least as fast as it
-      // drifts.
+      // Without the absolute value: an eye that drifts past a slow target sees it move at least as fast as
+      // the drift.
       return std::max(screen - eye, least);
     case EyeMovement::None:
       break;

@@ -5,7 +5,7 @@
 
 namespace limen::perception {
 
-/// How the eye's tracking of a moving stimulus leaves velocity on the retina. Daly 1998; Schwarz 2009,
+/// Retinal velocity that remains after the eye's tracking of a moving stimulus. Daly 1998; Schwarz 2009,
 /// section 10.3.
 enum class EyeMovement {
   Literal,   ///< |v - min(0.82 v + 0.15, 80)|: vanishes at 0.833 deg/s

@@ -7,8 +7,8 @@
 namespace limen::perception {
 namespace {
 
-// Below this contrast an elevation made from a transducer stays what it is there: that of Lubin, whose slope
-// is 0 at 0, would rise without bound.
+// Below this contrast an elevation derived from a transducer is held constant: that of Lubin, whose slope is
+// 0 at 0, would grow without bound.
 constexpr double kLeastContrast = 1e-6;
 
 // (1 + x^b)^(1/b) for x >= 0 where x^b may overflow.
@@ -46,7 +46,7 @@ double selfMask(double c, double alpha) {
 }
 
 double pointwiseExtendedMask(double x, double neighbourMean, double alpha, double a) {
-  // An infinite neighbour masks all, and so does one that is no number: better unseen than spread.
+  // An infinite neighbour masks everything, and so does NaN: better masked than propagated.
   if (refused(neighbourMean)) return 0.0;
   return selfMask(x, alpha) / (1.0 + a * std::max(neighbourMean, 0.0));
 }
@@ -85,7 +85,7 @@ const SettingsTable<DalyMasking>& DalyMasking::table() {
   static const SettingsTable<S> kTable = {
       {&S::k1, "k1", {1e-6, 1e3}, "", "with k2, the contrast at which masking sets in", kThesis},
       {&S::k2, "k2", {1e-6, 1e6}, "", "with k1, the contrast at which masking sets in", kThesis},
-      {&S::b, "b", {0.1, 100.0}, "", "how sharply masking sets in", kThesis},
+      {&S::b, "b", {0.1, 100.0}, "", "sharpness of the onset of masking", kThesis},
       {&S::s, "s", {0.0, 1.0}, "", "slope of lg elevation over lg contrast; 0.65 to 1 in use", kThesis}};
   return kTable;
 }
@@ -107,7 +107,7 @@ const SettingsTable<SelfMasking>& SelfMasking::table() {
 const SettingsTable<SchwarzMasking>& SchwarzMasking::table() {
   using S = SchwarzMasking;
   static const SettingsTable<S> kTable = {
-      {&S::b, "b", {0.1, 100.0}, "", "how sharply masking sets in", kThesis},
+      {&S::b, "b", {0.1, 100.0}, "", "sharpness of the onset of masking", kThesis},
       {&S::s, "s", {0.0, 1.0}, "", "slope of lg elevation over lg contrast", kThesis}};
   return kTable;
 }

@@ -29,9 +29,9 @@ double elevationSchwarz(double c);
 /// Transducer that belongs to an elevation: c / elevation(|c|).
 double transducerDaly(double c, double k1 = 0.0153, double k2 = 392.498, double b = 4.0, double s = 0.7);
 
-/// A point-wise model with its constants bound, in both forms; each follows from the other.
+/// A point-wise model with its constants, in both forms; each follows from the other.
 struct Masking {
-  std::function<double(double)> elevation;   ///< of |c|, >= 1 where the model knows no facilitation
+  std::function<double(double)> elevation;   ///< of |c|, >= 1 if the model has no facilitation
   std::function<double(double)> transducer;  ///< odd in c
 };
 /// Registration: "none", "daly", "lubin", "self", "schwarz".
@@ -45,7 +45,7 @@ struct MaskingInfo {
 };
 using MaskingRegistry = Registry<MaskingInfo>;
 
-/// Registers a model with constants S at program start. `info` says the rest; its parameters and make are
+/// Registers a model with constants S at program start. `info` provides the rest; its parameters and make are
 /// filled in.
 template <class S>
 struct RegisteredMasking {
@@ -81,7 +81,7 @@ struct SchwarzMasking {
   double b = 10.0, s = 0.3;
   static const SettingsTable<SchwarzMasking>& table();
 };
-/// (9.9) as the thesis has it: elevation (1 + |c|^3)^(1/10), for which there is a faster form.
+/// (9.9) as in the thesis: elevation (1 + |c|^3)^(1/10), for which there is a faster form.
 bool isCubic(const ChosenEntry& masking);
 
 }  // namespace limen::perception

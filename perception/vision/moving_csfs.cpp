@@ -26,7 +26,7 @@ struct LeastVelocity {
          "least_velocity",
          {0.0, 10.0},
          "deg/s",
-         "slower motion counts as this; 0: a stabilised image vanishes, as the model says",
+         "slower motion is treated as this; 0: a stabilised image vanishes, as in the model",
          "Schwarz 2009, section 9.1.1: about 0.15 for fixation"}};
     return kTable;
   }
@@ -74,8 +74,12 @@ struct Daly98Settings {
         {&S::c0, "c0", {0.0, 100.0}, "", "height, at the reference luminance"},
         {&S::c1, "c1", {0.01, 100.0}, "", "frequency scale, at the reference luminance"},
         {&S::c2, "c2", {0.01, 100.0}, "", "velocity scale"},
-        {&S::adapt, "adapt", "c0 and c1 follow the luminance as Barten 2003 moves its peak", kAdaptSection},
-        {&S::referenceCdM2, "reference_luminance", {1e-4, 1e4}, "cd/m2", "where c0 and c1 hold"}};
+        {&S::adapt, "adapt", "c0 and c1 follow the luminance as the peak of Barten 2003 does", kAdaptSection},
+        {&S::referenceCdM2,
+         "reference_luminance",
+         {1e-4, 1e4},
+         "cd/m2",
+         "luminance for which c0 and c1 apply"}};
     return kTable;
   }
 };
@@ -142,7 +146,7 @@ std::unique_ptr<Csf> makeDaly98(const Daly98Settings& settings) { return std::ma
 const RegisteredCsf<Daly98Settings> kDaly98{
     {.name = "daly98",
      .summary = "Kelly 1979 for natural viewing, adapted to luminance. Beyond its range extrapolated; 0 at "
-                "rest; luminance is held to [1e-4, 1e4] cd/m2.",
+                "rest; luminance is clamped to [1e-4, 1e4] cd/m2.",
      .source = "Daly 1998; Schwarz 2009, (9.4) and section 10.3",
      .arguments = daly98Arguments()},
     &makeDaly98};
@@ -152,8 +156,8 @@ const RegisteredCsf<Daly98Settings> kDaly98{
 const RegisteredCsf<Daly98Settings> kLaird06{
     {.name = "laird06",
      .summary =
-         "Daly 1998 fitted anew to unstabilised moving Gabor patches at 60 cd/m2, adapted to luminance from "
-         "there. Beyond its range extrapolated; 0 at rest; luminance is held to [1e-4, 1e4] cd/m2.",
+         "Daly 1998 refitted to unstabilised moving Gabor patches at 60 cd/m2, adapted to luminance from "
+         "there. Beyond its range extrapolated; 0 at rest; luminance is clamped to [1e-4, 1e4] cd/m2.",
      .source = "Laird, Rosen, Pelz, Montag and Daly 2006 (doi 10.1117/12.647870)",
      .arguments = daly98Arguments()},
     &makeDaly98,
@@ -172,7 +176,7 @@ struct BurbeckKellySettings {
 const RegisteredCsf<BurbeckKellySettings> kBurbeckKelly80{
     {.name = "burbeck_kelly80",
      .summary =
-         "Excitation less inhibition, each a product of a spatial and a temporal part. Beyond its range "
+         "Excitation minus inhibition, each a product of a spatial and a temporal part. Beyond its range "
          "extrapolated; 0 at rest and where inhibition exceeds excitation.",
      .source = "Burbeck and Kelly 1980; Schwarz 2009, section 9.1.1",
      .arguments = kMotionArguments},
@@ -197,7 +201,7 @@ struct Kelly83Settings {
          "reference_luminance",
          {1e-4, 1e4},
          "cd/m2",
-         "where the scale is 1",
+         "luminance at which the scale is 1",
          kAdaptSection}};
     return kTable;
   }
@@ -224,7 +228,7 @@ const RegisteredCsf<Kelly83Settings> kKelly83{
      .summary =
          "Chromatic: excitation plus inhibition, low-pass above 0.5 cpd, times the root of retinal "
          "illuminance. Serves red-green and blue-yellow alike. Beyond its range extrapolated; 0 at rest; "
-         "luminance is held to [1e-4, 1e4] cd/m2.",
+         "luminance is clamped to [1e-4, 1e4] cd/m2.",
      .source = "Kelly 1983; Schwarz 2009, (9.5) and section 10.3",
      .channel = Channel::RedGreen,
      .arguments = {frequencyArgument(0.05, 60.0), velocityArgument(0.1, 32.0), luminanceArgument(1e-4, 1e4)}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Registration of the models that know no motion.
+// Registration of the models without motion.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ const RegisteredCsf<Barten89Settings> kBarten89{
     {.name = "barten89",
      .summary =
          "Band-pass over frequency, rising with luminance. Beyond its range extrapolated; luminance is "
-         "held to [1e-4, 1e8] cd/m2.",
+         "clamped to [1e-4, 1e8] cd/m2.",
      .source = "Barten 1989; Schwarz 2009, (9.1)",
      .arguments = {frequencyArgument(0.1, 60.0), luminanceArgument(1e-3, 1e3)}},
     [](const Barten89Settings& settings) {
@@ -48,7 +48,7 @@ const RegisteredCsf<Barten89Settings> kBarten89Size{
     {.name = "barten89_size",
      .summary = "Barten 1989 with the display's angular width: small displays lose low frequencies. Beyond "
                 "its range "
-                "extrapolated; luminance is held to [1e-4, 1e8] cd/m2; 0 for a width of 0.",
+                "extrapolated; luminance is clamped to [1e-4, 1e8] cd/m2; 0 for a width of 0.",
      .source = "Barten 1990; Schwarz 2009, (9.1), footnote",
      .arguments = {frequencyArgument(0.1, 60.0),
                    luminanceArgument(1e-3, 1e3),
@@ -102,7 +102,7 @@ const RegisteredCsf<Barten03Settings> kBarten03{
     {.name = "barten03",
      .summary =
          "Barten's physical model for a typical viewer, simplified: luminance and stimulus area. Beyond "
-         "its range extrapolated; luminance is held to [1e-4, 1e8] cd/m2; 0 for an area of 0.",
+         "its range extrapolated; luminance is clamped to [1e-4, 1e8] cd/m2; 0 for an area of 0.",
      .source = "Barten 2003; Schwarz 2009, (9.2)",
      .arguments = {frequencyArgument(0.1, 60.0), luminanceArgument(1e-3, 1e3), areaArgument(0.05, 3600.0)}},
     [](const Barten03Settings& s) {
@@ -149,9 +149,9 @@ const SettingsTable<Martin92Settings>& Martin92Settings::table() {
 
 const RegisteredCsf<Martin92Settings> kMartin92{
     {.name = "martin92",
-     .summary = "Fit to measurements of van Nes and Bouman, a cubic in lg luminance that runs wild outside "
-                "its data: "
-                "frequency is held to [0.5, 60] cpd, luminance to [1e-3, 1e3] cd/m2.",
+     .summary =
+         "Fit to measurements of van Nes and Bouman, a cubic in lg luminance that diverges outside its data: "
+         "frequency is clamped to [0.5, 60] cpd, luminance to [1e-3, 1e3] cd/m2.",
      .source = "Martin, Ahumada and Larimer 1992; Schwarz 2009, section 9.1.1",
      .arguments = {frequencyArgument(kMartinLowCpd, kMartinHighCpd),
                    luminanceArgument(kMartinLow, kMartinHigh)}},
@@ -165,7 +165,7 @@ const RegisteredCsf<Martin92Settings> kMartin92{
 
 struct MartinChromaticSettings {
   CsfGain gain;
-  double aberration = 1.0;  ///< what chromatic aberration leaves over
+  double aberration = 1.0;  ///< what chromatic aberration leaves
   double a = kMartin92RedGreen.a, b = kMartin92RedGreen.b, c = kMartin92RedGreen.c, d = kMartin92RedGreen.d;
   static const SettingsTable<MartinChromaticSettings>& table();
 };
@@ -178,7 +178,8 @@ const SettingsTable<MartinChromaticSettings>& MartinChromaticSettings::table() {
        "aberration",
        {0.0, 1.0},
        "",
-       "left over by chromatic aberration; the measurements in blue-yellow had corrected for it",
+       "share that remains despite chromatic aberration; the blue-yellow measurements had been corrected for "
+       "it",
        "Schwarz 2009, section 9.1.1, without a number"},
       {&S::a, "a", {-10.0, 10.0}, "", "lg height", kSection},
       {&S::b, "b", {-10.0, 10.0}, "", "lg height", kSection},
@@ -192,7 +193,7 @@ RegisteredCsf<MartinChromaticSettings> martinChromatic(const char* name, Channel
   return {
       {.name = name,
        .summary = "Fit to measurements of Mullen: low-pass, rising with the root of luminance up to 200 "
-                  "cd/m2. Beyond its range extrapolated; luminance is held to [1e-4, 1e8] cd/m2. With the "
+                  "cd/m2. Beyond its range extrapolated; luminance is clamped to [1e-4, 1e8] cd/m2. With the "
                   "constants as printed blue-yellow exceeds red-green and luminance, which `gain` can "
                   "correct.",
        .source = "Martin, Ahumada and Larimer 1992; Schwarz 2009, section 9.1.1",
@@ -227,7 +228,7 @@ const SettingsTable<Daly93Settings>& Daly93Settings::table() {
        "eccentric",
        {0.0, 10.0},
        "1/deg",
-       "loss with eccentricity; one public implementation has 0.6 of it",
+       "loss with eccentricity; one public implementation uses 0.6 of it",
        "Daly 1993"},
       {&S::oblique, "oblique", {0.05, 1.0}, "", "frequency scale at 45 degrees", "Daly 1993"}};
   return kTable;
@@ -237,10 +238,11 @@ const RegisteredCsf<Daly93Settings> kDaly93{
     {.name = "daly93",
      .summary =
          "CSF of the visible differences predictor: orientation, luminance, image area, viewing distance and "
-         "eccentricity. Beyond its range extrapolated; luminance is held to [1e-4, 1e8] cd/m2; 0 for an area "
+         "eccentricity. Beyond its range extrapolated; luminance is clamped to [1e-4, 1e8] cd/m2; 0 for an "
+         "area "
          "or distance of 0.",
-     .source = "Daly 1993; named in Schwarz 2009, section 9.1.1; formula reconstructed, as public "
-               "implementations have it",
+     .source = "Daly 1993; named in Schwarz 2009, section 9.1.1; formula reconstructed, as in public "
+               "implementations",
      .arguments = {frequencyArgument(0.1, 60.0),
                    luminanceArgument(1e-3, 1e3),
                    areaArgument(0.05, 3600.0),

@@ -5,7 +5,8 @@
 // and Nasanen 1993. Written from the equations of the papers; the constants are those published with them.
 //
 // One departure: the transient mechanism's best temporal frequency falls with luminance in castleCSF and
-// passes 0 near 0.011 cd/m2. Below it is held at 0; what a negative frequency would mean is not said.
+// passes 0 near 0.011 cd/m2. Below that it is clamped to 0; the paper does not say what a negative frequency
+// would mean.
 #include "perception/vision/stela_csf.h"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ double csfStela(double rho, double omega, double l, double areaDeg2, double ecce
 namespace {
 
 // The transient mechanism has a power law instead of hyperbolas, and one peak frequency at all luminances:
-// the constants that would be 0 are no settings of it.
+// the constants that would be 0 are not settings of it.
 struct TransientSettings {
   double gain1 = 0.0, gain3 = 0.0, frequency1 = 0.0;
   double bandwidth = 0.0, truncation = 0.0, areaLimit = 0.0, corner = 0.0;
@@ -229,7 +230,8 @@ const RegisteredCsf<StelaSettings> kStela{
     {.name = "stelacsf",
      .summary =
          "Fit to 11 studies of spatial and temporal frequency (speed times frequency), luminance, area and "
-         "eccentricity. Beyond its range extrapolated; luminance is held to [1e-3, 1e4] cd/m2; 0 for an area "
+         "eccentricity. Beyond its range extrapolated; luminance is clamped to [1e-3, 1e4] cd/m2; 0 for an "
+         "area "
          "of 0.",
      .source = "Mantiuk, Ashraf and Chapiro 2022, constants published with the paper",
      .arguments = stelaArguments()},
@@ -240,7 +242,7 @@ const RegisteredCsf<StelaSettings> kCastle{
     {.name = "castlecsf",
      .summary =
          "Achromatic mechanism of castleCSF, fit to 18 studies like stelaCSF with other constants and a "
-         "transient mechanism that slows in the dark. Beyond its range extrapolated; luminance is held to "
+         "transient mechanism that slows in the dark. Beyond its range extrapolated; luminance is clamped to "
          "[1e-3, 1e4] cd/m2; 0 for an area of 0.",
      .source = "Ashraf, Mantiuk, Chapiro and Wuerger 2024, constants published with the paper",
      .arguments = stelaArguments()},

@@ -22,7 +22,7 @@ double lgTviBranch(size_t branch, double l) {
     case 0:
       return -2.86;
     case 1:
-      // The base is negative below -3.9506, where the branch is never asked.
+      // The base is negative below -3.9506, where the branch is never used.
       return std::pow(0.405 * l + 1.6, 2.18) - 2.86;
     case 2:
       return l - 0.395;
@@ -65,7 +65,7 @@ double tviFromCsf(const Csf& csf, CsfPoint point) {
   point.luminanceCdM2 = point.luminanceCdM2 > 0.0
                             ? std::clamp(point.luminanceCdM2, kLeastAdaptedCdM2, kLargestAdaptedCdM2)
                             : kLeastAdaptedCdM2;
-  // Where nothing is visible no increment is; a finite one stands for that.
+  // Where nothing is visible, no increment is; a finite one represents that.
   return std::min(point.luminanceCdM2 / std::max(csf.peak(point).sensitivity, 1.0 / kLargestFactor), 1e24);
 }
 

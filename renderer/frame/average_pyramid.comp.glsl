@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One level of a pyramid of averages, of all layers, from the level below.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, TEXEL) uniform readonly image2DArray below;
-layout(binding = 1, TEXEL) uniform writeonly image2DArray above;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kAverageBelowImage, TEXEL) uniform readonly image2DArray below;
+layout(binding = kAverageAboveImage, TEXEL) uniform writeonly image2DArray above;
 uniform int side, layers;
 
 void main() {

@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "experiments/base/text.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 
@@ -28,13 +29,13 @@ BiasLevels::BiasLevels(gl::Context& context, int resolution)
       biases_(gl::Format::RG32F, glm::ivec2(resolution), std::bit_width(static_cast<unsigned>(resolution))) {}
 
 void BiasLevels::aggregate(const gl::Texture& minimum, float tolerance) const {
-  minimum.bindTexture(0);
-  biases_.bindTexture(1);
+  minimum.bindTexture(kBiasPyramidMinimumMapUnit);
+  biases_.bindTexture(kBiasPyramidBiasesUnit);
   program_.set("tolerance", tolerance);
   for (int level = 1; level < biases_.levels(); ++level) {
     program_.set("sourceLevel", level - 1);
     program_.set("size", resolution_ >> level);
-    biases_.bindImage(0, gl::Access::Write, level);
+    biases_.bindImage(kBiasPyramidImage, gl::Access::Write, level);
     program_.dispatch(glm::ivec2(resolution_ >> level));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
@@ -62,10 +63,10 @@ void BiasMap::make(Frame& frame) {
   slopes_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
   slopes_.set("resolution", settings_.map.resolution);
   slopes_.set("maxSlope", settings_.maxSlope);
-  triangles.ids().bindTexture(0);
-  pyramid.minimum().bindTexture(1);
-  levels_.biases().bindImage(0, gl::Access::Write, 0);
-  frame.geometry().bindStorage(0);
+  triangles.ids().bindTexture(kSlopeBiasIdsUnit);
+  pyramid.minimum().bindTexture(kSlopeBiasMinimumMapUnit);
+  levels_.biases().bindImage(kSlopeBiasImage, gl::Access::Write, 0);
+  frame.geometry().bindStorage();
   slopes_.dispatch(glm::ivec2(settings_.map.resolution));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   levels_.aggregate(pyramid.minimum(), settings_.tolerance);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Biases and heights of a level from the level below, folded nearest first. Schwarz 2009, section 4.5.4; see bias_map.h.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D minimumMap;
-layout(binding = 1) uniform sampler2D biases;
-layout(binding = 0, rg32f) uniform writeonly image2D outBiases;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kBiasPyramidMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kBiasPyramidBiasesUnit) uniform sampler2D biases;
+layout(binding = kBiasPyramidImage, rg32f) uniform writeonly image2D outBiases;
 uniform int sourceLevel, size;
 uniform float tolerance;
 

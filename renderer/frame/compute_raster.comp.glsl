@@ -2,24 +2,24 @@
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
 // group a band.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kRasterGroup) in;
 // A buffer, not an image: its atomics without a result cost no waiting.
 #ifdef IDS
-layout(std430, binding = 4) readonly buffer Depths { uint depths[]; };
-layout(std430, binding = 5) buffer Ids { uint ids[]; };
+layout(std430, binding = kRasterDepthsBuffer) readonly buffer Depths { uint depths[]; };
+layout(std430, binding = kRasterIdsBuffer) buffer Ids { uint ids[]; };
 #else
-layout(std430, binding = 4) buffer Depths { uint depths[]; };
+layout(std430, binding = kRasterDepthsBuffer) buffer Depths { uint depths[]; };
 #endif
-layout(std430, binding = 3) buffer Queue {
-  uint queued;
-  uint padding[3];
+layout(std430, binding = kRasterQueueBuffer) buffer Queue {
+  RasterQueueHeader queue;
   uvec2 bands[];  // triangle, first row of the band in its bounding box
 };
 
 #ifdef PEEL
-layout(binding = 0) uniform sampler2D previousDepth;
+layout(binding = kRasterPreviousDepthUnit) uniform sampler2D previousDepth;
 uniform float peelBias;
 #endif
 
@@ -30,7 +30,7 @@ uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
 // As TriangleRanges has them: first triangle of a range, and the triangles up to its end.
-layout(std430, binding = 6) readonly buffer Ranges { uvec2 ranges[]; };
+layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
 const int kBandPixels = 16384;                     // of a bounding box, in a band
@@ -185,7 +185,7 @@ void shadeBand(Triangle t, uint index, int first, int end) {
   }
   const int pixels = pixelsUpTo[kMostBandRows - 1];
   int row = 0;
-  for (int i = lane; i < pixels; i += 64) {
+  for (int i = lane; i < pixels; i += kRasterGroup) {
     while (pixelsUpTo[row] <= i) ++row;
     const int inRow = i - (row > 0 ? pixelsUpTo[row - 1] : 0);
     shade(t, index, t.low + ivec2(spanStarts[row] + inRow, first + row));
@@ -194,10 +194,10 @@ void shadeBand(Triangle t, uint index, int first, int end) {
 
 // The same where a band is so small that pixels next to the triangle cost less than finding its spans.
 void shadeBox(Triangle t, uint index, int first, int end) {
-  const int pixels = (end - first) * t.size.x, stepX = 64 % t.size.x, stepY = 64 / t.size.x;
+  const int pixels = (end - first) * t.size.x, stepX = kRasterGroup % t.size.x, stepY = kRasterGroup / t.size.x;
   const int lane = int(gl_LocalInvocationID.x);
   ivec2 at = ivec2(lane % t.size.x, first + lane / t.size.x);
-  for (int i = lane; i < pixels; i += 64) {
+  for (int i = lane; i < pixels; i += kRasterGroup) {
     shade(t, index, t.low + at);
     at += ivec2(stepX, stepY);
     if (at.x >= t.size.x) at += ivec2(-t.size.x, 1);
@@ -205,7 +205,7 @@ void shadeBox(Triangle t, uint index, int first, int end) {
 }
 
 void main() {
-  const uint count = min(queued, QUEUE_CAPACITY);
+  const uint count = min(queue.queued, QUEUE_CAPACITY);
   for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
     const uint index = bands[item].x;
     const Triangle t = load(index);
@@ -243,7 +243,7 @@ void main() {
     return;
   }
   const int rows = rowsOfBand(t);
-  const uint slot = atomicAdd(queued, uint((t.size.y + rows - 1) / rows));
+  const uint slot = atomicAdd(queue.queued, uint((t.size.y + rows - 1) / rows));
   for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {
     if (slot + uint(band) < QUEUE_CAPACITY)
       bands[slot + uint(band)] = uvec2(index, uint(first));

@@ -3,10 +3,12 @@
 
 #include <epoxy/gl.h>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
-/// Bands of rows of large triangles; more are rasterised where they are found, one invocation each.
+/// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
 constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
@@ -33,9 +35,9 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withI
                                          withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
       depth_(gl::Format::R32F, sizePx),
-      queue_(16 + int64_t{kQueueCapacity} * 8, nullptr),
+      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
       depthBits_(int64_t{4} * sizePx.x * sizePx.y, nullptr) {
-  // Every frame leaves the buffers cleared for the next; the first needs them so, too.
+  // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
   queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (!withIds) return;
@@ -51,9 +53,9 @@ int64_t ComputeRaster::bytes() const {
 }
 
 void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const {
-  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
+  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
   const int triangles = static_cast<int>(triangleCount);
-  small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {64, 1});
+  small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   large.dispatch({kLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -61,12 +63,12 @@ void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uin
 
 void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
                          const DepthPeel& peel) const {
-  geometry.bindStorage(0);
-  if (geometry.ranges) geometry.ranges->ranges().bindStorage(6);
-  queue_.bindStorage(3);
-  depthBits_.bindStorage(4);
-  depth_.bindImage(0, gl::Access::Write);
-  if (peel.previous) peel.previous->bindTexture(0);
+  geometry.bindStorage();
+  if (geometry.ranges) geometry.ranges->ranges().bindStorage(kRasterRangesBuffer);
+  queue_.bindStorage(kRasterQueueBuffer);
+  depthBits_.bindStorage(kRasterDepthsBuffer);
+  depth_.bindImage(kRasterDepthImage, gl::Access::Write);
+  if (peel.previous) peel.previous->bindTexture(kRasterPreviousDepthUnit);
   for (const gl::Program* each : {&smallDepth_, &largeDepth_, smallIds_, largeIds_}) {
     if (!each) continue;
     each->set("anchorToClip", clip);
@@ -78,14 +80,14 @@ void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double
   }
   pass(smallDepth_, largeDepth_, geometry.triangleCount());
   if (ids_) {
-    idBits_->bindStorage(5);
-    ids_->bindImage(1, gl::Access::Write);
+    idBits_->bindStorage(kRasterIdsBuffer);
+    ids_->bindImage(kRasterIdsImage, gl::Access::Write);
     requeue_.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     pass(*smallIds_, *largeIds_, geometry.triangleCount());
   }
   finish_.set("sizePx", depth_.sizePx());
-  finish_.dispatch(depth_.sizePx(), {64, 1});
+  finish_.dispatch(depth_.sizePx(), {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Empties the queue between the depth pass and the index pass of ComputeRaster.
-layout(local_size_x = 1) in;
-layout(std430, binding = 3) buffer Queue { uint queued; };
+#include "renderer/frame/frame_bindings.h"
 
-void main() { queued = 0u; }
+layout(local_size_x = 1) in;
+layout(std430, binding = kRasterQueueBuffer) buffer Queue { RasterQueueHeader queue; };
+
+void main() { queue.queued = 0u; }

@@ -38,8 +38,8 @@ Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene, 
 void Frame::setTime(double timeS) {
   timeS_ = timeS;
   camera_ = scene_.camera.at(timeS);
-  // Everything is taken relative to the anchor before it becomes float, so distance from the origin costs no
-  // precision.
+  // Everything is made relative to the anchor before conversion to float, so distance from the origin costs
+  // no precision.
   const glm::dvec3 anchor = gpuScene_.anchor();
   anchorToCamera_ = glm::lookAt(camera_.eye - anchor, camera_.target - anchor, camera_.up);
   tanHalfFov_ = glm::tan(0.5 * glm::radians(camera_.verticalFovDeg));

@@ -20,16 +20,16 @@ namespace limen::frame {
 
 class Frame;
 
-/// What each pixel of a frame sees where that is not what lies behind its centre: places of a picture chosen
-/// one by one. Neighbouring pixels need not be neighbours in the picture.
+/// What each pixel of a frame sees if that is not what lies behind its centre: individually chosen positions
+/// in a picture. Neighbouring pixels need not be neighbours in the picture.
 struct Seen {
   const gl::Texture* ids = nullptr;     ///< R32UI: triangle, or TriangleIds::kNone: this pixel sees nothing
-  const gl::Texture* places = nullptr;  ///< RG32F: place in the picture, pixels from its top left corner
-  glm::ivec2 pictureSizePx{0};          ///< of the picture that the camera takes
+  const gl::Texture* places = nullptr;  ///< RG32F: position in the picture, pixels from its top left corner
+  glm::ivec2 pictureSizePx{0};          ///< of the camera's picture
 };
 
-/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made the first
-/// time a frame asks for it and never otherwise; its memory is kept for the next frame.
+/// Something several techniques need of a frame: a G-buffer channel, a shadow map, a pyramid. Made only when
+/// a frame first asks for it; its memory is kept for the next frame.
 class FrameInput {
  public:
   virtual ~FrameInput() = default;
@@ -37,7 +37,7 @@ class FrameInput {
   virtual void make(Frame& frame) = 0;
 };
 
-/// One view of one scene, rendered over and over. Inputs are asked for by type:
+/// One view of one scene, rendered repeatedly. Inputs are asked for by type:
 /// `frame.get<ShadowMap>(settings)`. An input class has a constructor (Frame&, Settings...) and each setting
 /// has `std::string key() const`.
 class Frame {
@@ -47,12 +47,12 @@ class Frame {
   Frame(gl::Context& context, const SceneOnGpu& onGpu, glm::ivec2 sizePx, double timeS = 0.0,
         Raster raster = Raster::Auto)
       : Frame(context, onGpu.scene, onGpu.gpu, sizePx, timeS, raster) {}
-  /// Another view or another choice of levels within a frame of `parent`: inputs of its own, passes in the
-  /// parent's list behind "`name`/". Starts at the parent's time with the finest levels; begin() it after its
-  /// parent.
+  /// Another view or another selection of levels within a frame of `parent`: its own inputs; passes in the
+  /// parent's list, prefixed "`name`/". Starts at the parent's time with the finest levels; call its begin()
+  /// after its parent's.
   Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx);
 
-  /// The same view within a frame of `parent`, of `scene`: the parent's scene but for its lights.
+  /// The same view within a frame of `parent`, but of `scene`: the parent's scene except for its lights.
   Frame(Frame& parent, const std::string& name, const scene::Scene& scene);
 
   gl::Context& context() { return context_; }
@@ -64,7 +64,7 @@ class Frame {
     passes_->setPrefix(prefix_);
     return *passes_;
   }
-  /// How the G-buffer is rasterised; shadow maps have a setting of their own.
+  /// How the G-buffer is rasterised; shadow maps have their own setting.
   Raster raster() const { return raster_; }
 
   /// Camera space (looking along -z) of positions relative to the scene's anchor.
@@ -80,18 +80,18 @@ class Frame {
   void setLevels(const scene::LodSelection& selection);
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
-  /// Fills the G-buffer from chosen places instead of rasterising. Call it before the first get(); the
+  /// Fills the G-buffer from chosen positions instead of rasterising. Call it before the first get(); the
   /// textures must hold what is seen when an input is made, and outlive this frame.
   void setSeen(const Seen& seen) { seen_ = seen; }
   const Seen* seen() const { return seen_.ids ? &seen_ : nullptr; }  ///< null: what lies behind the centres
-  /// Takes shadow maps from another view, whose levels are what casts shadows here; null: from this one.
-  /// begin() it first; it must outlive this frame.
+  /// Takes shadow maps from another view, whose levels cast the shadows here; null: from this one. Call its
+  /// begin() first; it must outlive this frame.
   void setCasters(Frame* casters) { casters_ = casters; }
   Frame& casters() { return casters_ ? *casters_ : *this; }
   /// What inputs rasterise.
   Geometry geometry() const { return {gpuScene_, ranges_.get(), positions_}; }
 
-  /// Starts a frame: inputs are stale and will be made again when asked for.
+  /// Starts a frame: inputs are stale and are made again on request.
   void begin();
   void end();
 

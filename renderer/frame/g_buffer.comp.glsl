@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Works one channel of the G-buffer out of the triangle that each pixel sees.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D triangleIds;
-layout(binding = 0, OUT_FORMAT) uniform writeonly image2D outImage;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kGBufferIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kGBufferOutImage, OUT_FORMAT) uniform writeonly image2D outImage;
 
 uniform mat4 anchorToCamera, cameraToAnchor;
 uniform mat4 cameraToLight;
 uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform ivec2 sizePx, pictureSizePx;
 #ifdef GIVEN_PLACES
-layout(binding = 1) uniform sampler2D places;
+layout(binding = kGBufferPlacesUnit) uniform sampler2D places;
 #endif
 
 const uint kNone = 0xffffffffu;

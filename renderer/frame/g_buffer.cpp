@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -37,13 +39,13 @@ gl::ShaderDefines channelDefines(Channel channel) {
   return {};
 }
 
-/// Defines of a channel in a frame that may have been given what it sees.
+/// Defines of a channel, depending on whether the frame was given what it sees.
 gl::ShaderDefines definesOf(const Frame& frame, gl::ShaderDefines defines) {
   if (frame.seen()) defines["GIVEN_PLACES"] = "1";
   return defines;
 }
 
-/// Works a channel out of the triangle ids; `out` gets every pixel.
+/// Computes a channel from the triangle ids; `out` gets every pixel.
 void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, const std::string& pass) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);
@@ -56,10 +58,10 @@ void resolve(Frame& frame, const gl::Program& program, const gl::Texture& out, c
   program.set("rayScale", glm::vec2(frame.tanHalfFov() * aspect, frame.tanHalfFov()));
   program.set("pictureSizePx", pictureSizePx);
   program.set("sizePx", frame.sizePx());
-  ids.bindTexture(0);
-  if (seen) seen->places->bindTexture(1);
-  out.bindImage(0, gl::Access::Write);
-  frame.geometry().bindStorage(0);
+  ids.bindTexture(kGBufferIdsUnit);
+  if (seen) seen->places->bindTexture(kGBufferPlacesUnit);
+  out.bindImage(kGBufferOutImage, gl::Access::Write);
+  frame.geometry().bindStorage();
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -7,9 +7,9 @@
 
 namespace limen::frame {
 
-/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are worked out
-/// from it in compute by intersecting the pixel's ray with the triangle, which is both faster and more exact
-/// than interpolated attributes.
+/// Which triangle each pixel's centre sees: the only raster pass of the G-buffer. All channels are computed
+/// from it in compute shaders by intersecting the pixel's ray with the triangle, which is both faster and
+/// more exact than interpolated attributes.
 class TriangleIds : public FrameInput {
  public:
   static constexpr const char* kName = "triangle_ids";
@@ -21,10 +21,10 @@ class TriangleIds : public FrameInput {
   const gl::Texture& texture() const {
     return given_ ? *given_ : hardware_ ? hardware_->ids : compute_->ids();
   }
-  /// What decided who is seen: near / distance along the view (reversed), 0: background. One channel of
-  /// 32-bit float, to be read by texelFetch. Of two triangles at the same depth the one with the smaller
-  /// number is seen. The near plane depends on scene and camera alone, so depths of two choices of levels
-  /// compare. Not there if the frame was given what it sees.
+  /// The depth that decided visibility: near / distance along the view (reversed), 0: background. One channel
+  /// of 32-bit float, to be read by texelFetch. Of two triangles at the same depth the one with the smaller
+  /// index is seen. The near plane depends only on scene and camera, so depths of two level selections are
+  /// comparable. Absent if the frame was given what it sees.
   const gl::Texture& depth() const { return hardware_ ? hardware_->depth : compute_->depth(); }
 
  private:
@@ -44,7 +44,7 @@ glm::mat4 anchorToClip(const Frame& frame);
 /// A small part of the distance to the scene, whatever the scene's scale.
 double nearPlane(const Frame& frame);
 
-/// G-buffer channels, each an input of its own.
+/// G-buffer channels, each a separate input.
 enum class Channel {
   Position,  ///< RGBA32F: position relative to the scene's anchor, w = 1; background 0
   Normal,    ///< RGBA32F: unit geometric normal turned to the camera; background 0
@@ -70,7 +70,7 @@ class GBufferChannel : public FrameInput {
   gl::Texture texture_;
 };
 
-/// Points that a light may reach, in the light's space. RGBA32F: xyz = position (light centre at the origin,
+/// Points that a light may reach, in light space. RGBA32F: xyz = position (light centre at the origin,
 /// z along its direction); w >= 0: sum over both axes of |d z / d(x/z)| of the surface's plane, the depth
 /// slope that biases need; w = -1: not a receiver (background, behind the light's plane, or turned away from
 /// the light's centre; every pixel of a scene without a light).

@@ -5,6 +5,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -23,7 +25,7 @@ std::vector<glm::uvec3> joinedIndices(const scene::Scene& scene) {
   return out;
 }
 
-/// One RGBA8-packed albedo a triangle: constant over it, so no vertex has to carry it.
+/// One RGBA8-packed albedo per triangle: constant over it, so vertices need none.
 std::vector<uint32_t> albedos(const scene::Scene& scene) {
   std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
   const auto fill = [&](const scene::TriangleRange& range, uint32_t material) {
@@ -57,7 +59,7 @@ GpuScene::GpuScene(const scene::Scene& scene)
   glVertexArrayAttribFormat(vertexArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(vertexArray_, 0, 0);
   glEnableVertexArrayAttrib(vertexArray_, 0);
-  // One value a draw: an instanced attribute starts at the draw's base instance.
+  // One value per draw: an instanced attribute starts at the draw's base instance.
   glVertexArrayAttribIFormat(vertexArray_, 1, 1, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(vertexArray_, 1, 1);
   glVertexArrayBindingDivisor(vertexArray_, 1, 1);
@@ -92,10 +94,10 @@ void GpuScene::draw(const TriangleRanges* ranges, const gl::Buffer* positions) c
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void GpuScene::bindStorage(uint32_t firstBinding, const gl::Buffer* positions) const {
-  (positions ? *positions : positions_).bindStorage(firstBinding);
-  indices_.bindStorage(firstBinding + 1);
-  triangleAlbedo_.bindStorage(firstBinding + 2);
+void GpuScene::bindStorage(const gl::Buffer* positions) const {
+  (positions ? *positions : positions_).bindStorage(kScenePositionsBuffer);
+  indices_.bindStorage(kSceneIndicesBuffer);
+  triangleAlbedo_.bindStorage(kSceneAlbedosBuffer);
 }
 
 }  // namespace limen::frame

@@ -32,10 +32,10 @@ class GpuScene {
   /// draw's first triangle: it and gl_PrimitiveID sum to the triangle's number. `positions`, if given,
   /// replaces the vertices' positions (same layout).
   void draw(const TriangleRanges* ranges = nullptr, const gl::Buffer* positions = nullptr) const;
-  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, materials.
-  void bindStorage(uint32_t firstBinding, const gl::Buffer* positions = nullptr) const;
-  const gl::Buffer& positions() const { return positions_; }  ///< three floats a vertex
-  /// Made when first asked for.
+  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, albedos.
+  void bindStorage(const gl::Buffer* positions = nullptr) const;
+  const gl::Buffer& positions() const { return positions_; }  ///< three floats per vertex
+  /// Made on first use.
   const SurfaceBuffers& surface() const;
 
  private:
@@ -49,7 +49,7 @@ class GpuScene {
 
 /// What is drawn of a scene: chosen triangles, and where their vertices are.
 struct Geometry {
-  // A scene as it stands is a geometry.
+  // A whole scene is a geometry.
   Geometry(const GpuScene& whole) : scene(&whole) {}
   Geometry(const GpuScene& of, const TriangleRanges* chosen, const gl::Buffer* moved)
       : scene(&of), ranges(chosen), positions(moved) {}
@@ -60,7 +60,7 @@ struct Geometry {
 
   uint32_t triangleCount() const { return ranges ? ranges->triangleCount() : scene->triangleCount(); }
   void draw() const { scene->draw(ranges, positions); }
-  void bindStorage(uint32_t firstBinding) const { scene->bindStorage(firstBinding, positions); }
+  void bindStorage() const { scene->bindStorage(positions); }
 };
 
 }  // namespace limen::frame

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 
@@ -41,8 +42,8 @@ void LayerAverages::build() const {
   }
   for (int level = 1; level < mips_->levels(); ++level) {
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    mips_->bindImage(0, gl::Access::Read, level - 1);
-    mips_->bindImage(1, gl::Access::Write, level);
+    mips_->bindImage(kAverageBelowImage, gl::Access::Read, level - 1);
+    mips_->bindImage(kAverageAboveImage, gl::Access::Write, level);
     const int side = resolution_ >> level;
     reduce_->set("side", side);
     reduce_->set("layers", layers_);

@@ -9,34 +9,34 @@
 
 namespace limen::frame {
 
-/// What averages of many texels are taken from.
+/// The structure from which averages over many texels are computed.
 enum class Prefilter {
   Sums,  ///< summed-area table: any rectangle
-  Mips   ///< pyramid of averages: squares of a power of two, blended
+  Mips   ///< pyramid of averages: squares with power-of-two sides, blended
 };
 constexpr EnumNames<Prefilter, 2> enumNames(Prefilter) {
   return {{{{Prefilter::Sums, "sums"}, {Prefilter::Mips, "mips"}}}};
 }
 
-/// A square array of layers, and what averages over any part of each are taken from.
+/// A square array of layers, and the structure for averages over any part of each.
 class LayerAverages {
  public:
   struct Form {
     Prefilter prefilter = Prefilter::Sums;
-    int resolution = 256;  ///< texels a side; a power of two
+    int resolution = 256;  ///< texels per side; a power of two
     int layers = 1, channels = 1;
     SumForm sums = SumForm::Float;        ///< of the sums
     gl::Format texel = gl::Format::R32F;  ///< of the pyramid
-    const char* texelLayout = "r32f";     ///< the same as image layouts name it
+    const char* texelLayout = "r32f";     ///< its name in image layouts
   };
-  /// `name` of the array ("the occlusion textures") and `hint` are for the Error that it throws where the
-  /// device has no room.
+  /// `name` of the array ("the occlusion textures") and `hint` are for the Error thrown if the device has no
+  /// room.
   LayerAverages(gl::Context& context, const Form& form, const std::string& name, const std::string& hint);
   /// Before build(): level 0 holds the values, to be written by a shader as an image.
   const gl::Texture& texture() const { return sums_ ? sums_->texture() : *mips_; }
-  /// Makes the sums or averages of the values. Work that wrote these needs no barrier of its own.
+  /// Makes the sums or averages of the values. The work that wrote them needs no further barrier.
   void build() const;
-  /// Sums or averages to a texture unit (and means to storage binding 0).
+  /// Binds sums or averages to a texture unit (and means to storage binding 0).
   void bind(uint32_t unit) const;
   int64_t bytes() const { return sums_ ? sums_->bytes() : mips_->bytes(); }
 

@@ -54,7 +54,7 @@ LightFrustum LightCasters::fit(glm::dvec2 offset, int resolution) const {
     for (size_t corner = 0; corner < 3; ++corner) {
       const glm::dvec3 &a = vertices_[i + corner], &b = vertices_[i + (corner + 1) % 3];
       if (a.z >= nearLimit) include(a);
-      // An edge through the near limit leaves the visible half there.
+      // An edge through the near limit leaves the visible half-space there.
       if ((a.z < nearLimit) != (b.z < nearLimit))
         include(a + (b - a) * ((nearLimit - a.z) / (b.z - a.z)) + glm::dvec3(0, 0, 1e-12 * nearLimit));
     }

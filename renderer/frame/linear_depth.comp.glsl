@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D depthMap;
-layout(binding = 0, r32f) uniform writeonly image2D linearMap;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kLinearDepthSourceUnit) uniform sampler2D depthMap;
+layout(binding = kLinearDepthImage, r32f) uniform writeonly image2D linearMap;
 uniform float near;
 uniform int resolution;
 

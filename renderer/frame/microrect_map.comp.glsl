@@ -5,16 +5,18 @@
 //   G H I
 //   D E F
 //   A B C
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D minimumMap;    // its level 0 is the shadow map
-layout(binding = 1) uniform sampler2D rectDepths;    // its level i is level i + 1 of the microrects
-layout(binding = 2) uniform usampler2D rectExtents;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kMicrorectMinimumMapUnit) uniform sampler2D minimumMap;    // its level 0 is the shadow map
+layout(binding = kMicrorectDepthsUnit) uniform sampler2D rectDepths;    // its level i is level i + 1 of the microrects
+layout(binding = kMicrorectExtentsUnit) uniform usampler2D rectExtents;
 #ifdef FIRST_PASS
-layout(binding = 0, rgba16ui) uniform writeonly uimage2D outMerged;
+layout(binding = kMicrorectMergedImage, rgba16ui) uniform writeonly uimage2D outMerged;
 #else
-layout(binding = 3) uniform usampler2D merged;
-layout(binding = 0, r32f) uniform writeonly image2D outDepths;
-layout(binding = 1, rgba16ui) uniform writeonly uimage2D outExtents;
+layout(binding = kMicrorectMergedUnit) uniform usampler2D merged;
+layout(binding = kMicrorectDepthsImage, r32f) uniform writeonly image2D outDepths;
+layout(binding = kMicrorectExtentsImage, rgba16ui) uniform writeonly uimage2D outExtents;
 #endif
 uniform int sourceLevel, size;  // level below; microrects along a side of the level that is made
 

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cassert>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
@@ -36,20 +38,20 @@ MicrorectLevels::MicrorectLevels(gl::Context& context, int resolution, MergeRule
       merged_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1))) {}
 
 void MicrorectLevels::build(const gl::Texture& minimum) const {
-  minimum.bindTexture(0);
-  depths_.bindTexture(1);
-  extents_.bindTexture(2);
-  merged_.bindTexture(3);
+  minimum.bindTexture(kMicrorectMinimumMapUnit);
+  depths_.bindTexture(kMicrorectDepthsUnit);
+  extents_.bindTexture(kMicrorectExtentsUnit);
+  merged_.bindTexture(kMicrorectMergedUnit);
   for (int level = 1; level <= levels_; ++level) {
     const int size = resolution_ >> level;
     for (const gl::Program* program : {&first_, &second_}) {
       program->set("sourceLevel", level - 1);
       program->set("size", size);
       if (program == &first_) {
-        merged_.bindImage(0, gl::Access::Write);
+        merged_.bindImage(kMicrorectMergedImage, gl::Access::Write);
       } else {
-        depths_.bindImage(0, gl::Access::Write, level - 1);
-        extents_.bindImage(1, gl::Access::Write, level - 1);
+        depths_.bindImage(kMicrorectDepthsImage, gl::Access::Write, level - 1);
+        extents_.bindImage(kMicrorectExtentsImage, gl::Access::Write, level - 1);
       }
       program->dispatch(glm::ivec2(size));
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -8,21 +8,21 @@
 
 namespace limen::frame {
 
-/// By which difference of depth a microrect prefers one neighbour to another. Schwarz 2009, section 4.5.2,
-/// takes the plain one; a share of the nearer depth keeps choices the same where a scene is farther off.
+/// The depth difference by which a microrect prefers one neighbour to another. Schwarz 2009, section 4.5.2,
+/// uses the absolute one; relative to the nearer depth, the preference does not change with the scene's
+/// distance.
 enum class MergeMetric { Absolute, Relative };
 constexpr EnumNames<MergeMetric, 2> enumNames(MergeMetric) {
   return {{{{MergeMetric::Absolute, "absolute"}, {MergeMetric::Relative, "relative"}}}};
 }
 
-/// What becomes of a microrect that is dropped on both axes, and so lies between four that are kept.
+/// What happens to a microrect that is dropped on both axes and thus lies between four that are kept.
 enum class DiagonalMerge {
-  /// Taken by the one at its lower left if that spans it already, and else by the one at its upper right,
-  /// whatever their depths (Schwarz 2009, section 4.5.2).
+  /// Merged into the one at its lower left if that spans it already, otherwise into the one at its upper
+  /// right, whatever their depths (Schwarz 2009, section 4.5.2).
   Contained,
-  /// Taken by the one that differs least from it in depth; not in the thesis. The first rule gives a
-  /// single texel of a silhouette that runs across the grid to a microrect of the background, all of which
-  /// then comes forward.
+  /// Merged into the one that differs least from it in depth; not in the thesis. The first rule merges single
+  /// texels of a diagonal silhouette into a microrect of the background, all of which then comes forward.
   Nearest
 };
 constexpr EnumNames<DiagonalMerge, 2> enumNames(DiagonalMerge) {
@@ -34,17 +34,17 @@ struct MergeRule {
   DiagonalMerge diagonal = DiagonalMerge::Contained;
 };
 
-/// Microrects of the levels above the shadow map: rectangles of texels of level 0, one for each texel of a
-/// level, of which neither size nor place is fixed. Source: Schwarz 2009, sections 4.5.1 and 4.5.2.
+/// Microrects of the levels above the shadow map: rectangles of level-0 texels, one for each texel of a
+/// level, of variable size and position. Source: Schwarz 2009, sections 4.5.1 and 4.5.2.
 ///
 /// Microrect (x, y) of level i has its reference texel at (x, y) 2^i. It reaches from there by k_- texels
 /// down and k_+ up on either axis, each at most 2^i - 1, so that it holds its own reference texel and no
 /// other one of the level. At level 0 microrects are the texels: nothing is stored for it, and level i is
 /// level i - 1 of the textures. A map of one texel has no other level.
 ///
-/// The thesis names two passes a level and leaves open what becomes of a diagonal neighbour in the last row
-/// or column, to whose upper right nothing is kept: here it is merged as along an axis, with the nearer in
-/// depth of the two that are kept beside it.
+/// The thesis states two passes per level and leaves open what happens to a diagonal neighbour in the last
+/// row or column, to whose upper right nothing is kept: here it is merged as along an axis, with whichever of
+/// its two kept neighbours is closer in depth.
 class MicrorectLevels {
  public:
   /// `resolution` is a power of two.
@@ -57,7 +57,7 @@ class MicrorectLevels {
   const gl::Texture& extents() const { return extents_; }
   /// Levels that are stored; the textures of a map of one texel have one that is never written.
   int levels() const { return levels_; }
-  /// 12 bytes a microrect, and 8 for each of level 1 while it is made: 6 MiB for a map of 1024 x 1024.
+  /// 12 bytes per microrect, plus 8 for each of level 1 during construction: 6 MiB for a map of 1024 x 1024.
   int64_t bytes() const { return depths_.bytes() + extents_.bytes() + merged_.bytes(); }
 
  private:
@@ -75,7 +75,7 @@ struct MicrorectSettings {
   }
 };
 
-/// Microrects of the shadow map, in a pass of their own.
+/// Microrects of the shadow map, in their own pass.
 class MicrorectMap : public FrameInput {
  public:
   static constexpr const char* kName = "microrect_map";

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Three levels of the min/max pyramid from one source level; each invocation reduces 2 x 2 texels.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 #ifdef FROM_DEPTH
-layout(binding = 0) uniform sampler2D depthMap;
-layout(binding = 0, r32f) uniform writeonly image2D outBase;
+layout(binding = kPyramidDepthMapUnit) uniform sampler2D depthMap;
+layout(binding = kPyramidBaseImage, r32f) uniform writeonly image2D outBase;
 #else
-layout(binding = 0) uniform sampler2D minimumMap;
-layout(binding = 1) uniform sampler2D maximumMap;
+layout(binding = kPyramidMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kPyramidMaximumMapUnit) uniform sampler2D maximumMap;
 uniform int sourceLevel;
 #endif
-layout(binding = 1, r32f) uniform writeonly image2D outMinimum1;
-layout(binding = 2, r32f) uniform writeonly image2D outMinimum2;
-layout(binding = 3, r32f) uniform writeonly image2D outMinimum3;
-layout(binding = 4, r32f) uniform writeonly image2D outMaximum1;
-layout(binding = 5, r32f) uniform writeonly image2D outMaximum2;
-layout(binding = 6, r32f) uniform writeonly image2D outMaximum3;
+layout(binding = kPyramidMinimum1Image, r32f) uniform writeonly image2D outMinimum1;
+layout(binding = kPyramidMinimum2Image, r32f) uniform writeonly image2D outMinimum2;
+layout(binding = kPyramidMinimum3Image, r32f) uniform writeonly image2D outMinimum3;
+layout(binding = kPyramidMaximum1Image, r32f) uniform writeonly image2D outMaximum1;
+layout(binding = kPyramidMaximum2Image, r32f) uniform writeonly image2D outMaximum2;
+layout(binding = kPyramidMaximum3Image, r32f) uniform writeonly image2D outMaximum3;
 uniform float near;
 uniform int sourceSize, levelsMade;
 

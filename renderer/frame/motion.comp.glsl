@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Displacement of each pixel's surface point since the previous frame. See motion.h.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D triangleIds;
-layout(binding = 0, rg32f) uniform writeonly image2D outDisplacement;
-layout(binding = 1, r32f) uniform writeonly image2D outPreviousDepth;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kMotionIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kMotionDisplacementImage, rg32f) uniform writeonly image2D outDisplacement;
+layout(binding = kMotionPreviousDepthImage, r32f) uniform writeonly image2D outPreviousDepth;
 
 uniform mat4 anchorToCamera;
 uniform mat4 nowToThen;  // camera space now to camera space then

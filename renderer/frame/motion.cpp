@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "experiments/base/text.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::frame {
@@ -24,7 +25,7 @@ void Motion::make(Frame& frame) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open("frame/motion");
   const scene::Camera now = frame.camera(), then = frame.scene().camera.at(frame.timeS() - setting_.dtS);
-  // Both views about the present eye: a still camera then gives exactly the identity, wherever it stands.
+  // Both views relative to the current eye: a still camera then gives exactly the identity, wherever it is.
   const auto view = [&](const scene::Camera& camera) {
     return glm::lookAt(camera.eye - now.eye, camera.target - now.eye, camera.up);
   };
@@ -36,10 +37,10 @@ void Motion::make(Frame& frame) {
   program_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
   program_.set("rayScaleThen", glm::vec2(tanThen * frame.aspect(), tanThen));
   program_.set("sizePx", frame.sizePx());
-  ids.bindTexture(0);
-  displacement_.bindImage(0, gl::Access::Write);
-  previousDepth_.bindImage(1, gl::Access::Write);
-  frame.geometry().bindStorage(0);
+  ids.bindTexture(kMotionIdsUnit);
+  displacement_.bindImage(kMotionDisplacementImage, gl::Access::Write);
+  previousDepth_.bindImage(kMotionPreviousDepthImage, gl::Access::Write);
+  frame.geometry().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -12,7 +12,7 @@ struct MotionSetting {
 };
 
 /// Where the surface point of each pixel lay in the previous frame, the camera having moved along its path by
-/// dt (Schwarz 2009, section 10.3.5). The world itself stands still.
+/// dt (Schwarz 2009, section 10.3.5). The world itself is static.
 class Motion : public FrameInput {
  public:
   static constexpr const char* kName = "motion";
@@ -20,9 +20,9 @@ class Motion : public FrameInput {
   void make(Frame& frame) override;
 
   /// RG32F: position now minus position then, px, x to the right and y down: pixel centre + 0.5 minus this is
-  /// where to look in the previous frame. Background pixels move as points at infinity do. A point that lay
-  /// beside or behind the previous eye has no such position: it gets the image's diagonal, outwards from the
-  /// middle.
+  /// where to look in the previous frame. Background pixels move like points at infinity. A point that lay
+  /// beside or behind the previous eye has no such position: its motion is the image's diagonal, pointing
+  /// away from the centre.
   const gl::Texture& displacement() const { return displacement_; }
   /// R32F: the point's distance along the previous view, to be compared with the previous frame's
   /// Channel::Depth; 0 for background, -1 for points that lay beside or behind the previous eye.

@@ -2,15 +2,17 @@
 // One layer of the multi-scale map (or N-buffer) from the layer below: each window of 2^i x 2^i texels is
 // made of four of half its size. A window past the border is the one at the border, which lies within the
 // window that is asked for.
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 #ifdef FROM_PYRAMID
-layout(binding = 0) uniform sampler2D minimumMap;
-layout(binding = 1) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+layout(binding = kMultiScaleMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kMultiScaleMaximumMapUnit) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
 uniform int sourceLevel;
 #else
-layout(binding = 0) uniform sampler2DArray layers;
+layout(binding = kMultiScaleLayersUnit) uniform sampler2DArray layers;
 #endif
-layout(binding = 0, rg32f) uniform writeonly image2DArray outLayers;
+layout(binding = kMultiScaleImage, rg32f) uniform writeonly image2DArray outLayers;
 uniform int layer, resolution;
 uniform ivec2 offsets;  // of the lower and the upper half, along both axes
 

@@ -8,6 +8,7 @@
 #include <cassert>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 namespace {
@@ -24,11 +25,11 @@ gl::Texture allocate(int resolution, int layers) {
     return {gl::Format::RG32F, glm::ivec2(resolution), 1, layers};
   } catch (const Error& error) {
     throw Error("the multi-scale layers do not fit: " + error.message(), {},
-                "choose a smaller map, or structure ysm, which needs them at its base resolution only");
+                "choose a smaller map, or structure ysm, which needs them only at its base resolution");
   }
 }
 
-/// Where, along an axis, the two windows of the layer below lie that make up one of layer `layer`.
+/// Positions along an axis of the two windows of the layer below that make up one of layer `layer`.
 glm::ivec2 sourceOffsets(WindowAnchor anchor, int layer) {
   if (anchor == WindowAnchor::Corner) return {0, 1 << (layer - 1)};
   return layer == 1 ? glm::ivec2(-1, 0) : glm::ivec2(-(1 << (layer - 2)), 1 << (layer - 2));
@@ -45,15 +46,15 @@ MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowA
       texture_(allocate(resolution, layers_)) {}
 
 void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
-  texture_.bindImage(0, gl::Access::Write);
+  texture_.bindImage(kMultiScaleImage, gl::Access::Write);
   for (int layer = 1; layer <= layers_; ++layer) {
     const gl::Program& program = layer == 1 ? first_ : next_;
     if (layer == 1) {
-      minimum.bindTexture(0);
-      maximum.bindTexture(1);
+      minimum.bindTexture(kMultiScaleMinimumMapUnit);
+      maximum.bindTexture(kMultiScaleMaximumMapUnit);
       program.set("sourceLevel", level);
     } else {
-      texture_.bindTexture(0);
+      texture_.bindTexture(kMultiScaleLayersUnit);
     }
     program.set("layer", layer);
     program.set("resolution", resolution_);

@@ -7,24 +7,23 @@
 
 namespace limen::frame {
 
-/// Which 2^i x 2^i texels the entry (x, y) of layer i speaks for, along each axis and cut at the map's
-/// borders.
+/// Which 2^i x 2^i texels the entry (x, y) of layer i covers, along each axis and clipped to the map.
 enum class WindowAnchor {
   Centre,  ///< [x - 2^(i-1), x + 2^(i-1) - 1]: multi-scale shadow map (MSSM), Schwarz 2009, section 4.3.1
   Corner   ///< [x, x + 2^i - 1]: N-buffer (Décoret 2005)
 };
 
-/// Smallest and largest depth of every square of 2, 4, 8, ... texels, wherever it lies: an array of layers
+/// Smallest and largest depth of every square of 2, 4, 8, ... texels, at any position: an array of layers
 /// that all have the map's resolution. Layer 0 is the map itself and not stored; layer i of the texture is
 /// the structure's layer i + 1. Both bounds are read together, so they share texels: RG32F (minimum,
 /// maximum).
 class MultiScaleLayers {
  public:
-  /// `resolution` is a power of two. Throws Error where the device has no room for them.
+  /// `resolution` is a power of two. Throws Error if the device has no room for them.
   MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor);
   /// `minimum` and `maximum` are those of a MinMaxPyramid, `level` is its level of this resolution.
   void build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const;
-  /// log2(resolution) layers; for a map of one texel one, which repeats it.
+  /// log2(resolution) layers; for a map of one texel, one layer that repeats it.
   const gl::Texture& texture() const { return texture_; }
   int layers() const { return layers_; }
 
@@ -38,7 +37,7 @@ class MultiScaleLayers {
 struct MultiScaleSettings {
   ShadowMapSettings map;
   /// Resolution of the layers, at most the map's. Below it they are built on the pyramid's level of that
-  /// size, which makes both together a hybrid Y shadow map (YSM; Schwarz 2009, section 4.3.2).
+  /// size, and both together are a hybrid Y shadow map (YSM; Schwarz 2009, section 4.3.2).
   int base = 1024;
   WindowAnchor anchor = WindowAnchor::Centre;
   std::string key() const {
@@ -46,10 +45,10 @@ struct MultiScaleSettings {
   }
 };
 
-/// Layers over a MinMaxPyramid, in a pass of their own. The pyramid's time and memory are in its pass: a
+/// Layers over a MinMaxPyramid, in their own pass. The pyramid's time and memory are in its pass: a
 /// micro-occluder of a coarse level is read there. The thesis's MSSM needs no pyramid for that, since every
-/// 2^i-th entry of its layer i is one of the pyramid's texels; it is the same number, and lies closer
-/// together here.
+/// 2^i-th entry of its layer i is one of the pyramid's texels; the values are the same, but here they are
+/// closer together in memory.
 class MultiScaleMap : public FrameInput {
  public:
   static constexpr const char* kName = "multi_scale_map";

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A layer a slice from a bit a slice.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D bits;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSlicesBitsUnit) uniform usampler2D bits;
 #ifdef SUMS
-layout(binding = 0, r32ui) uniform writeonly uimage2DArray outCovered;
+layout(binding = kSlicesCoveredImage, r32ui) uniform writeonly uimage2DArray outCovered;
 #else
-layout(binding = 0, r16f) uniform writeonly image2DArray outCovered;
+layout(binding = kSlicesCoveredImage, r16f) uniform writeonly image2DArray outCovered;
 #endif
 uniform int resolution, slices;
 

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
 constexpr const char* kRasterPass = "frame/occlusion_slices_raster";
 constexpr const char* kFilterPass = "frame/occlusion_slices";
 
-/// Light-space z of the farthest point of what casts shadows; 0 if none is before the light.
+/// Light-space z of the farthest point of the casters; 0 if none is in front of the light.
 double farthestCaster(const scene::Scene& scene) {
   const glm::dmat4 toLight = scene.lights.at(0).toLightSpace();
   double farthest = 0.0;
@@ -48,7 +50,7 @@ OcclusionSlices::OcclusionSlices(Frame& frame, OcclusionSliceSettings settings)
                 "the array of occlusion textures", "choose a smaller map, or fewer slices") {
   frustum_ = LightCasters(frame.scene()).fit(glm::dvec2(0.0), settings.resolution);
   begin_ = frustum_.near;
-  // The farthest caster itself, for all rounding, belongs to the last slice.
+  // The farthest caster belongs to the last slice despite rounding.
   const double end = std::max(farthestCaster(frame.scene()), begin_) * (1.0 + 1e-5);
   depth_ = (end - begin_) / settings.slices;
   frame.passes().setBytesHeld(kRasterPass, bits_.bytes() + target_.bytes());
@@ -61,7 +63,7 @@ void OcclusionSlices::make(Frame& frame) {
     const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
     bits_.clearUint(glm::uvec4(0));
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    bits_.bindImage(0, gl::Access::ReadWrite);
+    bits_.bindImage(kSlicesBitsImage, gl::Access::ReadWrite);
     raster_.set("anchorToClip", glm::mat4(frustum_.clipFromLight() * toLight));
     raster_.set("near", static_cast<float>(frustum_.near));
     raster_.set("begin", static_cast<float>(begin_));
@@ -75,8 +77,8 @@ void OcclusionSlices::make(Frame& frame) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
   const auto scope = frame.passes().open(kFilterPass);
-  bits_.bindTexture(0);
-  averages_.texture().bindImage(0, gl::Access::Write);
+  bits_.bindTexture(kSlicesBitsUnit);
+  averages_.texture().bindImage(kSlicesCoveredImage, gl::Access::Write);
   unpack_.set("resolution", settings_.resolution);
   unpack_.set("slices", settings_.slices);
   unpack_.dispatch(glm::ivec2(settings_.resolution));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marks the slice that a fragment lies in.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
-layout(binding = 0, r32ui) uniform uimage2D outBits;
+layout(binding = kSlicesBitsImage, r32ui) uniform uimage2D outBits;
 uniform float near, begin, slicesPerDepth;
 uniform int slices;
 

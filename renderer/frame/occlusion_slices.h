@@ -9,16 +9,16 @@
 namespace limen::frame {
 
 struct OcclusionSliceSettings {
-  int resolution = 256;  ///< texels a side; a power of two
+  int resolution = 256;  ///< texels per side; a power of two
   int slices = 16;       ///< 1 to 32
   Prefilter prefilter = Prefilter::Sums;
   std::string key() const;
 };
 
 /// Which texels the scene covers in each of several slices of equal depth between the nearest and the
-/// farthest point of its casters: a picture of every slice from the light's centre, all made in one pass, a
-/// bit a slice (Eisemann and Décoret 2006; Schwarz 2009, section 3.2.1). Then a layer a slice, ready to be
-/// averaged. Nothing is hidden by what lies before it; fragments beyond the last slice are dropped.
+/// farthest point of its casters: a picture of every slice from the light's centre, all made in one pass, one
+/// bit per slice (Eisemann and Décoret 2006; Schwarz 2009, section 3.2.1). Then one layer per slice, ready to
+/// be averaged. Nothing hides what lies behind it; fragments beyond the last slice are dropped.
 class OcclusionSlices : public FrameInput {
  public:
   static constexpr const char* kName = "occlusion_slices";
@@ -27,10 +27,10 @@ class OcclusionSlices : public FrameInput {
   const LightFrustum& frustum() const { return frustum_; }
   /// R32UI: bit k is set where something lies in slice k.
   const gl::Texture& bits() const { return bits_; }
-  /// Sums or averages to a texture unit.
+  /// Binds sums or averages to a texture unit.
   void bind(uint32_t unit) const { averages_.bind(unit); }
-  /// Light-space z where the first slice begins, and how deep each is. Slice k ends at the plane that its
-  /// contents are taken to lie in, at begin() + (k + 1) * depth().
+  /// Light-space z where the first slice begins, and the depth of each. Slice k ends at the plane in which
+  /// its contents are taken to lie, at begin() + (k + 1) * depth().
   double begin() const { return begin_; }
   double depth() const { return depth_; }
   int64_t bytes() const { return bits_.bytes() + target_.bytes() + averages_.bytes(); }

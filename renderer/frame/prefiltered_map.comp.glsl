@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a prefiltered map holds of each depth.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/prefiltered_map.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D depths;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kPrefilteredDepthsUnit) uniform sampler2D depths;
 #ifdef SUMS_FIXED
-layout(binding = 0, TEXEL) uniform writeonly uimage2DArray outValues;
+layout(binding = kPrefilteredImage, TEXEL) uniform writeonly uimage2DArray outValues;
 uniform float sumsUnit;
 #else
-layout(binding = 0, TEXEL) uniform writeonly image2DArray outValues;
+layout(binding = kPrefilteredImage, TEXEL) uniform writeonly image2DArray outValues;
 #endif
 uniform int resolution;
 

@@ -7,10 +7,12 @@
 #include <bit>
 #include <vector>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
-/// What a float, from which values are rounded, tells apart.
+/// The resolution of a float, from which values are rounded.
 constexpr int kValueBits = 24;
 
 constexpr const char* kPrefilterPass = "frame/prefiltered_map";
@@ -45,7 +47,7 @@ gl::ShaderDefines fillDefines(const PrefilterSettings& settings) {
   return defines;
 }
 
-/// What is left of a convex polygon where dot(plane, corner) >= 0.
+/// The part of a convex polygon where dot(plane, corner) >= 0.
 std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, glm::dvec3 plane, double offset) {
   std::vector<glm::dvec3> out;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -132,8 +134,8 @@ void PrefilteredMap::make(Frame& frame) {
   const int resolution = settings_.map.resolution;
   configure(fill_);
   fill_.set("resolution", resolution);
-  map.texture().bindTexture(0);
-  texture().bindImage(0, gl::Access::Write);
+  map.texture().bindTexture(kPrefilteredDepthsUnit);
+  texture().bindImage(kPrefilteredImage, gl::Access::Write);
   fill_.dispatch(glm::ivec2(resolution));
   averages_.build();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Depths as a prefiltered map holds them, and its averages over rectangles. A shader that only fills the map leaves
 // SUMS_UNIT undefined.
+#include "renderer/frame/frame_bindings.h"
+
 uniform float depthNear, depthScale;
 uniform float exponent;     // c
 uniform int terms;          // M

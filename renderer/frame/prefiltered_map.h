@@ -8,11 +8,11 @@
 
 namespace limen::frame {
 
-/// What is stored of each depth d, so that averages of it say something of a comparison with d.
+/// What is stored for each depth d, so that its averages tell something about a comparison with d.
 enum class DepthBasis {
   Moments,      ///< d and d^2: variance shadow map
   Exponential,  ///< exp(c (d - d0)): exponential shadow map
-  Fourier       ///< cos and sin of odd multiples of pi d: convolution shadow map, a layer a term
+  Fourier       ///< cos and sin of odd multiples of pi d: convolution shadow map, one layer per term
 };
 
 struct PrefilterSettings {
@@ -20,24 +20,24 @@ struct PrefilterSettings {
   DepthBasis basis = DepthBasis::Moments;
   Prefilter prefilter = Prefilter::Sums;
   SumForm form = SumForm::Float;
-  /// Bits of a value, SumForm::Fixed only; 0: as many as never overflow (see sumBits()).
+  /// Bits of a value, SumForm::Fixed only; 0: as many as cannot overflow (see sumBits()).
   int bits = 0;
   double exponent = 80.0;  ///< c of the exponential basis, for depths from 0 to 1
   int terms = 16;          ///< of the Fourier basis
   /// Share of half the series' period that the depths span, Fourier basis only.
   double periodShare = 0.875;
-  /// Fourier basis only: also d times each term, for averages of the depths that block.
+  /// Fourier basis only: also d times each term, for averages of blocker depths.
   bool withDepths = false;
   std::string key() const;
 };
 
-/// Bits that a value may have for 32 to hold the sum over a square map of this many texels a side, 24 at
-/// most.
+/// Bits that a value may have so that 32 hold the sum over a square map of this many texels per side; at
+/// most 24.
 int sumBits(int resolution);
 
-/// Depths of a shadow map in a form that can be averaged before it is compared. Depths are brought from the
-/// map's near plane and the deepest point that its frustum sees to 0 and 1; what lies beyond is taken as 1,
-/// and so is nothing. Source: Schwarz 2009, section 3.2.1.
+/// Depths of a shadow map in a form that can be averaged before it is compared. Depths are mapped so that the
+/// map's near plane is 0 and the deepest point in its frustum is 1; anything beyond, and empty texels, count
+/// as 1. Source: Schwarz 2009, section 3.2.1.
 class PrefilteredMap : public FrameInput {
  public:
   static constexpr const char* kName = "prefiltered_map";
@@ -46,11 +46,11 @@ class PrefilteredMap : public FrameInput {
   const LightFrustum& frustum() const { return frustum_; }
   /// Light-space z that becomes 1.
   double deepest() const { return deepest_; }
-  /// Sums or averages to a texture unit (and means to storage binding 0).
+  /// Binds sums or averages to a texture unit (and means to storage binding 0).
   void bind(uint32_t unit) const { averages_.bind(unit); }
   /// Sets the uniforms of prefiltered_map.glsl.
   void configure(const gl::Program& program) const;
-  /// Sums or averages as they are held, an array of layers.
+  /// Sums or averages as stored, an array of layers.
   const gl::Texture& texture() const { return averages_.texture(); }
   int64_t bytes() const { return averages_.bytes(); }
   /// For shaders that include prefiltered_map.glsl.

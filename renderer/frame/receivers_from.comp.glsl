@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D normals;
-layout(binding = 0, rgba32f) uniform writeonly image2D outReceivers;
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kReceiversFromReceiversUnit) uniform sampler2D receivers;
+layout(binding = kReceiversFromNormalsUnit) uniform sampler2D normals;
+layout(binding = kReceiversFromImage, rgba32f) uniform writeonly image2D outReceivers;
 
 uniform ivec2 sizePx;
 uniform mat3 anchorToLight;  // directions

@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 
 namespace limen::frame {
@@ -22,9 +23,9 @@ void ReceiversFrom::make(Frame& frame) {
   program_.set("sizePx", frame.sizePx());
   program_.set("anchorToLight", glm::mat3(light.toLightSpace()));
   program_.set("eye", glm::vec2((setting_.eye - 0.5) * light.size));
-  receivers.bindTexture(0);
-  normals.bindTexture(1);
-  texture_.bindImage(0, gl::Access::Write);
+  receivers.bindTexture(kReceiversFromReceiversUnit);
+  normals.bindTexture(kReceiversFromNormalsUnit);
+  texture_.bindImage(kReceiversFromImage, gl::Access::Write);
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

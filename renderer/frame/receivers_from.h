@@ -16,9 +16,9 @@ struct EyeSetting {
   std::string key() const { return name(); }
 };
 
-/// The receivers as a shadow map from another point of the light needs them. RGBA32F: xyz = position in light
-/// space, relative to that point; w as in Receivers, the slope being that seen from there (1e6 times the
-/// depth where the surface is turned away from that point).
+/// The receivers as needed by a shadow map from another point of the light. RGBA32F: xyz = position in light
+/// space, relative to that point; w as in Receivers, with the slope as seen from there (1e6 times the depth
+/// if the surface faces away from that point).
 class ReceiversFrom : public FrameInput {
  public:
   static constexpr const char* kName = "receivers_from";

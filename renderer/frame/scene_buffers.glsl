@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene's triangles as GpuScene binds them from binding 0. Tightly packed floats: a vec3 array would be padded.
-layout(std430, binding = 0) readonly buffer Positions { float scenePositions[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint sceneIndices[]; };
-layout(std430, binding = 2) readonly buffer Albedos { uint sceneAlbedos[]; };
+// The scene's triangles as GpuScene binds them. Tightly packed floats: a vec3 array would be padded.
+#include "renderer/frame/frame_bindings.h"
+
+layout(std430, binding = kScenePositionsBuffer) readonly buffer Positions { float scenePositions[]; };
+layout(std430, binding = kSceneIndicesBuffer) readonly buffer Indices { uint sceneIndices[]; };
+layout(std430, binding = kSceneAlbedosBuffer) readonly buffer Albedos { uint sceneAlbedos[]; };
 
 vec3 scenePosition(uint vertex) {
   return vec3(scenePositions[3u * vertex], scenePositions[3u * vertex + 1u], scenePositions[3u * vertex + 2u]);

@@ -8,7 +8,7 @@
 
 namespace limen::frame {
 
-/// A scene with its geometry on the GPU, whose OpenGL context is the current one. It cannot be copied or
+/// A scene with its geometry on the GPU, in the current OpenGL context. It cannot be copied or
 /// moved: `gpu` refers to `scene`. Lights and camera of `scene` may change; its geometry may not.
 struct SceneOnGpu {
   explicit SceneOnGpu(scene::Scene built) : scene(std::move(built)), gpu(scene) {}

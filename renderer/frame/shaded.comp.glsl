@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colour of each pixel from the triangle that it sees. See shaded.h.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/aperture.glsl"
 #include "renderer/frame/pattern.glsl"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/frame/surface_buffers.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D triangleIds;
-layout(binding = 0, rgba32f) uniform writeonly image2D outImage;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kShadedIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kShadedOutImage, rgba32f) uniform writeonly image2D outImage;
 #ifdef SHADOW
-layout(binding = 1) uniform sampler2D receivers;
-layout(binding = 2) uniform sampler2D shadowMap;
+layout(binding = kShadedReceiversUnit) uniform sampler2D receivers;
+layout(binding = kShadedShadowMapUnit) uniform sampler2D shadowMap;
 uniform vec2 tangentLow, tangentSize;
 uniform int resolution;
 uniform float bias, slopeBias, maxSlope;

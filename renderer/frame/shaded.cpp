@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/base/text.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
 
@@ -38,22 +39,24 @@ std::string ShadedSetting::key() const {
 const SettingsTable<ShadedSetting>& ShadedSetting::table() {
   using S = ShadedSetting;
   static const SettingsTable<S> kTable = {
-      Binding(&S::ambient, "ambient", Range{0.0, 1.0}, "", "Share of the albedo that is seen without a light")
+      Binding(&S::ambient, "ambient", Range{0.0, 1.0}, "", "Ambient share of the albedo")
           .formerly({"ambient"}),
-      Binding(&S::diffuse, "diffuse", Range{0.0, 1.0}, "", "Share of the albedo by the cosine to the light")
+      Binding(&S::diffuse, "diffuse", Range{0.0, 1.0}, "",
+              "Share of the albedo times the cosine towards the light")
           .formerly({"diffuse"}),
       Binding(&S::specular, "specular", Range{0.0, 4.0}, "", "Strength of the highlight (Blinn-Phong)")
           .formerly({"specular"}),
       Binding(&S::shininess, "shininess", Range{1.0, 4096.0}, "", "Exponent of the highlight")
           .formerly({"shininess"}),
-      Binding(&S::background, "background", Range{0.0, 1.0}, "", "Linear grey where no surface is",
+      Binding(&S::background, "background", Range{0.0, 1.0}, "", "Linear grey of the background",
               "Schwarz 2009, section 10.4.1 (dark grey; value not given there)")
           .formerly({"background"}),
-      Binding(&S::smoothNormals, "smooth_normals",
-              "Normals of the vertices or the patch where a mesh has any", "Schwarz 2009, section 10.4.1")
+      Binding(&S::smoothNormals, "smooth_normals", "Use vertex or patch normals if a mesh has any",
+              "Schwarz 2009, section 10.4.1")
           .formerly({"smooth_normals"}),
-      Binding(&S::pattern, "pattern", "Solid textures of the scene's materials").formerly({"pattern"}),
-      Binding(&S::shadow, "shadow", "Hard shadow of the first light").formerly({"shadow"})};
+      Binding(&S::pattern, "pattern", "Apply the solid textures of the scene's materials")
+          .formerly({"pattern"}),
+      Binding(&S::shadow, "shadow", "Add a hard shadow of the first light").formerly({"shadow"})};
   return kTable;
 }
 
@@ -89,7 +92,7 @@ void Shaded::make(Frame& frame) {
       setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
   program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
   if (lit_) {
-    // Seen from the scene's middle: apertures belong to a light that is far away.
+    // Seen from the scene's centre: apertures are for a distant light.
     const scene::AreaLight& light = frame.scene().lights[0];
     const double distance = glm::length(light.centre - frame.gpuScene().anchor());
     program_.set("sunRadius",
@@ -104,12 +107,12 @@ void Shaded::make(Frame& frame) {
     program_.set("bias", kShadowBias);
     program_.set("slopeBias", kShadowSlopeBias);
     program_.set("maxSlope", kShadowMaxSlope);
-    receivers->bindTexture(1);
-    map->texture().bindTexture(2);
+    receivers->bindTexture(kShadedReceiversUnit);
+    map->texture().bindTexture(kShadedShadowMapUnit);
   }
-  ids.bindTexture(0);
-  texture_.bindImage(0, gl::Access::Write);
-  frame.geometry().bindStorage(0);
+  ids.bindTexture(kShadedIdsUnit);
+  texture_.bindImage(kShadedOutImage, gl::Access::Write);
+  frame.geometry().bindStorage();
   frame.gpuScene().surface().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

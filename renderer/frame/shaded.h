@@ -9,37 +9,38 @@
 
 namespace limen::frame {
 
-/// Biases of the hard shadow, as soft_shadows/hard has them: shares of the depth, texels of slope, and the
+/// Biases of the hard shadow, as in soft_shadows/hard: shares of the depth, texels of slope, and the
 /// largest slope over depth.
 inline constexpr float kShadowBias = 1e-4F, kShadowSlopeBias = 1.0F, kShadowMaxSlope = 10.0F;
 
-/// How Shaded lights a scene. The light is the scene's first; a scene without one has ambient light alone.
+/// How Shaded lights a scene. The light is the scene's first; a scene without one has ambient light only.
 struct ShadedSetting {
-  double ambient = 0.2;   ///< share of the albedo that is seen without a light
-  double diffuse = 0.8;   ///< share by the cosine to the light's centre; no fall-off with distance
+  double ambient = 0.2;   ///< ambient share of the albedo
+  double diffuse = 0.8;   ///< share times the cosine towards the light's centre; no fall-off with distance
   double specular = 0.0;  ///< Blinn-Phong highlight, added
   double shininess = 32.0;
   double background = 0.05;     ///< linear grey; 0.05 is the dark grey 63 of 255 of sRGB
   bool smoothNormals = true;    ///< vertex or patch normals where the mesh has them
   bool pattern = true;          ///< solid textures of the materials
   bool shadow = false;          ///< hard shadow by a map of frame.casters() from the light's centre
-  int shadowResolution = 1024;  ///< texels a side, a power of two
-  double eyeDtS = 0.0;          ///< highlights as the camera saw them this long ago
+  int shadowResolution = 1024;  ///< texels per side, a power of two
+  double eyeDtS = 0.0;          ///< highlights as seen by the camera this long ago
   std::string key() const;
 
-  /// Of all but shadowResolution and eyeDtS, which are up to whoever asks for the picture.
+  /// Covers all members except shadowResolution and eyeDtS, which the caller sets.
   static const SettingsTable<ShadedSetting>& table();
 };
 
-/// The line `shading` in the table of whatever shades.
+/// The line `shading` of settings tables that include these settings.
 template <class S>
 Binding<S> shadingBinding(ShadedSetting S::*member) {
   return {member, "shading", "How the picture is lit"};
 }
 
 /// The picture of a frame: RGBA32F, row 0 at the top, linear display-referred radiance (0..1 for albedos and
-/// lighting shares that sum to 1; highlights may pass 1), alpha 1. Background pixels hold the setting's
-/// constant. Normals are turned to the camera. Terrain is lit through its apertures (Schwarz 2009, 10.3.5).
+/// lighting shares that sum to 1; highlights may exceed 1), alpha 1. Background pixels hold the constant from
+/// the settings. Normals are turned to the camera. Terrain is lit through its apertures (Schwarz
+/// 2009, 10.3.5).
 class Shaded : public FrameInput {
  public:
   static constexpr const char* kName = "shaded";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/frame_bindings.h"
+
 #ifdef PEEL
-layout(binding = 0) uniform sampler2D previousDepth;
+layout(binding = kPeelPreviousDepthUnit) uniform sampler2D previousDepth;
 uniform float peelBias;
 
 void main() {

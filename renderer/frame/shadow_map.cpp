@@ -8,6 +8,7 @@
 #include <cassert>
 
 #include "experiments/base/text.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 namespace {
@@ -77,7 +78,7 @@ void ShadowRaster::draw(Frame& frame, const Geometry& geometry, const LightFrust
   hardware_->program.use();
   hardware_->program.set("anchorToClip", clip);
   if (peel.previous) {
-    peel.previous->bindTexture(0);
+    peel.previous->bindTexture(kPeelPreviousDepthUnit);
     hardware_->program.set("peelBias", static_cast<float>(peel.bias));
   }
   geometry.draw();
@@ -109,7 +110,8 @@ ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
 void ShadowDepth::make(Frame& frame) {
   DepthPeel peel;
   if (settings_.layer > 0) {
-    // The layers of a smaller frustum are peeled off one another too, so that texels have one ray throughout.
+    // The layers of a smaller frustum are peeled from each other too, so that a texel has the same ray in all
+    // of them.
     ShadowMapSettings nearer = settings_;
     --nearer.layer;
     peel = {&frame.get<ShadowDepth>(nearer).depth(), settings_.peelBias};
@@ -135,8 +137,8 @@ void ShadowMap::make(Frame& frame) {
   const auto scope = frame.passes().open(pass_);
   program_.set("near", static_cast<float>(frustum_.near));
   program_.set("resolution", settings_.resolution);
-  raster.depth().bindTexture(0);
-  linear_.bindImage(0, gl::Access::Write);
+  raster.depth().bindTexture(kLinearDepthSourceUnit);
+  linear_.bindImage(kLinearDepthImage, gl::Access::Write);
   program_.dispatch(glm::ivec2(settings_.resolution));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -166,17 +168,22 @@ void MinMaxPyramid::make(Frame& frame) {
     const int made = std::min(3, count - 1 - base);
     program.set("levelsMade", made);
     if (base == 0) {
-      raster.depth().bindTexture(0);
-      minimum_.bindImage(0, gl::Access::Write, 0);
+      raster.depth().bindTexture(kPyramidDepthMapUnit);
+      minimum_.bindImage(kPyramidBaseImage, gl::Access::Write, 0);
     } else {
-      minimum_.bindTexture(0);
-      maximum_.bindTexture(1);
+      static_assert(kPyramidMinimum2Image == kPyramidMinimum1Image + 1 &&
+                    kPyramidMinimum3Image == kPyramidMinimum1Image + 2 &&
+                    kPyramidMaximum2Image == kPyramidMaximum1Image + 1 &&
+                    kPyramidMaximum3Image == kPyramidMaximum1Image + 2);
+      minimum_.bindTexture(kPyramidMinimumMapUnit);
+      maximum_.bindTexture(kPyramidMaximumMapUnit);
       program.set("sourceLevel", base);
     }
     for (int i = 0; i < 3; ++i) {
-      // Levels past the last are bound to the last and never written.
-      minimum_.bindImage(1 + static_cast<uint32_t>(i), gl::Access::Write, std::min(base + 1 + i, count - 1));
-      maximum_.bindImage(4 + static_cast<uint32_t>(i), gl::Access::Write,
+      // Image units past the last level are bound to the last level and never written.
+      minimum_.bindImage(kPyramidMinimum1Image + static_cast<uint32_t>(i), gl::Access::Write,
+                         std::min(base + 1 + i, count - 1));
+      maximum_.bindImage(kPyramidMaximum1Image + static_cast<uint32_t>(i), gl::Access::Write,
                          std::min(base + i, maximum_.levels() - 1));
     }
     program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));

@@ -7,6 +7,7 @@
 
 #include "renderer/frame/compute_raster.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/gl/texture.h"
 
 namespace limen::frame {
@@ -16,7 +17,7 @@ namespace limen::frame {
 struct LightFrustum {
   glm::dvec2 offset{0.0};           ///< the eye on the light's plane, light space
   glm::dvec2 low{-1.0}, high{1.0};  ///< tangents at the map's edges
-  double near = 1e-3;               ///< light-space z of the near plane; what lies nearer is not seen
+  double near = 1e-3;               ///< light-space z of the near plane; anything nearer is not seen
   bool castersCut = false;  ///< some casters lie outside, more than 75 degrees off the light's direction
   glm::dmat4 clipFromLight() const;  ///< reversed depth, infinite far plane: depth = near / z
 };
@@ -24,12 +25,12 @@ struct LightFrustum {
 /// Casters of a scene in the space of its first light, from which frusta are fitted.
 class LightCasters {
  public:
-  /// `part` of Scene::parts alone, if it is not negative.
+  /// Only `part` of Scene::parts, if not negative.
   explicit LightCasters(const scene::Scene& scene, int part = -1);
   /// Smallest frustum that sees all casters (parts that are not receiverOnly) in front of the light from
   /// `offset`, with a margin of one texel of a map with `resolution`. Directions are limited to 75 degrees
-  /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are cut
-  /// off.
+  /// from the light's direction, the near plane to 1/1000 of the farthest caster: nearer occluders are
+  /// clipped.
   LightFrustum fit(glm::dvec2 offset, int resolution) const;
 
  private:
@@ -37,17 +38,17 @@ class LightCasters {
   double farthest_ = 0.0;
 };
 
-/// Depth image of the scene from a point of the light: near / z, 0 where nothing is.
+/// Depth image of the scene from a point of the light: near / z, 0 where it is empty.
 class ShadowRaster {
  public:
-  /// What else a texel gets, or how it is chosen.
+  /// What else a texel stores, or how its surface is chosen.
   enum class Extra {
     None,
     Ids,   ///< which triangle each texel sees
     Peels  ///< the nearest surface behind another image of the same frustum
   };
   ShadowRaster(gl::Context& context, int resolution, Raster raster, Extra extra = Extra::None);
-  /// `geometry`: as a rule the frame's. `peel` exactly if the raster was made to peel.
+  /// `geometry`: usually the frame's. `peel` if and only if the raster was made to peel.
   void draw(Frame& frame, const Geometry& geometry, const LightFrustum& frustum,
             const DepthPeel& peel = {}) const;
   /// One channel of 32-bit float, to be read by texelFetch.
@@ -66,24 +67,24 @@ class ShadowRaster {
   std::unique_ptr<ComputeRaster> compute_;
 };
 
-/// Which map, of those that one light can have. Source: Schwarz 2009, section 4.2.2.
+/// Which of the maps that one light can have. Source: Schwarz 2009, section 4.2.2.
 struct ShadowMapSettings {
-  int resolution = 1024;  ///< texels a side; a power of two
+  int resolution = 1024;  ///< texels per side; a power of two
   Raster raster = Raster::Auto;
   glm::dvec2 eye{0.5};     ///< the point that the map is seen from, unit light coordinates
-  int layer = 0;           ///< surfaces peeled off: the map shows what lies behind as many
-  double peelBias = 1e-5;  ///< what lies behind a surface is farther than it by more than this share
-  /// Extent of the frustum as a share of the fitted one, around the direction of the light's axis, or the
-  /// nearest one that the fitted frustum holds.
+  int layer = 0;           ///< number of surfaces peeled off: the map shows what lies behind them
+  double peelBias = 1e-5;  ///< smallest relative distance at which something counts as behind a surface
+  /// Extent of the frustum as a share of the fitted one, around the direction of the light's axis or the
+  /// nearest direction within the fitted frustum.
   double extent = 1.0;
-  int part = -1;  ///< of Scene::parts: alone in the map; -1: all of the scene
+  int part = -1;  ///< of Scene::parts: only this part is in the map; -1: the whole scene
   std::string key() const { return std::to_string(resolution) + "/" + std::to_string(int(raster)) + name(); }
-  /// What tells the map from the usual one, in names of passes: "" or "/layer_1", "/part_2",
+  /// What distinguishes the map from the usual one in pass names: "" or "/layer_1", "/part_2",
   /// "/eye_0.25_0.75".
   std::string name() const;
 };
 
-/// One view, as settings say.
+/// One view, as specified by the settings.
 class ShadowDepth : public FrameInput {
  public:
   static constexpr const char* kName = "shadow_depth";
@@ -96,14 +97,11 @@ class ShadowDepth : public FrameInput {
   ShadowMapSettings settings_;
   ShadowRaster raster_;
   LightFrustum frustum_;
-  std::unique_ptr<TriangleRanges> part_;  // null: all of the scene
+  std::unique_ptr<TriangleRanges> part_;  // null: the whole scene
   std::string pass_;
 };
 
-/// Light-space z of the nearest surface; kEmptyDepth where the map sees nothing.
-inline constexpr float kEmptyDepth = 1e30F;
-
-/// Linear shadow map: R32F.
+/// Linear shadow map, light-space z of the nearest surface; kEmptyDepth where the map is empty: R32F.
 class ShadowMap : public FrameInput {
  public:
   static constexpr const char* kName = "shadow_map";

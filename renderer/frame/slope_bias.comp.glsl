@@ -4,12 +4,13 @@
 //
 // On the plane n.q = d the ray along (u, v, 1) has depth z = d / n.(u, v, 1). From a texel's centre to a corner n.(u, v, 1)
 // changes by the share e = (|n_x| du + |n_y| dv) / (2 |n.(u, v, 1)|) at most, and depth from z to z / (1 - e).
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D triangleIds;
-layout(binding = 1) uniform sampler2D minimumMap;
-layout(binding = 0, rg32f) uniform writeonly image2D outBiases;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSlopeBiasIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kSlopeBiasMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kSlopeBiasImage, rg32f) uniform writeonly image2D outBiases;
 uniform mat4 anchorToLight;
 uniform vec2 tangentLow, tangentSize;
 uniform int resolution;

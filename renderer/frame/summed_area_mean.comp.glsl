@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A constant near the mean of each layer: the mean of 16 x 16 texels spread over it. Any constant serves, since it is
 // added again after the look-up; the nearer it is to the mean, the smaller are the sums.
+#include "renderer/frame/frame_bindings.h"
+
 const int kSide = 16;
-layout(local_size_x = 16, local_size_y = 16) in;
-layout(binding = 0, TEXEL) uniform readonly image2DArray values;
-layout(std430, binding = 0) writeonly buffer Means { vec2 means[]; };
+layout(local_size_x = kSide, local_size_y = kSide) in;
+layout(binding = kSumsValuesImage, TEXEL) uniform readonly image2DArray values;
+layout(std430, binding = kSumsMeansBuffer) writeonly buffer Means { vec2 means[]; };
 uniform int resolution;
 
 shared vec2 partial[kSide * kSide];

@@ -4,13 +4,13 @@
 #include <epoxy/gl.h>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
 namespace {
 
 constexpr const char* kScan = "renderer/frame/summed_area_table.comp.glsl";
 constexpr const char* kMean = "renderer/frame/summed_area_mean.comp.glsl";
-constexpr int kTile = 32, kLines = 8;  // as in the shader
 
 gl::Texture allocateSums(int resolution, int layers, int channels, SumForm form) {
   const gl::Format format = form == SumForm::Fixed ? (channels == 1 ? gl::Format::R32UI : gl::Format::RG32UI)
@@ -46,8 +46,8 @@ gl::ShaderDefines SummedAreaTable::defines(SumForm form) {
   return {};
 }
 
-// Along each axis log2(kTile) additions within a tile, and the tiles before it one after another.
-int SummedAreaTable::additions(int resolution) { return 2 * (5 + (resolution + kTile - 1) / kTile); }
+// Along each axis log2(kSumsTile) additions within a tile, plus one for each tile before it.
+int SummedAreaTable::additions(int resolution) { return 2 * (5 + (resolution + kSumsTile - 1) / kSumsTile); }
 
 SummedAreaTable::SummedAreaTable(gl::Context& context, int resolution, int layers, int channels, SumForm form)
     : resolution_(resolution),
@@ -65,23 +65,23 @@ int64_t SummedAreaTable::bytes() const { return texture_.bytes() + (means_ ? mea
 void SummedAreaTable::build() const {
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   if (findMeans_) {
-    means_->bindStorage(0);
-    texture_.bindImage(0, gl::Access::Read);
+    means_->bindStorage(kSumsMeansBuffer);
+    texture_.bindImage(kSumsValuesImage, gl::Access::Read);
     findMeans_->set("resolution", resolution_);
     findMeans_->dispatch({layers_, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  texture_.bindImage(0, gl::Access::ReadWrite);
+  texture_.bindImage(kSumsImage, gl::Access::ReadWrite);
   for (const gl::Program* program : {&rows_, &columns_}) {
     program->set("resolution", resolution_);
-    program->dispatch({resolution_, layers_}, {kLines, 1});
+    program->dispatch({resolution_, layers_}, {kSumsLines, 1});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 }
 
 void SummedAreaTable::bind(uint32_t unit) const {
   texture_.bindTexture(unit);
-  if (means_) means_->bindStorage(0);
+  if (means_) means_->bindStorage(kSumsMeansBuffer);
 }
 
 }  // namespace limen::frame

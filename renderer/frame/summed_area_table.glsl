@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over rectangles, with fractions of the texels at their rims. Before it is included, SUMS_UNIT names the texture
 // unit; SUMS_FIXED and SUMS_MEAN are those of SummedAreaTable::defines().
+#include "renderer/frame/frame_bindings.h"
+
 #ifdef SUMS_FIXED
 layout(binding = SUMS_UNIT) uniform usampler2DArray sums;
 uniform float sumsUnit;  // value of one count
@@ -10,7 +12,7 @@ layout(binding = SUMS_UNIT) uniform sampler2DArray sums;
 #define SUM vec2
 #endif
 #ifdef SUMS_MEAN
-layout(std430, binding = 0) readonly buffer SumsMeans { vec2 sumsMeans[]; };
+layout(std430, binding = kSumsMeansBuffer) readonly buffer SumsMeans { vec2 sumsMeans[]; };
 #endif
 
 const uint kSumFetches = 16u;

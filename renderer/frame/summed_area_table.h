@@ -9,11 +9,11 @@
 
 namespace limen::frame {
 
-/// How the sums of a summed-area table are held.
+/// How the sums of a summed-area table are stored.
 enum class SumForm {
   Float,      ///< 32-bit float
-  FloatMean,  ///< 32-bit float of what is left of a layer's values less a constant near their mean
-  Fixed       ///< 32-bit unsigned: exact, as long as all texels of a layer add up to less than 2^32
+  FloatMean,  ///< 32-bit float of a layer's values minus a constant near their mean
+  Fixed       ///< 32-bit unsigned: exact as long as the texels of a layer sum to less than 2^32
 };
 
 /// Sums of all texels to the lower left of each, that one included, so that the sum over any rectangle takes
@@ -21,20 +21,20 @@ enum class SumForm {
 /// summed in place. The matching shader code is summed_area_table.glsl.
 class SummedAreaTable {
  public:
-  /// `resolution`: texels a side. Throws Error where the device has no room for it.
+  /// `resolution`: texels per side. Throws Error if the device has no room for it.
   SummedAreaTable(gl::Context& context, int resolution, int layers, int channels, SumForm form);
   /// Before build(): the values, to be written by a shader as an image; after it their sums. R32F, RG32F,
   /// R32UI or RG32UI.
   const gl::Texture& texture() const { return texture_; }
-  /// Replaces the values by their sums. Work that wrote the values needs no barrier of its own.
+  /// Replaces the values by their sums. The work that wrote the values needs no further barrier.
   void build() const;
-  /// Binds the sums to a texture unit and, where a mean is taken off, the means to storage binding 0.
+  /// Binds the sums to a texture unit and, if means are subtracted, the means to storage binding 0.
   void bind(uint32_t unit) const;
   int64_t bytes() const;
 
-  /// Additions, at most, that stand between a value and a sum that holds it: the sums' relative error, by the
-  /// sum of absolute values, is at most this many times 2^-24 (to first order), and one more for each value
-  /// where a mean is taken off.
+  /// Largest number of additions between a value and a sum that contains it: the error of the sums, relative
+  /// to the sum of absolute values, is at most this many times 2^-24 (to first order), plus one more per
+  /// value if means are subtracted.
   static int additions(int resolution);
   /// Defines for shaders that include summed_area_table.glsl.
   static gl::ShaderDefines defines(SumForm form);

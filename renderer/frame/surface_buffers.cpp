@@ -3,24 +3,22 @@
 
 #include <vector>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
 namespace {
 
-/// As struct SurfaceMaterial of surface_buffers.glsl, std430.
-struct GpuMaterial {
-  glm::vec3 albedo;
-  uint32_t surface;
-  glm::vec3 patternOrigin;  // relative to the anchor
-  float patternFrequency;   // 1 / size
-  uint32_t pattern;
-  float patternContrast;
-  int32_t patternOctaves;
-  uint32_t patch;
-};
-static_assert(sizeof(GpuMaterial) == 48);
+constexpr bool shaderHas(uint number, scene::SurfaceKind kind) { return number == static_cast<uint>(kind); }
+constexpr bool shaderHas(uint number, scene::Pattern::Kind kind) { return number == static_cast<uint>(kind); }
+static_assert(shaderHas(kSurfaceMesh, scene::SurfaceKind::Mesh) &&
+              shaderHas(kSurfacePatch, scene::SurfaceKind::BicubicPatch) &&
+              shaderHas(kSurfaceAperture, scene::SurfaceKind::Aperture));
+static_assert(shaderHas(kPatternNone, scene::Pattern::Kind::None) &&
+              shaderHas(kPatternChecker, scene::Pattern::Kind::Checker) &&
+              shaderHas(kPatternNoise, scene::Pattern::Kind::ValueNoise));
 
-std::vector<GpuMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 anchor) {
-  std::vector<GpuMaterial> out;
+std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 anchor) {
+  std::vector<SurfaceMaterial> out;
   for (const scene::Material& material : scene.materials) {
     const scene::Pattern& pattern = material.pattern;
     out.push_back({material.albedo, static_cast<uint32_t>(material.surface),
@@ -43,7 +41,7 @@ std::vector<uint32_t> triangleMaterialsOf(const scene::Scene& scene) {
   return out;
 }
 
-/// A vertex attribute of both meshes, or nothing where neither has it.
+/// A vertex attribute of both meshes; empty if neither has it.
 template <class Value>
 std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::Mesh::*attribute) {
   std::vector<Value> out = scene.mesh.*attribute;
@@ -74,11 +72,11 @@ SurfaceBuffers::SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor)
       patches_(patchPointsOf(scene, anchor)) {}
 
 void SurfaceBuffers::bindStorage() const {
-  normals_.bindStorage(3);
-  attributes_.bindStorage(4);
-  triangleMaterials_.bindStorage(5);
-  materials_.bindStorage(6);
-  patches_.bindStorage(7);
+  normals_.bindStorage(kSurfaceNormalsBuffer);
+  attributes_.bindStorage(kSurfaceAttributesBuffer);
+  triangleMaterials_.bindStorage(kSurfaceTriangleMaterialsBuffer);
+  materials_.bindStorage(kSurfaceMaterialsBuffer);
+  patches_.bindStorage(kSurfacePatchesBuffer);
 }
 
 int64_t SurfaceBuffers::bytes() const {

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene's surfaces as SurfaceBuffers binds them.
-struct SurfaceMaterial {
-  vec3 albedo;
-  uint surface;
-  vec3 patternOrigin;  // relative to the anchor
-  float patternFrequency;
-  uint pattern;
-  float patternContrast;
-  int patternOctaves;
-  uint patchIndex;
-};
+#include "renderer/frame/frame_bindings.h"
 
-layout(std430, binding = 3) readonly buffer Normals { float surfaceNormals[]; };
-layout(std430, binding = 4) readonly buffer Attributes { vec4 surfaceAttributes[]; };
-layout(std430, binding = 5) readonly buffer TriangleMaterials { uint surfaceMaterialOf[]; };
-layout(std430, binding = 6) readonly buffer Materials { SurfaceMaterial surfaceMaterials[]; };
-layout(std430, binding = 7) readonly buffer Patches { vec4 patchPoints[]; };  // 16 a patch, i + 4 j
-
-// As the enumerations of scene.h.
-const uint kSurfaceMesh = 0u, kSurfacePatch = 1u, kSurfaceAperture = 2u;
-const uint kPatternNone = 0u, kPatternChecker = 1u, kPatternNoise = 2u;
+layout(std430, binding = kSurfaceNormalsBuffer) readonly buffer Normals { float surfaceNormals[]; };
+layout(std430, binding = kSurfaceAttributesBuffer) readonly buffer Attributes { vec4 surfaceAttributes[]; };
+layout(std430, binding = kSurfaceTriangleMaterialsBuffer) readonly buffer TriangleMaterials { uint surfaceMaterialOf[]; };
+layout(std430, binding = kSurfaceMaterialsBuffer) readonly buffer Materials { SurfaceMaterial surfaceMaterials[]; };
+layout(std430, binding = kSurfacePatchesBuffer) readonly buffer Patches { vec4 patchPoints[]; };  // 16 a patch, i + 4 j
 
 vec3 surfaceNormal(uint vertex) {
   return vec3(surfaceNormals[3u * vertex], surfaceNormals[3u * vertex + 1u], surfaceNormals[3u * vertex + 2u]);

@@ -8,11 +8,11 @@ namespace limen::frame {
 
 /// What shading needs of a scene's surfaces beyond positions: vertex normals and attributes, the material of
 /// each triangle, the materials, patches' control points (relative to the anchor). Attributes that no vertex
-/// has take no memory.
+/// has use no memory.
 class SurfaceBuffers {
  public:
   SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor);
-  /// Storage blocks as renderer/frame/surface_buffers.glsl declares them, from binding 3.
+  /// Storage blocks as renderer/frame/surface_buffers.glsl declares them.
   void bindStorage() const;
   int64_t bytes() const;
   bool hasNormals() const { return hasNormals_; }

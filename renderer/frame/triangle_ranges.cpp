@@ -7,7 +7,7 @@
 namespace limen::frame {
 namespace {
 
-/// As glMultiDrawElementsIndirect reads it.
+/// Layout as read by glMultiDrawElementsIndirect.
 struct DrawCommand {
   uint32_t count, instanceCount, firstIndex;
   int32_t baseVertex;

@@ -8,22 +8,22 @@
 
 namespace limen::frame {
 
-/// A choice of a scene's triangles in GPU memory: what a frame draws. Changing it writes a few bytes a range
-/// and no geometry. Frames in flight keep the choice that they were given.
+/// A selection of a scene's triangles in GPU memory: what a frame draws. Changing it writes a few bytes per
+/// range and no geometry. Frames in flight keep their selection.
 class TriangleRanges {
  public:
   explicit TriangleRanges(size_t capacity);
   TriangleRanges(const TriangleRanges&) = delete;
   TriangleRanges& operator=(const TriangleRanges&) = delete;
-  /// Drawn in ascending order of triangles; neighbours become one. Empty ranges are dropped.
+  /// Drawn in ascending order of triangles; adjacent ranges are merged. Empty ranges are dropped.
   void set(std::vector<scene::TriangleRange> ranges);
 
   int rangeCount() const { return rangeCount_; }
   uint32_t triangleCount() const { return triangleCount_; }
-  /// uvec2 a range: first triangle, and how many triangles all ranges up to and with this one have. Also the
-  /// source of the instanced vertex attribute that tells a draw its first triangle.
+  /// uvec2 per range: first triangle, and number of triangles in all ranges up to and including this one.
+  /// Also the source of the instanced vertex attribute that gives a draw its first triangle.
   const gl::Buffer& ranges() const { return ranges_; }
-  /// Indexed indirect draws, one a range; base instance i in draw i.
+  /// Indexed indirect draws, one per range; base instance i in draw i.
   const gl::Buffer& commands() const { return commands_; }
 
  private:

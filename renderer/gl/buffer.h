@@ -10,7 +10,7 @@ namespace limen::gl {
 /// Immutable-size buffer in GPU memory.
 class Buffer {
  public:
-  /// `data` may be null: contents undefined. Size 0 becomes 16 bytes, since GL knows no empty buffers.
+  /// `data` may be null: contents undefined. Size 0 becomes 16 bytes, since GL has no empty buffers.
   Buffer(int64_t bytes, const void* data);
   template <class T>
   explicit Buffer(const std::vector<T>& data)
@@ -26,9 +26,9 @@ class Buffer {
   void bindStorage(uint32_t binding) const;  ///< shader storage block
   void bindUniform(uint32_t binding) const;
   void clearUint(uint32_t value) const;
-  /// In its turn: work submitted before still sees the old contents. `bytes` > 0. By way of a copy on the
-  /// GPU: with glNamedBufferSubData NVIDIA's driver 580.159 lets dispatches submitted before read the new
-  /// contents while several frames are under way.
+  /// In submission order: work submitted earlier still sees the old contents. `bytes` > 0. Uses a copy on the
+  /// GPU: with glNamedBufferSubData, NVIDIA's driver 580.159 lets dispatches submitted earlier read the new
+  /// contents while several frames are in flight.
   void write(int64_t offset, int64_t bytes, const void* data) const;
   /// Waits for the GPU.
   template <class T>

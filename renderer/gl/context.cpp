@@ -25,7 +25,7 @@ void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLs
                                const GLchar* text, const void* user) {
   if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
   auto* messages = static_cast<std::vector<DebugMessage>*>(const_cast<void*>(user));
-  // A driver that repeats itself every frame must not fill the memory.
+  // A driver that repeats a message every frame must not fill memory.
   if (messages->size() < 100)
     messages->push_back({std::string(text, static_cast<size_t>(length)), type == GL_DEBUG_TYPE_PERFORMANCE});
 }

@@ -15,14 +15,14 @@ struct DeviceInfo {
   std::string vendor, renderer, version;  ///< GL_VENDOR, GL_RENDERER, GL_VERSION
   std::string platform;                   ///< "EGL device 1", "EGL surfaceless", "GLFW window"
   bool software = false;                  ///< a CPU renders: llvmpipe, softpipe, SwiftShader
-  /// Renderer and version in one line: what times depend on.
+  /// Renderer and version on one line: what timings depend on.
   std::string line() const { return renderer + " (OpenGL " + version + ")"; }
 };
 
 /// A message of the driver (KHR_debug) of medium or high severity.
 struct DebugMessage {
   std::string text;
-  bool performance = false;  ///< advice on speed, not a mistake
+  bool performance = false;  ///< performance advice, not an error
 };
 
 /// An OpenGL 4.5 core context, current on the thread that made it. Clip space is set to upper-left origin and
@@ -39,7 +39,7 @@ class Context {
   ProgramCache& programs() { return programs_; }
   /// Messages since the last call.
   std::vector<DebugMessage> takeDebugMessages();
-  /// Throws std::runtime_error with the driver's words if it reported a mistake since the last call.
+  /// Throws std::runtime_error with the driver's message if it reported an error since the last call.
   void checkDebugMessages();
 
  protected:
@@ -47,7 +47,7 @@ class Context {
   /// Called by subclasses once the context is current: reads the device, checks the version, sets debug
   /// output. Throws Error naming what is missing.
   void initialize(const std::string& platform);
-  /// Called first by the destructor of a subclass: deletes what belongs to the context while it still exists.
+  /// Called first by a subclass's destructor: deletes the context's objects while it still exists.
   void deleteObjects();
 
  private:
@@ -56,11 +56,11 @@ class Context {
   std::vector<DebugMessage> messages_;
 };
 
-/// Off-screen context through EGL: device platform first, then surfaceless. Among devices a real GPU is taken
-/// before a software renderer. The environment variable LIMEN_EGL_DEVICE (an index) forces one. Throws Error.
+/// Off-screen context through EGL: device platform first, then surfaceless. A real GPU is preferred to a
+/// software renderer. The environment variable LIMEN_EGL_DEVICE (an index) forces one. Throws Error.
 std::unique_ptr<Context> createHeadlessContext();
 
-/// What createHeadlessContext() looked at, a line each: "EGL device 0: llvmpipe ... (taken)".
+/// What createHeadlessContext() tried, one line each: "EGL device 0: llvmpipe ... (taken)".
 const std::vector<std::string>& headlessCandidates();
 
 }  // namespace limen::gl

@@ -62,7 +62,7 @@ class EglContext : public Context {
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, contextWish.data());
     if (context_ == EGL_NO_CONTEXT) throw Error("no OpenGL 4.5 core context", platform);
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-      throw Error("the context cannot be made current without a surface", platform);
+      throw Error("cannot make the context current without a surface", platform);
     initialize(platform);
   }
 
@@ -110,7 +110,7 @@ std::optional<int> forcedDevice() {
 const std::vector<std::string>& headlessCandidates() { return candidateLines(); }
 
 std::unique_ptr<Context> createHeadlessContext() {
-  // Threads may want contexts of their own at the same time; what was looked at is told of the last one.
+  // Several threads may create contexts at the same time; the report is about the latest one.
   static std::mutex guard;
   const std::scoped_lock lock(guard);
   candidateLines().clear();

@@ -26,7 +26,7 @@ size_t PassList::indexOf(const std::string& name) {
 
 PassList::Scope PassList::open(const std::string& name) {
   const size_t index = indexOf(prefix_ + name);
-  // The last slot is the frame's own; a pass that came after recording began has none.
+  // The last slot is the frame's own; a pass added after recording began has none.
   if (clock_ != Clock::None && frame_ < capacity_ && index + 1 >= slots_)
     throw std::logic_error("pass '" + name + "' ran for the first time in a timed frame");
   passes_[index].ran = true;

@@ -19,9 +19,8 @@ struct PassTime {
   int64_t nanoseconds = 0;
 };
 
-/// The passes of a frame: their order, the bytes they hold and, while recording, their times. Timestamps are
-/// written into queries made ahead and are read only when recording has ended, so a frame never waits for
-/// them.
+/// The passes of a frame: their order, the bytes they hold and, while recording, their times. Timestamps go
+/// into queries created in advance and are read only after recording, so a frame never waits for them.
 class PassList {
  public:
   struct Pass {
@@ -48,8 +47,8 @@ class PassList {
     size_t index_;
   };
   Scope open(const std::string& name);
-  /// Put before the names given to open() and setBytesHeld() from now on, so that the same passes of several
-  /// views in one frame stay apart ("finest/frame/depth").
+  /// Prefix for the names given to open() and setBytesHeld() from now on, so that the same passes of several
+  /// views in one frame stay distinct ("finest/frame/depth").
   void setPrefix(const std::string& prefix) { prefix_ = prefix; }
   /// Bytes of textures and buffers that the pass's results occupy.
   void setBytesHeld(const std::string& name, int64_t bytes);

@@ -18,7 +18,7 @@ GLenum stageOf(const std::string& path) {
       {".tesc.glsl", GL_TESS_CONTROL_SHADER}, {".tese.glsl", GL_TESS_EVALUATION_SHADER}};
   for (const auto& [suffix, stage] : kStages)
     if (path.ends_with(suffix)) return stage;
-  throw std::logic_error("shader '" + path + "' names no stage");
+  throw std::logic_error("shader '" + path + "' names no shader stage");
 }
 
 std::string shaderLog(GLuint shader) {
@@ -67,7 +67,7 @@ Program::Program(const std::vector<ShaderText>& stages) {
       throw std::runtime_error("shader " + path + " does not compile:\n" + log);
     }
     glAttachShader(program, shader);
-    glDeleteShader(shader);  // lives on with the program
+    glDeleteShader(shader);  // stays alive with the program
   }
   glLinkProgram(program);
   GLint ok = GL_FALSE;

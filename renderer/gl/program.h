@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/gl/shader_shared.h"
 #include "renderer/gl/shader_source.h"
 
 namespace limen::gl {
@@ -18,14 +19,14 @@ class Program {
   /// Shader paths end in .vert.glsl, .frag.glsl, .comp.glsl, .geom.glsl, .tesc.glsl or .tese.glsl. Throws
   /// std::runtime_error with file, line and the driver's log.
   Program(const std::vector<std::string>& paths, const ShaderDefines& defines);
-  /// Of stages that are already read.
+  /// From shader sources already read.
   explicit Program(const std::vector<ShaderText>& stages);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Takes the place of what `fresh` is: users of this object render with it from now on. Uniforms have the
-  /// values that `fresh` was given.
+  /// Replaces this program by `fresh`: users of this object render with it from now on. Uniforms have the
+  /// values set on `fresh`.
   void become(Program&& fresh);
 
   uint32_t id() const { return id_; }
@@ -41,7 +42,7 @@ class Program {
   void set(const char* name, const glm::mat4& value) const;
 
   /// Runs a compute program over at least `size` invocations, given its local size.
-  void dispatch(glm::ivec2 size, glm::ivec2 localSize = {8, 8}) const;
+  void dispatch(glm::ivec2 size, glm::ivec2 localSize = glm::ivec2(kGroupSide)) const;
 
  private:
   int location(const char* name) const;
@@ -62,15 +63,15 @@ class ProgramCache {
   const Program& compute(const std::string& path, const ShaderDefines& defines = {}) {
     return get({path}, defines);
   }
-  /// Time spent compiling so far; lets preparation be told from it.
+  /// Time spent compiling so far, to separate it from preparation.
   double compileMs() const { return compileMs_; }
-  /// Builds anew each program whose source has changed in the source tree since it was last built or tried.
-  /// References stay valid and mean the new program; where it fails they mean the old one, and the failure is
-  /// told once. Uniforms of a rebuilt program are lost: whoever set some for longer than a frame must set
-  /// them again, as Technique::prepare() does. Drivers repeat the log of a failure as debug messages of the
+  /// Rebuilds each program whose source has changed in the source tree since it was last built or tried.
+  /// References stay valid and refer to the new program, or to the old one if the build failed; a failure is
+  /// reported once. Uniforms of a rebuilt program are lost: uniforms set for longer than a frame must be set
+  /// again, as Technique::prepare() does. Drivers repeat the log of a failure as debug messages of the
   /// context. Without a source tree (see setShaderRoot()) nothing happens.
   Reload reloadChanged();
-  /// Forgets all programs, so that changed sources are read again. References die.
+  /// Forgets all programs, so that changed sources are read again. References become invalid.
   void clear() { programs_.clear(); }
 
  private:
@@ -78,14 +79,14 @@ class ProgramCache {
     std::vector<std::string> paths;
     ShaderDefines defines;
     std::unique_ptr<Program> program;
-    std::string textHash;            ///< of what was last built or tried; "" if it could not even be read
-    std::vector<std::string> files;  ///< that it was made of
-    std::vector<FileStamp> stamps;   ///< theirs, from before they were read
+    std::string textHash;            ///< of the source last built or tried; "" if it could not be read
+    std::vector<std::string> files;  ///< that it was built from
+    std::vector<FileStamp> stamps;   ///< their stamps, from before they were read
     std::string unreadable;          ///< why it could not be read when last tried
   };
   static std::vector<ShaderText> read(Entry& entry);
   using Stamps = std::map<std::string, FileStamp>;
-  /// `now`: what was looked at already, as most programs share files.
+  /// `now`: stamps already taken, as most programs share files.
   static bool mayHaveChanged(const Entry& entry, Stamps& now);
   void reload(Entry& entry, Reload& out);
 

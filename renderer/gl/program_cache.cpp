@@ -10,7 +10,7 @@
 namespace limen::gl {
 namespace {
 
-/// Adds the time from its making to its end.
+/// Adds the time from construction to destruction.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sumMs) : sumMs_(sumMs) {}
@@ -27,7 +27,7 @@ class Stopwatch {
 
 std::string hashOf(const std::vector<ShaderText>& stages) {
   std::string all;
-  // Sources hold no byte of zero.
+  // Sources contain no zero byte.
   for (const ShaderText& stage : stages) all += stage.text + '\0';
   return sha256(all);
 }
@@ -66,7 +66,7 @@ std::vector<ShaderText> ProgramCache::read(Entry& entry) {
 }
 
 bool ProgramCache::mayHaveChanged(const Entry& entry, Stamps& now) {
-  // What is missing may come without any file that was read being touched.
+  // A missing file may appear without any file that was read changing.
   if (!entry.unreadable.empty()) return true;
   for (size_t i = 0; i < entry.files.size(); ++i) {
     const auto [found, fresh] = now.try_emplace(entry.files[i]);

@@ -34,11 +34,11 @@ std::string readShaderFile(const std::string& path, const std::string& includedF
 }
 
 void append(const std::string& path, const std::string& includedFrom, ShaderText& out) {
-  // Once per program: headers need no include guards, and a cycle ends by itself.
+  // Once per program: headers need no include guards, and a cycle terminates.
   if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) return;
   const size_t number = out.files.size();
   out.files.push_back(path);
-  out.stamps.push_back(shaderStamp(path));  // before reading, lest a change in between goes unseen
+  out.stamps.push_back(shaderStamp(path));  // before reading, so that no change in between goes unnoticed
   std::istringstream in(readShaderFile(path, includedFrom));
   std::string line;
   out.text += "#line 1 " + std::to_string(number) + "\n";
@@ -48,6 +48,8 @@ void append(const std::string& path, const std::string& includedFrom, ShaderText
     if (std::regex_match(line, match, kInclude)) {
       append(match[1], path + ":" + std::to_string(lineNumber), out);
       out.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+    } else if (line == "#pragma once") {
+      out.text += "\n";  // of a header that C++ shares
     } else {
       out.text += line + "\n";
     }

@@ -38,7 +38,7 @@ enum class Access { Read, Write, ReadWrite };
 /// Immutable 2D texture or, with layers > 0, 2D array.
 class Texture {
  public:
-  /// Throws Error where the device cannot hold it.
+  /// Throws Error if the device cannot hold it.
   Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0,
           Sampling sampling = Sampling::Nearest);
   ~Texture();
@@ -78,7 +78,7 @@ class Texture {
 /// Render target: colour textures and a depth texture, all of one size, not owned.
 class Framebuffer {
  public:
-  /// Throws std::runtime_error if the driver calls the combination incomplete.
+  /// Throws std::runtime_error if the driver reports the combination as incomplete.
   Framebuffer(const std::vector<const Texture*>& colours, const Texture* depth);
   ~Framebuffer();
   Framebuffer(Framebuffer&& other) noexcept : id_(std::exchange(other.id_, 0)), sizePx_(other.sizePx_) {}

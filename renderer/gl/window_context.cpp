@@ -27,7 +27,7 @@ GLFWmonitor* monitorNumber(int number) {
               count > 0 ? "connected are 0 to " + std::to_string(count - 1) : "connect a display");
 }
 
-/// Monitor of a full-screen window, else the one with the largest part of the window.
+/// Monitor of a full-screen window, otherwise the one that shows most of the window.
 GLFWmonitor* monitorOf(GLFWwindow* window) {
   if (GLFWmonitor* own = glfwGetWindowMonitor(window)) return own;
   glm::ivec2 low, size;
@@ -61,7 +61,7 @@ WindowContext::WindowContext(const WindowSetting& setting) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-  // Without it a driver that gives up does not say so.
+  // Without it a driver does not report a reset.
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_VISIBLE, setting.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_TRUE);
@@ -70,7 +70,7 @@ WindowContext::WindowContext(const WindowSetting& setting) {
   if (setting.fullScreen) {
     monitor = monitorNumber(setting.monitor);
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
-    // The window takes the mode that is there: another one would not be that of the display's profile.
+    // The window uses the current mode: another one would not match the display's profile.
     glfwWindowHint(GLFW_RED_BITS, mode->redBits);
     glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);
     glfwWindowHint(GLFW_BLUE_BITS, mode->blueBits);
@@ -126,7 +126,7 @@ bool WindowContext::hidden() const {
 }
 
 void WindowContext::swap(int interval) {
-  // Set once: some drivers take time for it at every call.
+  // Set once: with some drivers every call takes time.
   if (interval != interval_) glfwSwapInterval(interval_ = interval);
   glfwSwapBuffers(window_);
 }

@@ -15,11 +15,11 @@ struct WindowSetting {
   std::string title = "Limen";
   glm::ivec2 sizePx{1024, 768};  ///< unless full screen
   bool visible = true;
-  bool fullScreen = false;  ///< in the monitor's present mode, which is left as it is
+  bool fullScreen = false;  ///< in the monitor's current mode, which is not changed
   int monitor = 0;          ///< index into monitors(); full screen only
 };
 
-/// A context with a window of its own (GLFW).
+/// A context with its own window (GLFW).
 class WindowContext : public Context {
  public:
   /// Throws Error if there is no window system, no OpenGL 4.5 core or no such monitor.
@@ -30,14 +30,14 @@ class WindowContext : public Context {
   void makeCurrent() final;
   GLFWwindow* window() const { return window_; }
   glm::ivec2 framebufferSizePx() const;
-  /// Framebuffer pixels for each of the window system's units, in which it gives places of the mouse.
+  /// Framebuffer pixels per window-system unit, the unit of mouse positions.
   glm::vec2 framebufferScale() const;
   bool fullScreen() const;
-  /// Of the monitor that shows the window, or most of it, in whole hertz; 0 if the system does not say.
+  /// Of the monitor that shows the window, or most of it, in whole hertz; 0 if unknown.
   double refreshHz() const;
-  /// The driver gave the context up: nothing drawn since then was seen, nor will be.
+  /// The driver reset the context: nothing drawn since then was shown, nor will be.
   bool contextLost() const;
-  /// Put away, hidden or asked to close: what is drawn is not seen.
+  /// Minimised, hidden or asked to close: nothing drawn is seen.
   bool hidden() const;
   /// Shows what was drawn; waits for the vertical blank if `interval` is 1.
   void swap(int interval = 1);

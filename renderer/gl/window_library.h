@@ -3,7 +3,7 @@
 
 namespace limen::gl {
 
-/// Starts GLFW, which may be done again and again. Throws Error if there is no window system.
+/// Initialises GLFW; may be called repeatedly. Throws Error if there is no window system.
 void startWindowLibrary();
 
 }  // namespace limen::gl

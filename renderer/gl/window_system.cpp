@@ -55,7 +55,7 @@ std::vector<Monitor> monitors() {
 
 WindowSystem windowSystem() {
   startWindowLibrary();
-  // An X11 program on a Wayland desktop is composed like any other.
+  // An X11 program on a Wayland desktop is composited like any other.
   if (isSet("WAYLAND_DISPLAY")) return {isSet("DISPLAY") ? "X11 on Wayland" : "Wayland", true};
   return {"X11", hasCompositingManager()};
 }

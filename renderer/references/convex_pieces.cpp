@@ -70,7 +70,7 @@ void split(const ConvexPolygon& polygon, const HalfPlane& plane, ConvexPolygon& 
 void ConvexPieces::keep(const ConvexPolygon& polygon) {
   if (polygon.empty() || polygon.area() < kNoArea) return;
   if (polygon.size() + 2 * 5 <= ConvexPolygon::kCapacity) return next_.push_back(polygon);
-  // Each of five cuts may add a vertex: halve what could outgrow its place.
+  // Each of five cuts may add a vertex: halve a polygon that could outgrow its storage.
   ConvexPolygon first, second;
   const int middle = polygon.size() / 2;
   for (int i = 0; i <= middle; ++i) first.add(polygon[i]);
@@ -94,7 +94,7 @@ void ConvexPieces::subtract(const ConvexRegion& region) {
       cuts += !cutOff[static_cast<size_t>(cuts)].empty();
     }
     if (apart || rest.empty() || rest.area() < kNoArea) {
-      next_.push_back(piece);  // not touched: it stays whole
+      next_.push_back(piece);  // not touched: it stays in one piece
       continue;
     }
     for (int i = 0; i < cuts; ++i) keep(cutOff[static_cast<size_t>(i)]);

@@ -10,7 +10,7 @@ namespace limen::references {
 /// Twice the signed area of the triangle (origin, a, b).
 inline double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Points with n.x x + n.y y + offset >= 0. Made unit by HalfPlane::unit().
+/// Points with n.x x + n.y y + offset >= 0. Normalised by HalfPlane::unit().
 struct HalfPlane {
   glm::dvec2 n{0.0};
   double offset = 0.0;
@@ -55,8 +55,8 @@ struct ConvexRegion {
   double area = 0.0;               ///< of that part
 };
 
-/// Disjoint convex polygons: what is left of an area from which regions are taken, whatever their overlaps.
-/// The area of what was taken is the area of the regions' union, exact up to rounding.
+/// Disjoint convex polygons: the remainder of an area from which regions, possibly overlapping, are removed.
+/// The area removed is that of the regions' union, exact up to rounding.
 class ConvexPieces {
  public:
   explicit ConvexPieces(std::vector<ConvexPolygon> pieces) : pieces_(std::move(pieces)) {}

@@ -7,8 +7,8 @@
 
 namespace limen::references {
 
-/// Counter-based random numbers (the finaliser of SplitMix64): a sample depends on seed, pixel and number
-/// alone.
+/// Counter-based random numbers (the finaliser of SplitMix64): a sample depends only on seed, pixel and
+/// index.
 inline uint64_t mixBits(uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -23,9 +23,9 @@ inline glm::dvec2 uniform2(uint64_t seed, uint64_t pixel, uint64_t sample) {
 }
 
 /// Half-width of the 99.9 % confidence interval of a mean of N independent values in [0, 1], or of a weighted
-/// mean of several such means. Hoeffding (1963): it leaves its expectation by more than e with a probability
-/// of at most 2 exp(-2 N e^2). The values need not be alike, so stratification only makes the bound more
-/// careful; and of weights w that sum to 1 the squares sum to no more than 1.
+/// mean of several such means. Hoeffding (1963): it deviates from its expectation by more than e with a
+/// probability of at most 2 exp(-2 N e^2). The values need not be identically distributed, so stratification
+/// only makes the bound more conservative; and of weights w that sum to 1 the squares sum to no more than 1.
 inline double hoeffdingHalfWidth(int64_t samples) {
   return std::sqrt(std::log(2.0 / 0.001) / (2.0 * double(samples)));
 }

@@ -7,8 +7,8 @@
 namespace limen::references {
 namespace {
 
-/// Hits nearer than this many plane tolerances are tested again in double precision. A start rounded to float
-/// can make a hit out of a miss as far away as the rounding (less than a tolerance) over the sine of the
+/// Hits nearer than this many plane tolerances are tested again in double precision. An origin rounded to
+/// float can turn a miss into a hit as far away as the rounding (less than a tolerance) over the sine of the
 /// angle between ray and surface; 32768 covers angles down to 3e-5, and is still less than a hundredth of the
 /// scene.
 constexpr double kNearTolerances = 32768.0;

@@ -10,15 +10,14 @@ namespace limen::references {
 
 /// Ray tracing of a scene's triangles with Embree: robust traversal, best build quality.
 ///
-/// A shadow ray starts on a known triangle. Embree works in float, so a ray whose start is rounded by half a
-/// unit in the last place may meet its own surface or, next to an edge, a neighbour of it. Pushing the start
-/// off the surface would lose contact shadows, so hits are filtered instead. One does not count if
-///  - its triangle is the one that the ray starts on, or its plane holds the start
-///  (Triangles::planeTolerance): seen
-///    from there it is edge-on and hides nothing;
-///  - it is near the start and the double-precision test of the exact start against that triangle finds no
+/// A shadow ray starts on a known triangle. Embree works in float, so a ray whose origin is rounded by half a
+/// unit in the last place may hit its own surface or, near an edge, a neighbour of it. Offsetting the origin
+/// from the surface would lose contact shadows, so hits are filtered instead. A hit does not count if
+///  - its triangle is the one that the ray starts on, or its plane contains the origin
+///  (Triangles::planeTolerance): seen from there it is edge-on and hides nothing;
+///  - it is near the origin and the double-precision test of the exact origin against that triangle finds no
 ///  hit.
-/// Far hits are Embree's word alone, whose robust mode leaves no cracks between triangles.
+/// Far hits rely on Embree alone, whose robust mode leaves no cracks between triangles.
 class EmbreeScene {
  public:
   /// `triangles` must outlive it. Throws std::runtime_error if Embree fails.

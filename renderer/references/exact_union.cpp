@@ -3,8 +3,8 @@
 // Seen from p, a triangle hides those points of the light's plane that lie within three planes through p and
 // one edge each, and beyond the triangle's own plane. All four bounds are straight lines on the light, also
 // for triangles that cross the light's plane or the plane through p parallel to it, so no clipping in depth
-// is needed. The light is kept as disjoint convex pieces from which each such region is taken; overlaps cost
-// nothing and are not counted twice.
+// is needed. The light is stored as disjoint convex pieces from which each such region is removed; overlaps
+// cost nothing and are not counted twice.
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -55,7 +55,7 @@ class UnitLight {
   double total_ = 0.0;
 };
 
-/// Adds a bound to the region; false if it shuts out the whole square. n.(l - p) >= offset becomes a line on
+/// Adds a bound to the region; false if it excludes the whole square. n.(l - p) >= offset becomes a line on
 /// the light.
 bool bound(ConvexRegion& region, glm::dvec3 n, glm::dvec3 p, double offset, glm::dvec2 halfSize) {
   const glm::dvec2 line(n.x * halfSize.x, n.y * halfSize.y);
@@ -152,7 +152,7 @@ class ExactUnion : public techniques::Technique {
     behind.low = glm::dvec2(-2.0), behind.high = glm::dvec2(2.0);
     ConvexPieces visible(unit.pieces());
     if (bound(behind, -normal, p, 0.0, halfSize)) visible.subtract(behind);
-    // Large regions first: they take away what many small ones would have to be cut from.
+    // Large regions first: they remove what many small ones would otherwise have to be cut from.
     std::sort(regions.begin(), regions.end(),
               [](const ConvexRegion& a, const ConvexRegion& b) { return a.area > b.area; });
     for (const ConvexRegion& region : regions) {
@@ -225,8 +225,8 @@ const techniques::RegisteredTechnique<ExactUnion> kExactUnionRegistered{
      .needs = {"area_light"},
      .reference = true,
      .onCpu = true,
-     .counters = {{"occluders_per_receiver", "Occluding triangles per receiver", "",
-                   Direction::LowerIsBetter}}}};
+     .counters = {
+         {"occluders_per_receiver", "Occluding triangles per receiver", "", Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::references

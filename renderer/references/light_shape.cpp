@@ -45,7 +45,7 @@ std::vector<Triangle2> triangulate(std::vector<glm::dvec2> polygon) {
     const size_t n = polygon.size();
     size_t at = 0;
     while (at < n && !isEar(polygon, at)) ++at;
-    // A simple polygon has an ear unless vertices lie on a line; such a vertex cuts off nothing.
+    // A simple polygon has an ear unless vertices are collinear; such a vertex cuts off nothing.
     if (at == n) {
       at = 0;
       for (size_t i = 0; i < n; ++i)

@@ -15,7 +15,7 @@ using Triangle2 = std::array<glm::dvec2, 3>;
 std::vector<Triangle2> triangulate(std::vector<glm::dvec2> polygon);
 
 /// Maps the unit square onto a light's shape so that equal areas stay equal: a uniform or stratified set of
-/// points stays one. Disc: Shirley and Chiu's concentric map; polygon: area-weighted choice of a triangle.
+/// points remains so. Disc: Shirley and Chiu's concentric map; polygon: area-weighted choice of a triangle.
 class LightShapeMap {
  public:
   explicit LightShapeMap(const scene::AreaLight& light);
@@ -25,7 +25,7 @@ class LightShapeMap {
  private:
   scene::LightShape shape_;
   std::vector<Triangle2> triangles_;
-  std::vector<double> cumulative_;  // share of the area up to and with each triangle
+  std::vector<double> cumulative_;  // share of the area up to and including each triangle
 };
 
 }  // namespace limen::references

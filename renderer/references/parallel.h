@@ -11,9 +11,9 @@
 namespace limen::references {
 
 /// Calls work(thread, first, last) for pieces that cover [0, count) on all cores. The pieces of a thread
-/// depend on `count` and the number of cores alone; with work that treats every index by itself, results do
-/// not even depend on that. `work` must not throw. Ends early where the calling thread's work is cancelled
-/// (see experiments/base/cancel.h): then some pieces are missing.
+/// depend only on `count` and the number of cores; if work treats every index independently, results do not
+/// depend even on that. `work` must not throw. Ends early if the calling thread's work is cancelled (see
+/// experiments/base/cancel.h): then some pieces are missing.
 template <class Work>
 void parallelFor(size_t count, const Work& work) {
   constexpr size_t kPiece = 16;  // small: costs differ widely between lit pixels and penumbrae

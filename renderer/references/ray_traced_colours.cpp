@@ -25,18 +25,22 @@ struct ColoursSettings {
   static const SettingsTable<ColoursSettings>& table() {
     using S = ColoursSettings;
     static const SettingsTable<S> kTable = {
-        {&S::samples, "samples", {4, 65536}, "rays", "Shadow rays to each part of the light; a square number"},
+        {&S::samples,
+         "samples",
+         {4, 65536},
+         "rays",
+         "Shadow rays to each part of the light; a square number"},
         {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
     return kTable;
   }
   void check() const { checkSquareNumber(samples); }
 };
 
-/// A part of the light, sampled by itself: its visibility has the same bound as that of a light of one
-/// colour, and with it the mean that weighs the parts by what they emit.
+/// A part of the light, sampled separately: its visibility has the same bound as that of a light of one
+/// colour, and so has the mean weighted by what the parts emit.
 struct EmittingPart {
   LightShapeMap map;
-  glm::dvec3 share;  ///< of all that the light emits
+  glm::dvec3 share;  ///< of everything the light emits
 };
 
 std::vector<EmittingPart> partsOf(const scene::AreaLight& light) {
@@ -47,7 +51,7 @@ std::vector<EmittingPart> partsOf(const scene::AreaLight& light) {
     double area = light.area();
     if (!part.outline.empty()) {
       if (light.shape != scene::LightShape::Rectangle)
-        throw Error("a light that is no rectangle has parts, whose common shapes are not known", kColours,
+        throw Error("the intersections of a non-rectangular light with its parts are not known", kColours,
                     "give light_shape: rectangle");
       alone.shape = scene::LightShape::Polygon;
       alone.outline = part.outline;
@@ -105,7 +109,7 @@ class RayTracedColours : public techniques::Technique {
       int64_t cast = 0;
       for (size_t i = first; i < last; ++i) {
         const ReceiverPoint& point = points[i];
-        // A channel of which the light has nothing lacks nothing.
+        // A channel in which the light emits nothing is fully visible.
         glm::dvec3 colour = glm::dvec3(glm::greaterThan(absent, glm::dvec3(0.5)));
         for (size_t part = 0; part < parts_.size(); ++part) {
           int seen = 0;

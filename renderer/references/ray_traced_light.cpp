@@ -19,7 +19,7 @@ namespace {
 using techniques::Counter;
 
 enum class RayPattern {
-  Stratified,  ///< a point in each cell of a square grid over the light
+  Stratified,  ///< one point in each cell of a square grid over the light
   Random       ///< anywhere
 };
 constexpr EnumNames<RayPattern, 2> enumNames(RayPattern) {
@@ -33,8 +33,12 @@ struct RayTracedSettings {
   static const SettingsTable<RayTracedSettings>& table() {
     using S = RayTracedSettings;
     static const SettingsTable<S> kTable = {
-        {&S::samples, "samples", {16, 65536}, "rays", "Shadow rays a receiver; a square number if stratified"},
-        {&S::pattern, "pattern", "One point in each cell of a square grid over the light, or anywhere"},
+        {&S::samples,
+         "samples",
+         {16, 65536},
+         "rays",
+         "Shadow rays per receiver; a square number if stratified"},
+        {&S::pattern, "pattern", "Place points in the cells of a square grid over the light, or anywhere"},
         {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
     return kTable;
   }

@@ -25,7 +25,7 @@ std::vector<ReceiverPoint> readReceiverPoints(frame::Frame& frame, const Triangl
     const glm::dvec3 n =
         glm::cross(triangles.corner(point.triangle, 1) - a, triangles.corner(point.triangle, 2) - a);
     const double length = glm::length(n);
-    // A triangle without area has no plane to see a light from.
+    // A degenerate triangle has no plane from which to see a light.
     if (!(length > 0.0) || !std::isfinite(length + glm::dot(point.position, point.position))) continue;
     point.normal = n / length;
     point.position -= point.normal * glm::dot(point.normal, point.position - a);

@@ -10,7 +10,7 @@
 
 namespace limen::references {
 
-/// A point whose visibility is asked for.
+/// A point whose visibility is requested.
 struct ReceiverPoint {
   uint32_t pixel = 0;     ///< row * width + column
   uint32_t triangle = 0;  ///< on which it lies
@@ -19,9 +19,9 @@ struct ReceiverPoint {
 };
 
 /// Reads back what the GPU found at each pixel (frame::TriangleIds, Position and Receivers): references
-/// evaluate the very points that techniques shade. Positions are then put onto the plane of their triangle in
-/// double precision, so that the float error of the position cannot place a point beneath its own surface.
-/// Waits for the GPU. Call outside passes.
+/// evaluate exactly the points that techniques shade. Positions are then projected onto the plane of their
+/// triangle in double precision, so that the float error of the position cannot place a point beneath its own
+/// surface. Waits for the GPU. Call outside passes.
 std::vector<ReceiverPoint> readReceiverPoints(frame::Frame& frame, const Triangles& triangles);
 
 }  // namespace limen::references

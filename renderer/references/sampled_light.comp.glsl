@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard shadow of one point of the light: counts the pixels' lit samples.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D normals;
-layout(binding = 2) uniform sampler2D depthMap;
-layout(binding = 0, r32ui) uniform uimage2D litCounts;
+#include "renderer/references/reference_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSampledLightReceiversUnit) uniform sampler2D receivers;
+layout(binding = kSampledLightNormalsUnit) uniform sampler2D normals;
+layout(binding = kSampledLightDepthMapUnit) uniform sampler2D depthMap;
+layout(binding = kSampledLightLitCountsImage, r32ui) uniform uimage2D litCounts;
 
 uniform ivec2 sizePx;
 uniform mat3 anchorToLight;  // directions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mean of hard shadows from many points of the light, a shadow map each: the thesis's own reference. It
-// carries the aliasing and the biases of its maps.
+// Mean of hard shadows from many points of the light, a shadow map each: the thesis's own reference. It has
+// the aliasing and the biases of its maps.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/references/reference_bindings.h"
 #include "renderer/references/square_number.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/techniques/technique.h"
@@ -29,7 +30,8 @@ struct JitteredPoints {
   int64_t seed = 1;
   static const SettingsTable<JitteredPoints>& table() {
     static const SettingsTable<JitteredPoints> kTable = {
-        Binding(&JitteredPoints::seed, "seed", Range{0, 1000000}, "", "Seed of the jitter").formerly({"seed"})};
+        Binding(&JitteredPoints::seed, "seed", Range{0, 1000000}, "", "Seed of the jitter")
+            .formerly({"seed"})};
     return kTable;
   }
 };
@@ -42,7 +44,12 @@ struct SampledLightSettings {
   static const SettingsTable<SampledLightSettings>& table() {
     using S = SampledLightSettings;
     static const SettingsTable<S> kTable = {
-        {&S::samples, "samples", {1, 4096}, "maps", "Shadow maps; a square number", "Schwarz 2009, section 3.3"},
+        {&S::samples,
+         "samples",
+         {1, 4096},
+         "maps",
+         "Shadow maps; a square number",
+         "Schwarz 2009, section 3.3"},
         {&S::resolution, "resolution", {64, 4096}, "texels", "Side of each shadow map"},
         {&S::pattern, "pattern", "Points on the light"},
         {&S::bias, "bias", {0.0, 0.1}, "", "Depth bias as a share of the depth"},
@@ -50,8 +57,8 @@ struct SampledLightSettings {
          "slope_bias",
          {0.0, 8.0},
          "texels",
-         "Depth bias as the plane's change over so many texels; half a texel is what a plane needs, the rest "
-         "is for the curvature of depth over a texel"}};
+         "Depth bias as the plane's change over this many texels; a plane needs half a texel, the rest "
+         "allows for the curvature of depth over a texel"}};
     return kTable;
   }
   void check() const { checkSquareNumber(samples); }
@@ -91,10 +98,10 @@ class SampledLight : public techniques::Technique {
       accumulate_->set("slopeBias", static_cast<float>(settings_.slopeBias));
       for (const frame::LightFrustum& frustum : frusta_) {
         raster_->draw(frame, frame.geometry(), frustum);
-        receivers.bindTexture(0);
-        normals.bindTexture(1);
-        raster_->depth().bindTexture(2);
-        counts_->bindImage(0, gl::Access::ReadWrite);
+        receivers.bindTexture(kSampledLightReceiversUnit);
+        normals.bindTexture(kSampledLightNormalsUnit);
+        raster_->depth().bindTexture(kSampledLightDepthMapUnit);
+        counts_->bindImage(kSampledLightLitCountsImage, gl::Access::ReadWrite);
         accumulate_->set("offset", glm::vec2(frustum.offset));
         accumulate_->set("low", glm::vec2(frustum.low));
         accumulate_->set("extent", glm::vec2(frustum.high - frustum.low));
@@ -106,17 +113,17 @@ class SampledLight : public techniques::Technique {
     const auto scope = frame.passes().open("sampled_light/resolve");
     resolve_->set("sizePx", frame.sizePx());
     resolve_->set("samples", static_cast<int>(frusta_.size()));
-    receivers.bindTexture(0);
-    counts_->bindImage(0, gl::Access::Read);
-    product_->bindImage(1, gl::Access::Write);
+    receivers.bindTexture(kSampledLightResolveReceiversUnit);
+    counts_->bindImage(kSampledLightResolveLitCountsImage, gl::Access::Read);
+    product_->bindImage(kSampledLightResolveVisibilityImage, gl::Access::Write);
     resolve_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
   const gl::Texture& product() const override { return *product_; }
 
-  /// A map that leaves casters out shows light where there may be none: the share of such maps is to be read
-  /// beside the product.
+  /// A map that misses casters shows light where there may be none: read the product together with the share
+  /// of such maps.
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto maps = double(frusta_.size());
     const auto cut = std::count_if(frusta_.begin(), frusta_.end(),
@@ -155,9 +162,9 @@ class SampledLight : public techniques::Technique {
 };
 
 /// A straight edge crosses at most 2 S - 1 of the S x S cells of a rectangular light, and only there can a
-/// cell's one point misjudge the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It holds for
-/// a convex occluder with one edge across the light; each further edge adds as much, and the maps' resolution
-/// and biases are not in it.
+/// cell's single point be wrong about the cell's share, by at most a whole cell: (2 S - 1) / S^2 < 2 / S. It
+/// holds for a convex occluder with one edge across the light; each further edge adds as much, and the maps'
+/// resolution and biases are not included.
 double edgeBound(const SampledLightSettings& settings) {
   return std::min(1.0, 2.0 / std::sqrt(double(settings.samples)));
 }
@@ -171,8 +178,7 @@ const techniques::RegisteredTechnique<SampledLight> kSampledLightRegistered{
      .reference = true,
      .counters = {{"shadow_maps", "Shadow maps", "", Direction::LowerIsBetter},
                   {"triangles_drawn", "Triangles drawn", "", Direction::LowerIsBetter},
-                  {"maps_cutting_casters_share", "Share of maps that cut casters", "",
-                   Direction::Neither}},
+                  {"maps_cutting_casters_share", "Share of maps that cut casters", "", Direction::Neither}},
      .effort = "samples"},
     edgeBound};
 

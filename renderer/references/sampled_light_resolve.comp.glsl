@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 0, r32ui) uniform readonly uimage2D litCounts;
-layout(binding = 1, r32f) uniform writeonly image2D visibility;
+#include "renderer/references/reference_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSampledLightResolveReceiversUnit) uniform sampler2D receivers;
+layout(binding = kSampledLightResolveLitCountsImage, r32ui) uniform readonly uimage2D litCounts;
+layout(binding = kSampledLightResolveVisibilityImage, r32f) uniform writeonly image2D visibility;
 
 uniform ivec2 sizePx;
 uniform int samples;

@@ -9,10 +9,10 @@
 
 namespace limen::references {
 
-/// Side of a square grid of so many points, rounded.
+/// Side of a square grid of this many points, rounded.
 inline int gridSide(int64_t samples) { return static_cast<int>(std::lround(std::sqrt(double(samples)))); }
 
-/// Throws Error about parameter `samples` if they fill no square grid. `otherwise`: what else helps.
+/// Throws Error about parameter `samples` unless it is a square number. `otherwise`: an alternative remedy.
 inline void checkSquareNumber(int64_t samples, const std::string& otherwise = {}) {
   const auto side = static_cast<int64_t>(gridSide(samples));
   if (side * side != samples)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threshold map of the shaded frame in double precision on the CPU, without tables (SP-28). All of the model
-// is parameters: as Ramasubramanian et al. have it (f_rule: original, decomposition: pyramid), as the thesis
-// has it, or with true Gaussians. Exact but for the frame itself, which the GPU shades.
+// Threshold map of the shaded frame in double precision on the CPU, without tables (SP-28). The whole model
+// is parameterised: as in Ramasubramanian et al. (f_rule: original, decomposition: pyramid), as in the
+// thesis, or with true Gaussians. Exact except for the frame itself, which the GPU shades.
 #include <optional>
 
 #include "perception/threshold_maps/reference.h"
@@ -63,7 +63,7 @@ class ThresholdMapReference : public techniques::Technique {
 const techniques::RegisteredTechnique<ThresholdMapReference> kThresholdMapReferenceRegistered{
     {.name = "perception/threshold_map_reference",
      .version = 1,
-     .summary = "Threshold map in double precision, any variant, true Gaussians too",
+     .summary = "Threshold map in double precision, any variant, including true Gaussians",
      .source = "Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4 (SP-28)",
      .product = techniques::ProductKind::Threshold,
      .reference = true,

@@ -21,7 +21,7 @@ class Triangles {
 
   /// Distance from a triangle's plane within which a point of another triangle counts as lying in it.
   /// Rounding moves a vertex by at most sqrt(3) 2^-24 of the largest coordinate; both planes may have moved,
-  /// which makes 4 * 2^-24.
+  /// which gives 4 * 2^-24.
   double planeTolerance() const { return planeTolerance_; }
 
  private:
@@ -30,7 +30,7 @@ class Triangles {
   double planeTolerance_ = 0.0;
 };
 
-/// Share of the way from a receiver to the light's plane that an occluder may not enter: what lies in the
+/// Share of the way from a receiver to the light's plane that an occluder may not enter: anything in the
 /// light's plane up to rounding hides nothing. All references that work on triangles use it.
 inline constexpr double kLightMargin = 1e-6;
 

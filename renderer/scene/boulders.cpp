@@ -21,10 +21,11 @@ struct BouldersSettings {
          "tessellation",
          {1, 64},
          "segments",
-         "Segments in a quarter circle; a lump has 8 times its square triangles: 250,880 with the ground's at "
+         "Segments in a quarter circle; a lump has 8 times its square triangles: 250,880 with the ground's "
+         "at "
          "the defaults"},
-        {&S::bumps, "bumps", {0.0, 0.8}, "", "Height of the bumps over the mean radius"},
-        {&S::seed, "seed", {0, 1000000}, "", "Of the bumps"}};
+        {&S::bumps, "bumps", {0.0, 0.8}, "", "Height of the bumps relative to the mean radius"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the bumps"}};
     return kTable;
   }
 };
@@ -36,7 +37,7 @@ Scene buildBoulders(const BouldersSettings& settings) {
             rows = (count + columns - 1) / columns;
   const double reach = 0.5 * kBoulderPitch * columns;
   const double amplitude = settings.bumps;
-  // The farthest that a lump can reach is just less than half of the way to its neighbour.
+  // A lump reaches just less than halfway to its neighbour.
   const double radius = 0.45 * kBoulderPitch / (1.0 + amplitude);
   const Mesh unit = sphere(glm::dvec3(0.0), 1.0, cells);
   Mesh boulders;
@@ -61,7 +62,7 @@ Scene buildBoulders(const BouldersSettings& settings) {
 const RegisteredScene<BouldersSettings> kBouldersRegistered{
     {.name = "boulders",
      .version = 1,
-     .summary = "Field of finely tessellated lumps, a quarter of a million triangles: geometry that weighs",
+     .summary = "Field of finely tessellated lumps, a quarter of a million triangles: heavy geometry",
      .source = "bench (what Schwarz 2009, section 4.6, calls highly tessellated)"},
     buildBoulders};
 

@@ -17,7 +17,8 @@ struct BoxSettings {
     static const SettingsTable<S> kTable = {
         {&S::boxHeight, "box_height", {0.05, 2.0}, "m", "Height of the box; the light is at 3.2 m"},
         {&S::clearance, "clearance", {0.0, 2.0}, "m", "Height of the box's underside above the ground"},
-        {&S::sides, "sides", "Without, two flat blockers are left: the top and the underside"}};
+        {&S::sides, "sides",
+         "Include the box's sides; without them the top and the underside are left as two flat blockers"}};
     return kTable;
   }
   void check() const {
@@ -30,8 +31,8 @@ struct BoxSettings {
 };
 
 /// The light is wider than the box and straight above it: from the light's centre only the box's top is seen,
-/// from its rim the sides shadow more. A single shadow map from the centre misses that, and where the box
-/// hovers it misses the umbra below.
+/// from its rim the sides shadow more. A single shadow map from the centre misses that and, if the box
+/// hovers, the umbra below.
 Scene buildBoxUnderLight(const BoxSettings& settings) {
   const double foot = settings.clearance, top = foot + settings.boxHeight;
   Scene scene;
@@ -57,8 +58,8 @@ struct TwoBoxesSettings {
   }
 };
 
-/// A small high box partly above a low wide one: their penumbrae meet on the ground and the upper one falls
-/// on the lower.
+/// A small high box partly above a low wide one: their penumbrae meet on the ground and the upper one's falls
+/// on the lower box.
 Scene buildTwoBoxes(const TwoBoxesSettings& settings) {
   const double gap = settings.gap;
   Scene scene;

@@ -7,7 +7,7 @@
 namespace limen::scene {
 namespace {
 
-/// What is interpolated of a camera, so that all of it takes one way.
+/// The interpolated quantities of a camera, all in one vector.
 struct Pose {
   glm::dvec3 eye, target, up;
   double fov;
@@ -21,7 +21,7 @@ Pose combine(const Pose& a, const Pose& b, Operation operation) {
           operation(a.fov, b.fov)};
 }
 
-/// Mean velocity between two keys; at rest where they share a time.
+/// Mean velocity between two keys; zero if they share a time.
 Pose slope(const CameraPath::Key& from, const CameraPath::Key& to) {
   const double span = to.timeS - from.timeS;
   const double inverse = span > 0.0 ? 1.0 / span : 0.0;
@@ -44,7 +44,7 @@ Pose tangent(const std::vector<CameraPath::Key>& keys, size_t i) {
 
 Camera CameraPath::at(double timeS) const {
   if (keys.empty()) return {};
-  // Negated so that a time that is no number gives the first key.
+  // Negated so that NaN gives the first key.
   if (!(timeS > keys.front().timeS)) {
     const double ahead = timeS - keys.front().timeS;
     if (!runIn || keys.size() < 2 || !std::isfinite(ahead) || ahead == 0.0) return keys.front().camera;
@@ -59,14 +59,14 @@ Camera CameraPath::at(double timeS) const {
   const double span = keys[i + 1].timeS - keys[i].timeS, u = (timeS - keys[i].timeS) / span;
   const Pose from = poseOf(keys[i].camera), to = poseOf(keys[i + 1].camera);
   const Pose leaving = tangent(keys, i), arriving = tangent(keys, i + 1);
-  // Hermite basis, written as departures from the first key: exact where nothing moves, however far from the
+  // Hermite basis, written as offsets from the first key: exact if nothing moves, however far from the
   // origin.
   const double step = u * u * (3.0 - 2.0 * u), out = u * (1.0 - u) * (1.0 - u) * span,
                in = u * u * (u - 1.0) * span;
   Pose pose = combine(from, to, [&](auto a, auto b) { return a + (b - a) * step; });
   pose = combine(pose, leaving, [&](auto a, auto b) { return a + b * out; });
   pose = combine(pose, arriving, [&](auto a, auto b) { return a + b * in; });
-  // Opposite up vectors cancel half-way; the picture must stay upright all the same.
+  // Opposite up vectors cancel halfway; the picture must stay upright nevertheless.
   if (glm::dot(pose.up, pose.up) < 1e-12) pose.up = from.up;
   return {pose.eye, pose.target, pose.up, std::clamp(pose.fov, 0.01, 179.0)};
 }

@@ -33,7 +33,7 @@ class PathReader {
     checkKeys(root, "a camera path's file", {"camera_path"});
     const YamlNode* keys = root.find("camera_path");
     if (!keys || keys->kind != Kind::List || keys->items.empty())
-      problems_.add(keys ? keys->mark : root.mark, "'camera_path' is no list of keys",
+      problems_.add(keys ? keys->mark : root.mark, "'camera_path' is not a list of keys",
                     std::string("write ") + kExample);
     problems_.throwIfAny();
     for (const YamlNode& item : keys->items)
@@ -99,7 +99,7 @@ class PathReader {
                       "order the keys by time");
       if (i > 1 && time == previous && time == path.keys[i - 2].timeS)
         problems_.add(marks_[i], "a third key at time_s " + shortestNumber(time),
-                      "two at one time are a cut; the one between is never seen");
+                      "two keys at one time are a cut; a third would never be seen");
     }
   }
 
@@ -131,7 +131,7 @@ std::string toYaml(const CameraPath& path) {
 }
 
 void writeCameraPath(const std::string& file, const CameraPath& path) {
-  // Read back from the disk: a path that is too long for a file, or that no reader takes, replaces nothing.
+  // Read back from disk: a path that is too long for a file, or that cannot be read back, replaces nothing.
   replaceFile(file, toYaml(path), [](const std::string& written) { readCameraPath(written); });
 }
 

@@ -15,14 +15,14 @@
 namespace limen::scene {
 namespace {
 
-constexpr double kSmallestFovDeg = 0.01, kLargestFovDeg = 179.0;  // what CameraPath::at() keeps to
-/// Sine of the angle below which view and up do not tell which way is up: the cross product of two unit
+constexpr double kSmallestFovDeg = 0.01, kLargestFovDeg = 179.0;  // limits of CameraPath::at()
+/// Sine of the angle below which view and up do not determine which way is up: the cross product of two unit
 /// vectors has an absolute rounding error of 1e-16, which turns the picture by 1e-10 rad at this angle.
 constexpr double kSmallestUpSine = 1e-6;
-/// Lengths whose squares are ordinary doubles.
+/// Lengths whose squares are normal doubles.
 constexpr double kSmallestLength = 1e-150, kLargestLength = 1e150;
 
-const char* const kForm = "write 'eye X Y Z target X Y Z', then 'up X Y Z' and 'fov DEGREES' if need be";
+const char* const kForm = "write 'eye X Y Z target X Y Z', then 'up X Y Z' and 'fov DEGREES' if needed";
 
 bool isFinite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -52,8 +52,8 @@ class CameraReader {
       else if (word == "fov")
         camera.verticalFovDeg = number(word);
       else
-        throw refuse("'" + word + "' stands where eye, target, up or fov should");
-      if (!seen.insert(word).second) throw refuse("'" + word + "' stands twice");
+        throw refuse("'" + word + "' where eye, target, up or fov is expected");
+      if (!seen.insert(word).second) throw refuse("'" + word + "' is given twice");
     }
     for (const char* needed : {"eye", "target"})
       if (!seen.count(needed)) throw refuse(std::string("'") + needed + "' is missing");
@@ -81,7 +81,7 @@ class CameraReader {
     if (result.ec == std::errc::result_out_of_range)
       throw refuse("'" + word + "' of '" + key + "' is beyond the range of numbers");
     if (result.ec != std::errc{} || result.ptr != digits.data() + digits.size())
-      throw refuse("'" + word + "' of '" + key + "' is no number" +
+      throw refuse("'" + word + "' of '" + key + "' is not a number" +
                    (word.find(',') != std::string::npos ? "; no commas" : ""));
     return value;
   }
@@ -105,13 +105,13 @@ void checkCamera(const Camera& camera, const std::string& where) {
                  "allowed: 0.01 to 179");
   const glm::dvec3 view = camera.target - camera.eye;
   if (view == glm::dvec3(0.0))
-    throw refuse("eye and target are the same point", "move the target along the view");
+    throw refuse("eye and target are the same point", "move the target along the view direction");
   if (!hasUsableLength(view))
     throw refuse("eye and target are too near or too far apart", "allowed: 1e-150 to 1e150 world units");
   if (!hasUsableLength(camera.up))
     throw refuse("'up' has no usable length", "give a vector of about length 1");
   if (glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < kSmallestUpSine)
-    throw refuse("'up' is along the view", "give an 'up' across it");
+    throw refuse("'up' is parallel to the view direction", "give an 'up' at an angle to it");
 }
 
 Camera parseCamera(const std::string& text, const std::string& where) {

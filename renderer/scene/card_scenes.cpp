@@ -25,7 +25,7 @@ AreaLight lightAbove(glm::dvec2 size) {
 enum class CardFit {
   Projective,  ///< same projection from the light's centre
   Umbra,       ///< sections of the topmost card's umbra
-  Strips       ///< narrow cards side by side, a step each
+  Strips       ///< narrow cards side by side in steps
 };
 constexpr EnumNames<CardFit, 3> enumNames(CardFit) {
   return {{{{CardFit::Projective, "projective"}, {CardFit::Umbra, "umbra"}, {CardFit::Strips, "strips"}}}};
@@ -44,7 +44,7 @@ struct CardStackSettings {
         {&S::spacing, "spacing", {0.0001, 0.15}, "m", "Vertical distance between two cards"},
         {&S::fit, "fit",
          "Size of the lower cards: same projection from the light's centre, or the section of the topmost "
-         "card's umbra; strips: narrow cards side by side, a step each"}};
+         "card's umbra; strips: narrow cards side by side in steps"}};
     return kTable;
   }
   void check() const {
@@ -57,10 +57,10 @@ struct CardStackSettings {
 
 /// Occluder fusion: cards below the topmost one, none of which a shadow map from the light's centre can see.
 /// Projective cards all have the same projection from the light's centre. Umbra cards are the sections of the
-/// topmost card's umbra, so that no light ray meets one that has not met the topmost: visibility on the
+/// topmost card's umbra, so that every light ray that meets one also meets the topmost: visibility on the
 /// ground is then the same for any number of cards (as long as light_size is at most 1). Strips are a
-/// staircase of narrow cards that lie side by side as seen from the light's centre, so that the map misses
-/// nothing: receivers beyond its deep end see them overlap on the light, the more the more there are.
+/// staircase of narrow cards that appear side by side from the light's centre, so that the map misses
+/// nothing: receivers beyond its deep end see them overlap on the light, the more cards the more overlap.
 Scene buildCardStack(const CardStackSettings& settings) {
   constexpr double kTop = kTopCard, kHalf = 0.35, kLightSize = 0.3, kStripTangent = 0.04;
   const double depthOfTop = kCardLightHeight - kTop;
@@ -71,7 +71,8 @@ Scene buildCardStack(const CardStackSettings& settings) {
   for (int64_t i = 0; i < count; ++i) {
     const double drop = spacing * static_cast<double>(i);
     const double depth = depthOfTop + drop, grown = depth / depthOfTop;
-    const double half = fit == CardFit::Umbra ? kHalf * grown - 0.5 * kLightSize * (grown - 1.0) : kHalf * grown;
+    const double half =
+        fit == CardFit::Umbra ? kHalf * grown - 0.5 * kLightSize * (grown - 1.0) : kHalf * grown;
     const bool strip = fit == CardFit::Strips;
     const double centre = strip ? kStripTangent * (static_cast<double>(i) + 0.5) * depth : 0.0;
     append(cards, flatCard({centre, kTop - drop, 0.0}, {strip ? 0.5 * kStripTangent * depth : half, half}));
@@ -87,18 +88,19 @@ Scene buildCardStack(const CardStackSettings& settings) {
 struct HalfPlaneSettings {
   double edgeHeight = 1.0;
   static const SettingsTable<HalfPlaneSettings>& table() {
-    static const SettingsTable<HalfPlaneSettings> kTable = {{&HalfPlaneSettings::edgeHeight,
-                                                             "edge_height",
-                                                             {0.05, 1.8},
-                                                             "m",
-                                                             "Height of the half-plane; the light is at 2 m"}};
+    static const SettingsTable<HalfPlaneSettings> kTable = {
+        {&HalfPlaneSettings::edgeHeight,
+         "edge_height",
+         {0.05, 1.8},
+         "m",
+         "Height of the half-plane; the light is at 2 m"}};
     return kTable;
   }
 };
 
 /// Covers x < 0 at one height; its edge x = 0 is parallel to the light's y axis. The ground at x then sees
 /// the share 1/2 + x (H - h) / (h w) of a light of width w at height H, clamped to [0, 1]. The card reaches
-/// far enough to every other side that no other edge comes between the light and the ground plane's middle.
+/// far enough to every other side that no other edge comes between the light and the middle of the ground.
 Scene buildHalfPlane(const HalfPlaneSettings& settings) {
   const double edgeHeight = settings.edgeHeight;
   constexpr double kReach = 4.5;
@@ -137,8 +139,7 @@ Scene buildParallelRectangle(const RectangleSettings& settings) {
 const RegisteredScene<CardStackSettings> kCardStack{
     {.name = "card_stack",
      .version = 1,
-     .summary =
-         "Parallel cards one below another that cover each other as seen from the light: occluder fusion",
+     .summary = "Stack of parallel cards that cover each other as seen from the light: occluder fusion",
      .source = "Schwarz 2009, section 4.2"},
     buildCardStack};
 

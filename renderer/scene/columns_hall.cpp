@@ -17,7 +17,7 @@ Mesh column(glm::dvec3 foot, int segments) {
   return mesh;
 }
 
-/// Down the aisle and round, at eye height, with uneven times.
+/// Down the aisle and around, at eye height, with uneven times.
 CameraPath walk(double length) {
   const double half = 0.5 * length;
   const auto key = [](double timeS, glm::dvec3 eye, glm::dvec3 target) {
@@ -48,8 +48,8 @@ struct ColumnsHallSettings {
   }
 };
 
-/// Two rows of columns along z without a ceiling. The light stands at the left, so that shadows cross the
-/// aisle, and the higher the longer the hall, so that all of the ground is before it.
+/// Two rows of columns along z without a ceiling. The light is on the left, so that shadows cross the aisle,
+/// and the longer the hall the higher the light, so that the whole ground is in front of it.
 Scene buildColumnsHall(const ColumnsHallSettings& settings) {
   const int perRow = settings.columnsPerRow, segments = settings.segments;
   const double length = kColumnPitch * (perRow - 1);

@@ -12,7 +12,7 @@ struct CombSettings {
     using S = CombSettings;
     static const SettingsTable<S> kTable = {
         {&S::slats, "slats", {1, 256}, "slats", "Slats over the 2.4 m of the fence"},
-        {&S::width, "width", {0.02, 0.95}, "", "Width of a slat as a share of their distance"}};
+        {&S::width, "width", {0.02, 0.95}, "", "Width of a slat as a share of the slats' pitch"}};
     return kTable;
   }
 };

@@ -20,9 +20,8 @@ struct RestingSphereSettings {
   }
 };
 
-/// A shadow that begins where caster and receiver touch, and a plane that may lean away from the light: what
-/// a depth bias gives up at the one it gains at the other. The plane casts too, so that a shadow map shows
-/// all of it.
+/// A shadow that begins where caster and receiver touch, and a plane that may be tilted away from the light:
+/// a depth bias trades one for the other. The plane casts too, so that a shadow map contains all of it.
 Scene buildRestingSphere(const RestingSphereSettings& settings) {
   const double tilt = glm::radians(settings.tilt), radius = settings.radius;
   const glm::dvec3 up(-std::sin(tilt), std::cos(tilt), 0.0), along(std::cos(tilt), std::sin(tilt), 0.0);
@@ -30,8 +29,7 @@ Scene buildRestingSphere(const RestingSphereSettings& settings) {
   Scene scene;
   addPart(scene, "plane", card(glm::dvec3(0.0), {0.0, 0.0, kHalfSide}, kHalfSide * along),
           {0.6F, 0.6F, 0.58F});
-  addPart(scene, "sphere", sphere(radius * up, radius, settings.tessellation),
-          {0.7F, 0.62F, 0.5F});
+  addPart(scene, "sphere", sphere(radius * up, radius, settings.tessellation), {0.7F, 0.62F, 0.5F});
   scene.lights = {lightTowards({0.0, kLightHeight, 0.0}, glm::dvec3(0.0), glm::dvec2(kLightSide))};
   setStillCamera(scene, orbitCamera(glm::dvec3(0.0), 5.0, -35.0, 50.0));
   return scene;
@@ -40,7 +38,7 @@ Scene buildRestingSphere(const RestingSphereSettings& settings) {
 const RegisteredScene<RestingSphereSettings> kRestingSphere{
     {.name = "resting_sphere",
      .version = 1,
-     .summary = "Sphere that touches a plane straight below the light; the plane may lean",
+     .summary = "Sphere that touches a plane straight below the light; the plane may be tilted",
      .source = "stand-in for Schwarz 2009, Fig. 4.15"},
     buildRestingSphere};
 

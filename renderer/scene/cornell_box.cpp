@@ -51,7 +51,7 @@ Scene buildCornellBox(const NoSettings&) {
           kWhite);
   addPart(scene, "tall_block", block(330.0, {423.0, 247.0}, {265.0, 296.0}, {314.0, 456.0}, {472.0, 406.0}),
           kWhite);
-  // A tenth of a millimetre below the ceiling, which would otherwise lie in the light's own plane.
+  // A tenth of a millimetre below the ceiling, which would otherwise lie in the light's plane.
   const glm::dvec3 centre(0.5 * (213.0 + 343.0), 548.7, 0.5 * (227.0 + 332.0));
   scene.lights = {lightTowards(kMillimetre * centre, kMillimetre * glm::dvec3(centre.x, 0.0, centre.z),
                                kMillimetre * glm::dvec2(343.0 - 213.0, 332.0 - 227.0))};

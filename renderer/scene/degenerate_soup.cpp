@@ -14,18 +14,18 @@ constexpr double kSoupLightHeight = 3.0, kLightSize = 0.3;
 enum class Flaw {
   None,
   RepeatedVertex,  ///< two corners are one vertex
-  Collinear,       ///< three places on a line
-  Point,           ///< three vertices at one place
-  Sliver,          ///< about 1e-7 as high as long
-  Duplicate,       ///< another triangle's corners again
-  Flipped,         ///< another triangle's corners, facing the other way
+  Collinear,       ///< three collinear points
+  Point,           ///< three vertices at one point
+  Sliver,          ///< height about 1e-7 of the length
+  Duplicate,       ///< repeats another triangle's corners
+  Flipped,         ///< repeats another triangle's corners, facing the other way
   Coplanar,        ///< overlaps another triangle in its plane
   TouchesLight,    ///< one corner in the plane of the light
   LiesInLight,     ///< all corners in the plane of the light
   Count
 };
 
-/// Adds triangles of every flaw in turn.
+/// Adds triangles with each defect in turn.
 class Soup {
  public:
   explicit Soup(int64_t seed) : random_(seed) {}
@@ -47,7 +47,7 @@ class Soup {
       case Flaw::Sliver:
         corners(), corner_[2] = 0.5 * (corner_[0] + corner_[1]) + 2e-8 * random_.direction();
         break;
-      // Corners of the last sound triangle, as new vertices.
+      // Corners of the last valid triangle, as new vertices.
       case Flaw::Duplicate:
         corner_ = sound_;
         break;
@@ -71,7 +71,7 @@ class Soup {
       case Flaw::LiesInLight: {
         corners();
         const double side = std::copysign(2.0 * kLightSize, corner_[0].x);
-        // Beside the light: whether a triangle on it shadows anything has no answer.
+        // Beside the light: whether a triangle on it casts a shadow is undefined.
         for (glm::dvec3& corner : corner_) corner = {corner.x + side, kSoupLightHeight, corner.z};
         break;
       }
@@ -87,7 +87,7 @@ class Soup {
   const Mesh& mesh() const { return mesh_; }
 
  private:
-  /// A sound triangle of about 0.15 in a slab half-way up.
+  /// A valid triangle of about 0.15 in a slab halfway up.
   void corners() {
     // Braces fix the order of the draws.
     const glm::dvec3 middle{random_.uniform(-0.8, 0.8), random_.uniform(0.4, 1.4),
@@ -131,7 +131,7 @@ const RegisteredScene<SoupSettings> kDegenerateSoupRegistered{
     {.name = "degenerate_soup",
      .version = 1,
      .summary = "Triangles without area, slivers, duplicates, coplanar overlaps and triangles in the light's "
-                "plane, over a sound ground",
+                "plane, over a regular ground",
      .source = "bench"},
     buildDegenerateSoup};
 

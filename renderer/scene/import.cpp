@@ -60,7 +60,7 @@ class Collector {
     Material out;
     out.name = source.GetName().C_Str();
     aiColor3D diffuse;
-    // Assimp invents a material for files that have none; what it invents is no statement about the surface.
+    // Assimp invents a material for files that have none; it says nothing about the surface.
     if (out.name != AI_DEFAULT_MATERIAL_NAME && source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == AI_SUCCESS)
       for (int channel = 0; channel < 3; ++channel) {
         const float value = diffuse[static_cast<unsigned>(channel)];
@@ -76,7 +76,7 @@ class Collector {
     part.material = source.mMaterialIndex;
     std::vector<uint32_t> index(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) index[i] = vertex(world, source.mVertices[i]);
-    // A mirroring transform turns the surface inside out; so does swapping two corners.
+    // A mirroring transform turns the surface inside out; swapping two corners undoes that.
     const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
     for (unsigned i = 0; i < source.mNumFaces; ++i) {
       const aiFace& face = source.mFaces[i];
@@ -90,7 +90,7 @@ class Collector {
   }
 
   uint32_t vertex(const glm::dmat4& world, const aiVector3D& local) {
-    // Adding 0 makes -0 the same place as 0.
+    // Adding 0 makes -0 equal to 0 bitwise.
     const glm::dvec3 position = glm::dvec3(world * glm::dvec4(local.x, local.y, local.z, 1.0)) + 0.0;
     const auto [entry, fresh] = known_.emplace(position, static_cast<uint32_t>(out_.mesh.positions.size()));
     if (fresh) out_.mesh.positions.push_back(position);
@@ -102,8 +102,7 @@ class Collector {
   std::unordered_map<glm::dvec3, uint32_t, PositionHash> known_;
 };
 
-/// A text PLY that ends early would be read with its last face repeated. One line an element, as the format
-/// has it.
+/// A text PLY that ends early would be read with its last face repeated. The format has one line per element.
 void refuseCutPly(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   size_t expected = 0, found = 0;
@@ -128,7 +127,7 @@ void refuseCutPly(const std::string& path) {
   if (text && found < expected)
     throw Error(
         "the file ends after " + std::to_string(found) + " of " + std::to_string(expected) + " elements",
-        path, "copy it again, whole");
+        path, "copy it again, completely");
 }
 
 /// Before anything walks the indices.
@@ -152,7 +151,7 @@ void refuseNonFinite(const Mesh& mesh, const std::string& path) {
     throw Error(std::to_string(broken) + " vertices have coordinates that are not finite", path, kMend);
 }
 
-/// Vertices that only points and lines used.
+/// Removes vertices that only points and lines used.
 void dropUnused(Mesh& mesh) {
   std::vector<uint32_t> moved(mesh.positions.size(), 0);
   for (const glm::uvec3& triangle : mesh.triangles)
@@ -172,14 +171,14 @@ void dropUnused(Mesh& mesh) {
 
 ImportedMesh importMesh(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw Error("no such mesh file", path, "check the path; it is taken relative to the working folder");
+    throw Error("no such mesh file", path, "check the path; it is relative to the working directory");
   if (!std::ifstream(path)) throw Error("cannot read the mesh file", path, "check its permissions");
 
   if (std::filesystem::path(path).extension() == ".ply") refuseCutPly(path);
   Assimp::Importer importer;
   const aiScene* source = importer.ReadFile(path, 0);
   if (source == nullptr || source->mRootNode == nullptr)
-    throw Error(std::string("not a mesh that can be read: ") + importer.GetErrorString(), path, kMend);
+    throw Error(std::string("not a readable mesh: ") + importer.GetErrorString(), path, kMend);
   refuseBroken(*source, path);
   source = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (source == nullptr)

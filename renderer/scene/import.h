@@ -15,13 +15,13 @@ struct ImportedMesh {
 };
 
 /// Reads a mesh of any format that Assimp knows (OBJ, PLY, glTF, 3DS ...). Polygons become triangles, the
-/// transforms of the node graph are applied, vertices at exactly the same place become one, diffuse colours
-/// become albedos (textures are left out). Degenerate triangles are kept; points and lines are not surfaces
-/// and are left out. Throws Error naming the file: missing, unreadable, no triangles, a coordinate that is
-/// not finite, a vertex index out of range.
+/// transforms of the node graph are applied, vertices at exactly the same position are merged, diffuse
+/// colours become albedos (textures are ignored). Degenerate triangles are kept; points and lines are not
+/// surfaces and are ignored. Throws Error naming the file: missing, unreadable, no triangles, a coordinate
+/// that is not finite, a vertex index out of range.
 ImportedMesh importMesh(const std::string& path);
 
-/// Path of a mesh that the package glmark2-data has. Throws Error if it is not installed.
+/// Path of a mesh from the package glmark2-data. Throws Error if it is not installed.
 std::string installedModel(const std::string& file);
 
 /// Makes z-up coordinates y-up.

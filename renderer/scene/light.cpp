@@ -10,14 +10,14 @@
 namespace limen::scene {
 namespace {
 
-/// A few units in the last place of coordinates of the size of `p`'s and its neighbours'.
+/// A few units in the last place of coordinates of the magnitude of `p` and its neighbours.
 double roundingOf(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
   const glm::dvec2 largest = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(p));
   return 4.0 * std::numeric_limits<double>::epsilon() * std::max(largest.x, largest.y);
 }
 
-/// Sign of the area of (a, b, p); 0 where the rounding of the coordinates or of the determinant could have
-/// decided it.
+/// Sign of the area of (a, b, p); 0 if rounding of the coordinates or of the determinant could have decided
+/// it.
 int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
   const glm::dvec2 edge = b - a, to = p - a;
   const double determinant = edge.x * to.y - edge.y * to.x;
@@ -68,7 +68,7 @@ void checkOutline(const std::vector<glm::dvec2>& outline, const std::string& whe
 double signedArea(const std::vector<glm::dvec2>& polygon) {
   double twice = 0.0;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    // Relative to the first vertex, so that a small polygon far from the origin keeps its digits.
+    // Relative to the first vertex, so that a small polygon far from the origin keeps its precision.
     const glm::dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
     twice += a.x * b.y - a.y * b.x;
   }
@@ -112,7 +112,7 @@ void checkLight(const AreaLight& light, const std::string& where) {
   if (!(std::abs(glm::length(light.axisX) - 1.0) < kTolerance &&
         std::abs(glm::length(light.axisY) - 1.0) < kTolerance &&
         std::abs(glm::dot(light.axisX, light.axisY)) < kTolerance))
-    throw Error("a light's axes are not unit and perpendicular", where, "normalise them");
+    throw Error("a light's axes are not unit and perpendicular", where, "normalise and orthogonalise them");
   if (light.shape == LightShape::Polygon) checkOutline(light.outline, where);
   if (light.parts.empty())
     throw Error("a light has no part", where, "give it one part with an empty outline");

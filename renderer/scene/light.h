@@ -11,7 +11,7 @@ namespace limen::scene {
 double signedArea(const std::vector<glm::dvec2>& polygon);
 
 /// True if `point` lies in the simple polygon or on its boundary. A point nearer to an edge than the rounding
-/// error of the orientation test counts as on it.
+/// error of the orientation test counts as lying on it.
 bool polygonContains(const std::vector<glm::dvec2>& polygon, glm::dvec2 point);
 
 /// The light's outline in unit light coordinates, counter-clockwise. A disc is given by `discVertices` points
@@ -23,7 +23,7 @@ std::vector<glm::dvec2> lightOutline(const AreaLight& light, int discVertices = 
 /// part's) that leaves [0,1]^2, has no area, is clockwise, repeats a vertex or crosses itself.
 void checkLight(const AreaLight& light, const std::string& where);
 
-/// `light` with another shape of the same extents. A polygon is a hexagon that touches all four sides.
+/// `light` with another shape but the same extents. A polygon is a hexagon that touches all four sides.
 AreaLight withShape(AreaLight light, LightShape shape);
 
 }  // namespace limen::scene

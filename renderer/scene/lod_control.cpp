@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Pixels a unit at distance 1, in the middle of the picture.
+/// Pixels per unit at distance 1, at the centre of the picture.
 double focalPx(const LodView& view) {
   return 0.5 * view.heightPx / std::tan(0.5 * glm::radians(view.camera.verticalFovDeg));
 }

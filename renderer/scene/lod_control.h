@@ -5,7 +5,7 @@
 
 namespace limen::scene {
 
-/// What a choice of levels looks at: a camera and how many pixels its picture is high.
+/// What level selection is based on: a camera and the height of its picture in pixels.
 struct LodView {
   Camera camera;
   int heightPx = 1;
@@ -13,12 +13,13 @@ struct LodView {
 
 /// From the eye to the middle of the object's bounds, world units.
 double viewDistance(const LodObject& object, const Camera& camera);
-/// Height in px of the object's bounding sphere seen from the eye, as if in the middle of the picture;
+/// Height in px of the object's bounding sphere seen from the eye, as if at the centre of the picture;
 /// infinite with the eye inside.
 double screenExtentPx(const LodObject& object, const LodView& view);
-/// The level's deviation in px where the object is nearest to the eye, as if it stood upright there in the
-/// middle of the picture: the usual bound (Schwarz 2009, section 10.1). Off the middle a perspective picture
-/// stretches it by up to 1 / cos^2. Infinite with the eye inside the object's bounds, 0 for level 0.
+/// The level's deviation in px where the object is nearest to the eye, as if it were parallel to the image
+/// plane there at the centre of the picture: the usual bound (Schwarz 2009, section 10.1). Off-centre,
+/// perspective stretches it by up to 1 / cos^2. Infinite with the eye inside the object's bounds, 0 for level
+/// 0.
 double screenErrorPx(const LodObject& object, int level, const LodView& view);
 
 /// Each object's level from its manually set switch distances, which are multiplied by `factor`: level i + 1

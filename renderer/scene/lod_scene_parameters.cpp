@@ -12,9 +12,11 @@ namespace {
 
 template <class Motion>
 Binding<Motion> speedBinding(double Motion::*member) {
-  return {member, "speed",
+  return {member,
+          "speed",
           Range{0.0, 50.0},
-          "world units/s", "Speed of the camera; 0 is still",
+          "world units/s",
+          "Speed of the camera; 0 is still",
           "Schwarz 2009, section 10.4 (values not given there)"};
 }
 
@@ -24,21 +26,20 @@ const SettingsTable<Approach>& Approach::table() {
   static const SettingsTable<Approach> kTable = {
       speedBinding(&Approach::speed).formerly({"speed"}),
       Binding(&Approach::durationS, "duration_s", Range{0.1, 60.0}, "s",
-              "Length of the ride; it ends earlier where it would reach the object",
+              "Length of the ride; it ends earlier if it would reach the object",
               "Schwarz 2009, section 10.4.1")
           .formerly({"duration_s"})};
   return kTable;
 }
 
 const SettingsTable<Horizontal>& Horizontal::table() {
-  static const SettingsTable<Horizontal> kTable = {
-      speedBinding(&Horizontal::speed),
-      {&Horizontal::durationS,
-       "duration_s",
-       {0.1, 60.0},
-       "s",
-       "Length of the ride",
-       "Schwarz 2009, section 10.4.1"}};
+  static const SettingsTable<Horizontal> kTable = {speedBinding(&Horizontal::speed),
+                                                   {&Horizontal::durationS,
+                                                    "duration_s",
+                                                    {0.1, 60.0},
+                                                    "s",
+                                                    "Length of the ride",
+                                                    "Schwarz 2009, section 10.4.1"}};
   return kTable;
 }
 

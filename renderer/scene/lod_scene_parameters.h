@@ -13,7 +13,7 @@ namespace limen::scene {
 struct Approach {
   static constexpr const char *kKind = "approach", *kSummary = "towards the object";
   double speed = 1.0;      ///< world units/s; 0: still
-  double durationS = 4.5;  ///< ends earlier where it would reach the object
+  double durationS = 4.5;  ///< ends earlier if it would reach the object
   static const SettingsTable<Approach>& table();
 };
 
@@ -32,11 +32,11 @@ struct Still {
 /// How the camera of an LOD scene moves, in a straight line at constant speed without turning.
 using CameraMotion = std::variant<Approach, Horizontal, Still>;
 
-/// Where that motion begins.
+/// Where the motion begins.
 struct Ride {
   glm::dvec3 target{0.0};          ///< looked at when the ride begins
   glm::dvec3 back{0.0, 0.0, 1.0};  ///< unit, from the target to the eye
-  /// Unit, the way of an approach; the zero vector: straight at the target.
+  /// Unit, the direction of an approach; the zero vector: straight at the target.
   glm::dvec3 forward{0.0};
   double distance = 1.0;  ///< from the eye to the target
   double nearest = 0.0;   ///< an approach ends at this distance at the latest
@@ -55,9 +55,8 @@ struct SwitchSettings {
 /// Lines of an LOD scene's table for its members `distance`, `motion` and `switching`.
 template <class S>
 Binding<S> distanceBinding(double S::*member, double longest) {
-  return {member, "distance",
-          Range{0.02 * longest, longest},
-          "world units", "From the eye to the object's middle when the ride begins"};
+  return {member, "distance", Range{0.02 * longest, longest}, "world units",
+          "Distance from the eye to the object's centre when the ride begins"};
 }
 template <class S>
 Binding<S> motionBinding(CameraMotion S::*member) {

@@ -24,7 +24,7 @@ Mesh placed(Mesh mesh, const Placement& placement) {
   return mesh;
 }
 
-/// The triangles [first, first + count) of `from` as a mesh of their own.
+/// The triangles [first, first + count) of `from` as a separate mesh.
 Mesh cut(const Mesh& from, uint32_t first, uint32_t count) {
   Mesh out;
   std::vector<uint32_t> moved(from.positions.size(), 0xffffffffU);
@@ -50,7 +50,7 @@ std::vector<int> levelOfParts(const Scene& scene, const LodSelection& selection)
   if (selection.levels.size() != scene.lodObjects.size())
     throw Error("a selection of " + std::to_string(selection.levels.size()) + " levels for " +
                     std::to_string(scene.lodObjects.size()) + " objects",
-                "scene '" + scene.name + "'", "give one level an object");
+                "scene '" + scene.name + "'", "give one level per object");
   std::vector<int> levels(scene.parts.size(), selection.background ? 0 : LodSelection::kOmitted);
   for (size_t i = 0; i < scene.lodObjects.size(); ++i) {
     const LodObject& object = scene.lodObjects[i];

@@ -11,7 +11,7 @@ namespace limen::scene {
 
 /// One concrete level of detail on its own, in object space.
 struct LodMesh {
-  Mesh mesh;                 ///< with morph targets towards the next coarser level, if the maker has any
+  Mesh mesh;                 ///< with morph targets towards the next coarser level, if the maker provides any
   double deviation = 0.0;    ///< see LodLevel::deviation
   double statedError = 0.0;  ///< see the maker
 };
@@ -22,7 +22,7 @@ struct LodSet {
   std::vector<LodMesh> levels;
 };
 
-/// Where an object stands: scaled, then turned about y, then moved.
+/// Placement of an object: scaled, then rotated about y, then moved.
 struct Placement {
   glm::dvec3 position{0.0};
   double yawDeg = 0.0;
@@ -37,12 +37,12 @@ void addLodObject(Scene& scene, const LodSet& set, const Placement& placement, c
 /// What is shown of a scene: a level for each LOD object, and the background.
 struct LodSelection {
   static constexpr int kOmitted = -1;  ///< the object is not drawn
-  std::vector<int> levels;             ///< one an object of Scene::lodObjects
+  std::vector<int> levels;             ///< one per object of Scene::lodObjects
   bool background = true;              ///< parts that belong to no object
   bool operator==(const LodSelection&) const = default;
 };
 
-/// All objects at `level`, or at their coarsest where they have fewer.
+/// All objects at `level`, or at their coarsest if they have fewer.
 LodSelection uniformLevels(const Scene& scene, int level);
 inline LodSelection finestLevels(const Scene& scene) { return uniformLevels(scene, 0); }
 
@@ -50,7 +50,7 @@ inline LodSelection finestLevels(const Scene& scene) { return uniformLevels(scen
 std::vector<TriangleRange> rangesOf(const Scene& scene, const LodSelection& selection);
 uint64_t triangleCount(const Scene& scene, const LodSelection& selection);
 
-/// The scene that a selection shows, with no levels left: for renderers that know none. Slow; copies.
+/// The scene that a selection shows, without levels: for renderers that do not support them. Slow; copies.
 Scene withLevels(const Scene& scene, const LodSelection& selection);
 
 }  // namespace limen::scene

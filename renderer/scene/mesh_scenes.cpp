@@ -54,7 +54,7 @@ Scene buildMesh(const MeshSettings& settings) {
   return overGround(imported, height, settings.ground);
 }
 
-/// 3DS has z up and is read so, but the cat was saved with y up: read, it lies on its back.
+/// 3DS has z up and is read that way, but the cat was saved with y up: as read, it lies on its back.
 enum class Turned { No, Over };
 
 Scene buildModel(const std::string& file, Turned turned) {
@@ -87,12 +87,11 @@ const RegisteredScene<NoSettings> kHorse{
      .source = "stand-in for Schwarz 2009, Fig. 4.28"},
     [](const NoSettings&) { return buildModel("horse.3ds", Turned::No); }};
 
-const RegisteredScene<NoSettings> kCat{
-    {.name = "cat",
-     .version = 1,
-     .summary = "Cat of height 1 over a plane (package glmark2-data)",
-     .source = "stand-in for Schwarz 2009, Fig. 4.28"},
-    [](const NoSettings&) { return buildModel("cat.3ds", Turned::Over); }};
+const RegisteredScene<NoSettings> kCat{{.name = "cat",
+                                        .version = 1,
+                                        .summary = "Cat of height 1 over a plane (package glmark2-data)",
+                                        .source = "stand-in for Schwarz 2009, Fig. 4.28"},
+                                       [](const NoSettings&) { return buildModel("cat.3ds", Turned::Over); }};
 
 }  // namespace
 }  // namespace limen::scene

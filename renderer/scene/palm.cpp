@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTrunkHeight = 1.7, kFrondLength = 1.15;
 
-/// The trunk leans towards +x, as palms that stand alone do.
+/// The trunk leans towards +x, like a solitary palm's.
 glm::dvec3 trunkPoint(double t) { return {-0.75 + 0.4 * t * t, kTrunkHeight * t, -0.15 * t}; }
 
 Mesh trunk() {
@@ -98,8 +98,7 @@ Mesh limb(Curve curve, double thick, double thin) {
   return tube(points, radii, 12);
 }
 
-/// A long-necked animal that walks along +x under the palm: one of its many occluders a large body, the
-/// others thin.
+/// A long-necked animal that walks along +x under the palm: one large occluder among many thin ones.
 Mesh creature(int legPairs) {
   const glm::dvec3 middle(0.1, 0.42, 0.35);
   Mesh body = sphere(glm::dvec3(0.0), 1.0, 10);
@@ -145,7 +144,7 @@ struct PalmSettings {
          "m",
          "Largest width of a leaflet; a frond is about 1.15 m long"},
         {&S::legPairs, "leg_pairs", {1, 12}, "pairs", "Pairs of legs of the animal"},
-        {&S::seed, "seed", {0, 1000000}, "", "Of the places of fronds and leaflets"}};
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the positions of fronds and leaflets"}};
     return kTable;
   }
 };

@@ -73,7 +73,7 @@ void RecordedPath::check() const {
   try {
     readCameraPath(file.path);
   } catch (const Error& error) {
-    // As one message: every line of it has a place of its own within the file.
+    // As one message: each of its lines has its own position in the file.
     throw Error(error.what(), "file");
   }
 }
@@ -90,7 +90,7 @@ const SettingsTable<PlacementSettings>& PlacementSettings::table() {
        "Multiplies the light's extents",
        "Schwarz 2009, chapters 3 to 5"},
       {&S::lightShape, "light_shape", "Shape of the light within its extents; polygon: a hexagon"},
-      {&S::camera, "camera", "Who looks at the scene"}};
+      {&S::camera, "camera", "Camera that looks at the scene"}};
   return kTable;
 }
 
@@ -108,8 +108,9 @@ double timeOf(const CameraChoice& choice) {
 }
 
 void clearCamera(std::map<std::string, ParameterValue>& values) {
-  std::erase_if(values,
-                [](const auto& value) { return value.first == "camera" || value.first.starts_with("camera."); });
+  std::erase_if(values, [](const auto& value) {
+    return value.first == "camera" || value.first.starts_with("camera.");
+  });
 }
 
 void setCamera(std::map<std::string, ParameterValue>& values, const CameraChoice& choice) {

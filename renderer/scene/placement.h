@@ -11,7 +11,7 @@
 
 namespace limen::scene {
 
-/// The camera path that the scene comes with.
+/// The scene's own camera path.
 struct BuiltInCamera {
   static constexpr const char *kKind = "built_in", *kSummary = "the scene's own";
   double timeS = 0.0;  ///< position on the path
@@ -46,7 +46,7 @@ constexpr EnumNames<LightShapeChoice, 4> enumNames(LightShapeChoice) {
             {LightShapeChoice::Polygon, "polygon"}}}};
 }
 
-/// Settings of every scene: where its world lies, how large its light is and who looks at it.
+/// Settings of every scene: position and scale of its world, size of its light, and camera.
 struct PlacementSettings {
   double scale = 1.0;      ///< of the whole world, about the origin
   double offset = 0.0;     ///< moves the world by this many of its own diagonals along (1,1,1)/sqrt(3)
@@ -56,7 +56,7 @@ struct PlacementSettings {
   static const SettingsTable<PlacementSettings>& table();
 };
 
-/// What a choice of camera makes of a scene's own path, the last step of buildScene(). A path is moved so
+/// Applies the chosen camera to a scene's own path, the last step of buildScene(). A path is moved so
 /// that its time 0 is the chosen position: camera.at(0) is the camera of a still picture. Throws Error on a
 /// view or path that cannot be used.
 CameraPath cameraFor(const CameraPath& builtIn, const CameraChoice& choice);
@@ -64,7 +64,7 @@ CameraPath cameraFor(const CameraPath& builtIn, const CameraChoice& choice);
 /// Position on the path [s]; 0 of a still view.
 double timeOf(const CameraChoice& choice);
 
-/// Removes what a scene's values, by path, say about its camera, or replaces it.
+/// Removes or replaces the camera settings in a scene's values, by path.
 void clearCamera(std::map<std::string, ParameterValue>& values);
 void setCamera(std::map<std::string, ParameterValue>& values, const CameraChoice& choice);
 

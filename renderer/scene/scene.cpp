@@ -12,7 +12,7 @@ namespace {
 
 bool finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Feeds exact bytes; every run of values is led by its length, so that no two contents give the same stream.
+/// Feeds exact bytes; every array is preceded by its length, so that no two contents give the same stream.
 class Feed {
  public:
   template <class Value>
@@ -57,7 +57,8 @@ void feed(Feed& out, const CameraPath& path) {
   if (path.runIn) out.value(uint64_t{1});
 }
 
-/// What only some scenes have. Each stands behind a word of its own, so that scenes without keep their hash.
+/// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
+/// hash.
 void feedExtras(Feed& out, const Scene& scene) {
   static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16, "arrays are hashed without padding");
   if (!scene.mesh.normals.empty()) out.text("normals"), out.array(scene.mesh.normals);

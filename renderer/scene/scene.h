@@ -15,7 +15,7 @@
 
 namespace limen::scene {
 
-/// Solid texture: reflectance by place, so that a picture has contrast wherever one cuts the solid. Factor of
+/// Solid texture: reflectance as a function of position in space. Factor of
 /// the albedo: 1 + contrast * s with s in [-1, 1]; the product is clamped to 0..1.
 struct Pattern {
   enum class Kind {
@@ -30,14 +30,14 @@ struct Pattern {
   glm::dvec3 origin{0.0};  ///< a lattice point, world space
 };
 
-/// How a surface's normal or light comes about where it is more than its triangles.
+/// How a surface's normal or lighting is determined if not by its triangles alone.
 enum class SurfaceKind {
-  Mesh,          ///< vertex normals if the mesh has them, else flat
+  Mesh,          ///< vertex normals if the mesh has them, otherwise flat
   BicubicPatch,  ///< normal of the patch Scene::patches[Material::patch] at the parameters in attributes.xy
-  Aperture       ///< lit through a horizon cone: attributes = (axis, angle in rad) a vertex
+  Aperture       ///< lit through a horizon cone: attributes = (axis, angle in rad) per vertex
 };
 
-/// Diffuse surface. Further properties come with the techniques that need them.
+/// Diffuse surface. Further properties are added with the techniques that need them.
 struct Material {
   std::string name;
   glm::vec3 albedo{0.7F};  ///< linear reflectance, 0..1
@@ -52,21 +52,21 @@ struct Part {
   uint32_t firstTriangle = 0, triangleCount = 0;
   uint32_t material = 0;
   /// Lies beneath or behind everything and never shadows another part (a ground plane); shadow maps are
-  /// fitted to the other parts only. It is drawn into shadow maps all the same.
+  /// fitted to the other parts only. It is drawn into shadow maps nevertheless.
   bool receiverOnly = false;
 };
 
-/// Indexed triangles in world space. Positions are double so that a scene far from the origin loses nothing;
-/// what goes to the GPU is taken relative to an anchor near the geometry.
+/// Indexed triangles in world space. Positions are double so that a scene far from the origin loses no
+/// precision; on the GPU they are relative to an anchor near the geometry.
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::uvec3> triangles;  ///< vertex indices; counter-clockwise seen from outside
-  /// Empty or one a vertex: unit, outward; the zero vector where a vertex has none (its triangles are flat).
+  /// Empty or one per vertex: unit, outward; the zero vector if a vertex has none (its triangles are flat).
   std::vector<glm::vec3> normals;
-  /// Empty or one a vertex; what it means says Material::surface.
+  /// Empty or one per vertex; Material::surface says what it means.
   std::vector<glm::vec4> attributes;
-  /// Empty or one a vertex: where the vertex lies once its level has become the next coarser one; its own
-  /// place where it has nowhere to go.
+  /// Empty or one per vertex: where the vertex lies once its level has become the next coarser one; its own
+  /// position if it does not move.
   std::vector<glm::dvec3> morphTargets;
 };
 
@@ -122,8 +122,8 @@ struct CameraPath {
     Camera camera;
   };
   std::vector<Key> keys;
-  /// Before the first key the camera already moves as it does there, so that a path's first frame has one
-  /// before it; else it rests.
+  /// If true, the camera already moves before the first key as it does there, so that a path's first frame
+  /// has a predecessor; otherwise it rests.
   bool runIn = false;
   Camera at(double timeS) const;
   double durationS() const { return keys.empty() ? 0.0 : keys.back().timeS - keys.front().timeS; }
@@ -149,7 +149,7 @@ struct LodLevel {
   /// Largest distance found between this level and the finest, world units: two-sided Hausdorff distance
   /// sampled at vertices and random points; 0 for level 0.
   double deviation = 0.0;
-  /// What the level's maker states, world units; its meaning is the maker's (see lod_set.h).
+  /// Error stated by the level's maker, world units; its meaning depends on the maker (see lod_set.h).
   double statedError = 0.0;
 };
 
@@ -173,19 +173,19 @@ struct Scene {
   std::vector<AreaLight> lights;
   CameraPath camera;
   std::vector<BicubicPatch> patches;
-  /// Objects that come in several levels of detail. `mesh` holds their finest level, so that whoever knows no
-  /// levels renders the finest scene; the parts of no object are background.
+  /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
+  /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
   Mesh coarser;  ///< all other levels; its triangles index its own vertices
 
   Bounds bounds() const;        ///< of all finite positions
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
-  /// SHA-256 over the exact bytes of all that decides a picture: geometry, parts, materials, lights, camera;
-  /// no names.
+  /// SHA-256 over the exact bytes of everything that determines a picture: geometry, parts, materials,
+  /// lights, camera; no names.
   std::string contentHash() const;
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
-  /// "disc_light" or "polygonal_light" if it has one colour all over, else "multi_part_light";
+  /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
   /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts".
   std::set<std::string> traits() const;
 };
@@ -200,24 +200,24 @@ struct SceneInfo {
   std::string source;
   ParameterList parameters = {};
   std::function<Scene(const ParameterValues&)> build = {};
-  /// Throws Error if its own values do not go together; null: all do.
+  /// Throws Error if its own values contradict each other; null: they cannot.
   std::function<void(const ParameterValues&)> check = {};
 
   /// Own parameters followed by those of every scene.
   std::vector<Parameter> allParameters() const;
-  /// Throws Error if values of allParameters() do not go together or the camera cannot be used. Reads the file
-  /// of a camera path.
+  /// Throws Error if values of allParameters() contradict each other or the camera cannot be used. Reads the
+  /// file of a camera path.
   void checkValues(const ParameterValues& complete) const;
 };
 using SceneRegistry = Registry<SceneInfo>;
 
-/// Of scenes that have no parameters of their own.
+/// For scenes without parameters of their own.
 struct NoSettings {
   static const SettingsTable<NoSettings>& table();
 };
 
-/// Registers a scene that is built from settings S (settings_table.h) at program start. `info` says the rest;
-/// its parameters, build and check are filled in.
+/// Registers a scene that is built from settings S (settings_table.h) at program start. `info` provides the
+/// rest; its parameters, build and check are filled in.
 template <class S>
 struct RegisteredScene {
   RegisteredScene(SceneInfo info, Scene (*build)(const S&), const S& defaults = {}) {

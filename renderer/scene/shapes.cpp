@@ -16,7 +16,7 @@ void addQuad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   mesh.triangles.emplace_back(a, c, d);
 }
 
-/// Keeps a vertex attribute either empty or one a vertex; zeros where one of the two meshes has none.
+/// Keeps a vertex attribute either empty or one per vertex; zeros for a mesh that has none.
 template <class Value>
 void appendAttribute(std::vector<Value>& to, const std::vector<Value>& more, size_t before, size_t after) {
   if (to.empty() && more.empty()) return;
@@ -158,7 +158,7 @@ void append(Mesh& to, const Mesh& mesh) {
   appendAttribute(to.normals, mesh.normals, first, to.positions.size());
   appendAttribute(to.attributes, mesh.attributes, first, to.positions.size());
   if (to.morphTargets.empty() && mesh.morphTargets.empty()) return;
-  // What has nowhere to go stays where it is.
+  // A vertex without a morph target stays where it is.
   to.morphTargets.insert(to.morphTargets.end(),
                          to.positions.begin() + static_cast<ptrdiff_t>(to.morphTargets.size()),
                          to.positions.begin() + first);

@@ -35,14 +35,14 @@ Mesh frustum(glm::dvec3 base, glm::dvec3 top, double baseRadius, double topRadiu
 /// radius > 0 each; its cross-section turns with the line and never twists about it.
 Mesh tube(std::span<const glm::dvec3> points, std::span<const double> radii, int segments);
 
-/// Vertices without normals or attributes get zeros where the other mesh has them; morph targets their own
-/// place.
+/// Vertices without normals or attributes get zeros if the other mesh has them; missing morph targets become
+/// the vertex positions.
 void append(Mesh& to, const Mesh& mesh);
 
 /// Unit vector perpendicular to the unit vector `direction`.
 glm::dvec3 perpendicular(glm::dvec3 direction);
 
-/// Uniform numbers that are the same on every standard library.
+/// Uniform numbers that are the same with every standard library.
 class Random {
  public:
   explicit Random(int64_t seed) : engine_(static_cast<uint64_t>(seed)) {}

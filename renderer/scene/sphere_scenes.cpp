@@ -90,7 +90,7 @@ struct TexturedLightSettings {
   int cells = 8;
   static const SettingsTable<TexturedLightSettings>& table() {
     static const SettingsTable<TexturedLightSettings> kTable = {
-        {&TexturedLightSettings::cells, "cells", {2, 32}, "cells", "Cells of the picture along a side"}};
+        {&TexturedLightSettings::cells, "cells", {2, 32}, "cells", "Cells per side of the picture"}};
     return kTable;
   }
 };

@@ -23,14 +23,14 @@ struct StreetLightSettings {
          "branching",
          {0, 5},
          "",
-         "Times that the tree branches, into 6 twigs each; 20 triangles a twig"},
+         "Branching levels of the tree, 6 twigs each; 20 triangles per twig"},
         {&S::seed, "seed", {0, 1000000}, "", "Seed of the tree"}};
     return kTable;
   }
 };
 
-/// A lamp post and, behind it, a bare tree whose crown is partly out of the picture while its shadow is in
-/// it.
+/// A lamp post and, behind it, a bare tree whose crown is partly outside the picture while its shadow is
+/// inside.
 Scene buildStreetLight(const StreetLightSettings& settings) {
   const double radius = settings.poleRadius;
   Mesh pole = frustum({-0.55, 0.0, 0.25}, {-0.55, 1.7, 0.25}, radius, 0.7 * radius, 24);

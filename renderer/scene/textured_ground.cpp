@@ -70,14 +70,14 @@ Pattern patternOf(const Texture& texture) {
   pattern.kind = Texture::kPattern;
   pattern.size = texture.size;
   pattern.contrast = texture.contrast;
-  // Off the ground: a checker's cubes must not end in the very plane that is seen.
+  // Off the ground plane: a checker's cubes must not end exactly in the visible plane.
   pattern.origin = {0.0, -0.5 * pattern.size, 0.0};
   return pattern;
 }
 Pattern patternOf(const NoTexture&) { return {}; }
 
-/// A rail along x throws the same penumbrae on the plain and on the textured part of the ground, so that what
-/// the texture masks is all that differs.
+/// A rail along x casts the same penumbrae on the plain and on the textured part of the ground, so that they
+/// differ only by what the texture masks.
 Scene buildTexturedGround(const TexturedGroundSettings& settings) {
   const double half = 0.5 * kGroundSize, border = half - kGroundSize * settings.texturedShare;
   Scene scene;

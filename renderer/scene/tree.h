@@ -12,8 +12,8 @@ class Tree {
  public:
   explicit Tree(int64_t seed) : random_(seed) {}
 
-  /// A twig and all that it carries: 6 twigs a level over `depth` levels, each half as thick as what carries
-  /// it. `direction` is a unit vector.
+  /// A twig and everything it carries: 6 twigs per level over `depth` levels, each half as thick as its
+  /// parent. `direction` is a unit vector.
   void grow(glm::dvec3 base, glm::dvec3 direction, double length, double radius, int depth);
 
   /// A pointed leaf of two triangles, folded along its middle, somewhere on an outermost twig.

@@ -22,10 +22,10 @@ enum class ProductKind {
                 ///< receivers
   Colour,       ///< RGBA32F, linear radiance, alpha 1
   Threshold,    ///< R32F, luminance increment [cd/m2] that stays invisible, >= 0, at every pixel
-  LightColour,  ///< RGBA32F, share of the light's radiance, meant over its area, that each pixel's surface
-                ///< point sees, channel by channel: 0..1, 1 outside receivers and in channels that the
-                ///< light has not; alpha 1
-  VisibilityChange,  ///< R32F, Visibility less that of an earlier frame, -1..1, or the mean size of such
+  LightColour,  ///< RGBA32F, share of the light's radiance, averaged over its area, that each pixel's surface
+                ///< point sees, per channel: 0..1, 1 outside receivers and in channels the light does not
+                ///< have; alpha 1
+  VisibilityChange,  ///< R32F, Visibility minus that of an earlier frame, -1..1, or the mean size of such
                      ///< changes, 0..1; 0 where either frame has no receiver
   JndMap             ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
 };
@@ -38,8 +38,11 @@ struct Counter {
   double value = 0.0;
 };
 
-/// A renderer of one product. Made anew for each run; its life is prepare() once, then render() for each
-/// frame.
+/// Makes one picture: display-coded, 3 channels, of the product's size. Holds what it needs: it touches
+/// neither OpenGL nor its technique, so that it may run on another thread and after the technique is gone.
+using PictureMaker = std::function<Image()>;
+
+/// A renderer of one product. Created for each run; prepare() is called once, then render() for each frame.
 class Technique {
  public:
   virtual ~Technique() = default;
@@ -50,17 +53,17 @@ class Technique {
   /// Renders one frame into product(). Passes are opened with frame.passes().
   virtual void render(frame::Frame& frame) = 0;
   virtual const gl::Texture& product() const = 0;
-  /// Costs that do not depend on the machine, counted in a pass of their own outside the timed frames. Called
+  /// Machine-independent costs, counted in a separate pass outside the timed frames. Called
   /// after render().
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
-  /// What a reader of the run's record should know, a sentence each: choices that the technique made by
+  /// What a reader of the run's record should know, one sentence each: choices that the technique made
   /// itself, with their reasons. Valid after prepare().
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
-  /// Pictures that explain the product, for artefacts and reports: display-coded, 3 channels, of its size.
-  /// Made outside the timed frames, after render(); may wait for the GPU.
-  virtual std::map<std::string, Image> pictures() const { return {}; }
+  /// Pictures that explain the product, for artefacts and reports; called outside the timed frames, after
+  /// render() and count(); may wait for the GPU.
+  virtual std::map<std::string, PictureMaker> pictures() const { return {}; }
 };
 
 /// Registration of a technique or a reference.
@@ -73,7 +76,7 @@ struct TechniqueInfo {
   ProductKind product = ProductKind::Visibility;
   ParameterList parameters = {};
   std::vector<std::string> needs = {};  ///< scene traits without which it cannot run ("rectangular_light")
-  bool reference = false;               ///< made to be compared with
+  bool reference = false;               ///< a reference to compare with
   /// Runs on the CPU: its time is wall time on any machine.
   bool onCpu = false;
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.
@@ -81,20 +84,20 @@ struct TechniqueInfo {
   /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
   /// sampling error; null: exact.
   std::function<double(const ParameterValues&)> errorBound = {};
-  /// All that count() may return: expectations and report axes may name them.
+  /// Everything that count() may return: expectations and report axes may name these.
   std::vector<Quantity> counters = {};
-  /// Throws Error if the values do not go together, so that a sweep refuses them before anything runs; null:
-  /// all do.
+  /// Throws Error if the values contradict each other, so that a sweep refuses them before anything runs;
+  /// null: they cannot.
   std::function<void(const ParameterValues&)> check = {};
-  /// Name of the parameter (whole number) with which cost rises and error falls, so that a viewer can begin
-  /// roughly; "": none.
+  /// Name of the parameter (whole number) with which cost rises and error falls, so that a viewer can start
+  /// coarse; "": none.
   std::string effort = {};
 };
 using TechniqueRegistry = Registry<TechniqueInfo>;
 
 /// Registers technique T at program start. T has a type Settings with a table (settings_table.h) and is made
-/// from such settings. `defaults` are those of this registration. `info` says the rest; its parameters, make
-/// and check are filled in.
+/// from such settings. `defaults` are those of this registration. `info` provides the rest; its parameters,
+/// make and check are filled in.
 template <class T>
 struct RegisteredTechnique {
   explicit RegisteredTechnique(TechniqueInfo info, const typename T::Settings& defaults = {}) {
@@ -104,7 +107,7 @@ struct RegisteredTechnique {
     info.check = [](const ParameterValues& values) { S::table().read(values); };
     TechniqueRegistry::instance().add(std::move(info));
   }
-  /// As above, for a reference: `errorBound` is as TechniqueInfo::errorBound.
+  /// As above, for a reference: `errorBound` as in TechniqueInfo::errorBound.
   RegisteredTechnique(TechniqueInfo info, double (*errorBound)(const typename T::Settings&))
       : RegisteredTechnique(withBound(std::move(info), errorBound)) {}
 

@@ -8,7 +8,7 @@ namespace limen::window {
 enum class Device { Keyboard, Mouse, Gamepad };
 const char* toText(Device device);
 
-/// Keys that mean something on a screen, on whatever device. Printable keys are their lower-case character as
+/// Keys with a meaning, on any device. Printable keys are their lower-case character as
 /// the user's keyboard layout has it ('y', '1'); the others follow.
 enum Key : int {
   kKeyNone = 0,
@@ -29,7 +29,7 @@ enum Key : int {
   kPadStart
 };
 
-/// Something that a user pressed, stamped when the window system handed it over.
+/// Something that a user pressed, time-stamped when the window system delivered it.
 struct Input {
   Device device = Device::Keyboard;
   int key = kKeyNone;      ///< keyboard and gamepad

@@ -2,7 +2,7 @@
 #include "renderer/window/offscreen_ui.h"
 
 #include <epoxy/gl.h>
-// GLFW after epoxy, which brings the GL header; for the numbers of keys alone.
+// GLFW after epoxy, which brings the GL header; for key numbers only.
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 

@@ -9,8 +9,8 @@
 
 namespace limen::window {
 
-/// An interface in memory, for pictures of it without a display, and for tests: mouse and keys are what the
-/// caller says.
+/// An interface in memory, for pictures of it without a display, and for tests: the caller sets mouse and
+/// keys.
 class OffscreenUi : public UiSurface {
  public:
   /// Throws Error if there is no OpenGL 4.5.
@@ -20,7 +20,7 @@ class OffscreenUi : public UiSurface {
   gl::Context& context() override { return *context_; }
   glm::ivec2 sizePx() const override { return sizePx_; }
   void resize(glm::ivec2 sizePx);
-  /// Waits until all that was drawn is there.
+  /// Waits until drawing is complete.
   void finish();
 
   /// From the next frame on. Buttons: 0 left, 1 right, 2 middle. Keys: as GLFW numbers them (letters and

@@ -25,7 +25,7 @@ std::string findFont() {
   return "";
 }
 
-// Pairs of first and last character; what protocols are likely to be written in.
+// Pairs of first and last character, for the scripts that protocols are likely to use.
 const ImWchar kRanges[] = {0x0020, 0x024F, 0x0370, 0x052F, 0x2010, 0x2027, 0x2030, 0x205E, 0x2190, 0x2193, 0};
 
 }  // namespace

@@ -7,7 +7,7 @@ struct ImFont;
 
 namespace limen::window {
 
-/// How an interface is read: at a glance by somebody who was never shown it, or all day by one who knows it.
+/// How an interface is read: at a glance by someone new to it, or all day by someone who knows it.
 enum class UiDensity { Study, Workbench };
 
 struct UiFonts {
@@ -17,11 +17,11 @@ struct UiFonts {
   std::string path;     ///< "" for ImGui's own bitmap font
 };
 
-/// Fonts for the current ImGui context, made at the size at which they are shown. DejaVu Sans if it is
-/// installed (Latin, Greek, Cyrillic, arrows), else ImGui's own (Latin-1).
+/// Fonts for the current ImGui context, rasterised at display size. DejaVu Sans if it is
+/// installed (Latin, Greek, Cyrillic, arrows), otherwise ImGui's own (Latin-1).
 UiFonts loadUiFonts(float scale, UiDensity density = UiDensity::Study);
 
-/// High contrast on a dark ground; large targets in a study, small ones on a workbench.
+/// High contrast on a dark background; large targets in a study, small ones in tools.
 void styleUi(float scale, UiDensity density = UiDensity::Study);
 
 }  // namespace limen::window

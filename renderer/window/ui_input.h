@@ -8,8 +8,8 @@
 
 namespace limen::window {
 
-/// Key of a GLFW key event, kKeyNone for one that means nothing here. Letters follow the keyboard's layout;
-/// the digits' row gives digits even where they need shift.
+/// Key of a GLFW key event, kKeyNone if it has no meaning here. Letters follow the keyboard layout; the digit
+/// row gives digits even if they need shift.
 int translateKey(int glfwKey, int scancode);
 
 /// Gamepads have no events: their states are compared at each call.

@@ -58,7 +58,7 @@ void UiSurface::overlay(const std::function<void()>& build) {
   ImGui::NewFrame();
   build();
   ImGui::Render();
-  // Whatever `build` did with GL.
+  // Undoes whatever `build` did with GL.
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer());
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -16,7 +16,7 @@ class Context;
 
 namespace limen::window {
 
-/// Makes an ImGui context the current one for as long as it lives: ImGui and its back ends go by that, and a
+/// Makes an ImGui context current for its own lifetime: ImGui and its back ends use the current one, and a
 /// process may have several.
 class UiScope {
  public:
@@ -29,7 +29,7 @@ class UiScope {
   ImGuiContext* before_;
 };
 
-/// Something that Dear ImGui draws on: a window or a picture in memory. Knows nothing of what is shown.
+/// Something that Dear ImGui draws on: a window or a picture in memory. Knows nothing about the content.
 class UiSurface {
  public:
   virtual ~UiSurface() = default;
@@ -44,14 +44,14 @@ class UiSurface {
   /// Draws an interface over `background` (values as they go to the screen): `build` makes its calls to
   /// ImGui.
   void draw(glm::vec3 background, const std::function<void()>& build);
-  /// The same over what is there already.
+  /// The same over the current content.
   void overlay(const std::function<void()>& build);
   /// What was drawn, 3 channels, row 0 at the top.
   Image readBack() const;
 
  protected:
   UiSurface() = default;
-  /// Called by subclasses once the context is current: makes the interface's own context, fonts and style.
+  /// Called by subclasses once the context is current: creates the interface's own context, fonts and style.
   void startUi(float scale, UiDensity density);
   /// Called by destructors of subclasses while the context exists, after their own back end has ended.
   void endUi();

@@ -30,7 +30,7 @@ const char* toText(Device device) {
 
 namespace {
 
-// How often a gamepad is looked at: its time stamps are as coarse as that.
+// How often a gamepad is polled: this is the resolution of its time stamps.
 constexpr double kGamepadPollS = 0.004;
 
 std::atomic<bool> wakeAsked = false;
@@ -58,7 +58,7 @@ struct UiWindow::State {
   bool closeRequested = false, contextLost = false, focusLost = false;
   std::string loss;
 
-  // All windows, for events that belong to none: a monitor gone, the focus passed on between them.
+  // All windows, for events that belong to none: a monitor unplugged, the focus passed between them.
   static std::vector<State*>& all() {
     static std::vector<State*> states;
     return states;
@@ -89,7 +89,7 @@ struct UiWindow::State {
                        y + std::max((height - options.sizePx.y) / 2, 0));
     }
     glfwSetWindowAttrib(window(), GLFW_RESIZABLE, options.resizable ? GLFW_TRUE : GLFW_FALSE);
-    // A click into the experimenter's window must not put the participant's away.
+    // A click in the experimenter's window must not minimise the participant's.
     glfwSetWindowAttrib(window(), GLFW_AUTO_ICONIFY, GLFW_FALSE);
     glfwSetWindowAttrib(window(), GLFW_FOCUS_ON_SHOW, options.takesFocus ? GLFW_TRUE : GLFW_FALSE);
     glfwShowWindow(window());
@@ -154,11 +154,11 @@ void UiWindow::State::installCallbacks() {
   });
   glfwSetWindowIconifyCallback(window(), [](GLFWwindow* w, int iconified) {
     ++of(w).events;
-    if (iconified) of(w).loss = "the window was put away";
+    if (iconified) of(w).loss = "the window was minimised";
   });
   glfwSetFramebufferSizeCallback(window(), [](GLFWwindow* w, int, int) {
     ++of(w).events;
-    of(w).loss = "the window changed its size";
+    of(w).loss = "the window changed size";
   });
   glfwSetCursorPosCallback(window(), [](GLFWwindow* w, double, double) { ++of(w).events; });
   glfwSetWindowRefreshCallback(window(), [](GLFWwindow* w) { ++of(w).events; });
@@ -179,7 +179,7 @@ void UiWindow::State::installCallbacks() {
 
 UiWindow::UiWindow(const UiWindowOptions& options) : state_(std::make_unique<State>()) {
   State& state = *state_;
-  // Hidden until it is where it belongs, so that nobody sees it move.
+  // Hidden until it is in place, so that nobody sees it move.
   state.context = std::make_unique<gl::WindowContext>(options.title, options.sizePx, false);
   state.place(options);
   startUi(state.scale, options.density);
@@ -191,7 +191,7 @@ UiWindow::UiWindow(const UiWindowOptions& options) : state_(std::make_unique<Sta
   state.installCallbacks();
   State::all().push_back(&state);
   glfwPollEvents();
-  state.loss.clear();  // it took its size just now
+  state.loss.clear();  // it was resized just now
 }
 
 UiWindow::~UiWindow() {
@@ -235,7 +235,7 @@ bool UiWindow::waitForAnything(double seconds) {
   glfwPollEvents();
   if (state_->events == state_->eventsSeen && seconds > 0.0) glfwWaitEventsTimeout(seconds);
   const bool woken = wakeAsked.exchange(false);
-  state_->inputs.clear();  // whoever waits like this lives by what ImGui was told
+  state_->inputs.clear();  // callers that wait like this rely on ImGui's events
   return std::exchange(state_->eventsSeen, state_->events) != state_->events || woken;
 }
 
@@ -251,7 +251,7 @@ std::string UiWindow::takeLoss() {
     const bool passedOn = std::any_of(State::all().begin(), State::all().end(), [](const State* other) {
       return glfwGetWindowAttrib(other->window(), GLFW_FOCUSED);
     });
-    if (!passedOn && state_->loss.empty()) state_->loss = "another window came in front";
+    if (!passedOn && state_->loss.empty()) state_->loss = "another window is in front";
   }
   return std::exchange(state_->loss, {});
 }
@@ -276,7 +276,7 @@ void UiWindow::beginUiFrame() {
 int64_t UiWindow::show(int interval) {
   state_->context->makeCurrent();
   state_->context->swap(interval);
-  if (glfwGetError(nullptr) != GLFW_NO_ERROR) state_->loss = "the window could not be shown";
+  if (glfwGetError(nullptr) != GLFW_NO_ERROR) state_->loss = "could not show the window";
   glFinish();
   const int64_t now = steadyNs();
   if (glGetGraphicsResetStatus() != GL_NO_ERROR) {

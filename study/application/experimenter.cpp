@@ -78,7 +78,7 @@ void ExperimenterWindow::State::build(const SessionWatch& watch) {
   if (!confirming) {
     if (ImGui::Button("End the session ...")) confirming = true;
   } else {
-    ImGui::TextWrapped("End it for good? What was answered is kept; it cannot be taken up again.");
+    ImGui::TextWrapped("End it for good? Answers so far are kept, but the session cannot be resumed.");
     if (ImGui::Button("No")) confirming = false;
     ImGui::SameLine();
     if (ImGui::Button("Yes, end the session")) {

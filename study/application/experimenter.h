@@ -11,22 +11,22 @@
 
 namespace limen::study {
 
-/// What an experimenter may note down with one click: code, and what it means.
+/// Notes that an experimenter can take with one click: code and meaning.
 using NoteCodes = std::vector<std::pair<std::string, std::string>>;
 
-/// A second window for the experimenter: progress, timing, notes, an end to the session. Drawn only while the
-/// participant's window waits for somebody, so that it never costs a stimulus its time.
+/// A second window for the experimenter: progress, timing, notes, ending the session. Drawn only while the
+/// participant's window waits for input, so that it never affects a stimulus's timing.
 class ExperimenterWindow {
  public:
-  /// Throws Error as UiWindow.
+  /// Throws Error like UiWindow.
   ExperimenterWindow(int monitor, float scale, NoteCodes codes);
   ~ExperimenterWindow();
-  /// Draws and takes what was clicked; at most a few times a second however often it is called.
+  /// Draws and processes clicks; at most a few times a second, however often it is called.
   void tick(const SessionWatch& watch);
   /// Codes that were clicked since the last call.
   std::vector<std::string> takeNotes();
-  /// Keys that came to it since the last call: it has no use for keys, and a window manager gives them to the
-  /// window that was clicked last, whoever sits at the keyboard.
+  /// Keys it received since the last call: it does not use keys, but a window manager sends them to the
+  /// window clicked last, whoever is at the keyboard.
   std::vector<window::Input> takeKeys();
   /// True once after the experimenter has ended the session and confirmed it.
   bool takeAbort();

@@ -19,7 +19,7 @@ struct Lettering {
 
 /// Lines of at most `width` pixels; words that are longer are broken.
 std::vector<std::string> wrapped(const Lettering& lettering, const std::string& text, float width);
-/// Whether no word of a text has to be broken.
+/// Whether no word of a text needs to be broken.
 bool wordsFit(const Lettering& lettering, const std::string& text, float width);
 /// Draws lines one below the other, from x or centred on the width, and returns their height. `colour` as
 /// ImU32.

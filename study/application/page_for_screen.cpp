@@ -43,15 +43,16 @@ std::unique_ptr<PageScreen> pageFor(const Screen& screen, const Session& session
     case Screen::Kind::PracticeStart:
       setting.title = "Practice";
       setting.text = orElse(texts.practice, "A few rounds to get used to it. They do not count.");
-      if (part.practice.feedback) setting.text += "\n\nYou are told after each answer whether it was right.";
+      if (part.practice.feedback) setting.text += "\n\nAfter each answer you are told whether it was right.";
       setting.button = "Start";
       setting.progress = -1.0;
       break;
     case Screen::Kind::PracticeResult:
       setting.title = "Practice done";
-      setting.text = screen.passed ? "Well done. From here on you are not told whether an answer was right."
-                                   : "Some answers were not as expected. If anything is unclear, ask the "
-                                     "experimenter before you go on.";
+      setting.text = screen.passed
+                         ? "Well done. From now on you will not be told whether an answer was right."
+                         : "Some answers were not as expected. If anything is unclear, ask the "
+                           "experimenter before you continue.";
       setting.progress = -1.0;
       break;
     case Screen::Kind::BlockStart:
@@ -62,7 +63,7 @@ std::unique_ptr<PageScreen> pageFor(const Screen& screen, const Session& session
       break;
     case Screen::Kind::Break:
       setting.title = "Break";
-      setting.text = "Rest your eyes and look around. Go on when you are ready.";
+      setting.text = "Rest your eyes and look around. Continue when you are ready.";
       setting.footer = progressLine(screen);
       break;
     case Screen::Kind::Debrief:

@@ -9,9 +9,9 @@
 
 namespace limen::study {
 
-/// Something that is shown until it is done: what it shows at a time, and what inputs do to it. Knows no
-/// window and no clock; only what was pressed while its present page was on the screen counts, so that a key
-/// held or hit twice never answers a page that nobody has seen.
+/// Something shown until it is done: what it currently shows, and how inputs affect it. Independent of window
+/// and clock; only input made while its current page was on screen counts, so that a key held or hit twice
+/// never answers a page that nobody has seen.
 class PageScreen {
  public:
   virtual ~PageScreen();
@@ -21,13 +21,13 @@ class PageScreen {
   Page page(int64_t nowNs) const;
   /// Number of pages that the text needs on this screen; from the view.
   void setTextPages(int count);
-  /// The page went to the screen.
+  /// The page was put on screen.
   void shown(int64_t nowNs);
-  /// Something else took its place on the screen; it has to be shown again.
+  /// Something else replaced it on screen; it has to be shown again.
   void hidden() { shownNs_.reset(); }
   /// The page has changed since it was last shown, or was never shown.
   bool isNew() const { return !shownNs_; }
-  /// Counts the pages that were turned to.
+  /// Counts page turns.
   int turns() const { return turns_; }
   void take(const window::Input& input, const std::vector<TargetRect>& targets);
   bool done() const { return done_; }
@@ -36,7 +36,7 @@ class PageScreen {
   /// Everything but focus and text pages.
   virtual Page build(int64_t nowNs) const = 0;
   virtual void pressed(int id, const window::Input& input) = 0;
-  /// Another page takes the place of the present one.
+  /// Another page replaces the current one.
   void turn();
   void finish() { done_ = true; }
   std::optional<int64_t> shownNs() const { return shownNs_; }
@@ -53,7 +53,7 @@ class PageScreen {
   bool done_ = false;
 };
 
-/// "Continue", with the keys that everybody tries first.
+/// "Continue", with the keys that people try first.
 PageButton continueButton(int id, const std::string& label = "Continue");
 
 }  // namespace limen::study

@@ -12,9 +12,9 @@
 namespace limen::study {
 namespace {
 
-// Longer lines are hard to follow back: 36 times the size are 70 characters or so.
+// Longer lines are hard to read: 36 times the size is about 70 characters.
 constexpr float kTextWidthEm = 36.0F;
-// Sizes that are tried one after the other until a page fits.
+// Sizes tried in turn until a page fits.
 constexpr std::array<float, 6> kShares = {1.0F, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F};
 
 ImU32 colour(glm::vec3 value) { return ImGui::ColorConvertFloat4ToU32({value.x, value.y, value.z, 1.0F}); }
@@ -144,7 +144,7 @@ float drawFooter(const Page& page, glm::vec2 sizePx, const PageStyle& style, con
   return sizePx.y - y;
 }
 
-// Where everything goes with lettering of a given share of its size.
+// The layout with text scaled by a given factor.
 struct Arrangement {
   Lettering body, title;
   float titleTop = 0, questionTop = 0, textTop = 0, statusTop = 0, buttonsTop = 0;
@@ -182,7 +182,7 @@ Arrangement arrange(const Page& page, glm::vec2 sizePx, float footer, const Page
     textBottom =
         bottom - gridFor(page.reserved, 0, available, at.body, scale).totalHeight() - status - 24 * scale;
   if (!page.question.empty()) {
-    // A question stands with its buttons in the middle, where the eyes are; a text leaves the buttons below.
+    // A question is in the middle with its buttons, where the eyes are; a text has the buttons below.
     at.questionLines = wrapped(at.title, page.question, available);
     const float question = at.title.lineHeight() * static_cast<float>(at.questionLines.size());
     const float gap = 40 * scale, block = question + gap + buttons;
@@ -194,7 +194,7 @@ Arrangement arrange(const Page& page, glm::vec2 sizePx, float footer, const Page
   }
   at.statusTop = at.buttonsTop - status;
   at.linesAPage = static_cast<size_t>(std::max((textBottom - at.textTop) / at.body.lineHeight(), 1.0F));
-  // What cannot be turned must fit as a whole; what can needs a few lines a page to be readable.
+  // A page without page turning must fit completely; with it, a few lines per page are needed to be readable.
   const size_t needed =
       page.reserved.empty() ? at.textLines.size() : std::min<size_t>(at.textLines.size(), 4);
   at.fits = at.fits && at.linesAPage >= needed && at.buttonsTop >= at.textTop;

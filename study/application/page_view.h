@@ -13,7 +13,7 @@ namespace limen::study {
 struct PageStyle {
   window::UiFonts fonts;
   float scale = 1.0F;
-  glm::vec3 background{0.25F};  ///< values of the screen; lettering is light on dark and dark on light
+  glm::vec3 background{0.25F};  ///< screen values; text is light on dark and dark on light
   bool gamepad = false;         ///< show its keys
 };
 
@@ -21,11 +21,11 @@ struct PageStyle {
 struct PageLayout {
   std::vector<TargetRect> targets;
   int textPages = 1;  ///< that the text needs
-  bool fits = true;   ///< false: the window is too small for it even with lettering of half the size
+  bool fits = true;   ///< false: the window is too small even with text of half the size
 };
 
-/// Draws a page with the current ImGui frame over a window of `sizePx`, smaller where it does not fit. The
-/// target under `cursorPx` is lit.
+/// Draws a page with the current ImGui frame over a window of `sizePx`, scaled down if it does not fit. The
+/// button under `cursorPx` is highlighted.
 PageLayout drawPage(const Page& page, glm::vec2 sizePx, glm::vec2 cursorPx, const PageStyle& style);
 
 }  // namespace limen::study

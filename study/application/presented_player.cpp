@@ -72,7 +72,7 @@ void PresentedPlayer::prepare(const Trial& trial, const Session&, const std::fun
   prepared_.reset();
   auto prepared = std::make_unique<Prepared>();
   const glm::ivec2 sizePx(protocol_.window.widthPx, protocol_.window.heightPx);
-  // What several stimuli of a trial may take together is what one may take alone.
+  // Several stimuli of a trial together have the same budget as one alone.
   const int64_t budget = pictureBudgetBytes() / static_cast<int64_t>(trial.stimuli.size());
   for (const Stimulus& stimulus : trial.stimuli) {
     auto renderer =

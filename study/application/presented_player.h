@@ -16,8 +16,8 @@ namespace limen::study {
 /// Stimuli in a window: rendered ahead, shown by the presenter.
 class PresentedPlayer : public StimulusPlayer {
  public:
-  /// `anyTiming`: trials count whatever their frames' times, for trying things out.
-  /// `patch`: a square for a light sensor, to be covered by it: it tells when something changes.
+  /// `anyTiming`: trials count whatever their frame times, for trying things out.
+  /// `patch`: a square for a light sensor, which must cover it, since it shows when something changes.
   PresentedPlayer(window::UiWindow& window, const Protocol& protocol,
                   const perception::DisplayProfile& display, bool anyTiming,
                   const PhotodiodePatch& patch = {});

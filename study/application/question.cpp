@@ -130,12 +130,12 @@ std::string questionOf(const TaskSetting& task) {
 }
 
 std::string answerHelp(const TaskSetting& task) {
-  std::string help = "You can answer with the mouse or with the keys that the buttons show:";
+  std::string help = "You can answer with the mouse or with the keys shown on the buttons:";
   const std::vector<PageButton> buttons = answerButtons(task);
   for (size_t i = 0; i < buttons.size(); ++i)
     help += (i == 0 ? " " : ", ") + buttons[i].label +
             (buttons[i].hint.empty() ? "" : " (" + buttons[i].hint + ")");
-  return help + ". Wait for the question before you answer. Esc makes a pause.";
+  return help + ". Wait for the question before you answer. Press Esc to pause.";
 }
 
 QuestionScreen::QuestionScreen(const TaskSetting& task, int64_t stimulusEndNs)

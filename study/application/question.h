@@ -12,8 +12,8 @@
 namespace limen::study {
 
 /// The buttons of a task's answers, ids 0.. in the order of TaskSetting::answers:
-///   - two answers: left and right arrow, 1 and 2; for YesNo also the first letters of its words (y, n) where
-///     they differ; directional pad left and right on a gamepad;
+///   - two answers: left and right arrow, 1 and 2; for YesNo also the first letters of its words (y, n) if
+///   they differ; directional pad left and right on a gamepad;
 ///   - more: digits from 1 (0 is the tenth), or arrows and Enter, directional pad and the lower face button.
 std::vector<PageButton> answerButtons(const TaskSetting& task);
 std::vector<PageButton> scaleButtons(const Scale& scale);
@@ -22,27 +22,27 @@ std::vector<PageButton> scaleButtons(const Scale& scale);
 /// other key: those may spell what nobody is to know.
 std::string earlyKeyName(const TaskSetting& task, const window::Input& input);
 
-/// Columns in which alternatives stand on the screen, and so their buttons.
+/// Columns in which alternatives, and therefore their buttons, are arranged on screen.
 int answerColumns(const TaskSetting& task);
 
 /// Whether the severity is asked after this answer.
 bool asksSeverity(const TaskSetting& task, int answer);
 
-/// The task's question, or a plain one where the protocol has none.
+/// The task's question, or a generic one if the protocol has none.
 std::string questionOf(const TaskSetting& task);
 
 /// How a task is answered, in a sentence for the instructions.
 std::string answerHelp(const TaskSetting& task);
 
-/// What is asked after a stimulus: the answer, then severity and confidence where they are asked for. There
-/// is no way back.
+/// The questions after a stimulus: the answer, then severity and confidence if requested. There is no going
+/// back.
 class QuestionScreen : public PageScreen {
  public:
   QuestionScreen(const TaskSetting& task, int64_t stimulusEndNs);
   std::string name() const override;
   /// Once done(). Reaction times of severity and confidence are in `extra`.
   Answer answer() const { return answer_; }
-  /// Waits for the answer proper longer than `timeoutS` (0: never too long).
+  /// Whether the answer proper has taken longer than `timeoutS` (0: no limit).
   bool timedOut(int64_t nowNs, double timeoutS) const;
 
  protected:

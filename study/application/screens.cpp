@@ -40,7 +40,7 @@ Page TextScreen::build(int64_t nowNs) const {
   const double leftS = setting_.atLeastS - static_cast<double>(since) * 1e-9;
   if (leftS > 0) {
     page.buttons.back().enabled = false;
-    page.status = "You can go on in " + std::to_string(static_cast<int>(std::ceil(leftS))) + " s";
+    page.status = "You can continue in " + std::to_string(static_cast<int>(std::ceil(leftS))) + " s";
   }
   return page;
 }
@@ -58,7 +58,7 @@ Page ConsentScreen::build(int64_t) const {
   Page page;
   if (declining_) {
     page.title = "You do not agree";
-    page.text = "Then the session ends here, and no answers are asked or kept. Thank you for your time.";
+    page.text = "Then the session ends here, and no answers are requested or kept. Thank you for your time.";
     page.buttons = {backButton(kBack, "Go back"),
                     {kDecline, "End the session", "E", "Start", {'e', window::kPadStart}, true}};
     return page;
@@ -139,11 +139,11 @@ Page PauseScreen::build(int64_t) const {
   if (stopping_) {
     page.title = "Stop the session?";
     page.text =
-        "Everything that you have answered is kept. The session can be taken up again later where it was, or "
+        "All your answers so far are kept. The session can be resumed later where you left off, or "
         "be "
         "ended for good.";
-    page.buttons = {continueButton(kGoOn, "No, go on"),
-                    {kLater, "Stop, go on another time", "L", "Left", {'l', window::kPadLeft}, true},
+    page.buttons = {continueButton(kGoOn, "No, continue"),
+                    {kLater, "Stop, continue another time", "L", "Left", {'l', window::kPadLeft}, true},
                     {kEnd, "End for good", "E", "Right", {'e', window::kPadRight}, true}};
     return page;
   }

@@ -31,7 +31,7 @@ class TextScreen : public PageScreen {
   Setting setting_;
 };
 
-/// Must be read to its end and agreed to; declining is asked back once.
+/// Must be read to the end and agreed to; declining asks for confirmation once.
 class ConsentScreen : public PageScreen {
  public:
   explicit ConsentScreen(std::string text) : text_(std::move(text)) {}
@@ -47,7 +47,7 @@ class ConsentScreen : public PageScreen {
   bool declining_ = false, agreed_ = false;
 };
 
-/// Asks one thing after the other, choices only, and shows all choices before they are taken.
+/// Asks one multiple-choice question after another and shows all choices before they are accepted.
 class FormScreen : public PageScreen {
  public:
   explicit FormScreen(std::vector<FormField> fields) : fields_(std::move(fields)) {}
@@ -65,7 +65,7 @@ class FormScreen : public PageScreen {
   std::vector<size_t> chosen_;
 };
 
-/// The session rests: go on, or stop after a second question.
+/// The session is paused: continue, or stop after confirmation.
 class PauseScreen : public PageScreen {
  public:
   enum class Choice { Continue, StopForNow, End };

@@ -60,7 +60,7 @@ std::vector<std::string> SessionWatch::lines() const {
   lines.push_back(fmt::format("answered: {} of {} trials", done_, inAll_));
   if (const double left = secondsLeft(); left >= 0 && done_ < inAll_)
     lines.push_back(
-        fmt::format("time left: about {:.0f} min, breaks apart", std::max(std::ceil(left / 60), 1.0)));
+        fmt::format("time left: about {:.0f} min, without breaks", std::max(std::ceil(left / 60), 1.0)));
   lines.push_back(fmt::format("invalid: {} of {} trials shown", trialsInvalid(), shown_));
   for (const auto& [reason, count] : invalid_) lines.push_back(fmt::format("  {} x {}", count, reason));
   const IntervalStatistics times = intervals();

@@ -16,14 +16,14 @@ struct IntervalStatistics {
   double meanMs = 0.0, sdMs = 0.0, longestMs = 0.0;
 };
 
-/// What an experimenter wants to know of a running session: how far it is, how well the screen keeps time.
-/// Knows nothing of answers.
+/// What an experimenter wants to know about a running session: its progress and how well the screen keeps
+/// time. Does not see answers.
 class SessionWatch {
  public:
   void progress(int trialsDone, int trialsInAll);
   void began(const Trial& trial, int64_t nowNs);
   void ended(const TrialResult& result, int64_t nowNs);
-  /// Time that is no part of a trial (a pause) begins anew.
+  /// Restarts the clock after time that is not part of a trial (a pause).
   void rested() { lastEndNs_ = 0; }
   void setScreen(const std::string& name) { screen_ = name; }
 
@@ -35,9 +35,9 @@ class SessionWatch {
   const std::map<std::string, int>& invalidReasons() const { return invalid_; }
   int64_t missedBlanks() const { return missed_; }
   IntervalStatistics intervals() const;
-  /// Of what is left, breaks apart, from the trials so far; negative while it cannot be told.
+  /// Of the remaining trials, without breaks, estimated from the trials so far; negative while unknown.
   double secondsLeft() const;
-  /// All of it, a line each.
+  /// All of it, one line each.
   std::vector<std::string> lines() const;
 
  private:
@@ -47,7 +47,7 @@ class SessionWatch {
   int64_t missed_ = 0, beganNs_ = 0, lastEndNs_ = 0;
   double trialSeconds_ = 0.0;
   int timedTrials_ = 0;
-  // Welford 1962, Technometrics 4: mean and squared deviations without keeping the values.
+  // Welford 1962, Technometrics 4: mean and squared deviations without storing the values.
   int64_t count_ = 0;
   double mean_ = 0.0, squares_ = 0.0, longest_ = 0.0;
 };

@@ -11,16 +11,16 @@ namespace limen::study {
 
 struct PlayResult {
   std::vector<ShownFrame> frames;
-  std::string invalid;   ///< why what was seen is not what was meant ("2 missed frames"); "" if it is
+  std::string invalid;   ///< why what was seen is not as intended ("2 missed frames"); "" if it is
   bool stopped = false;  ///< `goOn` ended it
   int64_t endNs = 0;     ///< steady clock when the last stimulus left the screen
 };
 
-/// Puts the stimuli of a trial on the screen.
+/// Presents the stimuli of a trial.
 class StimulusPlayer {
  public:
   virtual ~StimulusPlayer() = default;
-  /// Makes everything that play() needs, while something neutral is on the screen; calls `idle` now and then.
+  /// Makes everything that play() needs, while something neutral is on screen; calls `idle` now and then.
   virtual void prepare(const Trial& trial, const Session& session, const std::function<void()>& idle) = 0;
   /// Shows the prepared stimuli with the gaps between them, from background to background. Asks `goOn`
   /// between frames, a few microseconds each, and ends at once if it says no.

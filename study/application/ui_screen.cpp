@@ -10,7 +10,7 @@
 namespace limen::study {
 namespace {
 
-// Enough swaps for queues of buffers to fill, after which each has to wait for a blank.
+// Enough swaps for buffer queues to fill, after which each has to wait for a blank.
 constexpr int kProbeSwaps = 12, kProbeWarmUp = 4;
 
 }  // namespace
@@ -32,7 +32,7 @@ int64_t UiScreen::swap() {
   if (paced_) {
     const auto period = static_cast<int64_t>(std::llround(1e9 / paceHz_));
     const int64_t now = window::steadyNs();
-    // The timer's own blanks: those that passed by meanwhile are missed, as on a display.
+    // The timer's own blanks: those that have passed meanwhile are missed, as on a display.
     dueNs_ = dueNs_ + period > now ? dueNs_ + period : now + period - (now - dueNs_) % period;
     std::this_thread::sleep_for(std::chrono::nanoseconds(dueNs_ - now));
   }

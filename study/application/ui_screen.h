@@ -13,16 +13,16 @@ class UiWindow;
 
 namespace limen::study {
 
-/// A window with an interface as the presenter's screen. Where buffer swaps do not wait for the display
-/// (virtual displays, drivers told not to), a timer paces them at the profile's rate, and pacedByTimer() says
-/// so.
+/// A window with an interface as the presenter's screen. If buffer swaps do not wait for the display (virtual
+/// displays, drivers configured not to), a timer paces them at the profile's rate, and pacedByTimer() is
+/// true.
 class UiScreen : public GlScreen {
  public:
   /// Measures for a few frames whether swaps wait.
   UiScreen(window::UiWindow& window, const perception::DisplayProfile& display);
 
   bool pacedByTimer() const { return paced_; }
-  /// Asked between frames; as it says no, poll() gives one ScreenEvent::Close.
+  /// Called between frames; when it returns false, poll() gives one ScreenEvent::Close.
   void setWatch(std::function<bool()> goOn) { goOn_ = std::move(goOn); }
   /// Called at the next swap, before it.
   void captureNext(std::function<void()> capture) { capture_ = std::move(capture); }

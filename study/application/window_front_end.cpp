@@ -15,11 +15,11 @@
 namespace limen::study {
 namespace {
 
-// How long is waited for an input before clocks are looked at again.
+// How long to wait for input before checking clocks again.
 constexpr double kPollS = 0.05;
-// A window that was covered may have lost what it showed, and not every system says so.
+// A covered window may lose its content, and not every system reports that.
 constexpr int64_t kRedrawAnywayNs = 1'000'000'000;
-// Preparation that takes longer is explained.
+// Longer preparation is announced.
 constexpr int64_t kPatienceNs = 1'500'000'000;
 constexpr double kFeedbackS = 1.0;
 
@@ -93,7 +93,7 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     if (experimenter_) experimenter_->tick(watch_);
     if (experimenter_ && experimenter_->takeAbort()) return Left::EndedByExperimenter;
     if (timedOut && timedOut()) return Left::TimedOut;
-    // Nothing is drawn while nothing changes, so that no input waits for a frame before it gets its time.
+    // Nothing is drawn while nothing changes, so that no input waits for a frame before it is time-stamped.
     const Page page = screen.page(window::steadyNs());
     const bool fresh = screen.isNew(), moved = window_.cursorPx() != cursor, counts = !page.status.empty();
     if (draw || fresh || moved || counts || window::steadyNs() - drawnNs > kRedrawAnywayNs) {
@@ -112,7 +112,7 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
       }
     }
     window_.poll(kPollS);
-    window_.takeLoss();  // nothing is missed by seeing a page later
+    window_.takeLoss();  // seeing a page later does no harm
     const std::vector<window::Input> inputs = takeInputs();
     draw = !inputs.empty();
     const int turns = screen.turns();
@@ -130,7 +130,7 @@ WindowFrontEnd::Left WindowFrontEnd::pause(const std::string& reason) {
   watch_.rested();
   const Left left = run(page);
   watch_.rested();
-  if (left != Left::Done) return left == Left::Paused ? Left::Done : left;  // Esc goes on again
+  if (left != Left::Done) return left == Left::Paused ? Left::Done : left;  // Esc also resumes
   switch (page.choice()) {
     case PauseScreen::Choice::StopForNow:
       return Left::StopForNow;
@@ -230,7 +230,7 @@ TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) 
       played = {};
       played.stopped = true;
     }
-    // Until the stimulus has begun nothing is lost by a pause: the way to it is gone again.
+    // Until the stimulus has begun a pause loses nothing: the lead-in is repeated.
     if (!played.stopped || !played.frames.empty()) break;
     if (const Left left = afterStop(); left != Left::Done) return stopped(left);
   }

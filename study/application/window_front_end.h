@@ -18,16 +18,16 @@ namespace limen::study {
 /// The session's front end for people: screens, stimuli and questions in a window. Whatever happens to the
 /// window ends in an outcome that the session can log: a stimulus that could not be seen makes the trial
 /// invalid and leads to a pause, a request to stop (a signal, the window closed, the graphics context lost)
-/// to a session that can be taken up again.
+/// to a session that can be resumed.
 class WindowFrontEnd : public FrontEnd {
  public:
   struct Setting {
     glm::vec3 background{0.25F};  ///< values of the screen
     bool fullScreen = false;
     nlohmann::json facts = nlohmann::json::object();  ///< added to environment()
-    /// Told "screen: NAME" when a page is on the screen, and "screen: stimulus" when one begins.
+    /// Called with "screen: NAME" when a page is on screen, and with "screen: stimulus" when one begins.
     std::function<void(const std::string& line)> announce;
-    std::string screenshots;  ///< folder for a PNG of every page; "" none
+    std::string screenshots;  ///< folder for a PNG of every page; "": none
   };
 
   /// All must outlive it; `experimenter` may be null.
@@ -39,7 +39,7 @@ class WindowFrontEnd : public FrontEnd {
   void feedback(bool correct) override;
   std::vector<std::string> takeNotes() override;
   nlohmann::json environment() const override;
-  /// Why the session stopped although nobody on the screen asked for it; "" otherwise.
+  /// Why the session stopped although nobody requested it on screen; "" otherwise.
   const std::string& stopReason() const { return stopReason_; }
 
  private:
@@ -48,7 +48,7 @@ class WindowFrontEnd : public FrontEnd {
   Left pause(const std::string& reason);
   bool stopAsked();
   std::vector<window::Input> takeInputs();
-  /// Takes what happened to the window while nobody is asked; false: stop what is shown.
+  /// Processes window events while no question is shown; false: stop the presentation.
   bool watchWindow();
   void forget();
   Left afterStop();
@@ -67,7 +67,7 @@ class WindowFrontEnd : public FrontEnd {
   ExperimenterWindow* experimenter_;
   Setting setting_;
   std::string stopReason_, pauseText_;
-  // Since the present trial began.
+  // Since the current trial began.
   std::string loss_;
   bool pauseAsked_ = false;
   std::vector<window::Input> early_;

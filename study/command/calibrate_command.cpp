@@ -34,7 +34,7 @@ double guessCardPx(const gl::Monitor& monitor) {
   return kCardWidthM / pitchM;
 }
 
-/// What is not given is set by eye on the screen itself.
+/// Values not given are set by eye on the screen itself.
 void ask(CalibrateOptions& options) {
   const std::vector<gl::Monitor> all = gl::monitors();
   if (options.monitor < 0 || options.monitor >= static_cast<int>(all.size()))
@@ -44,25 +44,24 @@ void ask(CalibrateOptions& options) {
   if (options.resolutionPx.empty()) options.resolutionPx = {monitor.sizePx.x, monitor.sizePx.y};
   if (!(options.refreshHz > 0.0)) options.refreshHz = monitor.refreshHz;
   const bool matches = options.readings.empty() && options.matches.empty() && options.transfer != "srgb";
-  std::fprintf(
-      stderr,
-      "Left and right change by one, up and down by ten, enter takes it, escape gives up.\n"
-      "First a frame: make it as large as a bank card that is held against the screen.\n%s",
-      matches ? "Then three squares in fields of lines: step back until the lines are gone, make each as "
-                "bright as its field.\n"
-              : "");
+  std::fprintf(stderr,
+               "Left and right change by one, up and down by ten, Enter accepts, Escape cancels.\n"
+               "First a frame: make it as large as a bank card held against the screen.\n%s",
+               matches ? "Then three squares in fields of lines: step back until the lines blend, then make "
+                         "each as bright as its field.\n"
+                       : "");
   gl::WindowSetting setting;
   setting.title = "Limen calibration";
   setting.fullScreen = true;
   setting.monitor = options.monitor;
   gl::WindowContext context(setting);
   if (context.framebufferSizePx() != glm::ivec2(options.resolutionPx[0], options.resolutionPx[1]))
-    throw Error("the monitor shows another number of pixels", "--resolution-px", "leave it out");
+    throw Error("the monitor has a different number of pixels", "--resolution-px", "leave it out");
   perception::DisplayProfile raw;
   raw.transfer = perception::TransferCurve::Linear;
   GlScreen screen(context, raw);
   const auto taken = [](std::optional<double> value) {
-    if (!value) throw Error("given up before the last value was taken", "calibration", "start it again");
+    if (!value) throw Error("cancelled before the last value was set", "calibration", "start it again");
     return *value;
   };
   if (!(options.cardWidthPx > 0.0))
@@ -82,7 +81,7 @@ void checkComplete(const CalibrateOptions& options) {
   if (!(options.refreshHz > 0.0)) missing.push_back("--refresh-hz");
   if (missing.empty()) return;
   throw Error("not known: " + join(missing), {},
-              options.interactive ? "the monitor does not say, give it"
+              options.interactive ? "the monitor does not report it, so give it"
                                   : "give them, or --interactive to set them by eye");
 }
 
@@ -94,7 +93,7 @@ struct Result {
 
 void useReadings(const CalibrateOptions& options, Result& result) {
   if (options.blackCdM2 || options.peakCdM2)
-    throw Error("black and peak come from the readings", "--readings",
+    throw Error("black and peak follow from the readings", "--readings",
                 "leave --black-cd-m2 and --peak-cd-m2 out");
   const std::vector<Reading> readings = readReadings(options.readings);
   const TransferFit fit = options.transfer == "gamma"  ? fitGamma(readings)
@@ -152,7 +151,7 @@ Result calibrate(const CalibrateOptions& options) {
     return out;
   }
   if (!options.blackCdM2 || !options.peakCdM2)
-    throw Error("the luminance of black and white is not known", {},
+    throw Error("the luminance of black and white is unknown", {},
                 "give --readings, or --black-cd-m2 and --peak-cd-m2");
   profile.blackCdM2 = *options.blackCdM2;
   profile.peakCdM2 = *options.peakCdM2;
@@ -162,15 +161,15 @@ Result calibrate(const CalibrateOptions& options) {
     profile.transfer = perception::TransferCurve::Srgb;
     out.notes.push_back("transfer: sRGB as stated, not measured");
   } else {
-    throw Error("the transfer curve is not known", {},
-                "give --readings or --match; --transfer srgb states that of sRGB unmeasured");
+    throw Error("the transfer curve is unknown", {},
+                "give --readings or --match; --transfer srgb assumes that of sRGB without measuring");
   }
   return out;
 }
 
 void run(CalibrateOptions options) {
   if (!options.force && std::filesystem::exists(options.out))
-    throw Error("is there already", options.out, "name another file, or give --force to overwrite it");
+    throw Error("already exists", options.out, "name another file, or give --force to overwrite it");
   if (options.interactive) ask(options);
   checkComplete(options);
   const Result result = calibrate(options);
@@ -196,42 +195,46 @@ void run(CalibrateOptions options) {
 void addCalibrateCommand(CLI::App& app, Run&) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
-      "calibrate", "Makes a display profile of what was measured on a screen and before it.");
+      "calibrate", "Makes a display profile from measurements of a screen and the viewing position.");
   command->add_option("-o,--output", options->out, "Profile to write (YAML)")->required();
-  command->add_option("--name", options->name, "Of the display; the file's name if left out");
-  command->add_option("--resolution-px", options->resolutionPx, "Of the screen, as 1920,1080")
+  command->add_option("--name", options->name, "Name of the display (default: the file's name)");
+  command->add_option("--resolution-px", options->resolutionPx, "Resolution of the screen, as 1920,1080")
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::PositiveNumber);
   command->add_option("--card-width-px", options->cardWidthPx, "A bank card's long side on the screen [px]")
       ->check(CLI::PositiveNumber);
-  command->add_option("--distance-cm", options->distanceCm, "From the viewer's eye to the screen's middle")
+  command
+      ->add_option("--distance-cm", options->distanceCm,
+                   "Distance from the viewer's eye to the centre of the screen")
       ->required();
-  command->add_option("--refresh-hz", options->refreshHz, "As limen study timing-test measures it")
+  command
+      ->add_option("--refresh-hz", options->refreshHz, "Refresh rate, as measured by limen study timing-test")
       ->check(CLI::PositiveNumber);
   command->add_flag("--interactive", options->interactive,
-                    "Sets card and matches by eye on the screen, where they are not given");
-  command->add_option("--monitor", options->monitor, "Of --interactive; the primary one is 0")
+                    "Set card and matches by eye on the screen, unless given");
+  command->add_option("--monitor", options->monitor, "Monitor for --interactive; the primary one is 0")
       ->capture_default_str();
   command->add_option("--readings", options->readings, "CSV file of level (0 to 1) and luminance [cd/m2]");
   command->add_option(
       "--match", options->matches,
-      "Visual matches: proportion of white in a dithered field = grey level that looks alike, as "
+      "Visual matches: proportion of white in a dithered field = grey level that looks the same, as "
       "0.25=0.53,0.5=0.73");
   command
-      ->add_option("--transfer", options->transfer, "Curve: auto takes the one that fits the readings better")
+      ->add_option("--transfer", options->transfer,
+                   "Curve: auto selects the one that fits the readings better")
       ->check(CLI::IsMember({"auto", "gamma", "srgb"}))
       ->capture_default_str();
   command->add_option("--black-cd-m2", options->blackCdM2,
                       "Luminance of black in the dark, without --readings");
   command->add_option("--peak-cd-m2", options->peakCdM2,
                       "Luminance of white in the dark, without --readings");
-  command->add_option("--ambient-lux", options->ambientLux, "Light that falls on the screen")
+  command->add_option("--ambient-lux", options->ambientLux, "Illuminance on the screen")
       ->capture_default_str();
-  command->add_option("--screen-reflectance", options->reflectance, "Diffuse share of it that comes back")
+  command->add_option("--screen-reflectance", options->reflectance, "Diffuse reflectance of the screen")
       ->capture_default_str();
   command->add_flag("--force", options->force, "Overwrite the profile");
-  command->add_flag("--json", options->json, "Figures for other programs");
+  command->add_flag("--json", options->json, "Machine-readable output");
   command->callback([options] { run(*options); });
 }
 

@@ -9,9 +9,9 @@
 
 namespace limen::study {
 
-/// What a subcommand knows of its call and tells main().
+/// What a subcommand knows about its call and reports to main().
 struct Run {
-  std::vector<std::string> words;  ///< the call as it was typed
+  std::vector<std::string> words;  ///< the command line as typed
   int exitCode = kExitSuccess;     ///< 1: it ran and something failed
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen study example: simulated studies, analysed end to end, beside what was published of them.
+// limen study example: simulated studies, analysed end to end and compared with published results.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -27,11 +27,11 @@ void listExamples(bool asJson) {
     out.push_back({{"name", name}, {"title", title}});
     text += fmt::format("  {:<20}  {}\n", name, title);
   }
-  text += "limen study example NAME -o FOLDER runs one; FILE takes one of your own.\n";
+  text += "limen study example NAME -o FOLDER runs one; use FILE for your own.\n";
   std::fputs(asJson ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
 }
 
-// On a terminal a line that is written over, elsewhere a line in ten seconds.
+// On a terminal a line that is overwritten, otherwise one line every ten seconds.
 class StepProgress {
  public:
   explicit StepProgress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -67,7 +67,7 @@ class StepProgress {
 
 void runExampleCommand(const ExampleOptions& options, Run& run) {
   if (options.list) return listExamples(options.asJson);
-  if (options.name.empty()) throw Error("no example is named", "example", "give a name or a file, or --list");
+  if (options.name.empty()) throw Error("no example given", "example", "give a name or a file, or --list");
   const Example example = readExample(options.name);
   ExampleRequest request;
   request.folder = options.folder.empty() ? "results/" + example.name : options.folder;
@@ -77,7 +77,7 @@ void runExampleCommand(const ExampleOptions& options, Run& run) {
   installInterruptHandlers();
   const ExampleEnd end = runExample(example, request);
   if (end.stopped) {
-    fmt::print(stderr, "stopped; the same call goes on\n");
+    fmt::print(stderr, "stopped; the same command resumes\n");
     run.exitCode = kExitFailedRuns;
     return;
   }
@@ -94,16 +94,16 @@ void runExampleCommand(const ExampleOptions& options, Run& run) {
 }  // namespace
 
 void addExampleCommand(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("example",
-                                         "Simulates studies, predicts and analyses them, and sets what was "
-                                         "published of them beside the answers; "
-                                         "goes on\nwith what an earlier call left undone");
+  CLI::App* command =
+      app.add_subcommand("example",
+                         "Simulates studies, predicts and analyses them, and compares the answers with "
+                         "published results; resumes\nwhat an earlier call left unfinished");
   auto options = std::make_shared<ExampleOptions>();
   command->add_option("example", options->name, "Name of a shipped example, or a file")
       ->type_name("NAME|FILE");
   command->add_option("-o,--output", options->folder,
-                      "Folder for stores, tables, pages and summary; results/NAME if left out");
-  command->add_flag("--list", options->list, "Names and titles of the shipped examples");
+                      "Folder for stores, tables, pages and summary (default: results/NAME)");
+  command->add_flag("--list", options->list, "List names and titles of the shipped examples");
   command->add_flag("--json", options->asJson, "As JSON");
   command->add_flag("--quiet", options->quiet, "No progress");
   command->callback([options, &run] { runExampleCommand(*options, run); });

@@ -10,17 +10,16 @@
 namespace limen::study {
 
 void addExportCommand(CLI::App& app, Run&) {
-  CLI::App* command = app.add_subcommand("export", "Writes sessions as tables for other programs");
+  CLI::App* command = app.add_subcommand("export", "Exports sessions as tables for other programs");
   auto request = std::make_shared<ExportRequest>();
   command->add_option("store", request->store, "Result store with sessions")->required();
-  command->add_option("-o,--output", request->folder, "Folder to make")->required();
+  command->add_option("-o,--output", request->folder, "Folder to create")->required();
   static const std::map<std::string, ExportFormat> kFormats = {
       {"csv", ExportFormat::Csv}, {"bids", ExportFormat::Bids}, {"psych-ds", ExportFormat::PsychDs}};
-  command
-      ->add_option("--format", request->formats, "csv, bids or psych-ds, several are possible (default: csv)")
+  command->add_option("--format", request->formats, "csv, bids or psych-ds; may be repeated (default: csv)")
       ->transform(CLI::CheckedTransformer(kFormats));
   command->add_option("--protocol", request->protocol, "Only sessions of this protocol (name or SHA-256)");
-  command->add_flag("--frames", request->frames, "Frame logs too");
+  command->add_flag("--frames", request->frames, "Include frame logs");
   command->add_flag("--codes", request->codes,
                     "Participant codes instead of pseudonyms: for the lab's own use");
   command->callback([request] {
@@ -35,7 +34,8 @@ void addExportCommand(CLI::App& app, Run&) {
           "participants' codes: whoever guesses a code can check it against the order of trials\n",
           written.ordersTellCode);
     if (!request->codes)
-      std::printf("who is who: %s (keep it apart from the export)\n", keyFileOf(request->store).c_str());
+      std::printf("pseudonym key: %s (keep it separate from the export)\n",
+                  keyFileOf(request->store).c_str());
   });
 }
 

@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) {
   using namespace limen;
-  CLI::App app("Asks viewers: runs and simulates popping studies, exports what they answered.",
+  CLI::App app("Studies with viewers: runs and simulates popping studies, exports the answers.",
                "limen-study");
   app.set_version_flag("--version", versionText("limen-study"));
   app.require_subcommand(1);

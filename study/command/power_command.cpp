@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen study power: how many observers and repetitions a wanted precision takes, by simulation.
+// limen study power: how many observers and repetitions a desired precision takes, by simulation.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -110,12 +110,12 @@ std::string reachedText(const PowerCell& cell) {
 void printDesign(const PowerDesign& design, bool all) {
   fmt::print("{:>9}  {:>11}", design.observers, design.repetitions);
   if (!design.judged) {
-    fmt::print("  no asked width\n");
+    fmt::print("    no target width\n");
   } else {
     const PowerCell& worst = design.cells[design.worst];
     fmt::print("  {:>6.3f} +- {:.3f}  {:>16}  {:<4} {}{}\n", worst.meanWidth, worst.meanWidthError,
                reachedText(worst), design.reaches ? "yes" : "no", conditionText(worst.part, worst.condition),
-               design.clear ? "" : "  [within 2 simulation errors of the asked probability]");
+               design.clear ? "" : "  [within 2 simulation errors of the target probability]");
   }
   for (const PowerCell& cell : design.cells) {
     const bool judged = design.judged && (!cell.threshold || cell.reached > 0.0);
@@ -134,7 +134,7 @@ void printDesigns(const PowerOptions& options, const PowerResult& result) {
       "{:g} % t intervals over observers, {} simulated experiments, seed {}; +- is one standard error of the "
       "simulation\n",
       100.0 * request.confidence, request.simulations, request.seed);
-  fmt::print("asked: a width of {:g} or less", request.width);
+  fmt::print("target: a width of {:g} or less", request.width);
   if (request.thresholdWidth) fmt::print(" (thresholds: {:g})", *request.thresholdWidth);
   fmt::print(" in each condition with a probability of {:g} %\n\n", 100.0 * request.probability);
   fmt::print("observers  repetitions  mean width        reached           enough?  worst condition\n");
@@ -160,14 +160,14 @@ void printDesigns(const PowerOptions& options, const PowerResult& result) {
     fmt::print(
         "note: in some condition and design all observers agreed in {:.0f} % of the experiments; there the "
         "exact binomial\n"
-        "interval of as many answers as observers stands in for the t interval, which would have no width\n",
+        "interval for as many answers as observers replaces the t interval, whose width would be zero\n",
         100.0 * degenerate);
 }
 
 void runPower(const PowerOptions& given, Run& run) {
   PowerOptions options = given;
   if (options.thresholdWidth > 0.0) options.request.thresholdWidth = options.thresholdWidth;
-  if (options.asJson && options.asCsv) throw Error("--json and --csv exclude one another", "power");
+  if (options.asJson && options.asCsv) throw Error("--json and --csv exclude each other", "power");
   const ObserverChoice observer = chooseObserver(options.kind, options.settings);
   const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
   std::unique_ptr<StimulusModel> model;
@@ -201,36 +201,40 @@ void runPower(const PowerOptions& given, Run& run) {
 
 void addPowerCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand(
-      "power", "How many observers and repetitions a wanted precision takes, by simulation");
+      "power", "How many observers and repetitions a desired precision takes, by simulation");
   auto options = std::make_shared<PowerOptions>();
   PowerRequest& request = options->request;
   command->add_option("protocol", options->protocol, "Name of a shipped protocol, or a file")
       ->type_name("NAME|FILE")
       ->required();
   command
-      ->add_option("--width", request.width, "Asked width of the intervals of rates, upper minus lower end")
+      ->add_option("--width", request.width, "Target width of the intervals of rates, upper minus lower end")
       ->capture_default_str();
-  command->add_option("--threshold-width", options->thresholdWidth, "The same of thresholds, in their unit");
-  command->add_option("--observers", request.observers, "Numbers to try")
+  command->add_option("--threshold-width", options->thresholdWidth, "The same for thresholds, in their unit");
+  command->add_option("--observers", request.observers, "Numbers of observers to try")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--repetitions", request.repetitions, "Of each condition, or runs of each procedure")
+  command
+      ->add_option("--repetitions", request.repetitions,
+                   "Numbers of repetitions of each condition, or of runs of each procedure, to try")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--confidence", request.confidence, "Of the intervals")->capture_default_str();
-  command->add_option("--probability", request.probability, "With which the width has to be reached")
+  command->add_option("--confidence", request.confidence, "Confidence level of the intervals")
+      ->capture_default_str();
+  command
+      ->add_option("--probability", request.probability, "Probability with which the width has to be reached")
       ->capture_default_str();
   command->add_option("--simulations", request.simulations, "Simulated experiments")->capture_default_str();
-  command->add_option("--seed", request.seed, "Decides all")->capture_default_str();
+  command->add_option("--seed", request.seed, "Seed of everything")->capture_default_str();
   command->add_option("--kind", options->kind, "Kind of observer; see simulate --list")
       ->capture_default_str();
   command->add_option("--set", options->settings, "Parameter of the kind")->type_name("NAME=VALUE");
-  command->add_option("--display", options->display, "Preset or profile; that of the protocol if left out");
+  command->add_option("--display", options->display, "Preset or profile (default: the protocol's)");
   command->add_option("--predictions", options->predictions,
-                      "File that keeps what the popping predictor said");
-  command->add_flag("--conditions", options->allConditions, "Every condition of every design");
-  command->add_flag("--json", options->asJson, "Everything, as JSON");
-  command->add_flag("--csv", options->asCsv, "Every condition of every design, as CSV");
+                      "Cache file for the popping predictor's results");
+  command->add_flag("--conditions", options->allConditions, "Print every condition of every design");
+  command->add_flag("--json", options->asJson, "Print everything as JSON");
+  command->add_flag("--csv", options->asCsv, "Print every condition of every design as CSV");
   command->callback([options, &run] { runPower(*options, run); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen study predict: what predictors say of the stimuli that a store's sessions showed.
+// limen study predict: predictions for the stimuli that a store's sessions showed.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ ParameterValues poppingValues(const std::vector<std::string>& settings) {
   return {declared, readAssignments(settings, declared, "--set"), "--set"};
 }
 
-/// Says on standard error how far it is: over the same line on a terminal, else at every tenth stimulus.
+/// Reports progress on standard error: overwriting a line on a terminal, otherwise at every tenth stimulus.
 void sayProgress(int done, int all, bool quiet) {
   if (quiet) return;
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -58,7 +58,7 @@ void predict(const PredictOptions& options, Run& run) {
   else
     fmt::print("{}: {} predictions made, {} there before\n", options.store, end.made, end.known);
   if (end.stopped) {
-    fmt::print(stderr, "stopped; the same call goes on\n");
+    fmt::print(stderr, "stopped; the same command resumes\n");
     run.exitCode = kExitFailedRuns;
   }
 }
@@ -68,15 +68,14 @@ void predict(const PredictOptions& options, Run& run) {
 void addPredictCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand(
       "predict",
-      "Predicts how visible the changes are that the sessions of a store showed, by popping predictor and "
-      "image\nmetrics on the very frames, and keeps it in the store for `limen analyse validate`. Goes on "
-      "with "
+      "Predicts the visibility of the changes shown in the sessions of a store, by popping predictor and "
+      "image\nmetrics on exactly those frames, and stores it for `limen analyse validate`. Resumes with "
       "what is missing.");
   auto options = std::make_shared<PredictOptions>();
   command->add_option("store", options->store, "Result store with sessions")->required();
   command->add_option("--protocol", options->protocol, "Only sessions of this protocol (name or SHA-256)");
   command->add_option("--display", options->display,
-                      "Preset or profile in place of the one that a session was shown on");
+                      "Preset or profile to use instead of the one that a session was shown on");
   command->add_option("--set", options->settings, "Parameter of the predictor (limen perceive pop --list)")
       ->type_name("NAME=VALUE");
   command->add_flag("--json", options->asJson, "One JSON object");

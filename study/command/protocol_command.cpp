@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen study protocol: which protocols there are, and what one of them will show to whom.
+// limen study protocol: which protocols there are, and what one of them shows to a participant.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -27,7 +27,7 @@ void listProtocols(bool asJson) {
     out.push_back({{"name", name}, {"title", title}});
     text += fmt::format("  {:<16}  {}\n", name, title);
   }
-  text += "limen study protocol NAME shows conditions, trials and order; FILE takes one of your own.\n";
+  text += "limen study protocol NAME shows conditions, trials and order; use FILE for your own.\n";
   std::fputs(asJson ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
 }
 
@@ -40,7 +40,7 @@ void showProtocols(const ProtocolOptions& options) {
     if (options.check) {
       const size_t trials = trialsOf(design);
       if (!options.json)
-        std::printf("%s: good, %zu trials, sha256 %s\n", protocol.path.c_str(), trials,
+        std::printf("%s: valid, %zu trials, sha256 %s\n", protocol.path.c_str(), trials,
                     protocol.hash.c_str());
       all.push_back(
           {{"name", protocol.name}, {"path", protocol.path}, {"sha256", protocol.hash}, {"trials", trials}});
@@ -66,7 +66,7 @@ void addProtocolCommand(CLI::App& app, Run&) {
                    "Number of the participant, from 0: picks rows of Latin squares")
       ->check(CLI::Range(0, 1000000000));
   command->add_option("--seed", options->seed, "Seed of the session's orders")->capture_default_str();
-  command->add_flag("--check", options->check, "Only say whether it is good");
+  command->add_flag("--check", options->check, "Only check whether it is valid");
   command->add_flag("--json", options->json, "As JSON");
   command->callback(
       [options] { options->names.empty() ? listProtocols(options->json) : showProtocols(*options); });

@@ -41,7 +41,8 @@ PhotodiodePatch patchOf(const std::string& text) {
   const std::string size = colon == std::string::npos ? "" : text.substr(colon + 1);
   if (size.empty() || size.size() > 4 || size.find_first_not_of("0123456789") != std::string::npos ||
       std::stoi(size) < 1)
-    throw Error("'" + text + "' is no patch", "--photodiode", "write CORNER:PIXELS, such as lower_left:64");
+    throw Error("'" + text + "' is not a patch", "--photodiode",
+                "write CORNER:PIXELS, such as lower_left:64");
   return {std::stoi(size), cornerOf(text.substr(0, colon))};
 }
 
@@ -49,7 +50,8 @@ glm::ivec2 sizeOf(const std::string& text) {
   int width = 0, height = 0, used = 0;
   const int read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used);
   if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1)
-    throw Error("'" + text + "' is no size", "--window", "write WIDTHxHEIGHT in pixels, such as 1280x1024");
+    throw Error("'" + text + "' is not a size", "--window",
+                "write WIDTHxHEIGHT in pixels, such as 1280x1024");
   return {width, height};
 }
 
@@ -77,7 +79,7 @@ std::unique_ptr<window::UiWindow> openWindow(const RunOptions& options, const st
   return std::make_unique<window::UiWindow>(wanted);
 }
 
-// Why times measured here are not those of a laboratory.
+// Why timing measured here is not fit for a laboratory.
 std::vector<std::string> doubts(window::UiWindow& window, const perception::DisplayProfile& display) {
   std::vector<std::string> all = objectionsTo(window.context());
   const window::UiMonitor monitor = window.monitor();
@@ -113,13 +115,13 @@ void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const Session
       std::puts("The session is complete.");
       break;
     case Step::Kind::Aborted:
-      std::puts("The session was ended before its end.");
+      std::puts("The session was ended early.");
       break;
     case Step::Kind::Screen:
     case Step::Kind::Trial:
       if (!frontEnd.stopReason().empty()) std::printf("Stopped: %s.\n", frontEnd.stopReason().c_str());
       std::printf(
-          "The session can be taken up again: limen study run %s --participant %s --session %s --store %s "
+          "The session can be resumed: limen study run %s --participant %s --session %s --store %s "
           "--resume\n",
           options.protocol.c_str(), request.participant.c_str(), request.session.c_str(),
           request.store.c_str());
@@ -157,9 +159,9 @@ void runStudy(const RunOptions& options, Run& run) {
     };
   std::vector<std::string> why = doubts(*window, request.display);
   if (player.pacedByTimer())
-    why.push_back("a timer paces the frames, for nothing here waits for the display");
+    why.push_back("a timer paces the frames because nothing here waits for the display");
   if (!options.screenshots.empty()) why.push_back("pictures of the screen are taken (--screenshots)");
-  if (options.anyTiming) why.push_back("frames' times are not checked (--any-timing)");
+  if (options.anyTiming) why.push_back("frame times are not checked (--any-timing)");
   for (const std::string& doubt : why)
     std::fprintf(stderr, "warning: timing is not fit for a lab: %s\n", doubt.c_str());
   setting.facts = {{"lab_ready", why.empty()}, {"lab_doubts", why}};
@@ -181,12 +183,13 @@ void runStudy(const RunOptions& options, Run& run) {
 }  // namespace
 
 void addRunCommand(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("run", "Runs a session with a person at a window");
+  CLI::App* command = app.add_subcommand("run", "Runs a session with a person in a window");
   auto options = std::make_shared<RunOptions>();
   command->add_option("protocol", options->protocol, "Name of a shipped protocol, or a file")
       ->type_name("NAME|FILE")
       ->required();
-  command->add_option("--participant", options->participant, "Code of the participant, not a name: p01")
+  command
+      ->add_option("--participant", options->participant, "Code of the participant (not a name), such as p01")
       ->required();
   command->add_option("--session", options->session, "Number or name of the sitting")->capture_default_str();
   command->add_option("--seed", options->seed,
@@ -194,24 +197,22 @@ void addRunCommand(CLI::App& app, Run& run) {
   command->add_option("--store", options->store, "Result store (default: results/PROTOCOL.sqlite)");
   command->add_option("--display", options->display,
                       "Display profile, preset or file (default: the protocol's)");
-  command->add_flag("--resume", options->resume, "Takes up a session that was stopped");
+  command->add_flag("--resume", options->resume, "Resume a session that was stopped");
   auto* window =
       command->add_option("--window", options->window, "A window of WIDTHxHEIGHT px, to try things out");
-  command->add_flag("--full-screen", options->fullScreen, "Fills the monitor (default)")->excludes(window);
+  command->add_flag("--full-screen", options->fullScreen, "Fill the monitor (default)")->excludes(window);
   command->add_option("--monitor", options->monitor, "Number of the monitor, from 0")->capture_default_str();
-  command
-      ->add_option("--scale", options->scale,
-                   "Size of letters and buttons (default: as the monitor asks for)")
+  command->add_option("--scale", options->scale, "Scale of text and buttons (default: the monitor's)")
       ->check(CLI::Range(0.5, 8.0));
   command->add_option("--screenshots", options->screenshots,
                       "Folder for a PNG of every screen and of a frame of every stimulus");
-  command->add_flag("--announce", options->announce, "Prints the name of every screen when it is shown");
+  command->add_flag("--announce", options->announce, "Print the name of every screen when it is shown");
   command->add_flag("--any-timing", options->anyTiming,
                     "Trials count even if frames were late: for trying things out, not for data");
   command->add_option(
       "--photodiode", options->photodiode,
       "A square for a light sensor, CORNER:PIXELS (lower_left:64): white once a stimulus has changed, "
-      "else on every other frame. The sensor must cover it: it gives answers away");
+      "otherwise on every other frame. The sensor must cover it, since it gives answers away");
   command->add_flag("--experimenter-window", options->experimenter,
                     "A second window: progress, timing, notes");
   command->add_option("--experimenter-monitor", options->experimenterMonitor, "Monitor of that window")

@@ -25,7 +25,7 @@ struct SessionsOptions {
   bool asJson = false;
 };
 
-/// Where a session stands. What is planned may be more than is asked: procedures end early.
+/// Progress of a session. More may be planned than is asked: procedures can end early.
 struct SessionProgress {
   int answered = 0, planned = 0, invalid = 0;
   std::string last;  ///< instant of the last event
@@ -44,7 +44,7 @@ SessionProgress progressOf(const store::SessionReader& reader, const store::Stud
   return progress;
 }
 
-// A session that calls itself running without a process that holds it was broken off and can be resumed.
+// A session marked as running that no process holds was interrupted and can be resumed.
 std::string stateOf(const store::StudySession& session) {
   return session.state == "running" && session.owner.empty() ? "interrupted" : session.state;
 }
@@ -157,8 +157,8 @@ void replay(const SessionsOptions& options, Run& run) {
     fmt::print("{}\n", out.dump());
   } else {
     for (const store::StudyTrial& trial : trials) printTrial(trial);
-    fmt::print("{} events, {} showings of trials: {}\n", verification.events, trials.size(),
-               good ? "every row is what the events say" : "rows differ from what the events say");
+    fmt::print("{} events, {} trial presentations: {}\n", verification.events, trials.size(),
+               good ? "every row agrees with the events" : "some rows disagree with the events");
     for (const std::string& line : verification.differences) fmt::print("  {}\n", line);
   }
   if (!good) run.exitCode = kExitFailedRuns;
@@ -168,16 +168,16 @@ void replay(const SessionsOptions& options, Run& run) {
 
 void addSessionsCommand(CLI::App& app, Run& run) {
   const auto options = std::make_shared<SessionsOptions>();
-  CLI::App* sessions = app.add_subcommand("sessions", "Lists the sessions of a store and how far they are.");
+  CLI::App* sessions = app.add_subcommand("sessions", "Lists the sessions of a store and their progress.");
   sessions->add_option("store", options->store, "result store")->required();
-  sessions->add_flag("--json", options->asJson, "one JSON object a line");
+  sessions->add_flag("--json", options->asJson, "one JSON object per line");
   sessions->callback([options] { listSessions(*options); });
 
   const auto replayed = std::make_shared<SessionsOptions>();
-  CLI::App* again = app.add_subcommand(
-      "replay",
-      "Replays a session's log of events, checks every stored row against it and prints each trial with its "
-      "stimuli.\nEnds with 1 if a row differs.");
+  CLI::App* again =
+      app.add_subcommand("replay",
+                         "Replays a session's event log, checks every stored row against it and prints each "
+                         "trial with its stimuli.\nExits with 1 if a row differs.");
   again->add_option("store", replayed->store, "result store")->required();
   again->add_option("participant", replayed->participant, "participant's code")->required();
   again->add_option("--session", replayed->session, "number or name, if there are several");

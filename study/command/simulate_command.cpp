@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen study simulate: whole sessions of simulated observers, into a store like that of people.
+// limen study simulate: whole sessions of simulated observers, into the same kind of store as for people.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -48,13 +48,14 @@ void listKinds(bool asJson) {
                    {"parameters", parameters}});
   }
   text +=
-      "\nWhat is seen in a condition comes from the protocol's `simulation:` block; without one, and for "
+      "\nWhat an observer sees in a condition comes from the protocol's `simulation:` block; without one, "
+      "and for "
       "`model`,\n"
       "from the popping predictor.\n";
   std::fputs(asJson ? (out.dump(2) + "\n").c_str() : text.c_str(), stdout);
 }
 
-// A line on standard error that is written over, at most ten times a second; on no terminal only the last
+// A line on standard error that is overwritten at most ten times a second; without a terminal only the last
 // one.
 class SimulationProgress {
  public:
@@ -83,7 +84,7 @@ class SimulationProgress {
 void runSimulate(const SimulateOptions& options, Run& run) {
   if (options.list) return listKinds(options.asJson);
   if (options.protocol.empty())
-    throw Error("no protocol is named", "simulate", "give a name or a file, or --list");
+    throw Error("no protocol given", "simulate", "give a name or a file, or --list");
   const ObserverChoice observer = chooseObserver(options.kind, options.settings);
   const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
 
@@ -121,7 +122,7 @@ void runSimulate(const SimulateOptions& options, Run& run) {
     std::fputs(toText(summary).c_str(), stdout);
   }
   if (end.stopped) {
-    fmt::print(stderr, "stopped; the same call goes on\n");
+    fmt::print(stderr, "stopped; the same command resumes\n");
     run.exitCode = kExitFailedRuns;
   }
 }
@@ -130,27 +131,27 @@ void runSimulate(const SimulateOptions& options, Run& run) {
 
 void addSimulateCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand(
-      "simulate", "Runs sessions of simulated observers; goes on with what an earlier call left undone");
+      "simulate", "Runs sessions of simulated observers; resumes what an earlier call left unfinished");
   auto options = std::make_shared<SimulateOptions>();
   command->add_option("protocol", options->protocol, "Name of a shipped protocol, or a file")
       ->type_name("NAME|FILE");
-  command->add_option("--observers", options->observers, "How many")->capture_default_str();
-  command->add_option("--seed", options->seed, "Decides observers, orders and answers")
+  command->add_option("--observers", options->observers, "Number of observers")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of observers, orders and answers")
       ->capture_default_str();
   command->add_option("--kind", options->kind, "Kind of observer; --list names them")->capture_default_str();
   command->add_option("--set", options->settings, "Parameter of the kind")->type_name("NAME=VALUE");
-  command->add_option("--store", options->store, "Result store; results/NAME_simulated.sqlite if left out");
-  command->add_option("--participant-prefix", options->prefix, "Codes are this and a number from 001 on")
+  command->add_option("--store", options->store, "Result store (default: results/NAME_simulated.sqlite)");
+  command->add_option("--participant-prefix", options->prefix, "Codes are this prefix and a number from 001")
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Threads")->capture_default_str();
   command
       ->add_option("--invalid-rate", options->invalidRate,
-                   "Share of showings that count as disturbed, to be repeated")
+                   "Share of presentations that count as disturbed and are repeated")
       ->capture_default_str();
-  command->add_option("--display", options->display, "Preset or profile; that of the protocol if left out");
+  command->add_option("--display", options->display, "Preset or profile (default: the protocol's)");
   command->add_option("--predictions", options->predictions,
-                      "File that keeps what the popping predictor said; STORE.predictions.json if left out");
-  command->add_flag("--list", options->list, "Kinds of observer and their parameters");
+                      "Cache file for the popping predictor's results (default: STORE.predictions.json)");
+  command->add_flag("--list", options->list, "List kinds of observer and their parameters");
   command->add_flag("--json", options->asJson, "As JSON");
   command->add_flag("--quiet", options->quiet, "No progress line");
   command->callback([options, &run] { runSimulate(*options, run); });

@@ -22,7 +22,7 @@ struct TimingOptions {
   std::vector<int> drops;
 };
 
-/// Frames are numbered as the report does, from the end of the warm-up on.
+/// Frames are numbered as in the report, from the end of the warm-up.
 TimingReport runVirtual(const TimingOptions& options) {
   VirtualDisplay display;
   display.refreshHz = options.virtualHz;
@@ -31,7 +31,7 @@ TimingReport runVirtual(const TimingOptions& options) {
   for (const int drop : options.drops) ++display.drops[warmUp + drop];
   VirtualScreen screen(display);
   TimingReport report = runTiming(screen, options.seconds);
-  report.objections.insert(report.objections.begin(), "the display is a virtual one");
+  report.objections.insert(report.objections.begin(), "the display is virtual");
   return report;
 }
 
@@ -53,7 +53,7 @@ TimingReport runReal(const TimingOptions& options, std::string& device) {
 
 void test(const TimingOptions& options, Run& run) {
   if (!options.drops.empty() && !(options.virtualHz > 0.0))
-    throw Error("frames are dropped on a virtual display only", "--drop", "add --virtual HZ");
+    throw Error("frames can only be dropped on a virtual display", "--drop", "add --virtual HZ");
   std::string device = fmt::format("virtual display of {:.4g} Hz", options.virtualHz);
   const TimingReport report = options.virtualHz > 0.0 ? runVirtual(options) : runReal(options, device);
   if (options.json) {
@@ -72,20 +72,22 @@ void addTimingCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<TimingOptions>();
   CLI::App* command = app.add_subcommand(
       "timing-test",
-      "Tells whether frames reach the screen when they should; exits with 1 if a lab must not rest on it.");
+      "Tests whether frames reach the screen on time; exits with 1 if timing is not fit for a lab.");
   command->add_option("--seconds", options->seconds, "How long to measure")
       ->check(CLI::Range(0.5, 3600.0))
       ->capture_default_str();
-  command->add_option("--monitor", options->monitor, "Number of the monitor, the primary one is 0")
+  command->add_option("--monitor", options->monitor, "Number of the monitor; the primary one is 0")
       ->capture_default_str();
-  command->add_flag("--windowed", options->windowed, "In a window, which is not fit for a lab");
-  command->add_flag("--json", options->json, "Figures for other programs");
+  command->add_flag("--windowed", options->windowed, "Use a window, which is not fit for a lab");
+  command->add_flag("--json", options->json, "Machine-readable output");
   command->add_option("--virtual", options->virtualHz, "A simulated display of this refresh rate [Hz]")
       ->check(CLI::Range(1.0, 1000.0));
-  command->add_option("--drop", options->drops, "Frames that the simulated display misses, as 30,90")
+  command->add_option("--drop", options->drops, "Frames that the simulated display drops, as 30,90")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  command->add_option("--jitter-ms", options->jitterMs, "Of the simulated display's clock, either way")
+  command
+      ->add_option("--jitter-ms", options->jitterMs,
+                   "Jitter of the simulated display's clock, in either direction")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command->callback([options, &run] { test(*options, run); });

@@ -35,7 +35,7 @@ json readSettings(const std::string& path) {
     try {
       settings = json::parse(text);
     } catch (const json::exception& error) {
-      throw Error(std::string("is no JSON: ") + error.what(), path);
+      throw Error(std::string("is not JSON: ") + error.what(), path);
     }
   } else {
     settings = toJson(parseYaml(text, path));
@@ -111,9 +111,9 @@ void runTrace(const TraceOptions& options) {
     return;
   }
   if (options.procedure.empty())
-    throw Error("no procedure is named", "trace", "give a YAML or JSON file, or --list");
+    throw Error("no procedure given", "trace", "give a YAML or JSON file, or --list");
   if (options.answers.empty() == options.answersFile.empty())
-    throw Error("answers are needed", "trace", "give either --answers or --answers-file");
+    throw Error("answers are missing", "trace", "give either --answers or --answers-file");
   const std::vector<TraceAnswer> answers =
       options.answersFile.empty()
           ? readAnswers(options.answers, "--answers")
@@ -132,12 +132,12 @@ void addTraceCommand(CLI::App& app, Run& /*run*/) {
       app.add_subcommand("trace", "Runs a procedure on given answers and prints it trial by trial.");
   auto options = std::make_shared<TraceOptions>();
   command->add_option("procedure", options->procedure,
-                      "YAML or JSON file with the settings that a protocol has below `procedure:`");
+                      "YAML or JSON file with the settings that a protocol has under `procedure:`");
   command->add_option("--answers", options->answers,
                       "outcomes in order: 1,0,1; or with stimuli: -18:1 -22:0");
   command->add_option(
       "--answers-file", options->answersFile,
-      "file with one answer a line: OUTCOME or STIMULUS[,STIMULUS2...]:OUTCOME; # opens a comment");
+      "file with one answer per line: OUTCOME or STIMULUS[,STIMULUS2...]:OUTCOME; # starts a comment");
   command->add_option("--seed", options->seed, "seed of the procedure")->capture_default_str();
   command->add_flag("--json", options->asJson, "everything, with the procedure's state after each trial");
   command->add_flag("--list", options->list, "types of procedure and their settings");

@@ -12,7 +12,7 @@
 
 namespace limen::study {
 
-/// A protocol that simulated observers go through.
+/// A protocol completed by simulated observers.
 struct ExampleStudy {
   std::string name;      ///< of its files; the protocol's if left out
   std::string protocol;  ///< shipped name, or path
@@ -20,15 +20,15 @@ struct ExampleStudy {
   ObserverChoice observer;
   int observers = 1;
   uint64_t seed = 1;
-  /// In place of the protocol's window, so that stimuli are rendered quickly. They look different then: what
-  /// comes out shows that all works, and is not what the protocol asks for.
+  /// Replaces the protocol's window, so that stimuli render quickly. They then look different: the result
+  /// shows that everything works but is not what the protocol specifies.
   std::optional<std::pair<int, int>> windowPx;
-  bool predictions = true;  ///< what predictors say of the stimuli, for the comparison with answers
+  bool predictions = true;  ///< predictions for the stimuli, to compare with the answers
 };
 
-/// A worked example: studies to simulate and what is then asked of their answers.
+/// A worked example: studies to simulate and how their answers are analysed.
 struct Example {
-  std::string path, text, name;  ///< name: of the file, without ending
+  std::string path, text, name;  ///< name: the file's, without extension
   std::string title, question, source;
   std::vector<std::string> features;  ///< ids of experiments/features.yaml
   std::vector<ExampleStudy> studies;
@@ -38,15 +38,15 @@ struct Example {
 /// "rates", "anova", "sdt", "validate", "report": subcommands of limen analyse.
 const std::vector<std::string>& exampleAnalyses();
 
-/// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" for everything
-/// that is wrong. `nameOrPath`: a file, or the name of a shipped example.
+/// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" per problem.
+/// `nameOrPath`: a file, or the name of a shipped example.
 Example readExample(const std::string& nameOrPath);
 Example parseExample(const std::string& text, const std::string& path);
 /// Names and titles of the examples in study/examples.
 std::vector<std::pair<std::string, std::string>> shippedExamples();
 
-/// The study's protocol, its window replaced if the study has one of its own: the text that is stored with
-/// the answers says so. Throws Error as readProtocol().
+/// The study's protocol, with its window replaced if the study has its own: this is the text stored with the
+/// answers. Throws Error like readProtocol().
 Protocol protocolOf(const ExampleStudy& study, std::shared_ptr<const Catalogue> catalogue);
 
 }  // namespace limen::study

@@ -26,7 +26,7 @@ std::string withWindow(const Protocol& protocol, std::pair<int, int> windowPx) {
   for (size_t i = 0; i < root.members.size(); ++i) {
     if (root.members[i].key.mark.column != 1)
       throw Error("the window of this protocol cannot be replaced", protocol.path,
-                  "begin each of its keys on a line of its own");
+                  "put each of its keys on its own line");
     if (root.members[i].key.text != "window") continue;
     from = root.members[i].key.mark.line;
     to = i + 1 < root.members.size() ? root.members[i + 1].key.mark.line : static_cast<int>(lines.size()) + 1;

@@ -84,8 +84,8 @@ class ExampleReader {
     };
     if (const YamlNode* name = node.find("name");
         name && !(out.name.size() <= 64 && std::all_of(out.name.begin(), out.name.end(), plain)))
-      problems_.add(name->mark, "'" + out.name + "' is no name of a study",
-                    "letters, digits, _ and -, 64 at most");
+      problems_.add(name->mark, "'" + out.name + "' is not a name for a study",
+                    "use letters, digits, _ and -, at most 64");
     reader_.takeText(node, "display", false, out.display);
     if (const YamlNode* display = node.find("display"); display && !out.display.empty())
       checkDisplay(*display, out.display);

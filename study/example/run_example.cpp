@@ -45,7 +45,7 @@ class ExampleRun {
   ExampleEnd run() {
     std::error_code failed;
     fs::create_directories(request_.folder, failed);
-    if (failed) throw Error("the folder cannot be made: " + failed.message(), request_.folder);
+    if (failed) throw Error("cannot create the folder: " + failed.message(), request_.folder);
     // All protocols are read before anything is simulated.
     const auto catalogue = catalogueFromRegistries();
     std::vector<Protocol> protocols;
@@ -63,7 +63,7 @@ class ExampleRun {
  private:
   std::string file(const std::string& name) const { return (fs::path(request_.folder) / name).string(); }
   std::string storeOf(const ExampleStudy& study) const { return file(study.name + ".sqlite"); }
-  /// Of one build: other builds may predict other things.
+  /// Of one build: other builds may predict differently.
   std::string cacheOf(const ExampleStudy& study) const {
     return file(study.name + ".predictions-" + buildCommit() + ".json");
   }
@@ -93,7 +93,7 @@ class ExampleRun {
 
   bool predict(const ExampleStudy& study) {
     if (!study.predictions) return true;
-    request_.say(study.name + ": what predictors say of the stimuli");
+    request_.say(study.name + ": predictions for the stimuli");
     StorePredictionRequest request;
     request.store = storeOf(study);
     request.popping = ParameterValues(perception::PoppingSettings::table().parameters(), {}, "predictor");
@@ -176,7 +176,7 @@ class ExampleRun {
       out += fmt::format(
           "{}: {} simulated observers of kind '{}', seed {}, window {} x {} px{}\n", study.name,
           study.observers, study.observer.name, study.seed, window.widthPx, window.heightPx,
-          study.windowPx ? ", not the protocol's: stimuli look different from what it asks for" : "");
+          study.windowPx ? ", not the protocol's: stimuli look different from those it specifies" : "");
     }
     for (const std::string& note : end_.notes) out += note + "\n";
     end_.summary = out + comparisonText_;

@@ -10,27 +10,27 @@
 namespace limen::study {
 
 struct ExampleRequest {
-  std::string folder;  ///< is made if it is not there
-  /// A line for the user: what is done next.
+  std::string folder;  ///< created if it does not exist
+  /// A line for the user: the next step.
   std::function<void(const std::string&)> say;
-  /// How far a long step is; true stops.
+  /// Progress of a long step; return true to stop.
   std::function<bool(const std::string&)> progress;
 };
 
 struct ExampleEnd {
-  bool stopped = false;            ///< by `progress` or a signal; the same call goes on
+  bool stopped = false;            ///< by `progress` or a signal; the same call resumes
   std::string summary;             ///< text of summary.txt
-  std::vector<std::string> notes;  ///< what could not be made, and why
+  std::vector<std::string> notes;  ///< what could not be produced, and why
 };
 
 /// Simulates each study into FOLDER/NAME.sqlite, predicts its stimuli, lets limen-analyse write
-/// FOLDER/NAME_ANALYSIS.json and .csv and the page FOLDER/NAME_report, then sets all that was published
-/// beside the answers: comparison.csv, summary.json, summary.txt. What an earlier call finished is not done
-/// again: a killed call loses no more than the session or the prediction in progress. The result does not
-/// depend on it.
+/// FOLDER/NAME_ANALYSIS.json and .csv and the page FOLDER/NAME_report, then compares published results with
+/// the answers: comparison.csv, summary.json, summary.txt. Finished steps of an earlier call are not
+/// repeated: a killed call loses at most the session or prediction in progress. The result does not depend on
+/// interruptions.
 ///
 /// Throws Error: a store in the folder whose sessions are not those of this example, a folder that cannot be
-/// made, limen-analyse missing or failing, and what protocol, predictor and renderer refuse.
+/// created, limen-analyse missing or failing, and whatever protocol, predictor and renderer refuse.
 ExampleEnd runExample(const Example& example, const ExampleRequest& request);
 
 }  // namespace limen::study

@@ -55,7 +55,7 @@ SiblingEnd runSibling(const std::vector<std::string>& words, const std::string& 
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return {127, "no pipe"};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) return {127, "cannot create a pipe"};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC,

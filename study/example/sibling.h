@@ -11,11 +11,11 @@ struct SiblingEnd {
   std::string message;  ///< its last line on standard error
 };
 
-/// Path of a program in the folder of this one. Throws Error if it is not there.
+/// Path of a program in the folder of this one. Throws Error if it does not exist.
 std::string siblingProgram(const std::string& name);
 
 /// Starts `words`, the first of which is a path, without a shell, and waits for its end. Its standard output
-/// goes to the file `output`, which is there only if it ended with 0; "" drops it.
+/// goes to the file `output`, which exists only if it ended with 0; "" discards it.
 SiblingEnd runSibling(const std::vector<std::string>& words, const std::string& output = {});
 
 }  // namespace limen::study

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two names that give the same label would write one file over the other.
+/// Two names with the same label would overwrite each other's file.
 void requireDistinct(const std::vector<ExportedSession>& sessions) {
   std::map<std::string, std::string> files;
   for (const ExportedSession& session : sessions) {

@@ -10,19 +10,20 @@ namespace limen::study {
 
 enum class ExportFormat {
   Csv,     ///< trials.csv, participants.csv, frames.csv, dictionary.json
-  Bids,    ///< Brain Imaging Data Structure 1.9: behavioural events, one file a session
-  PsychDs  ///< Psych-DS 1.0: one CSV a session and a schema.org description
+  Bids,    ///< Brain Imaging Data Structure 1.9: behavioural events, one file per session
+  PsychDs  ///< Psych-DS 1.0: one CSV per session and a schema.org description
 };
 
 struct ExportRequest {
   std::string store, folder;          ///< the folder must not exist, or be empty
-  std::vector<ExportFormat> formats;  ///< several: each in a folder of its own ("csv", "bids", "psych_ds")
+  std::vector<ExportFormat> formats;  ///< several: each in its own folder ("csv", "bids", "psych_ds")
   bool codes = false;                 ///< participant codes instead of pseudonyms
-  bool frames = false;                ///< frame logs too
+  bool frames = false;                ///< include frame logs
   std::string protocol;               ///< name or hash; "": all
 };
 
-/// Sessions of a store without what could tell who somebody is. Throws Error: no sessions, no such protocol.
+/// Sessions of a store without anything that could identify a person. Throws Error: no sessions, no such
+/// protocol.
 std::vector<ExportedSession> loadSessions(const ExportRequest& request);
 
 struct WrittenExport {

@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-/// A table without its columns `subject` and `session`, which the file's name tells, `onset` and `duration`
-/// named as BIDS has them.
+/// A table without its columns `subject` and `session`, which are in the file's name, and with `onset` and
+/// `duration` named as in BIDS.
 Table asEvents(Table table) {
   for (Column& column : table.columns) {
     if (column.name == "onset_s") column.name = "onset";
@@ -79,7 +79,7 @@ std::string readme(const std::vector<ExportedSession>& sessions) {
   out += whoAnswered(sessions) + ", " + counted(sessions.size(), "sitting") + ", written by " +
          versionText("limen-study") + ".\n\n";
   out +=
-      "A row is a trial that was put on the screen. Take those with counts = 1 and practice = 0 for "
+      "A row is a trial that was shown. Use those with counts = 1 and practice = 0 for "
       "results;\n"
       "trials whose frames came late have valid = 0 and were shown again. Times count from the start of the "
       "sitting.\n"
@@ -180,7 +180,7 @@ Files psychDsFiles(const std::vector<ExportedSession>& sessions, bool frames) {
   }
   const std::string words = simulatedWords(sessions);
   const std::string description = (words.empty() ? "" : words + " ") +
-                                  std::string("Answers of viewers, one row a trial, as recorded by Limen");
+                                  std::string("Answers of viewers, one row per trial, as recorded by Limen");
   const Table participants = participantTable(sessions);
   describe(participants.columns);
   out.emplace_back("data/description-participants_data.csv", toCsv(participants));

@@ -40,7 +40,7 @@ void Pseudonyms::read() {
       throw Error("not a line of a key table: '" + line + "'", where, "restore the file from a copy");
     if (!known_.emplace(line.substr(0, comma), line.substr(comma + 1)).second ||
         !taken.insert(line.substr(comma + 1)).second)
-      throw Error("a code or pseudonym stands twice", where, "restore the file from a copy");
+      throw Error("a code or pseudonym appears twice", where, "restore the file from a copy");
   }
 }
 
@@ -51,7 +51,7 @@ void Pseudonyms::assign(std::vector<std::string> codes) {
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
   std::erase_if(codes, [this](const std::string& code) { return known_.count(code) != 0; });
   if (codes.empty()) return;
-  // Not to be found out again from anything that is exported: no seed is kept, the file is.
+  // Cannot be derived from anything exported: the seed is not kept, only the file is.
   std::random_device device;
   psychometrics::Random random((uint64_t{device()} << 32) ^ device());
   random.shuffle(codes);

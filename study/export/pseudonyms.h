@@ -7,9 +7,8 @@
 
 namespace limen::study {
 
-/// Which pseudonym stands for which participant code. The table lies in a file of its own beside the store
-/// ("STORE.key.csv", readable by its owner alone) and is never part of an export: whoever has both can tell
-/// who is who.
+/// Maps participant codes to pseudonyms. The table is in a separate file beside the store ("STORE.key.csv",
+/// readable only by its owner) and never part of an export: whoever has both can identify participants.
 class Pseudonyms {
  public:
   /// Reads the file if there is one. Throws Error on a damaged one.
@@ -29,7 +28,7 @@ class Pseudonyms {
 
 std::string keyFileOf(const std::string& store);
 
-/// A decade: "20-29" of "23"; text that is no whole number from 0 to 120 (a bin already) stays as it is.
+/// A decade: "20-29" of "23"; text that is not a whole number from 0 to 120 (already a bin) stays unchanged.
 std::string ageBin(const std::string& age);
 
 }  // namespace limen::study

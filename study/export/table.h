@@ -28,7 +28,7 @@ struct Table {
 
 /// RFC 4180, "\n" line ends; missing values are empty.
 std::string toCsv(const Table& table);
-/// As BIDS has it: missing values are "n/a"; tabs and line ends within values become blanks.
+/// As in BIDS: missing values are "n/a"; tabs and line ends within values become blanks.
 std::string toTsv(const Table& table);
 /// BIDS sidecar: {"column": {"Description", "Units", "Levels"}}.
 nlohmann::json dictionary(const std::vector<Column>& columns);

@@ -24,7 +24,7 @@ Cell flag(bool value) { return std::string(value ? "1" : "0"); }
 Cell flag(const std::optional<bool>& value) { return value ? flag(*value) : std::nullopt; }
 Cell number(const std::optional<int>& value) { return value ? Cell(std::to_string(*value)) : std::nullopt; }
 
-/// Milliseconds of an ISO 8601 instant "2026-11-21T12:00:00.123Z"; 0 if it is none.
+/// Milliseconds of an ISO 8601 instant "2026-11-21T12:00:00.123Z"; 0 if it is not one.
 int64_t milliseconds(const std::string& utc) {
   std::tm time{};
   int fraction = 0;
@@ -77,7 +77,7 @@ std::vector<Column> subjectColumns() {
 
 std::vector<double> eventTimesS(const std::vector<store::StudyEvent>& events) {
   std::vector<double> out;
-  double stretchS = 0.0;  // when the stretch of one process began
+  double stretchS = 0.0;  // when the current process began
   size_t stretchStart = 0;
   for (size_t i = 0; i < events.size(); ++i) {
     if (i > 0 && events[i].kind == "continued") {
@@ -106,40 +106,40 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
   out.columns = subjectColumns();
   const std::vector<Column> first = {
       {"onset_s", "Start of the trial since the start of the session", "s", {}},
-      {"duration_s", "From the start of the trial to its answer, or until it was given up", "s", {}},
-      {"order", "Place in the order of showing, from 0", "", {}},
+      {"duration_s", "From the start of the trial to its answer or abandonment", "s", {}},
+      {"order", "Position in presentation order, from 0", "", {}},
       {"trial", "Number of the trial in the session's plan, from 0", "", {}},
-      {"attempt", "0: first showing; later ones follow late frames or an interruption", "", {}},
+      {"attempt", "0: first presentation; repeats follow late frames or an interruption", "", {}},
       {"part", "Part of the protocol", "", {}},
-      {"block", "Number of the block, from 0 in order of showing", "", {}},
+      {"block", "Number of the block, from 0 in presentation order", "", {}},
       {"practice", "Whether the trial was practice", "", kYesNo},
-      {"change", "Whether something changed; a catch trial has 0", "", kYesNo},
+      {"change", "Whether something changed; 0 for a catch trial", "", kYesNo},
       {"repetition", "Repetition of the condition, from 0", "", {}},
       {"target", "Interval or position that had the change (pairs: item_b), from 0", "", {}}};
   out.columns.insert(out.columns.end(), first.begin(), first.end());
   for (const std::string& factor : factors)
     out.columns.push_back({"condition_" + factor, "Level of the factor '" + factor + "'", "", {}});
   for (size_t i = 0; i < axes; ++i)
-    out.columns.push_back({"stimulus_level_" + std::to_string(i),
-                           "What the adaptive procedure showed, in the unit of its axis " + std::to_string(i),
-                           "",
-                           {}});
+    out.columns.push_back(
+        {"stimulus_level_" + std::to_string(i),
+         "Value shown by the adaptive procedure, in the unit of its axis " + std::to_string(i),
+         "",
+         {}});
   const std::vector<Column> last = {
       {"procedure", "Number of the adaptive procedure that chose the stimulus", "", {}},
-      {"valid", "Whether all frames came in time and nothing interrupted", "", kYesNo},
-      {"invalid_reason", "Why the trial is not valid", "", {}},
-      {"counts",
-       "Valid, answered and not of a block that was begun anew. Results are those of them with practice = 0",
+      {"valid", "Whether all frames were on time and nothing interrupted", "", kYesNo},
+      {"invalid_reason", "Why the trial is invalid", "", {}},
+      {"counts", "Valid, answered and not in a block that was restarted. Results use those with practice = 0",
        "", kYesNo},
       {"answer", "Answer in the protocol's words", "", {}},
-      {"outcome", "Answer as a number: 1 for yes or right; rating: step from 0; pairs: position", "", {}},
-      {"correct", "Whether the answer was right", "", kYesNo},
-      {"severity", "Step of the severity scale, 1 the least", "", {}},
-      {"confidence", "Step of the confidence scale, 1 the least", "", {}},
+      {"outcome", "Answer as a number: 1 for yes or correct; rating: step from 0; pairs: position", "", {}},
+      {"correct", "Whether the answer was correct", "", kYesNo},
+      {"severity", "Step of the severity scale, 1 is the lowest", "", {}},
+      {"confidence", "Step of the confidence scale, 1 is the lowest", "", {}},
       {"reaction_time_s", "From the question to the answer", "s", {}},
-      {"device", "What the answer was given with", "", {}},
+      {"device", "Device used to answer", "", {}},
       {"frames", "Swaps logged", "", {}},
-      {"missed_blanks", "Vertical blanks for which a frame stayed on too long", "", {}},
+      {"missed_blanks", "Vertical blanks for which a frame stayed on screen too long", "", {}},
       {"early_inputs", "Keys and clicks before the question, which answered nothing", "", {}},
       {"stimulus_hashes", "SHA-256 of each stimulus shown, in order, separated by blanks", "", {}},
       {"simulated", "Whether a simulated observer answered, and no person", "", kYesNo}};
@@ -204,12 +204,12 @@ Table frameTable(const std::vector<ExportedSession>& sessions) {
   out.columns = subjectColumns();
   const std::vector<Column> more = {
       {"trial", "Number of the trial in the session's plan, from 0", "", {}},
-      {"attempt", "Showing of the trial, from 0", "", {}},
+      {"attempt", "Presentation of the trial, from 0", "", {}},
       {"stimulus", "Which of the trial's stimuli, from 0", "", {}},
-      {"showing", "Which showing of the stimulus, from 0", "", {}},
+      {"showing", "Which presentation of the stimulus, from 0", "", {}},
       {"frame", "Frame of the stimulus, from 0", "", {}},
       {"swap_s", "When the swap returned, since the trial's first one", "s", {}},
-      {"missed_blanks", "Vertical blanks for which the frame before stayed on too long", "", {}}};
+      {"missed_blanks", "Vertical blanks for which the previous frame stayed on screen too long", "", {}}};
   out.columns.insert(out.columns.end(), more.begin(), more.end());
   for (const ExportedSession& session : sessions)
     for (const store::StudyTrial& trial : session.trials)

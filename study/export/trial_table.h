@@ -13,7 +13,7 @@ namespace limen::study {
 
 /// What is exported of a session: no participant code, nothing made of one, no time of day, no path.
 struct ExportedSession {
-  std::string subject;  ///< pseudonym, or the code where that was asked for
+  std::string subject;  ///< pseudonym, or the code if that was requested
   std::string name;     ///< of the sitting
   std::string protocolName, protocolTitle, protocolHash, displayName, displayHash, state, programVersion;
   bool simulated = false;        ///< no person answered
@@ -24,24 +24,24 @@ struct ExportedSession {
   nlohmann::json form = nlohmann::json::object();
   std::vector<store::StudyTrial> trials;
   std::vector<double> startS;  ///< of each trial, from the beginning of its session
-  std::vector<double> endS;    ///< of each trial: its answer, or when it was given up; below 0: never
+  std::vector<double> endS;    ///< of each trial: its answer or abandonment; below 0: never
 };
 
 /// Seconds of each event from the first one: by the steady clock, across a restart of program or machine by
 /// the wall clock (never backwards).
 std::vector<double> eventTimesS(const std::vector<store::StudyEvent>& events);
 
-/// One row a trial that was put on the screen, practice and invalid attempts among them (columns `practice`,
-/// `valid` and `counts` tell), in order of showing: the long form that R and Python users expect.
+/// One row per trial shown, including practice and invalid attempts (see columns `practice`, `valid` and
+/// `counts`), in presentation order: the long form that R and Python users expect.
 Table trialTable(const std::vector<ExportedSession>& sessions);
 
-/// One row a swap.
+/// One row per swap.
 Table frameTable(const std::vector<ExportedSession>& sessions);
 
-/// One row a subject: form answers (age in bins), sessions.
+/// One row per subject: form answers (age in bins), sessions.
 Table participantTable(const std::vector<ExportedSession>& sessions);
 
-/// Letters and digits of a name, as BIDS labels must be: "experiment_1" -> "experiment1"; "x" if none is
+/// Letters and digits of a name, as required for BIDS labels: "experiment_1" -> "experiment1"; "x" if none is
 /// left.
 std::string label(const std::string& name);
 

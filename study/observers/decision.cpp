@@ -14,7 +14,8 @@ using psychometrics::Random;
 using psychometrics::SigmoidFamily;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Nearer to 0 and 1 than this probabilities are cut, so that d' stays finite: less than any study could tell.
+// Probabilities are clamped to this distance from 0 and 1, so that d' stays finite: less than any study could
+// detect.
 constexpr double kNearest = 1e-12;
 
 double phi(double z) { return psychometrics::standardValue(SigmoidFamily::Normal, z); }
@@ -203,7 +204,7 @@ double sensitivityOf(double p, int m) {
   const double z = phiInverse(p);
   if (z >= zHigh) return high;
   for (int i = 0; i < 60 && high - low > 1e-10; ++i) {
-    // Every third step halves, so that both ends close in.
+    // Every third step bisects, so that both ends close in.
     const double share = i % 3 == 2 ? 0.5 : std::clamp((z - zLow) / (zHigh - zLow), 1e-3, 1.0 - 1e-3);
     const double middle = low + share * (high - low);
     const double zMiddle = phiInverse(rate(middle));

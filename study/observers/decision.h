@@ -25,19 +25,20 @@ struct Judgement {
   /// -infinity: nothing was seen (high threshold), or the observer lapsed.
   double evidence = 0.0;
   bool lapsed = false;
-  double probability = 0.0;  ///< of "yes", of the right alternative, of the second item, before it was drawn
+  double probability =
+      0.0;  ///< probability of "yes", of the correct alternative, or of the second item, before it was drawn
 };
 
 /// Yes/no. Unbiased: P("yes") = guess + (1 - guess - lapse) F. An observer who lapses, in a share lapse / (1
-/// - guess) of the trials, says "yes" at the guess rate (so that the asymptote is at 1 - lapse). A criterion
-/// shift c changes the guess rate to Phi(Phi^-1(guess) - c) and, under signal detection, hits by the same
-/// shift. Throws nothing; signal detection needs guess > 0.
+/// - guess) of trials, says "yes" at the guess rate (so that the asymptote is 1 - lapse). A criterion shift c
+/// changes the guess rate to Phi(Phi^-1(guess) - c) and, under signal detection, hits by the same shift.
+/// Throws nothing; signal detection needs guess > 0.
 double yesProbability(const DecisionSetting& setting);
 Judgement decideYesNo(const DecisionSetting& setting, psychometrics::Random& random);
 
 /// m alternatives, `target` of which has the change. Unbiased: P(right) = 1/m + (1 - 1/m - lapse) F. Under
-/// signal detection that of m observations is chosen which is largest after the bias was added to the first;
-/// under high threshold the bias decides only guesses, which go to the first as if it were noise alone.
+/// signal detection the largest of m observations, after adding the bias to the first, is chosen; under high
+/// threshold the bias affects only guesses, as if everything were noise.
 double correctProbability(const DecisionSetting& setting, int alternatives, int target);
 Judgement decideAlternative(const DecisionSetting& setting, int alternatives, int target,
                             psychometrics::Random& random);
@@ -54,7 +55,7 @@ double largestProbability(const std::vector<double>& means, size_t which);
 /// d' at which an unbiased observer is right with probability p among m; 1/m <= p < 1.
 double sensitivityOf(double p, int alternatives);
 
-/// Step of a scale, from 1, for some evidence: one more for every bound that it reaches.
+/// Step of a scale, from 1, for given evidence: one more for every bound it reaches.
 int stepOf(double evidence, const std::vector<double>& bounds);
 
 }  // namespace limen::study

@@ -18,7 +18,7 @@ using psychometrics::Sigmoid;
 using psychometrics::SigmoidFamily;
 using psychometrics::StimulusAxis;
 
-// A probability moved on the logit scale; 0 and 1 stay what they are.
+// A probability shifted on the logit scale; 0 and 1 stay unchanged.
 double moveLogit(double p, double by) {
   if (by == 0.0 || p <= 0.0 || p >= 1.0) return p;
   return psychometrics::standardValue(SigmoidFamily::Logistic,
@@ -79,7 +79,7 @@ double SimulatedObserver::detectedOf(const SimulationRules& rules, const Trial& 
     if (logarithmic && !(threshold > 0.0))
       throw Error("an observer's threshold is not above 0", rules.where, "spread it by threshold_sd_log");
     width *= std::exp(rules.spread.widthSdLog * width_);
-    // A curve that falls has F(threshold) = level just as one that rises, mirrored: there its complement is.
+    // A falling curve has F(threshold) = level just like a rising one; mirrored, it is the complement there.
     const double level = rules.falling ? 1.0 - rules.level : rules.level;
     Sigmoid sigmoid = rules.widthIsSlope
                           ? Sigmoid::fromThresholdSlope(rules.family, rules.axis, threshold, width, level)
@@ -92,7 +92,7 @@ double SimulatedObserver::detectedOf(const SimulationRules& rules, const Trial& 
   if (rules.source == SimulationRules::Source::Detected && !behaviour_.fromModel) {
     detected = numberOf(rules.detected, variables, rules.where + ".detected", file);
     if (!(detected >= 0.0 && detected <= 1.0))
-      throw Error(shortestNumber(detected) + " is no probability", rules.where + ".detected");
+      throw Error(shortestNumber(detected) + " is not a probability", rules.where + ".detected");
   } else {
     if (!model_) throw Error("the trial needs the popping predictor", rules.where, "declare what is seen");
     const Task task = simulation_.protocol().parts[static_cast<size_t>(trial.plan.part)].task.type;
@@ -151,13 +151,13 @@ SimulatedObserver::Sight SimulatedObserver::look(const Trial& trial, const Varia
       yesNo ? setting.guess : 1.0 / std::max(2, task.type == Task::Pairwise ? 2 : task.alternatives);
   if (!(setting.guess >= 0.0 && setting.lapse >= 0.0 && setting.guess < 1.0 && chance + setting.lapse < 1.0))
     throw Error("guess " + shortestNumber(chance) + " and lapse " + shortestNumber(setting.lapse) +
-                    " are no rates that sum to less than 1",
+                    " are not rates that sum to less than 1",
                 rules.where);
   if (yesNo && rules.theory == DetectionTheory::SignalDetection && !(setting.guess > 0.0))
     throw Error("signal detection needs a guess rate above 0", rules.where + ".guess",
                 "the criterion is where the guess rate puts it");
   if (!plan.practice) setting.lapse += behaviour_.lapsePerHundred * trial.plan.number / 100.0;
-  // Fatigue ends in answers by chance alone.
+  // Fatigue ends in chance performance.
   setting.lapse = behaviour_.lapses ? std::clamp(setting.lapse, 0.0, 1.0 - chance) : 0.0;
 
   if (task.type == Task::Pairwise) {

@@ -14,10 +14,10 @@
 
 namespace limen::study {
 
-/// What a vision model says of a stimulus.
+/// A vision model's prediction for a stimulus.
 struct StimulusPrediction {
-  double rating = 0.0;   ///< R of the region rated highest; without a region below all that one can have
-  bool popping = false;  ///< there is a region
+  double rating = 0.0;   ///< R of the region rated highest; without a region, below the lowest possible
+  bool popping = false;  ///< whether there is a region
 };
 class StimulusModel {
  public:
@@ -29,33 +29,33 @@ class StimulusModel {
 
 struct ObserverResponse {
   std::string answer;  ///< one of TaskSetting::answers
-  int outcome = 0;     ///< as Session::outcomeOf() has it
+  int outcome = 0;     ///< as in Session::outcomeOf()
   std::optional<int> severity, confidence;
   double reactionTimeS = 0.0;
   double detected = 0.0;     ///< F of this observer and trial; 0 without a change; Pairwise: not used
-  double probability = 0.0;  ///< of "yes", of a right answer, of item b, of more than the least rating
+  double probability = 0.0;  ///< of "yes", of a correct answer, of item b, of more than the lowest rating
   bool lapsed = false;
 };
 
-/// One simulated observer. What it is like is drawn from its seed, what it answers from each trial's seed: a
-/// trial is answered in the same way whatever came before it.
+/// One simulated observer. Its characteristics are drawn from its seed, its answers from each trial's seed:
+/// the answer to a trial does not depend on earlier ones.
 ///
-/// Rating gives the step that the evidence reaches; severity likewise from the evidence, and confidence from
-/// its distance from the criterion. Nothing seen, a guess and a lapse are the least of either.
+/// Rating gives the step that the evidence reaches; severity likewise, and confidence from the evidence's
+/// distance from the criterion. If nothing was seen, or for a guess or a lapse, both are lowest.
 class SimulatedObserver {
  public:
-  /// `model` may be missing where no condition needs one.
+  /// `model` may be missing if no condition needs one.
   SimulatedObserver(const Simulation& simulation, const ObserverBehaviour& behaviour, uint64_t seed,
                     StimulusModel* model = nullptr);
 
-  /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only where the model does. Throws Error
+  /// `axes`: the procedure's stimulus variables. Needs trial.stimuli only if the model does. Throws Error
   /// naming file and key if an expression cannot be evaluated or gives what is out of range.
   ObserverResponse respond(const Trial& trial, const Variables& axes = {}) {
     return respond(trial, axes, trial.seed);
   }
   ObserverResponse respond(const Trial& trial, const Variables& axes, uint64_t seed);
 
-  /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the least.
+  /// Probability of outcome 1 (see Session::outcomeOf) at a stimulus; Rating: of more than the lowest.
   double probability(const Trial& trial, const Variables& axes = {});
   /// F at a stimulus.
   double detected(const Trial& trial, const Variables& axes = {});
@@ -63,7 +63,7 @@ class SimulatedObserver {
   bool usesModel(const Trial& trial) const;
 
  private:
-  struct Sight;  // what a trial is to this observer
+  struct Sight;  // how this observer perceives a trial
   Sight look(const Trial& trial, const Variables& axes);
   double detectedOf(const SimulationRules& rules, const Trial& trial, const Variables& axes);
   double shiftOf(const SimulationRules& rules, const PlannedTrial& trial);

@@ -27,7 +27,7 @@ const RegisteredObserver<IdealSettings> kIdeal{
     }};
 
 struct ProtocolRate {
-  static constexpr const char *kKind = "protocol", *kSummary = "as the simulation block says";
+  static constexpr const char *kKind = "protocol", *kSummary = "as in the simulation block";
 };
 struct OwnRate {
   static constexpr const char *kKind = "own", *kSummary = "the observer's own";
@@ -59,7 +59,7 @@ struct LapsingSettings {
 };
 
 const RegisteredObserver<LapsingSettings> kLapsing{
-    {"lapsing", 1, "the simulation block's probabilities with its guesses and lapses, or others"},
+    {"lapsing", 1, "the simulation block's probabilities, with its guess and lapse rates or others"},
     [](const LapsingSettings& settings) {
       ObserverBehaviour out;
       out.lapse = valueOf(settings.lapse);
@@ -88,7 +88,7 @@ struct BiasedSettings {
 };
 
 const RegisteredObserver<BiasedSettings> kBiased{
-    {"biased", 1, "a criterion that is off, or a liking for the first of several alternatives"},
+    {"biased", 1, "a biased criterion, or a preference for the first of several alternatives"},
     [](const BiasedSettings& settings) {
       ObserverBehaviour out;
       out.criterionShift = settings.criterionShift;
@@ -115,7 +115,7 @@ struct DriftingSettings {
 };
 
 const RegisteredObserver<DriftingSettings> kDrifting{
-    {"drifting", 1, "gets worse, or better, from trial to trial"}, [](const DriftingSettings& settings) {
+    {"drifting", 1, "gets worse or better from trial to trial"}, [](const DriftingSettings& settings) {
       ObserverBehaviour out;
       out.strengthPerHundred = settings.strengthPerHundred;
       out.lapsePerHundred = settings.lapsePerHundred;

@@ -15,16 +15,16 @@
 
 namespace limen::study {
 
-/// How an observer departs from what the protocol's `simulation:` block says of its conditions.
+/// How an observer deviates from the conditions in the protocol's `simulation:` block.
 struct ObserverBehaviour {
   bool fromModel = false;              ///< all conditions from the popping predictor
-  bool lapses = true;                  ///< false: the lapse rate is 0 whatever the block says
+  bool lapses = true;                  ///< false: the lapse rate is 0 regardless of the block
   std::optional<double> guess, lapse;  ///< instead of the block's
   double criterionShift = 0.0;         ///< in SD of the noise
   double firstBias = 0.0;              ///< towards the first or left alternative, in SD of the noise
   double strengthPerHundred = 0.0;     ///< added to the sigmoid's argument over 100 trials
   double lapsePerHundred = 0.0;        ///< added to the lapse rate over 100 trials
-  double strengthSd = 0.0;             ///< over observers, beside the block's
+  double strengthSd = 0.0;             ///< over observers, in addition to the block's
   perception::DetectionModel detection;
   double valuePerRating = -1.0;  ///< Pairwise: scale value of a step of rating
 };
@@ -32,13 +32,13 @@ struct ObserverBehaviour {
 struct ObserverKind {
   static constexpr const char* kKind = "observer";
   std::string name;
-  int version = 1;  ///< raised when the same settings give other answers
+  int version = 1;  ///< raised when the same settings give different answers
   std::string summary;
   ParameterList parameters = {};
   std::function<ObserverBehaviour(const ParameterValues&)> make = {};
 };
 
-/// Registers a kind with settings S at program start. `kind` says the rest; its parameters and make are
+/// Registers a kind with settings S at program start. `kind` provides the rest; its parameters and make are
 /// filled in.
 template <class S>
 struct RegisteredObserver {
@@ -61,8 +61,8 @@ struct ObserverChoice {
   ParameterValues values;
   ObserverBehaviour behaviour;
 };
-/// `settings`: texts "NAME=VALUE" (see readAssignments()). Throws Error: unknown kind or name, a value that
-/// does not fit.
+/// `settings`: texts "NAME=VALUE" (see readAssignments()). Throws Error: unknown kind or name, an invalid
+/// value.
 ObserverChoice chooseObserver(const std::string& kind, const std::vector<std::string>& settings = {});
 /// `given`: values by path. Throws Error.
 ObserverChoice chooseObserver(const ObserverKind& kind, const std::map<std::string, ParameterValue>& given,

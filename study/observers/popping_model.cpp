@@ -17,7 +17,7 @@ class PoppingModel : public StimulusModel {
       : protocol_(protocol), display_(display), cache_(cacheFile) {}
 
   StimulusPrediction predict(const Trial& trial, const Variables& axes, size_t which) override {
-    // Finding a stimulus again by its own hash costs more than all the rest of a simulated trial.
+    // Looking up a stimulus by its own hash would cost more than the rest of a simulated trial.
     std::string key = std::to_string(trial.plan.part) + (trial.plan.change ? " change " : " catch ") +
                       std::to_string(trial.plan.target) + " " + std::to_string(which) + " ";
     key += nlohmann::json(trial.plan.condition).dump() + nlohmann::json(trial.plan.variables).dump() +

@@ -9,10 +9,9 @@
 
 namespace limen::study {
 
-/// The popping predictor (study/stimulus/prediction.h) for observers who see with it, on an OpenGL context of
-/// its own that is made when the first prediction is asked for. Every stimulus is predicted once; with a
-/// `cacheFile` once for all calls. Throws Error as the predictor does. To be called by one thread at a time,
-/// whichever.
+/// The popping predictor (study/stimulus/prediction.h) for observers that use it, on its own OpenGL context,
+/// created at the first prediction. Every stimulus is predicted once; with a `cacheFile` once across all
+/// calls. Throws Error like the predictor. May be called from any thread, one at a time.
 std::unique_ptr<StimulusModel> makePoppingModel(const Protocol& protocol,
                                                 const perception::DisplayProfile& display,
                                                 const std::string& cacheFile = {});

@@ -27,7 +27,7 @@ struct CellKey {
   auto operator<=>(const CellKey&) const = default;
 };
 
-// What one observer's trials say of a cell.
+// One observer's result for a cell.
 struct CellValue {
   double sum = 0.0;
   int count = 0;
@@ -110,7 +110,7 @@ class Experimenter {
   void add(Values& values, const PlannedTrial& plan, std::map<std::string, std::string> condition,
            int outcome) const {
     const TaskSetting& task = protocol_.parts[static_cast<size_t>(plan.part)].task;
-    // Where each item of a pair is shown is no condition of its own.
+    // The position of a pair's items is not a condition.
     CellValue& cell = values[CellKey{plan.part, std::move(condition), false}];
     if (task.type == Task::Pairwise) outcome = outcome == plan.target ? 1 : 0;
     cell.sum += positiveOutcome(task, outcome);
@@ -158,7 +158,7 @@ class Experimenter {
   std::map<std::string, ProcedureSettings> settings_;
 };
 
-// Width where all observers have the same value, which tells nothing of their spread.
+// Width if all observers have the same value, which says nothing about their spread.
 double agreedWidth(double value, int n, double confidence, bool isRate) {
   if (!isRate) return kUnbounded;
   const double k = std::clamp(value, 0.0, 1.0) * n, tail = (1.0 - confidence) / 2.0;
@@ -178,7 +178,7 @@ void addExperiment(Tally& tally, const std::vector<double>& values, int n, doubl
     squares += d * d;
   }
   const double variance = squares / (n - 1);
-  // A variance that is 0 but for rounding.
+  // A variance that is 0 up to rounding.
   const bool degenerate = variance < 1e-24;
   double width = 2.0 * t * std::sqrt(variance / n);
   if (degenerate) width = agreedWidth(mean, n, confidence, isRate);
@@ -222,7 +222,7 @@ void judge(PowerDesign& design, const PowerRequest& request) {
   if (!design.judged) return;
   const PowerCell& worst = design.cells[design.worst];
   design.reaches = worst.reached >= request.probability;
-  // With a share of 0 or 1 the binomial error is 0; the rule of succession keeps it from being taken for
+  // With a share of 0 or 1 the binomial error is 0; the rule of succession keeps it from being mistaken for
   // certainty.
   const double n = request.simulations, p = (worst.reached * n + 1.0) / (n + 2.0);
   design.clear = std::abs(worst.reached - request.probability) >= 2.0 * std::sqrt(p * (1.0 - p) / n);

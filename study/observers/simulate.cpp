@@ -49,17 +49,17 @@ std::map<std::string, Known> knownSessions(const std::string& path) {
   return out;
 }
 
-// A session that was simulated in another way must not be taken for one of these.
+// A session simulated in another way must not be mistaken for one of these.
 void checkSame(const Protocol& protocol, const SimulationRequest& request, const Known& known,
                const store::SessionReader& reader) {
   const store::StudySession& session = known.session;
   const std::string hint = "give another --store or --participant-prefix";
   if (session.protocol != protocol.hash)
-    throw Error("participant " + session.participant + " was asked another protocol", request.store, hint);
+    throw Error("participant " + session.participant + " used another protocol", request.store, hint);
   const nlohmann::json facts = reader.environment(session.environment).facts;
   const nlohmann::json frontEnd = facts.value("front_end", nlohmann::json::object());
   if (!frontEnd.value("simulated", false))
-    throw Error("participant " + session.participant + " is no simulated one", request.store, hint);
+    throw Error("participant " + session.participant + " is not a simulated one", request.store, hint);
   if (session.seed != sessionSeed(request.seed, session.participant))
     throw Error("participant " + session.participant + " was simulated with another --seed", request.store,
                 hint);
@@ -69,7 +69,7 @@ void checkSame(const Protocol& protocol, const SimulationRequest& request, const
                 request.store, hint);
 }
 
-// Lets sessions begin in the order of their participants, so that each gets its own number.
+// Makes sessions begin in the order of their participants, so that each gets its own number.
 class Turns {
  public:
   void waitFor(int index) {
@@ -148,7 +148,7 @@ class Simulator {
     }
     const uint64_t seed = sessionSeed(request_.seed, participant);
     SimulatedObserver observer(simulation_, request_.observer.behaviour, observerSeed(seed), model_);
-    // Sittings one after the other, an hour each; a resumed one goes on where its clock stopped.
+    // Sittings one after the other, an hour each; a resumed one continues where its clock stopped.
     SimulatedClock clock = known ? SimulatedClock(known->lastUtcMs, known->lastMonotonicNs)
                                  : SimulatedClock(SimulatedClock::kEpochMs + index * int64_t{3600000});
     SimulatedFrontEndSetting setting;
@@ -212,11 +212,11 @@ SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest
   if (!(request.invalidRate >= 0.0 && request.invalidRate < 1.0))
     throw Error("is not from 0 to below 1", "--invalid-rate");
   if (model && request.jobs > 1)
-    throw Error("the popping predictor works for one thread", "--jobs", "give 1, or another --kind");
+    throw Error("the popping predictor supports only one thread", "--jobs", "give 1, or another --kind");
   const std::filesystem::path folder = std::filesystem::path(request.store).parent_path();
   std::error_code failed;
   if (!folder.empty()) std::filesystem::create_directories(folder, failed);
-  if (failed) throw Error("the folder cannot be made: " + failed.message(), request.store);
+  if (failed) throw Error("cannot create the folder: " + failed.message(), request.store);
   return Simulator(protocol, request, model).run();
 }
 

@@ -28,15 +28,15 @@ struct SimulationRequest {
 };
 
 struct SimulationEnd {
-  int newSessions = 0, resumed = 0, skipped = 0;  ///< skipped: finished or broken off before
+  int newSessions = 0, resumed = 0, skipped = 0;  ///< skipped: finished or aborted before
   bool stopped = false;                           ///< by `progress`
 };
 
-/// Runs a session of every observer that has none yet and goes on with those that were killed. Participant i
+/// Runs a session of every observer that has none yet and resumes those that were killed. Participant i
 /// has number i of the counterbalancing in a fresh store, whatever `jobs` is, session seed childSeed(seed,
 /// code) and observer seed childSeed(session seed, "observer"). Answers are those of an uninterrupted run.
-/// Throws Error: a store whose sessions are not those of this protocol, seed and observer, and what
-/// runSession() refuses. `model`: needed where a condition is predicted; for one job only.
+/// Throws Error: a store whose sessions are not those of this protocol, seed and observer, and whatever
+/// runSession() refuses. `model`: needed if a condition is predicted; only with one job.
 SimulationEnd simulateSessions(const Protocol& protocol, const SimulationRequest& request,
                                StimulusModel* model = nullptr);
 

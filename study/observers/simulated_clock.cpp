@@ -36,7 +36,7 @@ int64_t utcMilliseconds(const std::string& text) {
   int y = 0, mo = 0, d = 0, h = 0, mi = 0, s = 0, ms = 0;
   const int read = std::sscanf(text.c_str(), "%d-%d-%dT%d:%d:%d.%d", &y, &mo, &d, &h, &mi, &s, &ms);
   const year_month_day date(year(y), month(static_cast<unsigned>(mo)), day(static_cast<unsigned>(d)));
-  if (read < 6 || !date.ok()) throw Error("'" + text + "' is no time");
+  if (read < 6 || !date.ok()) throw Error("'" + text + "' is not a time");
   return sys_days(date).time_since_epoch() / milliseconds(1) + ((h * 60 + mi) * 60 + s) * int64_t{1000} + ms;
 }
 

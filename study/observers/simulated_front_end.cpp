@@ -90,10 +90,10 @@ TrialResult SimulatedFrontEnd::present(const Trial& trial, const Session& sessio
     }
     axes = axesOf(names, trial.procedureStimulus);
   }
-  // Of the trial, not of the attempt: one that a kill broke off is answered as it would have been.
+  // Of the trial, not of the attempt: one interrupted by a kill is answered as it would have been.
   const uint64_t seed = childSeed(session.seed(), "answer to trial " + std::to_string(trial.number));
   ObserverResponse response = observer_.respond(trial, axes, seed);
-  // Whoever is simulated answers in time.
+  // Simulated observers answer in time.
   if (protocol.timing.answerTimeoutS > 0.0)
     response.reactionTimeS = std::min(response.reactionTimeS, 0.95 * protocol.timing.answerTimeoutS);
 
@@ -108,7 +108,7 @@ TrialResult SimulatedFrontEnd::present(const Trial& trial, const Session& sessio
   answer.questionNs = clock_.monotonicNs();
   clock_.advance(response.reactionTimeS);
   answer.answeredNs = clock_.monotonicNs();
-  // Each further question takes as long again.
+  // Each further question takes the same time again.
   for (const bool asked : {response.severity.has_value(), response.confidence.has_value()})
     if (asked) clock_.advance(response.reactionTimeS);
   clock_.advance(protocol.timing.betweenTrialsS);

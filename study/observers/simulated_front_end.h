@@ -16,14 +16,14 @@ namespace limen::study {
 struct SimulatedFrontEndSetting {
   nlohmann::json description;  ///< goes into environment()
   double refreshHz = 60.0;
-  double invalidRate = 0.0;  ///< share of showings that are invalid, as if frames had been late
-  /// Called before everything else at each call of the session; returns true to end the session there, as a
-  /// person who quits. For tests of what comes after, and for Ctrl-C.
+  double invalidRate = 0.0;  ///< share of presentations that are invalid, as if frames had been late
+  /// Called before everything else at each call of the session; returns true to end the session there, like a
+  /// person who quits. For tests of resuming, and for Ctrl-C.
   std::function<bool()> quit;
   uint64_t seed = 0;  ///< of the form's answers
 };
 
-/// An observer in place of a person: no window, no waiting. Moves the clock on by what the trial would take.
+/// An observer in place of a person: no window, no waiting. Advances the clock by the trial's duration.
 class SimulatedFrontEnd : public FrontEnd {
  public:
   SimulatedFrontEnd(SimulatedObserver& observer, SimulatedClock& clock, SimulatedFrontEndSetting setting);
@@ -43,7 +43,7 @@ class SimulatedFrontEnd : public FrontEnd {
 /// Values of a procedure's stimulus by the names of its dimensions.
 Variables axesOf(const std::vector<std::string>& names, const std::vector<double>& stimulus);
 
-/// Duration of a trial up to the question, in seconds, as its protocol and stimuli state it.
+/// Duration of a trial up to the question, in seconds, as stated by its protocol and stimuli.
 double durationUpToQuestionS(const Timing& timing, const TaskSetting& task,
                              const std::vector<Stimulus>& stimuli);
 

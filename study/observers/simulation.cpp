@@ -23,7 +23,7 @@ const std::vector<std::string> kRuleKeys = {
     "width",  "slope",    "detected",          "guess",        "lapse",     "severity",  "confidence",
     "rating", "items",    "between_observers", "reaction_time"};
 
-// Where a key stands, if the protocol has a text; the keys on the way there are named in either case.
+// Position of a key, if the protocol has a text; the path of keys is named in either case.
 std::string placeOf(const Protocol& protocol, const Path& path) {
   const std::string keys = path.empty() ? "simulation" : "simulation." + join(path, ".");
   if (protocol.text.empty()) return protocol.path.empty() ? keys : protocol.path + ": " + keys;
@@ -48,7 +48,7 @@ class Layer {
  public:
   Layer(const Protocol& protocol, const json& block, Path path)
       : protocol_(protocol), block_(block), path_(std::move(path)) {
-    if (!block_.is_object()) fail({}, "is no map");
+    if (!block_.is_object()) fail({}, "is not a map");
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& what,
@@ -71,7 +71,7 @@ class Layer {
   double number(const std::string& key, double otherwise, double minimum, double maximum) const {
     if (!has(key)) return otherwise;
     const json& value = at(key);
-    if (!value.is_number()) fail(key, "is no number");
+    if (!value.is_number()) fail(key, "is not a number");
     const double number = value.get<double>();
     if (!(number >= minimum && number <= maximum))
       fail(key, shortestNumber(number) + " is not from " + shortestNumber(minimum) + " to " +
@@ -103,11 +103,11 @@ class Layer {
   std::vector<double> rising(const std::string& key) const {
     const json& value = at(key);
     std::vector<double> out;
-    if (!value.is_array()) fail(key, "is no list of numbers");
+    if (!value.is_array()) fail(key, "is not a list of numbers");
     for (const json& entry : value) {
-      if (!entry.is_number()) fail(key, "is no list of numbers");
+      if (!entry.is_number()) fail(key, "is not a list of numbers");
       out.push_back(entry.get<double>());
-      if (out.size() > 1 && !(out.back() > out[out.size() - 2])) fail(key, "does not rise");
+      if (out.size() > 1 && !(out.back() > out[out.size() - 2])) fail(key, "is not ascending");
     }
     return out;
   }
@@ -118,7 +118,7 @@ class Layer {
   Path path_;
 };
 
-// One description of F replaces another as a whole: a condition may say `detected` where all others have a
+// One description of F replaces another as a whole: a condition may give `detected` while all others have a
 // sigmoid.
 void overlay(json& rules, const json& layer) {
   if (layer.contains("detected"))
@@ -141,7 +141,7 @@ void checkConditions(const Protocol& protocol, const json& block, Path path, con
   const Layer outer(protocol, block, path);
   if (!outer.has("conditions")) return;
   const json& conditions = outer.at("conditions");
-  if (!conditions.is_array()) outer.fail("conditions", "is no list");
+  if (!conditions.is_array()) outer.fail("conditions", "is not a list");
   path.push_back("conditions");
   for (size_t i = 0; i < conditions.size(); ++i) {
     Path here = path;
@@ -151,7 +151,7 @@ void checkConditions(const Protocol& protocol, const json& block, Path path, con
     known.push_back("where");
     layer.onlyKeys(known);
     if (!layer.has("where") || !layer.at("where").is_object() || layer.at("where").empty())
-      layer.fail({}, "says not where it holds", "add where: {FACTOR: LEVEL}");
+      layer.fail({}, "does not say where it applies", "add where: {FACTOR: LEVEL}");
     for (const auto& [name, level] : layer.at("where").items()) {
       std::vector<std::string> factors, levels;
       for (const Part& part : parts)
@@ -252,7 +252,7 @@ double numberOf(const Expression& expression, const Variables& variables, const 
     value = named != variables.end() ? named->second : evaluate(expression, variables, file);
   }
   if (!value.is_number() || !std::isfinite(value.get<double>()))
-    throw Error("'" + (expression.text.empty() ? value.dump() : expression.text) + "' gives no number",
+    throw Error("'" + (expression.text.empty() ? value.dump() : expression.text) + "' does not give a number",
                 where);
   return value.get<double>();
 }
@@ -280,7 +280,7 @@ Simulation::Simulation(const Protocol& protocol) : protocol_(protocol), cache_(s
       }
     }
   }
-  // Every condition's rules are read once, so that what is wrong is said before anything runs.
+  // Every condition's rules are read once, so that problems are reported before anything runs.
   const Design design = makeDesign(protocol_, 0, 0);
   for (const PlannedBlock& planned : design.blocks)
     for (const PlannedTrial& trial : planned.trials)
@@ -325,9 +325,9 @@ SimulationRules Simulation::read(int partIndex, const Condition& condition) cons
   out.guess = layer.has("guess") ? layer.expression("guess") : zero;
   out.lapse = layer.has("lapse") ? layer.expression("lapse") : zero;
   if (layer.has("items")) {
-    if (!layer.at("items").is_object()) layer.fail("items", "is no map");
+    if (!layer.at("items").is_object()) layer.fail("items", "is not a map");
     for (const auto& [name, value] : layer.at("items").items()) {
-      if (!value.is_number()) layer.fail("items", "value of '" + name + "' is no number");
+      if (!value.is_number()) layer.fail("items", "value of '" + name + "' is not a number");
       out.items[name] = value.get<double>();
     }
   }
@@ -344,7 +344,7 @@ SimulationRules Simulation::read(int partIndex, const Condition& condition) cons
   } else if (layer.has("variable")) {
     readSigmoid(layer, out);
   } else if (layer.has("threshold")) {
-    layer.fail("threshold", "has no variable that it is a threshold of", "add variable: NAME");
+    layer.fail("threshold", "has a threshold but no variable", "add variable: NAME");
   }
   out.severity = bounds(layer, "severity", part.task.severity ? &*part.task.severity : nullptr, 1.0);
   out.confidence = bounds(layer, "confidence", part.task.confidence ? &*part.task.confidence : nullptr, 1.0);
@@ -352,7 +352,7 @@ SimulationRules Simulation::read(int partIndex, const Condition& condition) cons
   out.rating = bounds(layer, "rating", part.task.type == Task::Rating ? &ratings : nullptr, 0.0);
   if (!out.rating.empty() && layer.has("rating") && part.task.type == Task::Rating &&
       out.rating.front() != 0.0)
-    layer.fail("rating", "does not begin with 0", "the first step above the least begins at the criterion");
+    layer.fail("rating", "does not start with 0", "the first step above the lowest starts at the criterion");
   if (layer.has("reaction_time")) {
     Path here = path;
     here.push_back("reaction_time");

@@ -21,8 +21,8 @@ namespace limen::study {
 ///   - signal detection: equal-variance normal noise and a criterion, whose place is given by the guess rate
 ///   (the rate
 ///     of false alarms), or the largest of m observations. d' is such that the unbiased observer answers with
-///     the same probability as under high threshold, so that the theory decides only what bias and
-///     confidence do.
+///     the same probability as under high threshold, so that the theory only determines the effect of bias
+///     and confidence.
 enum class DetectionTheory { HighThreshold, SignalDetection };
 
 /// Standard deviations over observers, all normal.
@@ -50,7 +50,7 @@ struct SimulationRules {
   bool falling = false, widthIsSlope = false;
   double level = 0.5;  ///< F at the threshold
   /// Lower bounds of the evidence (see Judgement) for steps 2, 3, ... of the scales; the first of `rating` is
-  /// 0, so that "more than the least" is as frequent as "yes".
+  /// 0, so that "more than the lowest" is as frequent as "yes".
   std::vector<double> severity, confidence, rating;
   std::map<std::string, double> items;  ///< Pairwise: scale value of each level of Part::items
   ObserverSpread spread;
@@ -60,7 +60,7 @@ struct SimulationRules {
 
 /// A protocol's `simulation:` block, checked. Keys, at the top for all parts, or below `parts: {NAME: {...}}`
 /// for one, or in an entry of `conditions: [{where: {FACTOR: LEVEL}, ...}]` of either for some conditions;
-/// the more special wins, of conditions the last that fits:
+/// the more specific one wins; of conditions, the last that matches:
 ///
 ///     theory              high_threshold (default) or signal_detection (needs a guess rate above 0)
 ///     variable            stimulus variable x: a name, or "= expression" over the trial's variables
@@ -81,7 +81,7 @@ struct SimulationRules {
 ///                         lapse_sd_logit, items_sd}
 ///     reaction_time       {median_s, sd_log} of a log-normal distribution
 ///
-/// Conditions without `variable`, `detected` or `items` take the popping predictor.
+/// Conditions without `variable`, `detected` or `items` use the popping predictor.
 class Simulation {
  public:
   /// Throws Error that names file, line (where the protocol has a text) and key: unknown keys, parts,
@@ -90,7 +90,7 @@ class Simulation {
   ~Simulation();
 
   const Protocol& protocol() const { return protocol_; }
-  /// The rules of a part's condition. Safe to call from several threads; the reference stays good.
+  /// The rules of a part's condition. Safe to call from several threads; the reference stays valid.
   const SimulationRules& rules(int part, const std::map<std::string, std::string>& condition) const;
   /// Whether the answers of any condition need the predictor.
   bool needsModel() const { return needsModel_; }

@@ -137,7 +137,7 @@ class Summariser {
   }
 
  private:
-  // Places of part and levels in the protocol.
+  // Positions of part and levels in the protocol.
   template <class Row>
   std::vector<size_t> rankOf(const Row& row) const {
     const Part& part = protocol_.parts[static_cast<size_t>(partOf(row.part))];
@@ -174,7 +174,7 @@ class Summariser {
       const Estimate estimate = procedure->estimate();
       const auto truth = trueThreshold(observer, firstTrial(design, static_cast<int>(i)), settings, estimate);
       if (!truth) continue;
-      // "mean" is what a normal distribution's threshold is called.
+      // "mean" is the name of a normal distribution's threshold.
       for (const ParameterEstimate& parameter : estimate.parameters)
         if (parameter.name == "threshold" || parameter.name == "mean") {
           EstimateSums& sums = estimates_[{planned.part, planned.condition}];
@@ -287,7 +287,7 @@ std::string conditionText(const std::string& part, const Condition& condition) {
 
 std::string toText(const SimulationSummary& summary) {
   std::string out =
-      fmt::format("{} sessions, {} finished, {} broken off; {} trials answered, {} showings invalid\n",
+      fmt::format("{} sessions, {} finished, {} aborted; {} trials answered, {} presentations invalid\n",
                   summary.sessions, summary.finished, summary.aborted, summary.trials, summary.invalid);
   out += fmt::format(
       "\nrates in %: mean and SD over participants, mean of the observers' probabilities, trials\n  {:<48} "
@@ -301,7 +301,7 @@ std::string toText(const SimulationSummary& summary) {
     if (list == &summary.parts) out += "\n";
   }
   if (summary.estimates.empty()) return out;
-  out += "\nestimates against the truth: means, bias, RMS error, share of intervals that hold the truth\n";
+  out += "\nestimates against the truth: means, bias, RMS error, share of intervals that contain the truth\n";
   for (const EstimateSummary& e : summary.estimates) {
     out += fmt::format(
         "  {:<48} {:>9.4g} for {:>9.4g} {}  bias {:+.3g}, RMS {:.3g}, {:.1f} % of {} ({}, {:g} %)\n",

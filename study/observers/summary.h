@@ -25,7 +25,7 @@ struct ConditionSummary {
   std::optional<RateSummary> catches;
 };
 
-/// A parameter that adaptive procedures estimate, over participants, against what is true of each.
+/// A parameter estimated by adaptive procedures, over participants, against the truth for each.
 struct EstimateSummary {
   std::string part, procedure, unit, interval;
   std::map<std::string, std::string> condition;
@@ -34,20 +34,20 @@ struct EstimateSummary {
   double meanTrue = 0.0, meanEstimate = 0.0;
   double bias = 0.0, rms = 0.0;  ///< estimate minus truth: mean, and root of the mean square
   double level = 0.95;           ///< of the intervals
-  double coverage = 0.0;         ///< share of intervals that hold the truth
+  double coverage = 0.0;         ///< share of intervals that contain the truth
 };
 
 struct SimulationSummary {
   int sessions = 0, finished = 0, aborted = 0;
-  int trials = 0, invalid = 0;  ///< answered without practice; showings that were invalid
+  int trials = 0, invalid = 0;  ///< answered, without practice; invalid presentations
   std::vector<ConditionSummary> parts, conditions;
   std::vector<EstimateSummary> estimates;
 };
 
-/// What the simulated sessions of a protocol in a store say; participants whose code opens with `prefix`.
-/// Procedures are run anew on the stored answers. An estimate has a truth where the procedure has one
-/// stimulus dimension and the observer's probability changes along it: the stimulus at which that is the
-/// probability that the procedure looks for, or at which F is what F is at its model's threshold. Drifting
+/// Summary of the simulated sessions of a protocol in a store; participants whose code starts with `prefix`.
+/// Procedures are rerun on the stored answers. An estimate has a truth if the procedure has one stimulus
+/// dimension and the observer's probability changes along it: the stimulus at which that equals the
+/// probability that the procedure targets, or at which F equals F at its model's threshold. Drifting
 /// observers count as they were at the beginning. Throws Error: a store that cannot be read.
 SimulationSummary summarise(const Protocol& protocol, const std::string& store,
                             const ObserverBehaviour& behaviour, const std::string& prefix);

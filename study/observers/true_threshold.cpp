@@ -40,7 +40,7 @@ std::optional<double> trueThreshold(SimulatedObserver& observer, const Trial& tr
     const Variables axes = {{dimension.name, x}};
     return (target->ofF ? observer.detected(trial, axes) : observer.probability(trial, axes)) - target->value;
   };
-  // Outwards from what the procedure may show, since a threshold may lie beyond it.
+  // Outwards from the procedure's range, since a threshold may lie beyond it.
   double low = std::isfinite(dimension.minimum) ? dimension.minimum : -1.0;
   double high = std::isfinite(dimension.maximum) ? dimension.maximum : 1.0;
   const double positiveFrom = low > 0.0 ? low : 0.0;

@@ -15,8 +15,8 @@ namespace limen::study {
 namespace {
 
 constexpr double kLeastGamma = 0.4, kMostGamma = 6.0;  ///< of photometer readings
-constexpr double kDarkestShare = 1e-4;  ///< of the brightest reading, that still says something
-constexpr double kLargestFall = 0.02;   ///< of luminance with rising level, share of the range
+constexpr double kDarkestShare = 1e-4;  ///< of the brightest reading, down to which readings are meaningful
+constexpr double kLargestFall = 0.02;   ///< drop of luminance with rising level, as a share of the range
 const char* const kPhotometer = "photometer readings";
 
 void check(const std::vector<Reading>& readings) {
@@ -27,12 +27,12 @@ void check(const std::vector<Reading>& readings) {
                   "levels are pixel values from 0 to 1; divide codes by 255");
     if (!(reading.cdM2 >= 0.0 && std::isfinite(reading.cdM2)))
       throw Error(fmt::format("{} cd/m2 at level {}", reading.cdM2, reading.level), kPhotometer,
-                  "luminances are not negative");
+                  "luminances cannot be negative");
     levels.insert(reading.level);
   }
   if (levels.size() < 4)
     throw Error(fmt::format("{} levels", levels.size()), kPhotometer,
-                "measure four at least, better nine or more");
+                "measure at least four, preferably nine or more");
   if (*levels.begin() > 0.1 || *levels.rbegin() < 0.9)
     throw Error(fmt::format("levels from {} to {}", *levels.begin(), *levels.rbegin()), kPhotometer,
                 "measure black and white too");
@@ -42,8 +42,7 @@ void check(const std::vector<Reading>& readings) {
   const auto [least, most] = std::minmax_element(
       rising.begin(), rising.end(), [](const Reading& a, const Reading& b) { return a.cdM2 < b.cdM2; });
   const double range = most->cdM2 - least->cdM2;
-  if (!(range > 0.0))
-    throw Error("all levels have the same luminance", kPhotometer, "measure a display that is on");
+  if (!(range > 0.0)) throw Error("all levels have the same luminance", kPhotometer, "is the display on?");
   for (size_t i = 1; i < rising.size(); ++i)
     if (rising[i].cdM2 < rising[i - 1].cdM2 - kLargestFall * range)
       throw Error(fmt::format("luminance falls from {} cd/m2 at level {} to {} at {}", rising[i - 1].cdM2,
@@ -51,17 +50,17 @@ void check(const std::vector<Reading>& readings) {
                   kPhotometer, "measure these two again");
 }
 
-/// A photometer's error is a share of what it reads, down to its last digits.
+/// A photometer's error is relative to its reading, down to its last digits.
 double errorOf(const Reading& reading, double brightestCdM2) {
   return reading.cdM2 + kDarkestShare * brightestCdM2;
 }
 
 struct Candidate {
   TransferFit fit;
-  double sum = 0.0;  ///< of squared residuals over errors: what is least
+  double sum = 0.0;  ///< sum of squared residuals over errors: what is minimised
 };
 
-/// Black and peak by linear least squares for a curve that is given.
+/// Black and peak by linear least squares for a given curve.
 Candidate fitEnds(const std::vector<Reading>& readings, const std::function<double(double)>& curve) {
   double brightest = 0.0;
   for (const Reading& reading : readings) brightest = std::max(brightest, reading.cdM2);
@@ -100,7 +99,7 @@ Candidate bestGamma(const std::vector<Reading>& readings) {
     out.fit.gamma = gamma;
     return out;
   };
-  // The residual has one minimum over gamma near the curve; a coarse look keeps the search away from others.
+  // The residual has one minimum over gamma near the curve; a coarse scan keeps the search away from others.
   double best = kLeastGamma, least = 1e300;
   constexpr double kStep = 0.1;
   for (double gamma = kLeastGamma; gamma <= kMostGamma; gamma += kStep)
@@ -127,7 +126,7 @@ TransferFit accepted(TransferFit fit, const std::vector<Reading>& readings) {
   const auto worst = std::max_element(fit.residualCdM2.begin(), fit.residualCdM2.end(),
                                       [](double a, double b) { return std::abs(a) < std::abs(b); });
   throw Error(
-      fmt::format("no curve fits: at level {} it is {:+.3g} cd/m2 off, {:.1f} % of the range",
+      fmt::format("no curve fits: at level {} the residual is {:+.3g} cd/m2, {:.1f} % of the range",
                   readings[static_cast<size_t>(worst - fit.residualCdM2.begin())].level, *worst,
                   100.0 * fit.largestShare),
       kPhotometer,
@@ -164,11 +163,12 @@ TransferFit fitTransfer(const std::vector<Reading>& readings) {
 
 MatchFit fitMatches(const std::vector<Match>& matches) {
   const char* const where = "visual matches";
-  if (matches.empty()) throw Error("none", where, "give one at least, as 0.25=0.53");
+  if (matches.empty()) throw Error("none", where, "give at least one, as 0.25=0.53");
   double products = 0.0, squares = 0.0;
   for (const Match& match : matches) {
     if (!(match.proportion > 0.0 && match.proportion < 1.0 && match.level > 0.0 && match.level < 1.0))
-      throw Error(fmt::format("{}={}", match.proportion, match.level), where, "both lie between 0 and 1");
+      throw Error(fmt::format("{}={}", match.proportion, match.level), where,
+                  "both must lie between 0 and 1");
     products += std::log(match.proportion) * std::log(match.level);
     squares += std::log(match.level) * std::log(match.level);
   }
@@ -182,10 +182,11 @@ MatchFit fitMatches(const std::vector<Match>& matches) {
     out.largestResidual = std::max(out.largestResidual, std::abs(out.residual.back()));
   }
   if (out.largestResidual > kLargestMatchResidual)
-    throw Error(fmt::format("the matches do not agree: one is {:.3f} off a gamma of {:.3g}",
-                            out.largestResidual, out.gamma),
-                where,
-                "make them again, from farther away; a display that is no power law needs a photometer");
+    throw Error(
+        fmt::format("the matches do not agree: one is {:.3f} off a gamma of {:.3g}", out.largestResidual,
+                    out.gamma),
+        where,
+        "repeat them from farther away; a display that does not follow a power law needs a photometer");
   return out;
 }
 

@@ -12,8 +12,8 @@ namespace limen::study {
 /// Width and height of a bank card: ID-1 of ISO/IEC 7810.
 inline constexpr double kCardWidthM = 0.08560, kCardHeightM = 0.05398;
 
-/// Pixel pitch [m] of a screen on which a card is as wide as `cardWidthPx` pixels. Throws Error on a width
-/// with which no screen has pixels of 0.02 to 2 mm.
+/// Pixel pitch [m] of a screen on which a card is `cardWidthPx` pixels wide. Throws Error on a width that
+/// implies pixels outside 0.02 to 2 mm.
 double pitchFromCard(double cardWidthPx);
 
 /// A grey of the display and its luminance.
@@ -31,14 +31,14 @@ struct TransferFit {
   double rmsCdM2 = 0.0, largestShare = 0.0;  ///< the largest residual as a share of peak minus black
 };
 
-/// L = black + (peak - black) u^gamma by least squares, all three free. Readings count by their relative
-/// error (with 1e-4 of the brightest one added to each), so that black is what was read there.
+/// L = black + (peak - black) u^gamma by least squares, all three free. Readings are weighted by their
+/// relative error (with 1e-4 of the brightest one added to each), so that black is fitted closely.
 TransferFit fitGamma(const std::vector<Reading>& readings);
-/// The same with the curve of sRGB in the place of the power, black and peak free.
+/// The same with the sRGB curve in place of the power law, black and peak free.
 TransferFit fitSrgb(const std::vector<Reading>& readings);
-/// Whichever of both leaves the smaller residuals, so weighted.
+/// Whichever of the two leaves smaller weighted residuals.
 TransferFit fitTransfer(const std::vector<Reading>& readings);
-// All throw Error on readings that no calibration may rest on: fewer than four levels, none near black or
+// All throw Error on readings unfit for calibration: fewer than four levels, none near black or
 // near white, values outside of their range, luminance that falls by more than 2 % of its range while the
 // level rises, and a largest residual of more than kLargestResidual of the range.
 inline constexpr double kLargestResidual = 0.03;
@@ -63,8 +63,8 @@ std::vector<Reading> readReadings(const std::string& path);
 /// "0.25=0.53,0.5=0.72". Throws Error.
 std::vector<Match> parseMatches(const std::string& text);
 
-/// Writes a profile that readDisplay() reads, behind `comments`, a line each. Checks it first. Throws Error
-/// if the file is there already, unless `force`, or cannot be written.
+/// Writes a profile that readDisplay() reads, after `comments`, one line each. Checks it first. Throws Error
+/// if the file already exists, unless `force`, or cannot be written.
 void writeProfile(const std::string& path, const perception::DisplayProfile& profile,
                   const std::vector<std::string>& comments, bool force);
 

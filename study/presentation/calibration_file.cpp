@@ -28,7 +28,7 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// Two numbers apart by one of `separators`.
+/// Two numbers separated by one of `separators`.
 std::optional<std::pair<double, double>> twoNumbers(const std::string& text, const char* separators) {
   const size_t at = text.find_first_of(separators);
   if (at == std::string::npos) return std::nullopt;
@@ -66,7 +66,8 @@ std::vector<Match> parseMatches(const std::string& text) {
   for (std::string part; std::getline(all, part, ',');) {
     const auto values = twoNumbers(part, "=");
     if (!values)
-      throw Error("'" + part + "' is no match", "--match", "write PROPORTION=LEVEL, as 0.25=0.53,0.5=0.72");
+      throw Error("'" + part + "' is not a match", "--match",
+                  "write PROPORTION=LEVEL, as 0.25=0.53,0.5=0.72");
     out.push_back({values->first, values->second});
   }
   return out;
@@ -77,7 +78,7 @@ void writeProfile(const std::string& path, const perception::DisplayProfile& pro
   perception::checkDisplay(profile, path);
   std::error_code failure;
   if (!force && std::filesystem::exists(path, failure))
-    throw Error("is there already", path, "name another file, or give --force to overwrite it");
+    throw Error("already exists", path, "name another file, or give --force to overwrite it");
   std::string text;
   for (const std::string& comment : comments) text += "# " + comment + "\n";
   replaceFile(path, text + perception::toYaml(profile));

@@ -42,7 +42,7 @@ std::optional<double> adjustCardWidth(ScreenDevice& screen, double startPx) {
                                         static_cast<int>(std::lround(widthPx * kCardHeightM / kCardWidthM)));
                   const glm::ivec2 low = (screenPx - size) / 2, high = low + size;
                   screen.clear(0.2);
-                  // Lines lie outside: the card covers what they enclose.
+                  // The lines are outside: the card covers what they enclose.
                   screen.fill(low - kLinePx, {size.x + 2 * kLinePx, kLinePx}, 1.0);
                   screen.fill({low.x - kLinePx, high.y}, {size.x + 2 * kLinePx, kLinePx}, 1.0);
                   screen.fill({low.x - kLinePx, low.y}, {kLinePx, size.y}, 1.0);

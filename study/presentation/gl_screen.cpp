@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "renderer/gl/window_system.h"
+#include "study/presentation/screen_bindings.h"
 #include "study/stimulus/display_coding.h"
 
 namespace limen::study {
@@ -53,7 +54,7 @@ std::vector<ScreenEvent>& queueOf(GLFWwindow* window) {
 }
 
 void onKey(GLFWwindow* window, int key, int scancode, int action, int) {
-  // Held keys repeat where a value is set; an answer is over with its first press.
+  // Held keys repeat while a value is set; an answer ends with its first press.
   if (action != GLFW_RELEASE)
     queueOf(window).push_back({ScreenEvent::Kind::Key, keyName(key, scancode), {}, nowNs()});
 }
@@ -105,7 +106,7 @@ float GlScreen::value(double light) const {
 
 void GlScreen::clear(double light) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  // Values are coded already, and every pixel is meant as it is.
+  // Values are already coded, and every pixel is shown as is.
   for (const GLenum feature :
        {GL_FRAMEBUFFER_SRGB, GL_DITHER, GL_BLEND, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_CULL_FACE})
     glDisable(feature);
@@ -130,7 +131,7 @@ void GlScreen::shape(int kind, glm::ivec2 topLeftPx, glm::ivec2 sizePx, double l
 }
 
 void GlScreen::draw(const Picture& picture, glm::ivec2 topLeftPx, glm::ivec2 sizePx) {
-  glBindTextureUnit(0, picture.texture);
+  glBindTextureUnit(kScreenPicturesUnit, picture.texture);
   program_.set("layer", picture.layer);
   shape(kPicture, topLeftPx, sizePx, 0.0);
 }
@@ -153,8 +154,9 @@ void GlScreen::arrow(glm::dvec2 tipPx, double lengthPx, double light) {
 
 int64_t GlScreen::swap() {
   context_.swap(1);
-  // The call may return with the swap still queued, and drivers that hold several back buffers let glFinish()
-  // pass it by. A pixel drawn into the next back buffer cannot be finished before there is one.
+  // The call may return with the swap still queued, and with drivers that have several back buffers
+  // glFinish() does not wait for it. A pixel drawn into the next back buffer cannot be finished before there
+  // is one.
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glEnable(GL_SCISSOR_TEST);
   glScissor(0, 0, 1, 1);
@@ -182,12 +184,11 @@ std::vector<std::string> objectionsTo(const gl::WindowContext& context) {
   std::vector<std::string> out;
   if (context.device().software) out.push_back("a software renderer draws: " + context.device().renderer);
   if (!(context.refreshHz() > 0.0))
-    out.push_back("the system states no refresh rate: this may be no real display");
+    out.push_back("the system reports no refresh rate: this may not be a real display");
   if (!context.fullScreen()) out.push_back("the window is not full screen");
   const gl::WindowSystem system = gl::windowSystem();
   if (system.compositor)
-    out.push_back("a compositor of " + system.name +
-                  " stands before the screen and decides when frames are seen");
+    out.push_back("a compositor of " + system.name + " controls the screen and decides when frames are seen");
   return out;
 }
 

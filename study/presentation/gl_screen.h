@@ -9,12 +9,12 @@
 
 namespace limen::study {
 
-/// A window's framebuffer as a screen: double-buffered, swapped with the vertical blank, each swap waited for
-/// until the driver has done it.
+/// A window's framebuffer as a screen: double-buffered, swapped with the vertical blank, waiting for the
+/// driver to complete each swap.
 class GlScreen : public ScreenDevice {
  public:
   /// `display`: whose transfer curve codes greys. With `listens` keys and buttons of the window become
-  /// events; without it the window's callbacks are left to others and only its closing is heard of.
+  /// events; otherwise the window's callbacks are left to others and only its closing is noticed.
   GlScreen(gl::WindowContext& context, const perception::DisplayProfile& display, bool listens = true);
   ~GlScreen() override;
   GlScreen(const GlScreen&) = delete;
@@ -44,8 +44,8 @@ class GlScreen : public ScreenDevice {
   std::vector<ScreenEvent> events_;
 };
 
-/// Why frame times of a window are none that a lab may rest on, a line each: a software renderer, a
-/// compositor, not full screen, no stated refresh rate. Empty if nothing speaks against it.
+/// Why frame times of a window are not fit for a lab, one line each: a software renderer, a compositor, not
+/// full screen, no reported refresh rate. Empty if there are no objections.
 std::vector<std::string> objectionsTo(const gl::WindowContext& context);
 
 }  // namespace limen::study

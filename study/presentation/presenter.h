@@ -16,7 +16,7 @@ namespace limen::study {
 class PictureSource {
  public:
   virtual ~PictureSource() = default;
-  /// Called while somebody watches: allocates, compiles and reads back nothing.
+  /// Called during presentation: allocates, compiles and reads back nothing.
   virtual Picture picture(int stimulus, int frame) = 0;
 };
 
@@ -24,8 +24,8 @@ enum class Corner { UpperLeft, UpperRight, LowerLeft, LowerRight };
 /// Throws Error on an unknown name: "upper_left" ...
 Corner cornerOf(const std::string& name);
 
-/// A square for a light sensor: white while a stimulus shows what comes after its change, and else on frames
-/// with an odd number; black otherwise.
+/// A square for a light sensor: white while a stimulus shows its state after the change, and otherwise on odd
+/// frames; black the rest of the time.
 struct PhotodiodePatch {
   int sizePx = 0;  ///< 0: none
   Corner corner = Corner::LowerLeft;
@@ -37,17 +37,18 @@ struct PresenterSetting {
   int fixationSizePx = 24, fixationWidthPx = 3;
   double cueWidthPx = 3.0, arrowLengthPx = 60.0;
   PhotodiodePatch patch;
-  /// A trial is invalid if frames of its stimuli stayed on the screen for more blanks than this in all ...
+  /// A trial is invalid if frames of its stimuli stayed on screen for more extra blanks than this in total
+  /// ...
   int missedBlanksAtMost = 0;
   /// ... or more of them than this may never have been seen.
   int earlySwapsAtMost = 0;
   SwapSetting swaps;  ///< its nominal rate is the schedule's
-  /// Stops the trial at an event, which makes it invalid with the text that is returned; empty goes on.
-  /// Without it the closing of the window stops.
+  /// Stops the trial at an event, which makes it invalid with the returned text; empty continues. Without it,
+  /// closing the window stops it.
   std::function<std::string(const ScreenEvent&)> stop;
 };
 
-/// An event that came while the trial was shown, before its question.
+/// An event during the trial, before its question.
 struct EarlyInput {
   ScreenEvent event;
   PhaseKind during = PhaseKind::End;
@@ -63,14 +64,14 @@ struct Shown {
   std::vector<EarlyInput> inputs;
 };
 
-/// Shows a schedule, a frame at each vertical blank, to its end, or until the window is lost or an event
-/// stops it. Missed blanks count against a trial where a stimulus stayed on too long by them; in pauses they
+/// Shows a schedule, one frame per vertical blank, to its end or until the window is lost or an event stops
+/// it. Missed blanks count against a trial if a stimulus stayed on too long because of them; in pauses they
 /// do not.
 Shown present(const Schedule& schedule, PictureSource& pictures, ScreenDevice& screen,
               const PresenterSetting& setting);
 
 /// Why an answer among the early inputs is refused: "answered during the blank" (in a gap), "answered during
-/// the stimulus" ...; empty if `isAnswer` takes none of them for one.
+/// the stimulus" ...; empty if `isAnswer` accepts none of them.
 std::string earlyAnswer(const Shown& shown, const std::function<bool(const ScreenEvent&)>& isAnswer);
 
 }  // namespace limen::study

@@ -15,15 +15,15 @@ enum class PhaseKind {
   BetweenTrials,  ///< background
   Fixation,       ///< cross in the middle of the screen
   AfterFixation,  ///< background
-  Cue,            ///< the stimulus' first frame at rest, with its cue
+  Cue,            ///< the stimulus's first frame at rest, with its cue
   Stimulus,
   ShowingGap,   ///< background between showings of one stimulus
   IntervalGap,  ///< background between intervals
-  End           ///< one frame of background, which takes the last picture away
+  End           ///< one frame of background, which removes the last picture
 };
 std::string toText(PhaseKind kind);
 
-/// A run of vertical blanks with one thing on the screen.
+/// A run of vertical blanks with the same content on screen.
 struct Phase {
   PhaseKind kind = PhaseKind::End;
   int first = 0, blanks = 0;
@@ -35,10 +35,10 @@ struct Phase {
 struct DueFrame {
   int phase = 0;
   int frame = -1;      ///< of the stimulus (side by side: of each, ended ones keep their last); -1: none
-  bool after = false;  ///< a stimulus shows what comes after its change
+  bool after = false;  ///< a stimulus shows its state after the change
 };
 
-/// Where a stimulus lies on the screen, px from its upper left corner.
+/// Position of a stimulus on screen, px from its upper left corner.
 struct Place {
   glm::ivec2 topLeftPx{0}, sizePx{0};
   bool operator==(const Place&) const = default;
@@ -53,7 +53,7 @@ struct Schedule {
   std::vector<Place> places;        ///< of each stimulus
   std::vector<Cue> cues;            ///< of each stimulus
   std::vector<Phase> phases;        ///< one after the other, none empty
-  std::vector<DueFrame> due;        ///< one a vertical blank
+  std::vector<DueFrame> due;        ///< one per vertical blank
 
   int blanks() const { return static_cast<int>(due.size()); }
   const Phase& phaseOf(int blank) const {
@@ -61,12 +61,12 @@ struct Schedule {
   }
 };
 
-/// Whole vertical blanks nearest to a pause's length; at least one for any length above 0.
+/// A pause's length rounded to whole vertical blanks; at least one for any length above 0.
 int blanksFor(double seconds, double refreshHz);
 
-/// Places of `count` windows: one in the middle of the screen; several in a grid about it, filled row by row
-/// from the upper left, with as many columns as the screen holds and a short last row in the middle. Between
-/// them lie `separationPx`. Throws Error if they do not fit.
+/// Positions of `count` windows: one in the middle of the screen; several in a centred grid, filled row by
+/// row from the upper left, with as many columns as fit and a short last row centred. They are `separationPx`
+/// apart. Throws Error if they do not fit.
 std::vector<Place> placesOf(int count, glm::ivec2 windowPx, glm::ivec2 screenPx, int separationPx);
 
 struct ScheduleSetting {
@@ -79,9 +79,9 @@ struct ScheduleSetting {
 };
 
 /// Between trials, fixation, pause, then stimuli: one after the other with a gap between intervals, or side
-/// by side. Each is shown as often as it says, with its own gaps, its cue before the first showing. Throws
-/// Error: no stimuli, windows that do not fit, side by side stimuli with different showings, gaps or cue
-/// times, and as timelineOf().
+/// by side. Each is shown as often as it specifies, with its own gaps and its cue before the first
+/// presentation. Throws Error: no stimuli, windows that do not fit, side-by-side stimuli with different
+/// numbers of presentations, gaps or cue times, and like timelineOf().
 Schedule makeSchedule(const std::vector<Stimulus>& stimuli, const ScheduleSetting& setting);
 
 }  // namespace limen::study

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A shape or a picture at a place of the screen, which is the viewport. Row 0 of the window is its lowest.
-layout(binding = 0) uniform sampler2DArray pictures;
+#include "study/presentation/screen_bindings.h"
+
+layout(binding = kScreenPicturesUnit) uniform sampler2DArray pictures;
 layout(location = 0) out vec4 colour;
 uniform int shape;  // 0 picture, 1 filled, 2 ring, 3 arrow that points down
 uniform int layer;

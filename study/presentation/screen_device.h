@@ -8,32 +8,32 @@
 
 namespace limen::study {
 
-/// A picture ready to be drawn: layer of an RGBA8 array texture (its OpenGL name; on a screen that is none,
-/// any number), values as the display takes them.
+/// A picture ready to be drawn: layer of an RGBA8 array texture (its OpenGL name; any number on a screen
+/// without OpenGL), values as sent to the display.
 struct Picture {
   uint32_t texture = 0;
   int layer = 0;
   bool operator==(const Picture&) const = default;
 };
 
-/// What somebody did at a screen.
+/// User input at a screen.
 struct ScreenEvent {
   enum class Kind {
-    Key,    ///< `name` as the keyboard's layout has it: "y", "1", "space", "escape", "left" ...
+    Key,    ///< `name` in the keyboard layout: "y", "1", "space", "escape", "left" ...
     Mouse,  ///< `name`: "left", "middle", "right"
-    Close   ///< the window is to be closed
+    Close   ///< the window should close
   } kind = Kind::Key;
   std::string name;
   glm::dvec2 atPx{0.0};  ///< Mouse: where, from the screen's upper left corner
   int64_t timeNs = 0;    ///< steady clock when the program heard of it
 };
 
-/// Something that shows frames at vertical blanks. Places are in px of the screen from its upper left corner;
-/// `light` is linear, 1 the display's white. Draw calls make the next frame, swap() shows it.
+/// Something that shows frames at vertical blanks. Positions are in px of the screen from its upper left
+/// corner; `light` is linear, 1 the display's white. Draw calls make the next frame, swap() shows it.
 class ScreenDevice {
  public:
   virtual ~ScreenDevice() = default;
-  virtual double refreshHz() const = 0;  ///< nominal; 0 if the system does not say
+  virtual double refreshHz() const = 0;  ///< nominal; 0 if unknown
   virtual glm::ivec2 sizePx() const = 0;
 
   virtual void clear(double light) = 0;
@@ -46,7 +46,7 @@ class ScreenDevice {
 
   /// Shows the frame at the next vertical blank and waits for it. Returns the steady clock's time [ns] then.
   virtual int64_t swap() = 0;
-  /// The window was hidden or closed, or the graphics driver gave up: what was drawn was not seen.
+  /// The window was hidden or closed, or the graphics driver reset: what was drawn was not seen.
   virtual bool lost() const = 0;
   /// What happened since the last call; does not wait.
   virtual std::vector<ScreenEvent> poll() = 0;

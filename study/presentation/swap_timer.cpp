@@ -9,16 +9,16 @@
 namespace limen::study {
 namespace {
 
-/// The period is looked for within this share of what is expected.
+/// The period is searched within this share of the expected one.
 constexpr double kSearch = 0.05;
-/// The grid is found on so many swaps, then followed: the search's cost is quadratic.
+/// The grid is found on this many swaps, then tracked: the search's cost is quadratic.
 constexpr size_t kSearched = 512;
 /// Times that lie this well on a grid (mean resultant length) belong to vertical blanks. Uniformly spread
 /// ones reach 0.23 with 60 swaps in one of 20 runs; jitter of a tenth of a period gives 0.82.
 constexpr double kLeastFit = 0.5;
-/// Of a swap's deviation that moves the grid: a slow correction of the period that was found.
+/// Share of a swap's deviation that shifts the grid: a slow correction of the period found.
 constexpr double kFollow = 0.1;
-/// Least squares leaves swaps out that are farther than this from the grid, in periods.
+/// Least squares excludes swaps farther than this from the grid, in periods.
 constexpr double kTrim = 0.3;
 
 double median(std::vector<double> values) {
@@ -77,7 +77,7 @@ std::vector<double> nearestBlanks(const std::vector<double>& timesMs, const Grid
   return out;
 }
 
-/// Least squares of time over number, far ones left out in a second round.
+/// Least squares of time over number, with outliers excluded in a second round.
 Grid fitGrid(const std::vector<double>& timesMs, const std::vector<double>& numbers, Grid grid) {
   for (int round = 0; round < 3; ++round) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -95,8 +95,8 @@ Grid fitGrid(const std::vector<double>& timesMs, const std::vector<double>& numb
   return grid;
 }
 
-/// What the median interval says the period is: the nominal one if the interval is a whole number of those,
-/// as when every frame takes two blanks; else the interval, and the nominal rate is wrong. None: no waiting.
+/// The period according to the median interval: the nominal one if the interval is a multiple of it, as when
+/// every frame takes two blanks; otherwise the interval, and the nominal rate is wrong. None: no waiting.
 std::optional<double> expectedPeriodMs(const std::vector<double>& timesMs, double nominalMs) {
   std::vector<double> intervals;
   for (size_t i = 1; i < timesMs.size(); ++i) intervals.push_back(timesMs[i] - timesMs[i - 1]);
@@ -143,7 +143,7 @@ SwapReport classifySwaps(const std::vector<int64_t>& returnedNs, const SwapSetti
   for (size_t i = n; i-- > 0;) {
     blank[i] = std::floor(at[i] + setting.earlyTolerance);
     if (i + 1 == n || blank[i] < blank[i + 1]) continue;
-    // Its blank is the next one's. Either it was heard of late, or the next one did not wait.
+    // Its blank is the next one's. Either it was noticed late, or the next one did not wait.
     if (at[i] - (blank[i + 1] - 1.0) <= setting.latestRecovery)
       blank[i] = blank[i + 1] - 1.0;
     else

@@ -11,8 +11,8 @@ namespace limen::study {
 namespace {
 
 constexpr double kEdges[] = {0.0, 0.25, 0.75, 0.95, 1.05, 1.25, 1.75, 2.5, 3.5};
-constexpr double kUnknownHz = 60.0;  ///< to set out from where the system does not say
-constexpr size_t kListed = 20;       ///< missed frames that the text names
+constexpr double kUnknownHz = 60.0;  ///< initial value if the system does not report one
+constexpr size_t kListed = 20;       ///< missed frames listed in the text
 
 std::string frames(int count, const char* what) {
   return fmt::format("{} frame{} {}", count, count == 1 ? "" : "s", what);
@@ -21,14 +21,14 @@ std::string frames(int count, const char* what) {
 void object(TimingReport& report) {
   std::vector<std::string>& out = report.objections;
   if (!(report.nominalHz > 0.0))
-    out.push_back("the system states no refresh rate: this may be no real display");
+    out.push_back("the system reports no refresh rate: this may not be a real display");
   if (!report.classified.waits) {
     out.push_back("swaps do not wait for the vertical blank");
     return;
   }
   if (report.nominalHz > 0.0 && std::abs(report.measuredHz / report.nominalHz - 1.0) > 0.01)
-    out.push_back(fmt::format("the display runs at {:.2f} Hz and the system states {:.2f}", report.measuredHz,
-                              report.nominalHz));
+    out.push_back(fmt::format("the display runs at {:.2f} Hz but the system reports {:.2f}",
+                              report.measuredHz, report.nominalHz));
   if (report.classified.missedBlanks > 0) out.push_back(frames(report.classified.missedBlanks, "missed"));
   if (report.classified.earlySwaps > 0)
     out.push_back(frames(report.classified.earlySwaps, "shown too briefly: swaps did not wait"));

@@ -21,18 +21,18 @@ struct TimingReport {
   };
   std::vector<Bin> histogram;  ///< of the intervals, in periods
   SwapReport classified;
-  /// What a lab must not rest on, a line each; empty: fit for one.
+  /// Why it is not fit for a lab, one line each; empty: fit.
   std::vector<std::string> objections;
 };
 nlohmann::json toJson(const TimingReport& report);
 std::string toText(const TimingReport& report);
 
 /// Report over the times at which swaps returned [ns]. Objects to missed frames, to swaps that do not wait,
-/// to a rate that is not stated or more than 1 % from the stated one; not to late frames that were shown in
-/// time.
+/// to a rate that is not reported or more than 1 % from the reported one; not to late frames that were shown
+/// in time.
 TimingReport reportTiming(const std::vector<int64_t>& returnedNs, double nominalHz);
 
-/// Frames of half a second, which runTiming() shows first and does not count.
+/// Warm-up frames, half a second, which runTiming() shows first and does not count.
 int timingWarmUpSwaps(double refreshHz);
 /// Flickers between two greys for some seconds after a warm-up.
 TimingReport runTiming(ScreenDevice& screen, double seconds);

@@ -34,7 +34,7 @@ int64_t VirtualScreen::swap() {
   const int number = static_cast<int>(shown_.size());
   shown_.push_back(next_);
   const double periodNs = 1e9 / display_.refreshHz, jitterNs = 1e6 * display_.jitterMs;
-  // Drawn whether used or not, so that a drop does not change the jitter of what follows.
+  // Drawn whether used or not, so that a drop does not change the jitter of later frames.
   const double jitter = random_.uniform(-jitterNs, jitterNs);
   const bool late = random_.chance(display_.lateChance);
   const double lateness = random_.uniform(0.0, display_.latestPeriods) * periodNs;

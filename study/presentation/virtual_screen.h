@@ -9,20 +9,19 @@
 
 namespace limen::study {
 
-/// A display of known behaviour with a clock of its own, on which a second takes no time: to test what tells
-/// good frames from bad ones, and to run trials without a window.
+/// A display of known behaviour with its own clock, on which a second takes no real time: to test the
+/// detection of bad frames, and to run trials without a window.
 struct VirtualDisplay {
   double refreshHz = 60.0;  ///< true rate
-  double nominalHz = 0.0;   ///< as the system states it; 0: the true one
+  double nominalHz = 0.0;   ///< as reported by the system; 0: the true one
   glm::ivec2 sizePx{1920, 1080};
-  double jitterMs = 0.0;     ///< swaps return up to this long before or after the blank
-  double lateChance = 0.0;   ///< of a wake-up that is late, but in time for the next frame
-  double latestPeriods = 0;  ///< of such wake-ups
-  std::map<int, int> drops;  ///< number of the swap, from 0 -> blanks that pass by before it
-  std::set<int> early;       ///< swaps that return at once
-  int lostAt = -1;           ///< number of the swap after which the window is lost
-  std::map<int, ScreenEvent>
-      events;  ///< number of the swap after which it is heard of; its time is filled in
+  double jitterMs = 0.0;              ///< swaps return up to this long before or after the blank
+  double lateChance = 0.0;            ///< of a wake-up that is late, but in time for the next frame
+  double latestPeriods = 0;           ///< of such wake-ups
+  std::map<int, int> drops;           ///< number of the swap, from 0 -> blanks that pass before it
+  std::set<int> early;                ///< swaps that return at once
+  int lostAt = -1;                    ///< number of the swap after which the window is lost
+  std::map<int, ScreenEvent> events;  ///< number of the swap after which it is noticed; its time is filled in
   uint64_t seed = 0;
 };
 
@@ -30,7 +29,7 @@ class VirtualScreen : public ScreenDevice {
  public:
   explicit VirtualScreen(VirtualDisplay display);
 
-  /// What one frame was made of.
+  /// The content of one frame.
   struct Drawn {
     double background = 0.0;
     struct Item {
@@ -41,7 +40,7 @@ class VirtualScreen : public ScreenDevice {
     };
     std::vector<Item> items;
   };
-  const std::vector<Drawn>& shown() const { return shown_; }  ///< one a swap
+  const std::vector<Drawn>& shown() const { return shown_; }  ///< one per swap
 
   double refreshHz() const override;
   glm::ivec2 sizePx() const override { return display_.sizePx; }

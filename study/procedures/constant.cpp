@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Method of constant stimuli: every stimulus as often as every other, in blocks of one repetition each, so
-// that a session that is broken off has shown all stimuli almost equally often.
+// that an interrupted session has shown all stimuli almost equally often.
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -140,7 +140,8 @@ ProcedureSettings readConstant(SettingsReader& reader) {
 }
 
 const char* describeConstant() {
-  return "constant: method of constant stimuli; every stimulus once a block, blocks shuffled one by one\n"
+  return "constant: method of constant stimuli; every stimulus once per block, each block shuffled "
+         "separately\n"
          "    stimulus      as for quest_plus; every combination of several dimensions is shown\n"
          "    repetitions   blocks (default 10)\n"
          "    order         shuffled (default) or listed\n"

@@ -6,7 +6,7 @@
 
 #include "study/procedures/procedure.h"
 
-// One reader a type, behind readProcedure(). Each takes settings without `type`, asks for all its keys and
+// One reader per type, behind readProcedure(). Each takes settings without `type`, reads all its keys and
 // refuses others; each describes its keys for describeProcedures().
 namespace limen::study {
 

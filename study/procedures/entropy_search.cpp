@@ -15,7 +15,7 @@ constexpr size_t kMostBytes = size_t{1} << 30;
 
 double timesLog(double x) { return x > 0.0 ? x * std::log(x) : 0.0; }
 
-// Sum of products in four interleaved parts: a fixed order that the compiler can still run side by side.
+// Sum of products in four interleaved parts: a fixed order that the compiler can still vectorise.
 double dot(const double* a, const double* b, size_t n) {
   double sums[4] = {0.0, 0.0, 0.0, 0.0};
   size_t i = 0;
@@ -41,7 +41,7 @@ EntropySearch::EntropySearch(const ModelSettings& settings, const std::string& w
     throw Error("the table of " + std::to_string(grid_.size()) + " stimuli, " + std::to_string(points_) +
                     " parameter points and " + std::to_string(outcomes_) + " outcomes needs " +
                     std::to_string(static_cast<long long>(bytes / 1048576.0)) + " MiB",
-                where, "take coarser grids: at most 1024 MiB");
+                where, "use coarser grids: at most 1024 MiB");
   }
   likelihood_.resize(grid_.size() * outcomes_ * points_);
   if (!nuisance) answerEntropy_.resize(grid_.size() * points_);

@@ -12,7 +12,7 @@ namespace limen::study {
 
 /// Expected entropy of the posterior after a trial with each stimulus of a grid (Kontsevich and Tyler 1999,
 /// Vision Research 39; Watson 2017), from tables made once. With parameters marked as nuisance it is the
-/// entropy of what is left once these are summed out (Prins 2013, Journal of Vision 13(7):3).
+/// entropy after marginalising these out (Prins 2013, Journal of Vision 13(7):3).
 ///
 /// No posterior is formed. With Z_o = sum_i p_i L_oi, the probability of outcome o,
 ///     E[H] = H(p) + sum_o Z_o ln Z_o + sum_i p_i h_i,   h_i = -sum_o L_oi ln L_oi,
@@ -21,7 +21,7 @@ namespace limen::study {
 ///     E[H] = sum_o (Z_o ln Z_o - sum_j m_oj ln m_oj).
 class EntropySearch {
  public:
-  /// Takes time and memory in proportion to stimuli, points and outcomes. Throws Error if that is over 1 GiB.
+  /// Time and memory are proportional to stimuli, points and outcomes. Throws Error if memory exceeds 1 GiB.
   explicit EntropySearch(const ModelSettings& settings, const std::string& where = {});
 
   size_t stimuli() const { return grid_.size(); }
@@ -40,13 +40,12 @@ class EntropySearch {
   size_t interestPoints_ = 0;
 };
 
-/// What an expected entropy may exceed the lowest by, relative to it (plus a hundredth of a nat), and count
-/// as equal.
+/// How much an expected entropy may exceed the lowest, relative to it (plus a hundredth of a nat), and still
+/// count as equal.
 inline constexpr double kTieTolerance = 1e-12;
 
 /// The stimulus with the lowest expected entropy; of those that count as equal the first in the order of the
-/// grid. So rounding, which is another on every machine, does not decide between stimuli that are equally
-/// good.
+/// grid. So rounding, which differs between machines, does not decide between equally good stimuli.
 size_t lowestEntropy(const std::vector<double>& entropies, double tolerance = kTieTolerance);
 /// The `count` lowest in ascending order, found one after the other by the same rule.
 std::vector<size_t> lowestEntropies(const std::vector<double>& entropies, size_t count,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several procedures whose trials are mixed, so that nobody can foresee the next stimulus. The first value of
-// a stimulus is the number of the procedure that asked for it, which makes a list of trials complete in
-// itself.
+// Several procedures whose trials are mixed, so that the next stimulus is unpredictable. The first value of a
+// stimulus is the number of the procedure that requested it, which makes a list of trials self-contained.
 #include <cmath>
 
 #include "experiments/base/error.h"
@@ -56,7 +55,7 @@ class Interleaved : public Procedure {
   void update(const std::vector<double>& stimulus, int outcome) override {
     const double number = stimulus.empty() ? -1.0 : stimulus.front();
     if (!(number >= 0.0 && number < static_cast<double>(parts_.size()) && number == std::floor(number))) {
-      throw Error("the first value of an interleaved trial's stimulus is no number of a procedure", {},
+      throw Error("the first value of an interleaved trial's stimulus is not the number of a procedure", {},
                   "give a whole number from 0 to " + std::to_string(parts_.size() - 1));
     }
     parts_[static_cast<size_t>(number)]->update({stimulus.begin() + 1, stimulus.end()}, outcome);
@@ -93,7 +92,7 @@ class Interleaved : public Procedure {
     return open[random.below(open.size())];
   }
 
-  // The first open one after the last that had a trial, going round.
+  // The first open one after the last that had a trial, cyclically.
   size_t following(const std::vector<size_t>& open) const {
     for (size_t i : open) {
       if (static_cast<int>(i) > last_) return i;
@@ -139,7 +138,7 @@ ProcedureSettings readInterleaved(SettingsReader& reader) {
     json entry = list[i];
     std::string name = std::to_string(i);
     if (entry.is_object() && entry.contains("name")) {
-      if (!entry["name"].is_string()) throw Error("the name is no text", place + ".name", "give a text");
+      if (!entry["name"].is_string()) throw Error("the name is not a text", place + ".name", "give a text");
       name = entry["name"].get<std::string>();
       entry.erase("name");
     }
@@ -181,7 +180,7 @@ const char* describeInterleaved() {
          "procedure's number\n"
          "    procedures    list of procedures of any type with the same stimulus dimensions, each with a "
          "`name`\n"
-         "                  (default: its number from 0) that goes before its estimates\n"
+         "                  (default: its number from 0) that prefixes its estimates\n"
          "    order         random (default): each trial one of those unfinished, by the seed; or rotation\n";
 }
 

@@ -22,8 +22,8 @@ using psychometrics::SigmoidFamily;
 using psychometrics::StimulusAxis;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargest = 1e100;        // of a parameter: its products and inverses are numbers
-constexpr double kMostEqualLapse = 0.49;  // at 0.5 on either side nothing would be left to rise
+constexpr double kLargest = 1e100;        // of a parameter: its products and inverses are finite
+constexpr double kMostEqualLapse = 0.49;  // at 0.5 on either side there would be no room to rise
 
 ModelParameter anyNumber(const char* name, const char* description) {
   return {name, description, std::nullopt, -kLargest, kLargest, true, true};
@@ -32,9 +32,9 @@ ModelParameter positive(const char* name, const char* description, bool ofStimul
   return {name, description, std::nullopt, 0.0, kLargest, true, ofStimulus};
 }
 ModelParameter guessRate() {
-  return {"guess", "P where nothing is seen: false alarms, or 1/m of m alternatives", 0.5, 0.0, 1.0};
+  return {"guess", "P if nothing is seen: false alarms, or 1/m for m alternatives", 0.5, 0.0, 1.0};
 }
-ModelParameter lapseRate() { return {"lapse", "1 - P where all is seen", 0.02, 0.0, 1.0}; }
+ModelParameter lapseRate() { return {"lapse", "1 - P if everything is seen", 0.02, 0.0, 1.0}; }
 
 void writeBoth(const PsychometricFunction& f, double x, double* out) {
   out[0] = f.logComplement(x);
@@ -47,7 +47,7 @@ struct SigmoidForm {
   const char* formula;
   std::vector<ModelParameter> shape;
   std::function<Sigmoid(const double*)> make;
-  bool logarithmic = false;  // knows no stimuli below 0
+  bool logarithmic = false;  // not defined for stimuli below 0
 };
 
 class SigmoidModel : public Model {
@@ -80,7 +80,7 @@ class SigmoidModel : public Model {
   std::vector<ModelParameter> parameters_;
 };
 
-/// Contrast sensitivity of Watson (2017), equation 8 and example 4; the temporal half can be left out.
+/// Contrast sensitivity of Watson (2017), equation 8 and example 4; the temporal half is optional.
 class ContrastSensitivityModel : public Model {
  public:
   explicit ContrastSensitivityModel(bool temporal) : temporal_(temporal) {
@@ -123,7 +123,7 @@ class ThurstoneModel : public Model {
         positive("maximum", "scale value of 1, in standard deviations of a judgement"),
         {"threshold", "below it the scale is 0", 0.0, 0.0, 1.0 - 1e-9},
         positive("power", "exponent of the scale"),
-        {"lapse", "probability of either answer whatever is shown", 0.0, 0.0, kMostEqualLapse}};
+        {"lapse", "probability of either answer regardless of the stimulus", 0.0, 0.0, kMostEqualLapse}};
     return kParameters;
   }
   bool knows(const double* x) const override {
@@ -139,7 +139,8 @@ class ThurstoneModel : public Model {
   void writeKeys(json& out) const override { out["model"] = "thurstone"; }
 };
 
-/// Ratings in ordered categories: the stimulus is perceived with normal noise, criteria part the categories.
+/// Ratings in ordered categories: the stimulus is perceived with normal noise; criteria separate the
+/// categories.
 class RatingModel : public Model {
  public:
   explicit RatingModel(int categories) : categories_(categories) {
@@ -153,8 +154,8 @@ class RatingModel : public Model {
   }
   int outcomes() const override { return categories_; }
   const std::vector<ModelParameter>& parameters() const override { return parameters_; }
-  // P(category k) = P(perceived above criterion k) - P(above criterion k + 1); from the side on which both
-  // are small.
+  // P(category k) = P(perceived above criterion k) - P(above criterion k + 1); computed from the side on
+  // which both are small.
   void logProbabilities(const double* x, const double* s, double* out) const override {
     double low = -kInfinity, criterion = 0.0;
     for (int k = 0; k < categories_; ++k) {
@@ -181,7 +182,7 @@ class RatingModel : public Model {
   std::vector<ModelParameter> parameters_;
 };
 
-/// Probabilities as they are listed: [stimulus][state][outcome], stimuli and states numbered from 0.
+/// Probabilities as listed: [stimulus][state][outcome], stimuli and states numbered from 0.
 class TableModel : public Model {
  public:
   explicit TableModel(std::vector<std::vector<std::vector<double>>> probabilities, const json& source)
@@ -218,7 +219,7 @@ std::shared_ptr<const Model> readTable(SettingsReader& reader) {
   try {
     table = source.get<decltype(table)>();
   } catch (const json::exception&) {
-    throw Error("the table cannot be read", reader.at("probabilities"), "give " + allowed);
+    throw Error("invalid table", reader.at("probabilities"), "give " + allowed);
   }
   const auto refuse = [&](const std::string& what) {
     throw Error(what, reader.at("probabilities"), "give " + allowed + ", all of equal length");
@@ -265,7 +266,7 @@ std::vector<SigmoidForm> sigmoidForms() {
   };
 }
 
-// F by threshold and width, as psignifit has them.
+// F by threshold and width, as in psignifit.
 SigmoidForm thresholdWidthForm(SigmoidFamily family, StimulusAxis axis) {
   const bool logarithmic = axis == StimulusAxis::Logarithmic || family == SigmoidFamily::Weibull;
   return {

@@ -13,10 +13,10 @@ namespace limen::study {
 
 class SettingsReader;
 
-/// A parameter of a psychometric model as it is declared.
+/// Declaration of a psychometric model's parameter.
 struct ModelParameter {
   std::string name, description;
-  std::optional<double> otherwise;  ///< value if the settings give none; without it they have to
+  std::optional<double> otherwise;  ///< value if the settings give none; if missing, they must
   double minimum, maximum;
   bool open = false;        ///< the limits themselves are not allowed
   bool ofStimulus = false;  ///< has the stimulus's unit
@@ -33,7 +33,7 @@ class Model {
   virtual std::vector<std::string> stimulusNames() const { return {}; }
   /// ln P of outcomes 0, 1, ... into `out`.
   virtual void logProbabilities(const double* stimulus, const double* parameters, double* out) const = 0;
-  /// False for a stimulus that the model knows nothing of.
+  /// False for a stimulus outside the model's domain.
   virtual bool knows(const double* /*stimulus*/) const { return true; }
   /// The model's own keys, `model` among them.
   virtual void writeKeys(nlohmann::json& out) const = 0;
@@ -42,7 +42,7 @@ class Model {
 /// Reads `model` (default `otherwise`) and the model's own keys. Throws Error.
 std::shared_ptr<const Model> readModel(SettingsReader& reader, const std::string& otherwise);
 
-/// One paragraph a model: formula, parameters with defaults and limits, source.
+/// One paragraph per model: formula, parameters with defaults and limits, source.
 std::string describeModels();
 
 }  // namespace limen::study

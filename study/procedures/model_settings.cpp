@@ -20,12 +20,12 @@ void checkValues(const ModelParameter& declared, const GridAxis& axis, const std
                                       : value >= declared.minimum && value <= declared.maximum;
     if (inside) continue;
     const std::string between = shortestNumber(declared.minimum) + " to " + shortestNumber(declared.maximum);
-    throw Error(shortestNumber(value) + " is no value of '" + declared.name + "'", where,
-                "give values from " + between + (declared.open ? ", the ends left out" : ""));
+    throw Error(shortestNumber(value) + " is not a value of '" + declared.name + "'", where,
+                "give values from " + between + (declared.open ? ", excluding the ends" : ""));
   }
 }
 
-// Reads one parameter: an axis as psychometrics::readAxis has it, with `prior` where it is an object.
+// Reads one parameter: an axis as for psychometrics::readAxis, with `prior` if it is an object.
 void readParameter(const ModelParameter& declared, SettingsReader& reader, ModelSettings& out) {
   json source;
   if (reader.has(declared.name)) {
@@ -65,14 +65,14 @@ void readStimulus(SettingsReader& reader, ModelSettings& out) {
     const auto found = std::find_if(out.stimulus.begin(), out.stimulus.end(),
                                     [&](const GridAxis& axis) { return axis.name == name; });
     if (found == out.stimulus.end()) {
-      throw Error("no dimension is called '" + name + "'", reader.at("stimulus"),
+      throw Error("there is no dimension '" + name + "'", reader.at("stimulus"),
                   "the model's dimensions are " + join(names));
     }
     out.modelOrder.push_back(static_cast<size_t>(found - out.stimulus.begin()));
   }
 }
 
-// Where both can be chosen freely, their sum has to leave room for a rise.
+// If both can be chosen freely, their sum has to leave room for a rise.
 void checkAsymptotes(const ModelSettings& settings, const std::string& where) {
   double highest = 0.0;
   for (const GridAxis& axis : settings.parameters) {
@@ -103,7 +103,7 @@ void readNuisance(SettingsReader& reader, ModelSettings& out) {
   for (size_t d = 0; d < names.size(); ++d) any = any || (!out.nuisance[d] && out.parameters[d].size() > 1);
   if (!any) {
     throw Error("every parameter with more than one value is a nuisance", reader.at("nuisance"),
-                "leave one to be measured");
+                "leave one to be estimated");
   }
 }
 
@@ -134,8 +134,8 @@ ModelSettings readModelSettings(SettingsReader& reader, const std::string& defau
   const psychometrics::ProductGrid shown(out.stimulus);
   for (size_t i = 0; i < shown.size(); ++i) {
     if (!out.knows(shown.valuesOf(i))) {
-      throw Error("the model knows no stimulus " + shortestNumber(shown.valueOf(i, 0)), reader.at("stimulus"),
-                  "give values that it covers");
+      throw Error("the model does not cover stimulus " + shortestNumber(shown.valueOf(i, 0)),
+                  reader.at("stimulus"), "give values that it covers");
     }
   }
   return out;

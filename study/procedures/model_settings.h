@@ -11,15 +11,14 @@
 
 namespace limen::study {
 
-/// Model, grids and prior of a Bayesian procedure, checked: every parameter value is one that the model
-/// takes.
+/// Model, grids and prior of a Bayesian procedure, checked: every parameter value is valid for the model.
 struct ModelSettings {
   std::shared_ptr<const Model> model;
   std::vector<psychometrics::GridAxis> stimulus;    ///< in the declared order
-  std::vector<size_t> modelOrder;                   ///< [model's dimension] = place in `stimulus`
+  std::vector<size_t> modelOrder;                   ///< [model's dimension] = index in `stimulus`
   std::vector<psychometrics::GridAxis> parameters;  ///< in the model's order
   std::vector<std::vector<double>> priors;
-  std::vector<nlohmann::json> priorSources;  ///< as given, so that they read back to the same bits
+  std::vector<nlohmann::json> priorSources;  ///< as given, so that they read back bit for bit
   std::vector<bool> nuisance;                ///< marginalised before stimuli are compared
 
   /// ln P of all outcomes for a stimulus in the declared order.
@@ -31,7 +30,7 @@ struct ModelSettings {
 ModelSettings readModelSettings(SettingsReader& reader, const std::string& defaultModel);
 void writeModelSettings(const ModelSettings& settings, nlohmann::json& out);
 
-/// Dimensions of next() that takes its values from these axes.
+/// Dimensions of a next() that takes its values from these axes.
 std::vector<StimulusDimension> dimensionsOf(const std::vector<psychometrics::GridAxis>& axes);
 
 }  // namespace limen::study

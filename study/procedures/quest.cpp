@@ -2,9 +2,9 @@
 // QUEST (Watson and Pelli 1983, Perception and Psychophysics 33) in the form of Pelli's QuestCreate,
 // QuestUpdate and QuestQuantile: one Weibull psychometric function of log10 intensity that is shifted along
 // the axis, a normal prior on a grid around a guess, the next trial at a quantile (Pelli 1987), the mean
-// (King-Smith et al. 1994) or the mode of the posterior. As there, the distance of a stimulus from the guess
-// is rounded to the grain before its likelihood is looked up; unlike there, a stimulus outside of the grid
-// keeps its own likelihood.
+// (King-Smith et al. 1994) or the mode of the posterior. As in that program, the distance of a stimulus from
+// the guess is rounded to the grain before its likelihood is looked up; unlike there, a stimulus outside the
+// grid keeps its own likelihood.
 #include <algorithm>
 #include <cmath>
 
@@ -79,7 +79,7 @@ struct QuestDetail : ProcedureDetail, std::enable_shared_from_this<QuestDetail> 
   }
 };
 
-// The most informative quantile for these asymptotes (Pelli 1987, as QuestRecompute computes it).
+// The most informative quantile for these asymptotes (Pelli 1987, computed as in QuestRecompute).
 double bestQuantile(const PsychometricFunction& f, double range) {
   const double low = f.probability(-range), high = f.probability(range);
   const auto timesLog = [](double p) { return p * std::log(p + 1e-14); };
@@ -135,8 +135,8 @@ class Quest : public Procedure {
   json state() const override { return {{"trials", trials_}, {"posterior", posterior_.hash()}}; }
 
  private:
-  // As QuestQuantile: linear between the points (value of the grid, sum of the probabilities up to and with
-  // it), so that it lies half a grain above the quantile of the histogram.
+  // As in QuestQuantile: linear between the points (value of the grid, sum of the probabilities up to and
+  // including it), so that it lies half a grain above the quantile of the histogram.
   double interpolatedQuantile() const {
     const std::vector<double>& p = posterior_.probability();
     const std::vector<double>& x = posterior_.grid().axes()[0].values;
@@ -175,7 +175,7 @@ void readStimulus(SettingsReader& reader, QuestDetail& detail) {
   detail.maximum = stimulus.numberOr("maximum", kInfinity);
   stimulus.finish();
   if (!(detail.minimum <= detail.maximum)) {
-    throw Error("the minimum lies above the maximum", stimulus.at("minimum"));
+    throw Error("the minimum is above the maximum", stimulus.at("minimum"));
   }
 }
 
@@ -229,7 +229,7 @@ const char* describeQuest() {
          "    grain, range  step and width of the grid of thresholds (default 0.01 and 5)\n"
          "    next          quantile (default), mean or mode of the posterior\n"
          "    quantile_order   default: the most informative one (Pelli 1987)\n"
-         "    stop          {trials, sd}: after so many trials, or once the posterior's SD is at or below "
+         "    stop          {trials, sd}: after this many trials, or once the posterior's SD is at or below "
          "sd\n";
 }
 

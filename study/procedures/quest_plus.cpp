@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // QUEST+ (Watson 2017, Journal of Vision 17(3):10) and psi (Kontsevich and Tyler 1999, Vision Research 39;
 // with nuisance parameters psi-marginal of Prins 2013, Journal of Vision 13(7):3): the stimulus whose answer
-// is expected to leave the least entropy. Psi is QUEST+ with one stimulus dimension and two outcomes.
+// minimises the expected entropy. Psi is QUEST+ with one stimulus dimension and two outcomes.
 #include <cmath>
 
 #include "experiments/base/error.h"
@@ -20,7 +20,7 @@ using psychometrics::GridPosterior;
 struct QuestPlusDetail : ProcedureDetail, std::enable_shared_from_this<QuestPlusDetail> {
   ModelSettings model;
   StopRule stop;
-  size_t candidates = 1;  // 1: the best; otherwise one of so many at random
+  size_t candidates = 1;  // 1: the best; otherwise one of this many at random
   bool highestDensity = false;
   double tieTolerance = kTieTolerance;
   std::shared_ptr<const EntropySearch> search;  // shared by all procedures of these settings
@@ -55,7 +55,7 @@ class QuestPlus : public Procedure {
     const ModelSettings& model = detail_->model;
     const auto outcomes = static_cast<size_t>(model.model->outcomes());
     checkTrial(stimulus, outcome, model.stimulus.size(), model.model->outcomes());
-    if (!model.knows(stimulus)) throw Error("the model does not know the trial's stimulus");
+    if (!model.knows(stimulus)) throw Error("the model does not cover the trial's stimulus");
     std::vector<double> logs(outcomes), likelihood(posterior_.size());
     for (size_t i = 0; i < posterior_.size(); ++i) {
       model.logProbabilities(stimulus, posterior_.grid().valuesOf(i).data(), logs.data());
@@ -115,7 +115,7 @@ class QuestPlus : public Procedure {
   uint64_t seed_;
   GridPosterior posterior_;
   int trials_ = 0;
-  mutable std::optional<size_t> next_;  // once it was asked for
+  mutable std::optional<size_t> next_;  // once requested
 };
 
 std::unique_ptr<Procedure> QuestPlusDetail::make(uint64_t seed) const {
@@ -163,9 +163,9 @@ ProcedureSettings readPsi(SettingsReader& reader) {
 }
 
 const char* describeQuestPlus() {
-  return "quest_plus: the stimulus after whose answer the least entropy is expected (Watson 2017, J. Vision "
+  return "quest_plus: the stimulus whose answer minimises the expected entropy (Watson 2017, J. Vision "
          "17(3):10)\n"
-         "    model         default weibull_db; see models below, some with keys of their own\n"
+         "    model         default weibull_db; see models below, some with their own keys\n"
          "    stimulus      {name, from, to, step or count, spacing: linear or log, unit}, {name, values, "
          "unit}, or a\n"
          "                  list of these; the last dimension runs fastest\n"
@@ -173,19 +173,18 @@ const char* describeQuestPlus() {
          "with\n"
          "                  prior: uniform (default), {normal: {mean, sd}}, {beta: {a, b}} or a list of "
          "weights\n"
-         "    nuisance      names of parameters that are summed out before stimuli are compared (Prins "
+         "    nuisance      names of parameters that are marginalised out before stimuli are compared (Prins "
          "2013)\n"
          "    select        min_entropy (default), or min_n_entropy: one of the best `candidates` (default "
          "4) at random\n"
          "    interval      equal_tailed (default) or highest_density\n"
-         "    stop          {trials, entropy}: after so many trials, or once the posterior's entropy is at "
-         "or below\n"
-         "                  so many nats\n"
+         "    stop          {trials, entropy}: after this many trials, or once the posterior's entropy is at "
+         "or below\n                  this many nats\n"
          "    tie_tolerance   expected entropies that exceed the lowest by no more than this part of it (and "
          "of 0.01 nats\n"
          "                  more) count as equal, and the first stimulus in the declared order is taken "
-         "(default 1e-12);\n"
-         "                  0 takes the plain minimum, as programs do that replay published runs\n"
+         "(default 1e-12);\n                  0 takes the plain minimum, as in programs that replay "
+         "published runs\n"
          "    mode in estimates is that of the joint posterior; parameters with a single value are left "
          "out.\n";
 }

@@ -88,7 +88,7 @@ std::string SettingsReader::choiceOr(const std::string& key, const std::string& 
                                      const std::vector<std::string>& choices) {
   const std::string value = textOr(key, otherwise);
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
-    throw Error("'" + value + "' is none of the choices", at(key), suggest(value, choices));
+    throw Error("'" + value + "' is not one of the choices", at(key), suggest(value, choices));
   }
   return value;
 }
@@ -111,7 +111,7 @@ std::vector<psychometrics::GridAxis> readStimulusAxes(const json& source, const 
     std::string name = "stimulus";
     if (entry.is_object() && entry.contains("name")) {
       if (!entry["name"].is_string() || entry["name"].get<std::string>().empty()) {
-        throw Error("the name of a stimulus dimension is no text", place + ".name", "give a text");
+        throw Error("the name of a stimulus dimension is not a text", place + ".name", "give a text");
       }
       name = entry["name"].get<std::string>();
       entry.erase("name");
@@ -119,7 +119,7 @@ std::vector<psychometrics::GridAxis> readStimulusAxes(const json& source, const 
       throw Error("'name' is missing", place, "name every dimension of the stimulus");
     }
     for (const psychometrics::GridAxis& other : axes) {
-      if (other.name == name) throw Error("two dimensions are called '" + name + "'", place + ".name");
+      if (other.name == name) throw Error("two dimensions are named '" + name + "'", place + ".name");
     }
     axes.push_back(psychometrics::readAxis(entry, name, place));
   }
@@ -149,7 +149,7 @@ StopRule readStop(SettingsReader& reader, const std::vector<std::string>& allowe
   if (may("sd")) rule.sd = stop.number("sd", 0.0, SettingsReader::kNoLimit, true);
   stop.finish();
   if (settings.empty())
-    throw Error("nothing says when to stop", stop.where(), "give one of " + join(allowed));
+    throw Error("there is no stopping rule", stop.where(), "give one of " + join(allowed));
   return rule;
 }
 

@@ -10,8 +10,8 @@
 
 namespace limen::study {
 
-/// Reads one object of settings and knows which keys were asked for. Every function throws Error that names
-/// the key.
+/// Reads one object of settings and records which keys were read. Every function throws Error that names the
+/// key.
 class SettingsReader {
  public:
   /// `settings` has to be an object. `where` goes before the key in messages.
@@ -22,7 +22,7 @@ class SettingsReader {
   const std::string& where() const { return where_; }
 
   bool has(const std::string& key);
-  /// The value as it stands; an error if it is missing. `allowed` says what would be.
+  /// The raw value; an error if it is missing. `allowed` says what is allowed.
   const nlohmann::json& required(const std::string& key, const std::string& allowed);
 
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ class SettingsReader {
   std::string choiceOr(const std::string& key, const std::string& otherwise,
                        const std::vector<std::string>& choices);
 
-  /// Refuses keys that nobody asked for.
+  /// Refuses keys that were never read.
   void finish() const;
 
  private:
@@ -47,20 +47,20 @@ class SettingsReader {
 };
 
 /// Stimulus dimensions with their values: one object {name, ...} or a list of them; see
-/// psychometrics::readAxis for the other keys. A single one may go without a name and is called "stimulus".
+/// psychometrics::readAxis for the other keys. A single one may be unnamed and is called "stimulus".
 std::vector<psychometrics::GridAxis> readStimulusAxes(const nlohmann::json& json, const std::string& where);
 nlohmann::json toJson(const std::vector<psychometrics::GridAxis>& axes);
 
-/// `stop`: {trials, entropy, reversals, sd}, those of them that `allowed` names. 0 where not given.
+/// `stop`: {trials, entropy, reversals, sd}, those named in `allowed`. 0 if not given.
 struct StopRule {
   int trials = 0, reversals = 0;
   double entropy = 0.0, sd = 0.0;
 };
-/// At least one has to be given.
+/// At least one must be given.
 StopRule readStop(SettingsReader& reader, const std::vector<std::string>& allowed);
 nlohmann::json toJson(const StopRule& stop);
 
-/// What a trial may hold: `dimensions` finite numbers and an outcome from 0 to outcomes - 1. Throws Error.
+/// Checks a trial: `dimensions` finite numbers and an outcome from 0 to outcomes - 1. Throws Error.
 void checkTrial(const std::vector<double>& stimulus, int outcome, size_t dimensions, int outcomes);
 
 }  // namespace limen::study

@@ -58,7 +58,7 @@ struct StaircaseDetail : ProcedureDetail, std::enable_shared_from_this<Staircase
     if (scale == StepScale::Linear) out = level + step;
     if (scale == StepScale::Log10) out = level * std::pow(10.0, step);
     if (scale == StepScale::Decibel) out = level * std::pow(10.0, step / 20.0);
-    // Without limits of its own it still stays a number, and above 0 where steps multiply.
+    // Without explicit limits it still stays finite, and above 0 if steps multiply.
     const double lowest = scale == StepScale::Linear ? -1e300 : 1e-300;
     return std::clamp(out, std::max(minimum, lowest), std::min(maximum, 1e300));
   }
@@ -83,7 +83,7 @@ class Staircase : public Procedure {
                   "a staircase with steps in ratios needs one that is");
     }
     ++trials_;
-    level_ = stimulus[0];  // what was shown counts, whatever had been asked for
+    level_ = stimulus[0];  // what was shown counts, whatever had been requested
     run_ = outcome == 1 ? std::max(run_, 0) + 1 : std::min(run_, 0) - 1;
     if (run_ >= detail_->down) move(true);
     if (run_ <= -detail_->up) move(false);
@@ -126,8 +126,8 @@ class Staircase : public Procedure {
   void move(bool harder) {
     run_ = 0;
     const int direction = harder ? 1 : -1;
-    // A change of direction is a reversal at the stimulus that caused it, and the step after it already
-    // follows.
+    // A change of direction is a reversal at the stimulus that caused it; the new step size applies from the
+    // next step.
     if (direction_ == -direction) reversals_.push_back(level_);
     direction_ = direction;
     const std::vector<double>& steps = harder ? detail_->steps : detail_->stepsUp;
@@ -174,12 +174,12 @@ void readStimulus(SettingsReader& reader, StaircaseDetail& detail) {
     throw Error("the start is too large", stimulus.at("start"), "keep it within 1e300");
   }
   if (!(detail.minimum <= detail.start && detail.start <= detail.maximum)) {
-    throw Error("the start does not lie between minimum and maximum", stimulus.at("start"));
+    throw Error("the start is not between minimum and maximum", stimulus.at("start"));
   }
   const double lowest = std::isfinite(detail.minimum) ? detail.minimum : detail.start;
   if (detail.scale != StepScale::Linear && !(lowest >= 1e-300)) {
     throw Error("steps in ratios need a stimulus above 0", stimulus.where(),
-                "raise start and minimum, or take scale: linear");
+                "raise start and minimum, or use scale: linear");
   }
 }
 
@@ -239,7 +239,7 @@ ProcedureSettings readStaircase(SettingsReader& reader) {
   detail->estimateReversals = reader.integerOr("estimate_reversals", 16, 2, 1000);
   if (detail->estimateReversals % 2 != 0) {
     throw Error(std::to_string(detail->estimateReversals) + " is odd", reader.at("estimate_reversals"),
-                "give an even number, as many peaks as valleys");
+                "give an even number: as many peaks as valleys");
   }
   reader.finish();
   ProcedureSettings out;
@@ -257,22 +257,24 @@ const char* describeStaircase() {
          "    stimulus      {name, unit, start, minimum, maximum}; limits are optional\n"
          "    down, up      default 1 and 1\n"
          "    steps         size of the steps, or a list: each for `reversals_per_step` (default 1) "
-         "reversals, the last\n"
-         "                  to the end; in units of the stimulus, log10 units or dB (20 per factor of ten)\n"
+         "reversals, the last\n                  until the end; in units of the stimulus, log10 units or dB "
+         "(20 per factor of ten)\n"
          "    steps_up      the same for steps to easier (default: steps)\n"
-         "    scale         linear (default), log10 or db: what steps are measured in; the latter two "
+         "    scale         linear (default), log10 or db: unit of the steps; the latter two "
          "multiply\n"
          "    harder        lower (default) or higher: which way the stimulus gets harder\n"
          "    stop          {reversals, trials}\n"
          "    estimate_reversals   how many of the last reversals are averaged, an even number (default 16)\n"
-         "    A move at a limit counts although the stimulus stays. Estimate: the mean of the last reversals "
+         "    A move at a limit counts although the stimulus does not change. Estimate: the mean of the last "
+         "reversals "
          "(the geometric\n"
          "    one where steps multiply), the probability that the rule targets, and a t interval of four "
          "block means. It is\n"
-         "    approximate: intervals of 95 % held the targeted stimulus of simulated observers in 61 to 86 % "
+         "    approximate: 95 % intervals contained the targeted stimulus of simulated observers in 61 to 86 "
+         "% "
          "of cases with 8\n"
          "    reversals, in 78 to 92 % with 16, 89 to 94 % with 32 and 91 to 95 % with 64. Fit the answers "
-         "to get better.\n";
+         "for better intervals.\n";
 }
 
 }  // namespace limen::study

@@ -20,7 +20,7 @@ double readNumber(const std::string& text, const std::string& answer, const std:
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || text.empty() || !std::isfinite(value)) {
-    throw Error("'" + answer + "' is no answer", where, kForm);
+    throw Error("'" + answer + "' is not an answer", where, kForm);
   }
   return value;
 }
@@ -31,7 +31,7 @@ TraceAnswer readAnswer(const std::string& text, const std::string& where) {
   const std::string outcome = colon == std::string::npos ? text : text.substr(colon + 1);
   const double number = readNumber(outcome, text, where);
   if (!(number >= 0.0 && number < 1000.0 && number == std::floor(number))) {
-    throw Error("'" + text + "' is no answer", where, kForm);
+    throw Error("'" + text + "' is not an answer", where, kForm);
   }
   out.outcome = static_cast<int>(number);
   if (colon == std::string::npos) return out;
@@ -45,7 +45,7 @@ TraceAnswer readAnswer(const std::string& text, const std::string& where) {
   return out;
 }
 
-// NaN has no place in JSON.
+// JSON has no NaN.
 json numberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 }  // namespace

@@ -96,7 +96,7 @@ void setTargets(const Part& part, std::vector<PlannedTrial>& trials, uint64_t se
   Random random(seed);
   std::map<std::string, std::vector<PlannedTrial*>> conditions;
   for (PlannedTrial& trial : trials) conditions[nameOf(part, trial.condition)].push_back(&trial);
-  std::vector<int> deck;  // what is left over is dealt from here, without putting back until it is empty
+  std::vector<int> deck;  // the remainder is drawn from here, without replacement until it is empty
   for (auto& [name, ofCondition] : conditions) {
     std::vector<int> targets;
     while (targets.size() + alternatives <= ofCondition.size())
@@ -111,7 +111,7 @@ void setTargets(const Part& part, std::vector<PlannedTrial>& trials, uint64_t se
       }
       const int next = deck.back();
       deck.pop_back();
-      bool fresh = true;  // no alternative is left over twice in one condition
+      bool fresh = true;  // no alternative is in the remainder twice for one condition
       for (size_t i = full; i < targets.size(); ++i) fresh = fresh && targets[i] != next;
       (fresh ? targets : later).push_back(next);
     }

@@ -10,7 +10,7 @@
 
 namespace limen::study {
 
-/// One level of every factor, the compared items of a pairwise part apart.
+/// One level of every factor, except the compared items of a pairwise part.
 struct Condition {
   std::map<std::string, std::string> levels;
   Variables variables;  ///< of the part and the levels
@@ -25,10 +25,10 @@ std::string nameOf(const Part& part, const std::map<std::string, std::string>& l
 const Factor* findFactor(const Part& part, const std::string& name);
 /// Null unless the part compares items.
 const Factor* itemsOf(const Part& part);
-/// Numbers of all two different levels of the items, the lower first.
+/// Numbers of all pairs of different item levels, the lower first.
 std::vector<std::pair<size_t, size_t>> pairsOf(const Factor& items);
 
-/// `with` put over `base`.
+/// `base` overridden by `with`.
 Variables merged(Variables base, const Variables& with);
 
 }  // namespace limen::study

@@ -7,7 +7,7 @@
 namespace limen::study {
 
 // The first row 0, 1, n-1, 2, n-2, ... has every difference of neighbours (modulo n) once for n even, and
-// every one but for sign once for n odd, where the mirrored rows bring the other sign (Williams 1949; Bradley
+// every one up to sign once for n odd, where the mirrored rows have the other sign (Williams 1949; Bradley
 // 1958). Row r adds r to it.
 std::vector<int> williamsRow(int treatments, int row) {
   assert(treatments > 0 && row >= 0);

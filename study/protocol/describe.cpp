@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What kind of trial it is, for people.
+/// The kind of trial, as text for people.
 std::string kindOf(const Part& part, const PlannedTrial& trial) {
   std::string out = trial.change ? "" : "catch";
   const std::vector<std::string>& answers = part.task.answers;

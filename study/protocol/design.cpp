@@ -21,7 +21,7 @@ class Rows {
  public:
   explicit Rows(int participantNumber) : left_(participantNumber) {}
 
-  /// Places 0 ... n - 1 in the order of `kind`.
+  /// Positions 0 ... n - 1 in the order of `kind`.
   std::vector<size_t> order(OrderKind kind, size_t n, uint64_t seed) {
     std::vector<size_t> out(n);
     std::iota(out.begin(), out.end(), size_t{0});
@@ -47,14 +47,14 @@ std::vector<T> arranged(const std::vector<T>& items, const std::vector<size_t>& 
   return out;
 }
 
-/// Order of an adaptive block: catch trials one in each of as many equal stretches of it, so that they are
-/// spread over the block and nobody can foresee them.
+/// Order of an adaptive block: one catch trial in each of as many equal segments, so that they are spread
+/// over the block and unpredictable.
 std::vector<size_t> spread(const std::vector<PlannedTrial>& trials, Random& random) {
   std::vector<size_t> adaptive, catches, out;
   for (size_t i = 0; i < trials.size(); ++i) (trials[i].change ? adaptive : catches).push_back(i);
   random.shuffle(adaptive);
   random.shuffle(catches);
-  // Stretch k has the places from n k / c to n (k + 1) / c.
+  // Segment k has the positions from n k / c to n (k + 1) / c.
   const size_t n = trials.size(), c = catches.size();
   size_t next = 0;
   for (size_t k = 0; k < c; ++k) {
@@ -78,7 +78,7 @@ std::vector<size_t> shuffled(const Part& part, const std::vector<PlannedTrial>& 
 
 std::string seedText(const char* what, const std::string& name) { return std::string(what) + "/" + name; }
 
-/// A part's blocks, in order; practice not among them.
+/// A part's blocks, in order, without practice.
 std::vector<PlannedBlock> planPart(const Part& part, int number, int firstProcedure, uint64_t seed,
                                    Rows& rows) {
   std::vector<PlannedBlock> blocks = unorderedBlocks(part, number, firstProcedure);
@@ -95,7 +95,7 @@ std::vector<PlannedBlock> planPart(const Part& part, int number, int firstProced
   return arranged(blocks, blockOrder);
 }
 
-/// What practice draws from: conditions, and the pairs of each where items are compared.
+/// What practice draws from: conditions, and the pairs of each if items are compared.
 std::vector<PlannedTrial> practiceCells(const Part& part, int number) {
   std::vector<PlannedTrial> out;
   for (const Condition& condition : conditionsOf(part)) {
@@ -116,8 +116,7 @@ std::vector<PlannedTrial> practiceCells(const Part& part, int number) {
   return out;
 }
 
-/// Of `trials` practice trials: in proportion to the part's own, one at least of either kind if there are
-/// two.
+/// Of `trials` practice trials: in proportion to the part's own, at least one of each kind if there are two.
 int practiceCatches(const Part& part) {
   if (part.catchRepetitions == 0 || part.practice.trials < 2) return 0;
   double share = part.catchRepetitions;
@@ -164,7 +163,7 @@ PlannedBlock makePracticeRound(const Protocol& protocol, int number, uint64_t se
   }
   random.shuffle(out.trials);
 
-  // Further rounds come after all that is planned, those of the parts before this one first.
+  // Further rounds come after everything planned, those of earlier parts first.
   int first = 0;
   if (round > 0) {
     for (size_t p = 0; p < protocol.parts.size(); ++p) {

@@ -12,7 +12,7 @@
 
 namespace limen::study {
 
-/// A trial as the design plans it; an adaptive one takes its stimulus from its procedure when its turn comes.
+/// A trial as planned by the design; an adaptive one takes its stimulus from its procedure when it is due.
 struct PlannedTrial {
   int number = 0;  ///< within the session's plan, from 0; practice rounds included
   int part = 0, block = 0;
@@ -23,7 +23,7 @@ struct PlannedTrial {
   int repetition = 0;
   int target = 0;  ///< Interval, Alternative: which one has the change; Pairwise: which one shows item_b
   /// Index into Design::procedures, or -1. A catch trial of an adaptive part has one too: it is shown at the
-  /// stimulus that the procedure asks for next and its answer is not fed to it.
+  /// stimulus that the procedure requests next, and its answer is not fed back.
   int procedure = -1;
 };
 
@@ -31,10 +31,10 @@ struct PlannedBlock {
   int part = 0;
   std::string name;  ///< "PART", "PART: LEVEL" or "PART: practice"
   bool practice = false;
-  std::vector<PlannedTrial> trials;  ///< in order of showing
+  std::vector<PlannedTrial> trials;  ///< in presentation order
 };
 
-/// A procedure that runs in the session, one a condition of an adaptive part.
+/// A procedure that runs in the session, one per condition of an adaptive part.
 struct PlannedProcedure {
   int part = 0;
   std::map<std::string, std::string> condition;
@@ -42,8 +42,8 @@ struct PlannedProcedure {
   uint64_t seed = 0;
 };
 
-/// Adaptive trials are planned as many as their procedure asks for at most; a procedure that ends early
-/// leaves the rest of its trials, its catch trials among them, out.
+/// As many adaptive trials are planned as their procedure may request at most; if a procedure ends early, the
+/// rest of its trials, including catch trials, are dropped.
 struct Design {
   std::vector<PlannedBlock> blocks;
   std::vector<PlannedProcedure> procedures;
@@ -53,9 +53,9 @@ struct Design {
 /// rows of Latin squares). Same arguments, same plan, on every machine.
 Design makeDesign(const Protocol& protocol, uint64_t seed, int participantNumber);
 
-/// Practice of a part, round 0 being the one that the design holds but for the trials' numbers and block.
-/// Trials of further rounds are numbered on from the plan's last one, rounds of different parts apart. A pure
-/// function of its arguments.
+/// Practice of a part; round 0 is the one in the design except for the trials' numbers and block. Trials of
+/// further rounds continue the plan's numbering, separately for different parts. A pure function of its
+/// arguments.
 PlannedBlock makePracticeRound(const Protocol& protocol, int part, uint64_t seed, int round);
 
 /// Stimuli of a trial in the order (Interval) or position (Alternative, Pairwise) in which they are shown:
@@ -67,7 +67,7 @@ std::vector<Stimulus> stimuliOf(const Protocol& protocol, const PlannedTrial& tr
 /// Balanced Latin square: row `row` of n treatments; for n even (Williams) every treatment follows every
 /// other equally often over n rows, for n odd over 2 n rows. Source: Williams 1949; Bradley 1958.
 std::vector<int> williamsRow(int treatments, int row);
-/// Cyclic Latin square's row, each treatment once in each place over n rows.
+/// Row of a cyclic Latin square, each treatment once in each position over n rows.
 std::vector<int> latinRow(int treatments, int row);
 
 }  // namespace limen::study

@@ -25,18 +25,19 @@ class Parser {
   json value() {
     json out = sum();
     skipBlanks();
-    if (at_ < text_.size()) fail("'" + text_.substr(at_) + "' is left over");
+    if (at_ < text_.size()) fail("'" + text_.substr(at_) + "' is unexpected");
     if (out.is_number_float()) {
-      if (!std::isfinite(out.get<double>())) fail("the result is no finite number");
-      if (out.get<double>() == 0.0) out = 0.0;  // no -0, which would be another stimulus
+      if (!std::isfinite(out.get<double>())) fail("the result is not a finite number");
+      if (out.get<double>() == 0.0) out = 0.0;  // no -0, which would be a different stimulus
     }
     return out;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
-    throw Error("in '=" + text_ + "' " + what, where_,
-                hint.empty() ? "an expression has numbers, names of variables, + - * / and brackets" : hint);
+    throw Error(
+        "in '=" + text_ + "' " + what, where_,
+        hint.empty() ? "an expression consists of numbers, names of variables, + - * / and brackets" : hint);
   }
 
   void skipBlanks() {
@@ -51,7 +52,7 @@ class Parser {
   }
 
   double number(const json& operand) const {
-    if (!operand.is_number()) fail(operand.dump() + " is no number", "calculate with numbers only");
+    if (!operand.is_number()) fail(operand.dump() + " is not a number", "calculate with numbers only");
     return operand.get<double>();
   }
 
@@ -101,7 +102,7 @@ class Parser {
     if (at_ >= text_.size()) fail("something is missing at the end");
     if (isLetter(text_[at_])) return variable();
     if (isDigit(text_[at_]) || text_[at_] == '.') return literal();
-    fail("'" + text_.substr(at_, 1) + "' stands where a number or a name should");
+    fail("'" + text_.substr(at_, 1) + "' where a number or a name is expected");
   }
 
   json variable() {
@@ -118,7 +119,7 @@ class Parser {
   json literal() {
     double value = 0.0;
     const auto result = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (result.ec != std::errc{}) fail("'" + text_.substr(at_, 1) + "' begins no number");
+    if (result.ec != std::errc{}) fail("'" + text_.substr(at_, 1) + "' does not start a number");
     at_ = static_cast<size_t>(result.ptr - text_.data());
     return value;
   }
@@ -167,7 +168,7 @@ std::set<std::string> namesIn(const std::string& text) {
     if (isLetter(text[i])) {
       while (i < text.size() && (isLetter(text[i]) || isDigit(text[i]))) ++i;
       out.insert(text.substr(begin, i - begin));
-    } else if (isDigit(text[i]) || text[i] == '.') {  // the e of 1e-3 is no name
+    } else if (isDigit(text[i]) || text[i] == '.') {  // the e of 1e-3 is not a name
       double number = 0.0;
       const auto result = std::from_chars(text.data() + i, text.data() + text.size(), number);
       i = result.ec == std::errc{} ? static_cast<size_t>(result.ptr - text.data()) : i + 1;

@@ -16,7 +16,7 @@ constexpr size_t kRepairSteps = 20'000'000;
 constexpr long kSearchSteps = 200'000;
 constexpr uint64_t kPlainSeed = 0;
 
-/// Places of an order that continue a run beyond its limit.
+/// Positions of an order that continue a run beyond its limit.
 size_t violations(const std::vector<size_t>& order, const std::vector<RunLimit>& limits) {
   size_t out = 0;
   for (const RunLimit& limit : limits) {
@@ -32,7 +32,7 @@ size_t violations(const std::vector<size_t>& order, const std::vector<RunLimit>&
 /// Swaps that do not make an order worse, a bounded number of them.
 bool repair(std::vector<size_t>& order, const std::vector<RunLimit>& limits, Random& random) {
   size_t worst = violations(order, limits);
-  // Each attempt takes time in proportion to the order's length.
+  // Each attempt takes time proportional to the order's length.
   const size_t attempts = std::min(30 * order.size(), kRepairSteps / (order.size() + 1));
   for (size_t attempt = 0; worst > 0 && attempt < attempts; ++attempt) {
     const size_t i = random.below(order.size()), j = random.below(order.size());
@@ -47,7 +47,7 @@ bool repair(std::vector<size_t>& order, const std::vector<RunLimit>& limits, Ran
 }
 
 /// Depth-first search over kinds: items that agree in every limited value are of one kind. It never enters a
-/// state from which a single limit, taken alone, cannot be kept; with one limit it therefore never goes back.
+/// state from which some single limit cannot be met; with one limit it therefore never backtracks.
 class Search {
  public:
   Search(size_t items, const std::vector<RunLimit>& limits) : limits_(limits), items_(items) {
@@ -65,7 +65,7 @@ class Search {
       for (const int value : limits[k].values) ++left_[k][value];
   }
 
-  /// Nothing if there is no order, or `exhausted` is false and the search was given up.
+  /// Nothing if there is no order, or if the search was given up (`exhausted` is then false).
   std::optional<std::vector<size_t>> run(Random& way, Random& items, bool& exhausted) {
     steps_ = kSearchSteps + 50 * static_cast<long>(items_);
     const bool found = completable() && fill(way);
@@ -89,7 +89,7 @@ class Search {
     int value, length;
   };
 
-  /// Whether each limit alone can still be kept: the others of a value make one gap more than they are, each
+  /// Whether each limit alone can still be met: the others of a value make one gap more than they are, each
   /// of which takes `atMost` of it, the first less if the value is running.
   bool completable() const {
     const long left = static_cast<long>(items_ - sequence_.size());
@@ -109,7 +109,7 @@ class Search {
     return true;
   }
 
-  /// One place of the order: kinds not tried there yet, the one that stands there, the runs before it.
+  /// One position of the order: kinds not tried there yet, the current one, the runs before it.
   struct Place {
     std::vector<size_t> open;
     std::vector<Run> before;
@@ -141,7 +141,7 @@ class Search {
     return false;
   }
 
-  /// Takes one out of `open`, as likely as if one of the items left were drawn.
+  /// Takes one from `open`, with the probability of drawing one of the remaining items.
   size_t drawn(std::vector<size_t>& open, Random& random) const {
     size_t sum = 0;
     for (const size_t kind : open) sum += kinds_[kind].left();
@@ -202,7 +202,7 @@ std::vector<size_t> limitedShuffle(size_t items, const std::vector<RunLimit>& li
   if (repair(order, limits, random)) return order;
   bool exhausted = false;
   if (auto found = Search(items, limits).run(random, random, exhausted)) return *found;
-  // The way that feasibility() found, which is the same every time but for the items within a kind.
+  // The order found by feasibility(), which is the same every time except for the items within a kind.
   Random plain(kPlainSeed);
   const auto found = Search(items, limits).run(plain, random, exhausted);
   assert(found && "limits that cannot be kept are refused when a protocol is read");

@@ -9,7 +9,7 @@
 
 namespace limen::study {
 
-/// At most `atMost` neighbours in a row may share a value. `values`: one an item.
+/// At most `atMost` neighbours in a row may share a value. `values`: one per item.
 struct RunLimit {
   std::vector<int> values;
   int atMost = 1;

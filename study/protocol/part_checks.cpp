@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can only be said of a part as a whole: names that clash, conditions without a stimulus, orders that do
-// not exist.
+// Checks of a part as a whole: name clashes, conditions without a stimulus, orders that do not exist.
 #include <fmt/format.h>
 
 #include <algorithm>

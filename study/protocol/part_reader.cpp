@@ -37,8 +37,9 @@ OrderSetting readOrder(NodeReader& reader, const YamlNode& node, const std::stri
   if (!runs || !reader.isMap(*runs, "'at_most_in_a_row'", "{change: 4}")) return out;
   if (out.kind != OrderKind::Shuffle)
     reader.problems().add(
-        runs->mark, "'at_most_in_a_row' goes with the order '" + std::string(limen::toText(out.kind)) + "'",
-        "only 'shuffle' can keep to it");
+        runs->mark,
+        "'at_most_in_a_row' is used with the order '" + std::string(limen::toText(out.kind)) + "'",
+        "only 'shuffle' can satisfy it");
   if (limits.empty())
     reader.problems().add(runs->mark, "'at_most_in_a_row' of '" + key + "'", "only 'order' has it");
   else
@@ -53,11 +54,11 @@ void PartReader::readVariables(const YamlNode& node, const std::string& what, Va
   if (!reader_.isMap(node, what, "{speed: 1.5}")) return;
   for (const auto& [key, value] : node.members) {
     if (!isVariableName(key.text))
-      reader_.problems().add(key.mark, "'" + key.text + "' is no name of a variable",
+      reader_.problems().add(key.mark, "'" + key.text + "' is not a name for a variable",
                              "a letter, then letters, digits and _");
     else if (isExpression(value) || value.kind == Kind::Null)
       reader_.problems().add(value.mark, "variable '" + key.text + "' is " + value.describe(),
-                             "give a value; expressions stand in 'stimulus'");
+                             "give a value; expressions belong in 'stimulus'");
     else
       out[key.text] = toJson(value);
   }
@@ -73,7 +74,7 @@ FactorLevel PartReader::readLevel(const std::string& factor, const YamlMember* n
     out.name = reader_.values().text(value, "a level of factor '" + factor + "'").value_or("");
     if (isExpression(value))
       reader_.problems().add(value.mark, "a level of factor '" + factor + "' is an expression",
-                             "give a value; expressions stand in 'stimulus'");
+                             "give a value; expressions belong in 'stimulus'");
     out.variables[factor] = toJson(value);
   }
   return out;
@@ -85,9 +86,10 @@ void PartReader::readFactors(const YamlNode& node, Part& out) {
   for (const auto& [key, levels] : node.members) {
     const std::string& name = key.text;
     if (!isVariableName(name))
-      problems.add(key.mark, "'" + name + "' is no name of a factor", "a letter, then letters, digits and _");
+      problems.add(key.mark, "'" + name + "' is not a name for a factor",
+                   "a letter, then letters, digits and _");
     for (const char* reserved : {"change", "item_a", "item_b"})
-      if (name == reserved) problems.add(key.mark, "a factor is called '" + name + "'", "take another name");
+      if (name == reserved) problems.add(key.mark, "a factor is named '" + name + "'", "use another name");
     Factor factor{name, {}};
     std::vector<Mark> marks;
     if (levels.kind == Kind::Map) {
@@ -133,10 +135,10 @@ void PartReader::readTrials(const YamlNode& map, Part& out) {
     reader_.take(*node, "change", {1, 100000}, "", out.changeRepetitions);
     reader_.take(*node, "catch", {0, 100000}, "", out.catchRepetitions);
     if (out.catchRepetitions > 0 && out.task.type != Task::YesNo && out.task.type != Task::Rating)
-      reader_.problems().add(node->find("catch")->mark,
-                             "catch trials of a task '" + std::string(limen::toText(out.task.type)) + "'",
-                             "'yes_no' and 'rating' can have them; the others show what does not change in "
-                             "every trial");
+      reader_.problems().add(
+          node->find("catch")->mark,
+          "catch trials of a task '" + std::string(limen::toText(out.task.type)) + "'",
+          "'yes_no' and 'rating' can have them; the others show an unchanged stimulus in every trial");
   }
 }
 
@@ -191,15 +193,15 @@ void PartReader::readProcedure(const YamlNode& node, Part& out) {
   if (procedure_->outcomes != outcomes)
     problems.add(node.mark,
                  fmt::format("the procedure has {} outcomes, the task {}", procedure_->outcomes, outcomes),
-                 "let them agree");
+                 "make them agree");
   if (!procedure_->mostTrials)
-    problems.add(node.mark, "the procedure may go on for ever", "give 'stop: {trials: ...}'");
+    problems.add(node.mark, "the procedure may never end", "give 'stop: {trials: ...}'");
   for (const StimulusDimension& dimension : procedure_->stimulus) {
     if (!isVariableName(dimension.name))
-      problems.add(node.mark, "'" + dimension.name + "' is no name of a variable",
+      problems.add(node.mark, "'" + dimension.name + "' is not a name for a variable",
                    "a letter, then letters, digits and _");
     if (!std::isfinite(dimension.minimum) || !std::isfinite(dimension.maximum))
-      problems.add(node.mark, "the procedure may ask for any '" + dimension.name + "'",
+      problems.add(node.mark, "the procedure may request any '" + dimension.name + "'",
                    "give its stimulus a minimum and a maximum");
   }
 }
@@ -236,8 +238,7 @@ void PartReader::readBlocks(const YamlNode& node, Part& out) {
                    suggest(listed[i], out.blockLevels));
   for (const std::string& level : out.blockLevels)
     if (std::find(listed.begin(), listed.end(), level) == listed.end())
-      problems.add(order->mark, "level '" + level + "' has no place in the order of blocks",
-                   "list all levels");
+      problems.add(order->mark, "level '" + level + "' is missing in the order of blocks", "list all levels");
   if (listed.size() == out.blockLevels.size()) out.blockLevels = listed;
 }
 
@@ -255,14 +256,14 @@ void PartReader::readPractice(const YamlNode& node, Part& out) {
   if (const YamlNode* failure = node.find("on_failure"))
     practice.stopOnFailure = reader_.choice(*failure, "on_failure", {"stop", "continue"}) == "stop";
   if (practice.correct > practice.trials)
-    problems.add(node.mark, fmt::format("{} right answers in {} trials", practice.correct, practice.trials),
-                 "ask for as many as there are trials at most");
+    problems.add(node.mark, fmt::format("{} correct answers in {} trials", practice.correct, practice.trials),
+                 "ask for at most as many as there are trials");
   const bool right = out.task.type != Task::Rating && out.task.type != Task::Pairwise;
   if (!right && (practice.correct > 0 || (node.find("feedback") && practice.feedback)))
     problems.add(
         node.mark,
         "'correct' or 'feedback' in a part with task '" + std::string(limen::toText(out.task.type)) + "'",
-        "its answers are neither right nor wrong: leave 'correct' out and set 'feedback: false'");
+        "its answers are neither correct nor wrong: leave 'correct' out and set 'feedback: false'");
   if (!right) practice.feedback = false;
 
   const YamlNode* stimuli = node.find("stimuli");
@@ -276,7 +277,7 @@ void PartReader::readPractice(const YamlNode& node, Part& out) {
   const std::string example = "[{" + join(axes, ": ..., ") + ": ...}]";
   if (!stimuli) {
     problems.add(node.mark, "'stimuli' of practice is missing",
-                 "the procedure knows none before the first answer; give them: " + example);
+                 "the procedure has none before the first answer; give them: " + example);
     return;
   }
   if (!reader_.isFilledList(*stimuli, "'stimuli' of practice", example)) return;

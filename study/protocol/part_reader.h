@@ -16,7 +16,7 @@ class PartReader {
   PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz)
       : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz) {}
 
-  /// `otherKeys`: keys of the map that are not the part's, where a single part stands at the top level.
+  /// `otherKeys`: keys of the map that do not belong to the part, if a single part is at the top level.
   Part read(const YamlNode& map, const std::string& defaultName, const std::vector<std::string>& otherKeys);
 
  private:

@@ -50,7 +50,7 @@ void PartReader::readAnswers(const YamlNode& map, Part& out) {
   if (rating ? task.answers.size() < 2 || task.answers.size() > 11 : task.answers.size() != expected)
     reader_.problems().add(
         node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), limen::toText(task.type)),
-        rating ? "a scale has two to eleven steps, the least first" : fmt::format("give {}", expected));
+        rating ? "a scale has two to eleven steps, the lowest first" : fmt::format("give {}", expected));
 }
 
 void PartReader::readTask(const YamlNode& map, Part& out) {

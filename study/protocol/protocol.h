@@ -53,7 +53,7 @@ struct TaskSetting {
   std::optional<Scale> confidence;  ///< asked after every answer
 };
 
-/// A value that a stimulus' parameter takes from a trial's variables: a constant, or an expression
+/// A value that a stimulus's parameter takes from a trial's variables: a constant, or an expression
 /// ("= distance + 2.25 * speed": + - * / and brackets over numbers and names; a name alone may hold anything,
 /// a text or a whole entry {name: ...}).
 struct Expression {
@@ -76,14 +76,14 @@ struct Factor {
   std::vector<FactorLevel> levels;
 };
 
-/// A stimulus with expressions in it: {"scene": {"name": ..., "distance": Expression}, ...}, kept as the tree
-/// of the file so that messages name lines.
+/// A stimulus with expressions in it: {"scene": {"name": ..., "distance": Expression}, ...}, stored as the
+/// file's tree so that messages name lines.
 struct StimulusTemplate {
   YamlNode node;
 };
 
-/// How an adaptive part finds its stimuli: settings of one procedure (see procedures/procedure.h), made anew
-/// for each condition. Each stimulus axis sets the variable of its name.
+/// How an adaptive part finds its stimuli: settings of one procedure (see procedures/procedure.h),
+/// instantiated for each condition. Each stimulus axis sets the variable of its name.
 struct ProcedureSetting {
   nlohmann::json settings;
   Mark mark;
@@ -111,8 +111,8 @@ struct OrderSetting {
 struct Practice {
   int trials = 0;  ///< drawn evenly from the part's conditions; 0: no practice
   bool feedback = true;
-  /// Passed with at least `correct` right answers in a round; else another round, `rounds` at most, after
-  /// which the session stops ("stop") or goes on with a note ("continue").
+  /// Passed with at least `correct` correct answers in a round; otherwise another round, at most `rounds`,
+  /// after which the session stops ("stop") or continues with a note ("continue").
   int correct = 0, rounds = 3;
   bool stopOnFailure = false;
   /// Adaptive parts only, which have no stimuli of their own before the first answer: values of the
@@ -130,7 +130,7 @@ struct Part {
       catchRepetitions = 0;                   ///< of every condition; for a procedure: catch trials of all
   std::optional<ProcedureSetting> procedure;  ///< replaces changeRepetitions
   std::string blockBy;                        ///< name of the factor whose levels are blocks; "" one block
-  std::vector<std::string> blockLevels;  ///< the levels of blockBy, in their order of writing or as listed
+  std::vector<std::string> blockLevels;       ///< the levels of blockBy, in written order or as listed
   OrderSetting blockOrder, trialOrder;
   Practice practice;
   int breakEveryTrials = 0;  ///< 0: only between blocks
@@ -141,7 +141,7 @@ struct Part {
 
 struct Timing {
   double fixationS = 0.5, afterFixationS = 0.0, intervalGapS = 0.5, betweenTrialsS = 0.5;
-  double answerTimeoutS = 0.0;  ///< 0: waits
+  double answerTimeoutS = 0.0;  ///< 0: no limit
   double breakAtLeastS = 0.0;
 };
 
@@ -159,10 +159,10 @@ constexpr EnumNames<ResumePolicy, 3> enumNames(ResumePolicy) {
 struct SessionSetting {
   ResumePolicy resume = ResumePolicy::Resume;
   double maximumAgeH = 24.0;    ///< of the last event; an older session is not resumed
-  int repeatInvalidAtMost = 3;  ///< a trial whose frames were late is asked again this often
+  int repeatInvalidAtMost = 3;  ///< a trial whose frames were late is repeated at most this often
 };
 
-/// A rule by which the analysis leaves data out, applied by name.
+/// A rule by which the analysis excludes data, applied by name.
 struct Exclusion {
   std::string
       rule;  ///< "catch_rate_above", "lapse_above", "reaction_time_below_s", "reaction_time_above_s", ...
@@ -173,7 +173,7 @@ struct Texts {
   std::string consent, instructions, practice, pause, debrief;
 };
 
-/// What is asked about a participant, on the form: nothing that names a person.
+/// What the form asks about a participant: nothing that identifies a person.
 struct FormField {
   std::string name, label;
   std::vector<std::string> choices;  ///< e.g. age bins, vision
@@ -185,7 +185,7 @@ struct Protocol {
   std::string name;              ///< file name without ending
   std::string title, question, source;
   std::vector<std::string> features;
-  std::string display;  ///< preset or profile file that it was made for
+  std::string display;  ///< preset or profile file for which it was made
   WindowSetting window;
   std::vector<Part> parts;
   OrderSetting partOrder;
@@ -194,15 +194,15 @@ struct Protocol {
   Texts texts;
   std::vector<FormField> form;
   std::vector<Exclusion> exclusions;
-  nlohmann::json simulation;  ///< what simulated observers see in its conditions (see observers/)
+  nlohmann::json simulation;  ///< how simulated observers respond to its conditions (see observers/)
   std::map<std::string, std::string> fileHashes;  ///< path of each file that a stimulus names -> SHA-256
-  /// What its stimuli were checked against, and are made with.
+  /// The catalogue that its stimuli were checked against and are made with.
   std::shared_ptr<const Catalogue> catalogue;
   std::shared_ptr<const FileFinder> files;
 };
 
-/// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" for everything
-/// that is wrong. `nameOrPath`: a file, or the name of a shipped protocol.
+/// Reads and checks. Throws one Error with a line "file:line:column: what; what is allowed" per problem.
+/// `nameOrPath`: a file, or the name of a shipped protocol.
 Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue);
 Protocol parseProtocol(const std::string& text, const std::string& path,
                        std::shared_ptr<const Catalogue> catalogue);

@@ -115,7 +115,7 @@ class ProtocolReader {
       problems_.add(node ? node->mark : root.mark,
                     fmt::format("a window of {} x {} px on display '{}', which has {} x {}", window.widthPx,
                                 window.heightPx, out_.display, resolutionPx_.x, resolutionPx_.y),
-                    "every pixel of the window is one of the display's: give a smaller one");
+                    "window pixels are display pixels: give a smaller one");
   }
 
   void readParts(const YamlNode& root) {
@@ -192,9 +192,9 @@ class ProtocolReader {
       if (choices) field.choices = reader_.texts(*choices, "'choices'", "[under 30, 30 or more]");
       if (!choices || field.choices.size() == 1)
         problems_.add(choices ? choices->mark : item.mark, "field '" + field.name + "' leaves no choice",
-                      "give two or more: what can be written freely might name a person");
+                      "give two or more: free text might identify a person");
       if (!field.name.empty() && !isVariableName(field.name))
-        problems_.add(item.find("name")->mark, "'" + field.name + "' is no name of a field",
+        problems_.add(item.find("name")->mark, "'" + field.name + "' is not a name for a field",
                       "a letter, then letters, digits and _");
       for (const FormField& other : out_.form)
         if (other.name == field.name)

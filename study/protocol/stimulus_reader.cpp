@@ -40,7 +40,7 @@ std::optional<YamlNode> StimulusReader::resolved(const YamlNode& node) {
     try {
       YamlNode out = toYaml(evaluate(expressionOf(node), *variables_, reader_.problems().file()), node.mark);
       out.origin = origin(expressionOf(node), *variables_);
-      // A number that was calculated is one, whole or not; a text that a variable holds may be a number's.
+      // A calculated value is a number, integer or not; a variable's text may also represent a number.
       out.quoted = false;
       return out;
     } catch (const Error& error) {
@@ -79,12 +79,13 @@ ParameterValues StimulusReader::readValues(const YamlNode& map, const std::strin
                                            const std::vector<Parameter>& declared, bool named,
                                            std::map<std::string, std::string>* fileHashes) {
   const std::string listHint =
-      "a stimulus has one value; several are levels of a factor: 'size: = size' and 'factors: {size: [...]}'";
+      "a stimulus has a single value; several values are levels of a factor: 'size: = size' and 'factors: "
+      "{size: [...]}'";
   const size_t before = reader_.problems().size();
   EntryReader entry(reader_, listHint);
   const std::vector<Axis> axes =
       entry.axes(map, declared, what, named ? std::vector<std::string>{"name"} : std::vector<std::string>{});
-  // A problem that was met before does not count again: then it is an axis without a place that tells.
+  // A repeated problem is not added again: then it is an axis without a position to report.
   const std::vector<AxisPoint> given = combine(axes);
   if (reader_.problems().size() != before || given.empty()) return {};
   ParameterValues values(declared, given[0]);
@@ -139,7 +140,7 @@ void StimulusReader::readLevels(const YamlNode& node, Stimulus& out) {
   if (change.before == change.after && map->find("before") && map->find("after"))
     reader_.problems().add(map->mark,
                            fmt::format("level {} changes to level {}", change.before, change.after),
-                           "give two different levels; what changes nothing is a catch trial");
+                           "give two different levels; a trial without a change is a catch trial");
   out.levels = change;
 }
 
@@ -152,10 +153,10 @@ void StimulusReader::readChange(const YamlNode& map, Stimulus& out) {
                  "give levels {before, after} for a change of level of detail, or 'before' (and 'after') for "
                  "a change of technique");
   if (!levels && !before)
-    problems.add(after ? after->mark : map.mark, "nothing says what a stimulus shows",
+    problems.add(after ? after->mark : map.mark, "the stimulus does not say what it shows",
                  "give 'levels: {before: 1, after: 0}', or a technique 'before: {name: ...}'");
   if (shading && !levels)
-    problems.add(shading->mark, "'shading' is without 'levels'", "a technique shades by itself");
+    problems.add(shading->mark, "'shading' is without 'levels'", "a technique does its own shading");
   if (levels) readLevels(*levels, out);
   if (before) out.before = readEntry(*before, "technique", catalogue_.techniques);
   if (after) out.after = readEntry(*after, "technique", catalogue_.techniques);
@@ -217,7 +218,7 @@ std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, con
     problems.add(at ? at->mark : map.mark,
                  fmt::format("the change comes at {} s of {} s", shortestNumber(out.changeAtS),
                              shortestNumber(out.durationS)),
-                 "let it come within the sequence");
+                 "put it within the sequence");
   }
   if (problems.size() != before) return {};
   return out;

@@ -8,7 +8,7 @@
 
 namespace limen::study {
 
-/// Makes stimuli of a template. What does not fit becomes a problem.
+/// Makes stimuli from a template. Anything invalid becomes a problem.
 class StimulusReader {
  public:
   StimulusReader(NodeReader& reader, const Catalogue& catalogue) : reader_(reader), catalogue_(catalogue) {}
@@ -25,10 +25,10 @@ class StimulusReader {
                              const std::vector<Parameter>& declared, bool named,
                              std::map<std::string, std::string>* fileHashes);
 
-  /// The node with the expressions in it worked out, those of maps and lists below it too; nothing after a
+  /// The node with its expressions evaluated, including those in nested maps and lists; nothing after a
   /// problem.
   std::optional<YamlNode> resolved(const YamlNode& node);
-  /// As NodeReader::take() of the same arguments, with an expression worked out.
+  /// Like NodeReader::take() with the same arguments, with an expression evaluated.
   template <class... Arguments>
   void take(const YamlNode& map, const std::string& key, Arguments&&... arguments);
 

@@ -12,7 +12,8 @@ int indexOf(const Part& part, const std::string& answer) {
   const std::vector<std::string>& answers = part.task.answers;
   const auto found = std::find(answers.begin(), answers.end(), answer);
   if (found == answers.end())
-    throw Error("'" + answer + "' is no answer of part '" + part.name + "'", {}, "known: " + join(answers));
+    throw Error("'" + answer + "' is not an answer of part '" + part.name + "'", {},
+                "known: " + join(answers));
   return static_cast<int>(found - answers.begin());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How events move a session on.
+// How events advance a session.
 #include <algorithm>
 
 #include "experiments/base/error.h"
@@ -23,7 +23,7 @@ std::string describe(const Step& step) {
     case Step::Kind::Aborted:
       break;
   }
-  return "nothing: the session was broken off";
+  return "nothing: the session was aborted";
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void Session::refuse(const Event& event, const std::string& why) const {
 
 void Session::apply(const Event& event) {
   if (event.number != nextEvent_) refuse(event, "has not number " + std::to_string(nextEvent_));
-  if ((event.number == 0) != (event.kind == EventKind::Started)) refuse(event, "cannot stand there");
+  if ((event.number == 0) != (event.kind == EventKind::Started)) refuse(event, "is out of place");
   const bool ended = stage_ == Stage::Finished || stage_ == Stage::Aborted;
   const bool passes = event.kind == EventKind::Continued || event.kind == EventKind::Aborted ||
                       event.kind == EventKind::Note || event.kind == EventKind::ClockJump;
@@ -103,7 +103,7 @@ void Session::apply(const Event& event) {
         break;
     }
   } catch (const nlohmann::json::exception&) {
-    refuse(event, "lacks what such an event must say");
+    refuse(event, "lacks required data");
   }
   ++nextEvent_;
   settle();
@@ -111,7 +111,7 @@ void Session::apply(const Event& event) {
 
 void Session::leaveScreen(const Event& event) {
   if (step_.kind != Step::Kind::Screen || event.data.at("screen") != study::toText(step_.screen->kind))
-    refuse(event, "leaves another screen");
+    refuse(event, "leaves a different screen");
   const bool isLastRound = stretch_ + 1 >= stretches_.size() || !stretches_[stretch_ + 1].practice ||
                            stretches_[stretch_ + 1].part != stretches_[stretch_].part;
   const auto firstOfPart = [&] {
@@ -162,7 +162,7 @@ void Session::leaveScreen(const Event& event) {
 }
 
 void Session::startTrial(const Event& event) {
-  if (step_.kind != Step::Kind::Trial || inProgress_) refuse(event, "begins no trial that is due");
+  if (step_.kind != Step::Kind::Trial || inProgress_) refuse(event, "does not begin the trial that is due");
   const Trial& due = *step_.trial;
   if (event.data.at("trial") != due.number || event.data.at("attempt") != due.attempt)
     refuse(event,
@@ -173,8 +173,8 @@ void Session::startTrial(const Event& event) {
   for (const Stimulus& stimulus : due.stimuli) hashes.push_back(stimulusHash(stimulus));
   if (event.data.at("stimulus_hashes").get<std::vector<std::string>>() != hashes)
     throw Error(
-        "trial " + std::to_string(due.number) + " was shown with other stimuli than this program makes of it",
-        protocol_.path, "scenes or techniques have changed; use the version that began the session");
+        "trial " + std::to_string(due.number) + " was shown with different stimuli than this program makes",
+        protocol_.path, "scenes or techniques have changed; use the version that started the session");
   if (due.plan.procedure >= 0) queue_.front().stimulus = due.procedureStimulus;
   ++attempts_[due.number];
   if (!begunAt_) begunAt_ = event.number;
@@ -199,7 +199,7 @@ void Session::endTrial(const Event& event) {
   const std::string answer = event.data.at("answer").get<std::string>();
   const int outcome = outcomeOf(part, due.plan, answer);
   const bool right = isCorrect(part, due.plan, answer).value_or(true);
-  // Catch trials and practice are shown at the procedure's level and tell it nothing.
+  // Catch trials and practice are shown at the procedure's level but do not update it.
   if (due.plan.procedure >= 0 && due.plan.change && !due.plan.practice)
     feed(due.plan.procedure, due.procedureStimulus, outcome);
   inProgress_ = false;
@@ -215,8 +215,8 @@ void Session::endTrial(const Event& event) {
     stage_ = Stage::Break;
 }
 
-// Behind at least one other trial, if there is one. The place hangs on the number of invalid showings and not
-// on attempts, so that an interruption changes no order.
+// Behind at least one other trial, if there is one. The position depends on the number of invalid
+// presentations, not on attempts, so that an interruption does not change the order.
 void Session::requeue(Queued trial) {
   const int number = trial.slot.trial->number;
   psychometrics::Random random(psychometrics::childSeed(

@@ -7,7 +7,7 @@
 
 namespace limen::study {
 
-/// What happened in a session, in order. A session's state is a replay of its events; nothing else decides
+/// What happened in a session, in order. A session's state is a replay of its events; nothing else affects
 /// it.
 enum class EventKind {
   Started,       ///< {protocol_hash, seed, participant_number, display_hash, environment ...}
@@ -29,7 +29,7 @@ struct Event {
   int number = 0;  ///< within its session, from 0 without gaps
   EventKind kind = EventKind::Started;
   std::string utc;          ///< wall clock, ISO 8601 with milliseconds
-  int64_t monotonicNs = 0;  ///< steady clock of the machine; starts anew when it boots
+  int64_t monotonicNs = 0;  ///< steady clock of the machine; restarts at boot
   nlohmann::json data = nlohmann::json::object();
 };
 

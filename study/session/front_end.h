@@ -11,10 +11,10 @@
 
 namespace limen::study {
 
-/// A frame as it went to the screen.
+/// A frame as it was shown.
 struct ShownFrame {
   int stimulus = 0, showing = 0,
-      frame = 0;         ///< which of the trial's stimuli, which showing, which frame of it
+      frame = 0;         ///< which of the trial's stimuli, which presentation, which frame of it
   int64_t swapNs = 0;    ///< steady clock when the swap returned
   int missedBlanks = 0;  ///< vertical blanks for which its predecessor stayed on too long
 };
@@ -36,7 +36,7 @@ struct ScreenResult {
   std::string note;  ///< free text from the form; goes through the privacy filter
   std::string by =
       "participant";   ///< who asked for Paused or Aborted: "participant", "experimenter", "system"
-  std::string reason;  ///< why Paused or Aborted, if anything is to be said
+  std::string reason;  ///< why Paused or Aborted, if there is anything to say
 };
 
 struct TrialResult {
@@ -47,7 +47,7 @@ struct TrialResult {
   std::string by = "participant";  ///< as in ScreenResult
 };
 
-/// Whoever sits before the session: a person at a window, or a simulated observer. Calls block until done.
+/// The other side of a session: a person at a window, or a simulated observer. Calls block until done.
 class FrontEnd {
  public:
   virtual ~FrontEnd() = default;
@@ -56,7 +56,7 @@ class FrontEnd {
   /// After an answer in practice with feedback.
   virtual void feedback(bool correct) = 0;
   /// Codes of the notes (see privacy.h) that the experimenter took since the last call, for events of kind
-  /// Note. Asked after each screen and each trial.
+  /// Note. Called after each screen and each trial.
   virtual std::vector<std::string> takeNotes() { return {}; }
   /// The machine this runs on: refresh rate, GPU, window system, whether it is fit for a lab.
   virtual nlohmann::json environment() const = 0;

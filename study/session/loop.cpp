@@ -14,9 +14,9 @@
 namespace limen::study {
 namespace {
 
-constexpr double kClockJumpS = 2.0;  // clocks that are steered by a time server stay well below
+constexpr double kClockJumpS = 2.0;  // clocks adjusted by a time server stay well below
 
-// A step that does not exist would be stored as an answer that nobody gave.
+// A non-existent step would be stored as an answer that nobody gave.
 void checkStep(const std::optional<int>& step, const std::optional<Scale>& scale, const std::string& what) {
   if (!step) return;
   if (!scale || *step < 1 || *step > static_cast<int>(scale->labels.size()))
@@ -30,7 +30,7 @@ nlohmann::json answerData(const Trial& trial, const Part& part, const TrialResul
   checkStep(answer.severity, part.task.severity, "severity");
   checkStep(answer.confidence, part.task.confidence, "confidence");
   if (!std::isfinite(answer.reactionTimeS))
-    throw Error("the front end gave a reaction time that is no number");
+    throw Error("the front end gave a reaction time that is not a number");
   const std::optional<bool> correct = Session::isCorrect(part, trial.plan, answer.answer);
   nlohmann::json data = {{"trial", trial.number},
                          {"attempt", trial.attempt},
@@ -88,11 +88,11 @@ void Loop::addClockJump() {
   add(EventKind::ClockJump, {{"wall_s", wallS}, {"monotonic_s", steadyS}}, {});
   warn_(
       fmt::format("the wall clock moved by {:.1f} s while {:.1f} s passed: it was set, or the machine slept; "
-                  "the session goes on, and its times of the day are to be read with care",
+                  "the session continues; treat its times of day with care",
                   wallS, steadyS));
 }
 
-// What an event brings about besides its rows stands in the log in the same transaction.
+// Follow-up events are logged in the same transaction.
 void Loop::addWhatFollows(EventKind kind, const Step& before) {
   const auto note = [&](const std::string& code, nlohmann::json detail) {
     add(EventKind::Note, {{"by", "program"}, {"code", code}, {"detail", std::move(detail)}}, {});

@@ -10,11 +10,10 @@
 
 namespace limen::study {
 
-/// An event on its way into a log, with the frames of the trial that it ends; `before` is the session just
-/// before it.
+/// An event to be logged, with the frames of the trial that it ends; `before` is the session just before it.
 using Observe = std::function<void(const Session& before, const Event&, const std::vector<ShownFrame>&)>;
 
-/// Where events go. `prepare` sees each event before the session takes it; `commit` makes all that were
+/// Destination of events. `prepare` sees each event before the session takes it; `commit` makes all events
 /// prepared since the last one durable, or throws.
 struct Sink {
   Observe prepare;
@@ -27,13 +26,14 @@ struct LastInstant {
   int64_t monotonicNs = 0;
 };
 
-/// Walks a session through a front end: one round asks the front end once and commits what came of it.
+/// Runs a session on a front end: one round calls the front end once and commits the result.
 class Loop {
  public:
   Loop(Session& session, FrontEnd& frontEnd, Clock& clock, Sink sink,
        std::function<void(const std::string&)> warn, std::optional<LastInstant> last = std::nullopt);
 
-  /// Appends one event (and a clock jump before it, if the wall clock was set) with all that follows from it.
+  /// Appends one event (and a clock jump before it, if the wall clock was set) with everything that follows
+  /// from it.
   void record(EventKind kind, nlohmann::json data, const std::vector<ShownFrame>& frames = {});
   /// Until the session has ended (true) or paused (false).
   bool run();

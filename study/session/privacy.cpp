@@ -20,8 +20,7 @@ size_t lengthOf(const std::string& text) {
 
 nlohmann::json lengthAlone(const std::string& text) { return {{"given", true}, {"length", lengthOf(text)}}; }
 
-// 1990-05-17, 17-5-1990, 17_05_90 and months by name; 19900517 and 170590, as long as they are a day of some
-// calendar.
+// 1990-05-17, 17-5-1990, 17_05_90 and months by name; 19900517 and 170590, if they are a valid calendar date.
 bool looksLikeDate(const std::string& code) {
   static const std::regex kParted(
       "(^|[^0-9])([0-9]{4}[-_][0-9]{1,2}[-_][0-9]{1,2}|[0-9]{1,2}[-_][0-9]{1,2}[-_]([0-9]{4}|"
@@ -67,8 +66,9 @@ nlohmann::json formAnswers(const Protocol& protocol, const nlohmann::json& answe
 }  // namespace
 
 void checkCode(const std::string& code, const std::string& thing) {
-  const std::string hint = "give a code that names nobody, such as p01: letters, digits, - and _, at most " +
-                           std::to_string(kLongestCode);
+  const std::string hint =
+      "give a code that identifies nobody, such as p01: letters, digits, - and _, at most " +
+      std::to_string(kLongestCode);
   if (code.empty()) throw Error("the " + thing + " has no code", "--" + thing, hint);
   if (code.find('@') != std::string::npos)
     throw Error("the " + thing + "'s code looks like an e-mail address", "--" + thing, hint);
@@ -76,8 +76,7 @@ void checkCode(const std::string& code, const std::string& thing) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
   if (code.size() > kLongestCode || !std::all_of(code.begin(), code.end(), allowed))
-    throw Error("the " + thing + "'s code has characters that it may not have, or too many", "--" + thing,
-                hint);
+    throw Error("the " + thing + "'s code has forbidden characters, or too many", "--" + thing, hint);
   if (looksLikeDate(code)) throw Error("the " + thing + "'s code looks like a date", "--" + thing, hint);
 }
 
@@ -99,7 +98,7 @@ nlohmann::json screenData(const Protocol& protocol, const Screen& screen, const 
 
 const std::vector<std::pair<std::string, std::string>>& experimenterNotes() {
   static const std::vector<std::pair<std::string, std::string>> kNotes = {
-      {"interrupted", "somebody or something interrupted the session"},
+      {"interrupted", "the session was interrupted"},
       {"noise", "noise or light from outside"},
       {"glasses", "glasses or lenses were put on or taken off"},
       {"moved", "the viewer moved from the set distance"},
@@ -107,9 +106,9 @@ const std::vector<std::pair<std::string, std::string>>& experimenterNotes() {
       {"question", "the participant asked about the task"},
       {"tired", "the participant was visibly tired"},
       {"unwell", "the participant felt unwell"},
-      {"equipment", "something of the equipment failed"},
-      {"wrong_key", "the participant reported wrong keys"},
-      {"other", "something else, written down elsewhere"},
+      {"equipment", "equipment failed"},
+      {"wrong_key", "the participant reported pressing wrong keys"},
+      {"other", "something else, noted elsewhere"},
   };
   return kNotes;
 }
@@ -129,7 +128,7 @@ void checkExperimenterNote(const std::string& code) {
   for (const auto& [name, meaning] : experimenterNotes()) known.push_back(name);
   if (noteCode(code) != code)
     throw Error("no such note", "note",
-                "notes are picked from a list, so that no name gets in: " + join(known));
+                "notes are picked from a list, so that they contain no names: " + join(known));
 }
 
 }  // namespace limen::study

@@ -7,19 +7,19 @@
 
 #include "study/session/front_end.h"
 
-/// What may go into the store. No filter can tell every name or address from harmless text, so nothing that a
-/// person typed is stored at all: a form's answers come from the protocol's declared choices, of free text
-/// only its length is kept, and the experimenter's notes are codes of a closed list. What remains typed are
-/// the codes of participant and session, whose shape leaves no room for an address, an e-mail or a date; that
-/// a code is not somebody's name is the experimenter's business.
+/// What may go into the store. No filter can tell every name or address from harmless text, so no typed text
+/// is stored at all: a form's answers come from the protocol's declared choices, of free text only the length
+/// is kept, and the experimenter's notes are codes from a closed list. Only the codes of participant and
+/// session are typed, in a form that rules out an address, an e-mail or a date; that a code is not somebody's
+/// name is the experimenter's responsibility.
 namespace limen::study {
 
-/// Letters, digits, - and _, 16 at most, and nothing that looks like a date (six or eight digits in a row or
-/// set apart). `thing`: "participant", for the message. Throws Error, which does not repeat the text.
+/// Letters, digits, - and _, 16 at most, and nothing that looks like a date (six or eight digits, in a row or
+/// separated). `thing`: "participant", for the message. Throws Error, which does not repeat the text.
 void checkCode(const std::string& code, const std::string& thing);
 
 /// Data of the ScreenDone event: {screen, part, block, answers, note}. Fields that the form does not declare
-/// and choices that it does not offer are left out; `answers` of a field without choices and `note` become
+/// and choices that it does not offer are dropped; `answers` of a field without choices and `note` become
 /// {"given": true, "length": characters}.
 nlohmann::json screenData(const Protocol& protocol, const Screen& screen, const ScreenResult& result);
 

@@ -28,7 +28,7 @@ nlohmann::json comparable(const store::StudyResponse& r) {
           {"extra", r.extra}};
 }
 
-// All but the frames, which the log of events knows by their digest alone.
+// All except the frames, of which the event log has only the digest.
 nlohmann::json comparable(const store::StudyTrial& t) {
   return {{"number", t.number},
           {"attempt", t.attempt},
@@ -86,7 +86,7 @@ void compare(const std::string& what, const std::vector<Row>& found, const std::
   }
 }
 
-// Rows as the entries of a log make them.
+// Rows as derived from the entries of a log.
 struct Derived {
   std::vector<store::StudyTrial> trials;
   std::vector<nlohmann::json> frameDigests;  ///< of each trial; null: no frames
@@ -100,7 +100,7 @@ struct Derived {
       frameDigests.emplace_back();
     }
     if (entry.ended) {
-      // Only the trial that began last can end.
+      // Only the most recently started trial can end.
       store::StudyTrial& trial = trials.back();
       trial.valid = entry.ended->valid;
       trial.reason = entry.ended->reason;
@@ -134,7 +134,7 @@ Verification verifySession(const store::SessionReader& reader, const store::Stud
   std::vector<std::string>& differences = verification.differences;
   const store::StudyProtocol stored = reader.protocol(session.protocol);
   if (sha256(stored.text) != stored.hash || protocol.hash != stored.hash)
-    differences.push_back("protocol: its text is not the one that the session began with");
+    differences.push_back("protocol: its text is not the one with which the session began");
   Session replayed(protocol, session.seed, session.participantNumber);
   Derived expected;
   for (const store::StudyEvent& row : reader.events(session.id)) {
@@ -151,7 +151,7 @@ Verification verifySession(const store::SessionReader& reader, const store::Stud
   compare("block", reader.blocks(session.id), blocksOf(replayed), differences);
   if (session.form != expected.form)
     differences.push_back("form: " + difference(session.form, expected.form));
-  // A session whose process was killed goes on calling itself running: that is what the events say, too.
+  // A session whose process was killed is still marked as running, which agrees with its events.
   if (session.state != expected.state)
     differences.push_back("state: the store has " + session.state + ", the events say " + expected.state);
   return verification;

@@ -11,15 +11,15 @@
 namespace limen::study {
 
 struct Verification {
-  /// One line for each row that is not what the events say; empty: the derived rows are as they must be.
+  /// One line for each row that disagrees with the events; empty: all derived rows are correct.
   std::vector<std::string> differences;
   int events = 0;
   nlohmann::json state;  ///< Session::state() after the last event
 };
 
 /// Replays a stored session and compares every derived row (blocks, trials with their stimuli and hashes,
-/// responses, frame logs, notes, form, state) with what the events make of it. `protocol` is the stored one,
-/// parsed. Throws Error if the events cannot follow one another.
+/// responses, frame logs, notes, form, state) with what follows from the events. `protocol` is the stored
+/// one, parsed. Throws Error if the events are not a valid sequence.
 Verification verifySession(const store::SessionReader& reader, const store::StudySession& session,
                            const Protocol& protocol);
 

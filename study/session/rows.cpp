@@ -55,7 +55,7 @@ store::StudyResponse responseRow(const Event& event) {
   return row;
 }
 
-// The trial that is on the screen, broken off by something that is no answer.
+// The trial on screen, ended by something other than an answer.
 store::StudyTrialEnd brokenOff(const Session& session, const std::string& reason) {
   return {session.step().trial->number, session.step().trial->attempt, false, reason, std::nullopt, {}};
 }

@@ -11,13 +11,13 @@
 namespace limen::study {
 
 /// The event with the rows that follow from it, `before` being the session just before it is applied.
-/// `frames` are those of the trial that the event ends. Used to write a session and, replaying it, to check
+/// `frames` are those of the trial that the event ends. Used to write a session and, during replay, to check
 /// what was written.
 store::StudyEntry entryOf(const Session& before, const Event& event,
                           const std::vector<ShownFrame>& frames = {});
 std::vector<store::StudyBlock> blocksOf(const Session& session);
 std::vector<store::StudyFrame> framesOf(const std::vector<ShownFrame>& frames);
-/// {"count", "sha256"} of a frame log: stands in its event, so that the log of events vouches for it.
+/// {"count", "sha256"} of a frame log: part of its event, so that the event log authenticates it.
 nlohmann::json frameDigest(const std::vector<store::StudyFrame>& frames);
 Event eventOf(const store::StudyEvent& row);
 

@@ -21,7 +21,7 @@ namespace {
 
 using store::SessionLog;
 
-// Lets go of a session whatever happens, so that it can be resumed from this process' successor at once.
+// Releases a session whatever happens, so that this process's successor can resume it at once.
 struct Hold {
   SessionLog& log;
   int64_t session = 0;
@@ -53,7 +53,7 @@ std::string freeName(const SessionLog& log, const std::string& participant) {
 store::Environment environmentOf(const FrontEnd& frontEnd) {
   store::Environment environment;
   environment.facts = environmentFacts({}, "");
-  // The call may name folders, and folders people.
+  // The command line may contain folder names, and those may contain names of people.
   environment.facts.erase("command");
   environment.facts.erase("working_directory");
   const nlohmann::json shown = frontEnd.environment();
@@ -71,7 +71,7 @@ std::function<void(const std::string&)> warner(const SessionRequest& request) {
   return [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
 }
 
-// Everything that one call of runSession needs at hand.
+// Everything that one call of runSession needs.
 struct Job {
   const Protocol& protocol;
   const SessionRequest& request;
@@ -135,36 +135,36 @@ void checkSame(const Job& job, const store::StudySession& row) {
   const std::string who = "session " + row.name + " of participant " + row.participant;
   const std::string& where = job.log.path();
   if (row.state == "finished" || row.state == "aborted")
-    throw Error(who + (row.state == "finished" ? " has finished" : " was broken off"), where,
-                "begin a new one: --session " + freeName(job.log, row.participant) + " without --resume");
+    throw Error(who + (row.state == "finished" ? " has finished" : " was aborted"), where,
+                "start a new one: --session " + freeName(job.log, row.participant) + " without --resume");
   if (row.protocol != job.protocol.hash)
     throw Error(
         fmt::format("{} began with another protocol: '{}', SHA-256 {}; this is '{}', SHA-256 {}", who,
                     job.log.protocolName(row.protocol), row.protocol, job.protocol.name, job.protocol.hash),
-        where, "resume it with the file that it began with");
+        where, "resume it with the original file");
   if (row.display != job.request.display.hash())
     throw Error(fmt::format("{} began on another display: '{}', SHA-256 {}; this is '{}', SHA-256 {}", who,
                             job.log.displayName(row.display), row.display, job.request.display.name,
                             job.request.display.hash()),
-                where, "resume it with the display profile that it began with");
+                where, "resume it with the original display profile");
   if (job.protocol.session.resume == ResumePolicy::Refuse)
-    throw Error("the protocol does not let " + who + " be resumed", where,
-                "begin a new one: --session " + freeName(job.log, row.participant) + " without --resume");
+    throw Error("the protocol does not allow " + who + " to be resumed", where,
+                "start a new one: --session " + freeName(job.log, row.participant) + " without --resume");
 }
 
 // Seconds since the last event by the wall clock.
 double ageS(const Job& job, const std::string& last) {
   const std::optional<double> from = utcSeconds(last), to = utcSeconds(job.clock.utc());
-  if (!from || !to) throw Error("the store holds an instant that is none: " + last, job.log.path());
+  if (!from || !to) throw Error("the store holds an invalid instant: " + last, job.log.path());
   if (*to < *from) {
-    job.warn("the wall clock stands before the session's last event (" + last +
+    job.warn("the wall clock is earlier than the session's last event (" + last +
              "): it was set; the session's " + "age counts as 0");
     return 0.0;
   }
   return *to - *from;
 }
 
-// Instant of the last event, if the clock has gone on since.
+// Instant of the last event, if the clock has advanced since.
 std::optional<LastInstant> sameBoot(const std::vector<store::StudyEvent>& events, const std::string& boot) {
   std::string last;
   for (const store::StudyEvent& event : events)
@@ -188,7 +188,7 @@ SessionEnd runAgain(const Job& job, const store::StudySession& row) {
     throw Error(fmt::format("session {} of participant {} was left {:.1f} h ago, the protocol allows {:g} h",
                             row.name, row.participant, gapS / 3600.0, maximumH),
                 job.log.path(),
-                "begin a new one: --session " + freeName(job.log, row.participant) + " without --resume");
+                "start a new one: --session " + freeName(job.log, row.participant) + " without --resume");
 
   Session session(job.protocol, row.seed, row.participantNumber);
   int invalid = 0;
@@ -220,7 +220,7 @@ SessionEnd runSession(const Protocol& protocol, const SessionRequest& request, F
   if (!known && request.resume) {
     const std::vector<std::string> names = log.sessionNames(request.participant);
     throw Error("participant " + request.participant + " has no session " + request.session, request.store,
-                names.empty() ? "leave out --resume to begin it" : "known sessions: " + join(names));
+                names.empty() ? "leave out --resume to start it" : "known sessions: " + join(names));
   }
   if (!known) return runNew(job);
   if (request.resume) return runAgain(job, *known);
@@ -228,7 +228,7 @@ SessionEnd runSession(const Protocol& protocol, const SessionRequest& request, F
   throw Error("participant " + request.participant + " has a session " + request.session + " already (" +
                   known->state + ")",
               request.store,
-              std::string(over ? "" : "continue it with --resume, or ") + "begin a new one with --session " +
+              std::string(over ? "" : "continue it with --resume, or ") + "start a new one with --session " +
                   freeName(log, request.participant));
 }
 

@@ -18,13 +18,13 @@ class Clock {
   virtual ~Clock() = default;
   virtual std::string utc() = 0;
   virtual int64_t monotonicNs() = 0;
-  /// Names the run of the machine since it was switched on, within which monotonicNs() goes on; "": unknown.
+  /// Identifies the machine's current boot, within which monotonicNs() is continuous; "": unknown.
   virtual std::string boot() { return {}; }
 };
 Clock& systemClock();
 
-/// What a committed event survives: a cut of the power, or (simulations, which need no disk to answer for
-/// them) only the end of the process, by whatever signal.
+/// What a committed event survives: a power cut, or (for simulations, which can be repeated) only the end of
+/// the process, by any signal.
 enum class Durability { PowerLoss, ProcessKill };
 
 struct SessionRequest {
@@ -36,8 +36,8 @@ struct SessionRequest {
   Durability durability = Durability::PowerLoss;
   perception::DisplayProfile display;
   nlohmann::json calibration = nlohmann::json::object();  ///< how the display profile was measured
-  /// Takes what the experimenter should know and nothing stops for (a wall clock that was set). Standard
-  /// error if empty.
+  /// Receives non-fatal messages for the experimenter (such as a wall clock that was set). Standard error if
+  /// empty.
   std::function<void(const std::string&)> warn;
 };
 
@@ -47,8 +47,8 @@ struct SessionEnd {
   int trialsAnswered = 0, trialsInvalid = 0;
 };
 
-/// Runs or resumes a session to its end, a pause that quits, or an abort. Every event is committed to the
-/// store before the front end is called again. Throws Error: participant and session known already (without
+/// Runs or resumes a session until its end, a pause that quits, or an abort. Every event is committed to the
+/// store before the front end is called again. Throws Error: participant and session already known (without
 /// `resume`), another protocol or display than the session began with, too old, held by a living process, a
 /// store that cannot be written. What was committed stays.
 SessionEnd runSession(const Protocol& protocol, const SessionRequest& request, FrontEnd& frontEnd,

@@ -76,7 +76,7 @@ void Session::begin(size_t stretch) {
   for (const Slot& slot : stretches_[stretch].slots) queue_.push_back({slot, std::nullopt});
 }
 
-// Goes on with `stretch`, or with the first one after it that has something to show.
+// Continues with `stretch`, or with the first one after it that has something to show.
 void Session::enter(size_t stretch, bool pause) {
   while (stretch < stretches_.size() &&
          std::all_of(stretches_[stretch].slots.begin(), stretches_[stretch].slots.end(),
@@ -210,7 +210,7 @@ void Session::feed(int procedure, const std::vector<double>& stimulus, int outco
   nexts_[index] = procedures_[index]->next();
 }
 
-// Procedures know no way back: they are made anew and told what they knew when the block began.
+// Procedures cannot be rewound: they are recreated and fed the answers from before the block began.
 void Session::rebuildProcedures() {
   for (size_t i = 0; i < procedures_.size(); ++i) {
     if (fed_[i].size() == fedBefore_[i]) continue;

@@ -16,18 +16,18 @@
 
 namespace limen::study {
 
-/// What is to be done now.
+/// What to do now.
 struct Screen {
   enum class Kind { Consent, Form, Instructions, PracticeStart, PracticeResult, BlockStart, Break, Debrief };
   Kind kind = Kind::Instructions;
   int part = 0, block = 0;
   bool passed = true;                   ///< PracticeResult only
   double atLeastS = 0.0;                ///< cannot be left earlier
-  int trialsDone = 0, trialsInAll = 0;  ///< of the session, practice apart: progress, no hint of conditions
+  int trialsDone = 0, trialsInAll = 0;  ///< of the session, without practice: progress, no hint of conditions
 };
 std::string toText(Screen::Kind kind);
 
-/// A trial that is due, its stimuli decided.
+/// A trial that is due, with its stimuli.
 struct Trial {
   int number = 0, attempt = 0;  ///< PlannedTrial::number; attempt counts from 0
   PlannedTrial plan;
@@ -43,42 +43,42 @@ struct Step {
   std::optional<Trial> trial;
 };
 
-/// One participant's way through a protocol. Knows no clock, no file, no window: its state is decided by
-/// protocol, seed, participant number and the events applied.
+/// One participant's course through a protocol. Independent of clock, files and windows: its state is
+/// determined by protocol, seed, participant number and the events applied.
 class Session {
  public:
   Session(const Protocol& protocol, uint64_t seed, int participantNumber);
 
-  /// The same until an event moves it on.
+  /// Unchanged until an event advances it.
   const Step& step() const { return step_; }
   /// Throws Error if the event cannot follow (a damaged log): says number, kind and what was due.
   void apply(const Event& event);
 
   const Protocol& protocol() const { return protocol_; }
   const Design& design() const { return design_; }
-  /// Whether an answer is right: nullopt where there is no right one (Rating, Pairwise).
+  /// Whether an answer is correct: nullopt if there is no correct one (Rating, Pairwise).
   static std::optional<bool> isCorrect(const Part& part, const PlannedTrial& trial,
                                        const std::string& answer);
   /// Index of an answer among the part's (0..), which procedures are fed with: for YesNo 1 for "yes", for
-  /// Interval and Alternative 1 for a right answer, for Rating the step from 0.
+  /// Interval and Alternative 1 for a correct answer, for Rating the step from 0.
   static int outcomeOf(const Part& part, const PlannedTrial& trial, const std::string& answer);
   const Procedure& procedure(int index) const { return *procedures_[static_cast<size_t>(index)]; }
 
-  int trialsDone() const { return done_; }  ///< answered, practice apart
-  int trialsInAll() const;                  ///< planned, practice apart; falls when a procedure ends early
-  /// Everything that decides what comes: queue, procedures' states. Equal states have equal futures.
+  int trialsDone() const { return done_; }  ///< answered, without practice
+  int trialsInAll() const;  ///< planned, without practice; decreases when a procedure ends early
+  /// Everything that determines what comes next: queue, procedures' states. Equal states have equal futures.
   nlohmann::json state() const;
 
   uint64_t seed() const { return seed_; }
   int participantNumber() const { return participantNumber_; }
   int nextEvent() const { return nextEvent_; }  ///< number that the next event must have
-  /// Whether the trial that is due is on the screen: begun, and neither answered nor invalid.
+  /// Whether the trial that is due is on screen: begun, and neither answered nor invalid.
   bool trialInProgress() const { return inProgress_; }
   /// Block of the trial that is due, as index of Design::blocks. There is one.
   int blockOfDue() const { return queue_.front().slot.block; }
   /// How often a trial was invalid (late frames and the like; interruptions do not count).
   int timesInvalid(int trial) const;
-  /// First event of the block (or round of practice) that would start over if the session were broken off
+  /// First event of the block (or round of practice) that would start over if the session were interrupted
   /// now under ResumePolicy::RestartBlock; nothing between blocks.
   std::optional<int> brokenBlockEvent() const;
 
@@ -96,7 +96,7 @@ class Session {
     Finished,
     Aborted
   };
-  /// A trial of the plan and the block that it stands in; all rounds of practice stand in the first one's.
+  /// A trial of the plan and its block; all rounds of practice belong to the first one's.
   struct Slot {
     const PlannedTrial* trial = nullptr;
     int block = 0;
@@ -109,7 +109,7 @@ class Session {
   };
   struct Queued {
     Slot slot;
-    std::optional<std::vector<double>> stimulus;  ///< of an adaptive trial that was begun before
+    std::optional<std::vector<double>> stimulus;  ///< of an adaptive trial begun earlier
   };
 
   void makeStretches();
@@ -137,8 +137,8 @@ class Session {
   std::vector<Stretch> stretches_;
   std::vector<ProcedureSettings> settings_;
   std::vector<std::unique_ptr<Procedure>> procedures_;
-  std::vector<std::optional<std::vector<double>>> nexts_;  ///< of the procedures, asked for once an answer
-  std::vector<std::vector<ProcedureTrial>> fed_;           ///< what the procedures were told
+  std::vector<std::optional<std::vector<double>>> nexts_;  ///< of the procedures, requested once per answer
+  std::vector<std::vector<ProcedureTrial>> fed_;           ///< what the procedures were fed
 
   int nextEvent_ = 0;
   Stage stage_ = Stage::Consent;

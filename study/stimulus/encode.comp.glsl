@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Picture as a display takes it: mean of the samples of each pixel's square, coded in 8 bits by the display's
 // transfer curve. See display_coding.h.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D picture;
+#include "study/stimulus/encode_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kEncodePictureUnit) uniform sampler2D picture;
 #ifdef VISIBILITY
-layout(binding = 1) uniform sampler2D unlit;
-layout(binding = 2) uniform sampler2D visibility;
+layout(binding = kEncodeUnlitUnit) uniform sampler2D unlit;
+layout(binding = kEncodeVisibilityUnit) uniform sampler2D visibility;
 #endif
-layout(binding = 3) uniform sampler2D thresholds;  // 255 x 1
-layout(binding = 0, rgba8) uniform writeonly image2D outImage;
+layout(binding = kEncodeThresholdsUnit) uniform sampler2D thresholds;  // 255 x 1
+layout(binding = kEncodeImage, rgba8) uniform writeonly image2D outImage;
 uniform int samples;
 uniform ivec2 sizePx;
 

@@ -16,9 +16,9 @@ class MetricGpu;
 
 namespace limen::study {
 
-/// What image metrics say of the two pictures that Predictor compares: the first frame after the change, and
-/// as reference the same frame with what was before it. They know nothing of motion. Light is relative to
-/// the display's white, codes are over 255.
+/// Image metrics of the two pictures that Predictor compares: the first frame after the change and, as
+/// reference, the same frame in the state before it. They ignore motion. Light is relative to the display's
+/// white, codes are divided by 255.
 struct FrameDifference {
   double meanDe94 = 0.0;   ///< CIE94, mean over the window
   double flip = 0.0;       ///< mean LDR-FLIP at the display's pixels per degree
@@ -36,9 +36,10 @@ class FrameComparer {
   FrameComparer(const FrameComparer&) = delete;
   FrameComparer& operator=(const FrameComparer&) = delete;
 
-  /// Throws Error as StimulusRenderer; the stimulus has a change.
+  /// Throws Error like StimulusRenderer; the stimulus must have a change.
   FrameDifference compare(const Stimulus& stimulus);
-  /// Versions and parameters of the metrics: what decides the figures beside stimulus, window and display.
+  /// Versions and parameters of the metrics: what determines the figures besides stimulus, window and
+  /// display.
   static nlohmann::json settings();
 
  private:

@@ -37,7 +37,7 @@ void addMotion(perception::PoppingInput& input, frame::Frame& parent,
       views.push_back({view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
     input.disocclusion = perception::disocclusionWeight(views, settings.disocclusionSettings());
   }
-  // Flicker is what the level before the change shows over time.
+  // Flicker is that of the level before the change.
   if (pairSetting.previousColour)
     input.flicker = perception::flickerWeight(
         {actual.colour->read(), predicted.colour->read(), predicted.shadedBefore->read(),

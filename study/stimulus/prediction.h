@@ -16,37 +16,37 @@
 
 namespace limen::study {
 
-/// What the popping predictor says about a stimulus' change. Source: Schwarz 2009, chapter 10.
+/// The popping predictor's result for a stimulus's change. Source: Schwarz 2009, chapter 10.
 struct PredictedPopping {
   struct Region {
     int64_t sizePx = 0;
     double sigmaJnd = 0.0, rating = 0.0, largestJnd = 0.0, detectionProbability = 0.0;
-    glm::ivec2 leastPx{0}, mostPx{0};  ///< bounding box, both corners inside, window pixels
+    glm::ivec2 leastPx{0}, mostPx{0};  ///< bounding box, both corners inclusive, window pixels
   };
-  /// Of the region rated highest. Without a region one less than the least rating that a region can have, so
-  /// that it stays a number.
+  /// Of the region rated highest. Without a region, one less than the lowest possible rating of a region, so
+  /// that it stays finite.
   double rating = 0.0;
-  double detectionProbability = 0.0;  ///< of that rating; the guess rate without a region
+  double detectionProbability = 0.0;  ///< probability for that rating; the guess rate without a region
   std::vector<Region> regions;        ///< highest rating first
   int64_t poppingPx = 0;              ///< in all regions
   double coverage = 0.0;              ///< of the window
   /// Share of the changing object's pixels, before or after the change, that lie in a region; of the window
-  /// where a technique changes.
+  /// if a technique changes.
   double coverageOfObject = 0.0;
   double largestJnd = 0.0;
-  double largestDe94 = 0.0;  ///< CIE94 between the two pictures, what the predictor is compared with
+  double largestDe94 = 0.0;  ///< CIE94 between the two pictures, for comparison with the predictor
   bool operator==(const PredictedPopping&) const;
 };
 nlohmann::json toJson(const PredictedPopping& prediction);
 PredictedPopping predictedPoppingFromJson(const nlohmann::json& json);
 
-/// Predictions by what decides them, in memory and, if a file is named, in it.
+/// Predictions by their inputs, in memory and, if a file is named, in that file.
 class PredictionCache {
  public:
-  /// `file` empty: memory only. Throws Error on a file that is no such cache.
+  /// `file` empty: memory only. Throws Error on a file that is not such a cache.
   explicit PredictionCache(std::string file = {});
   std::optional<PredictedPopping> find(const std::string& key) const;
-  /// What other programs put into the file since stays in it. Throws Error if it cannot be written.
+  /// Keeps what other programs have since added to the file. Throws Error if it cannot be written.
   void add(const std::string& key, const PredictedPopping& prediction);
 
  private:
@@ -56,20 +56,20 @@ class PredictionCache {
 
 /// Predicts how likely an attending viewer notices the change of stimuli in one window of one display.
 ///
-/// The pictures are those that are shown, byte for byte: the first frame after the change, and the same frame
-/// with what was before it. In a dynamic sequence displacements, disocclusion and flicker are those of the
-/// window's pixel centres, the frame before being one of the display's frames earlier; a static one has none.
-/// Where a technique changes there is no flicker weight, since it has no shading of its own to evaluate it
-/// by.
+/// The pictures are those shown, byte for byte: the first frame after the change, and the same frame in the
+/// state before it. In a dynamic sequence displacements, disocclusion and flicker are those of the window's
+/// pixel centres, the previous frame being one display frame earlier; a static one has none. If a technique
+/// changes there is no flicker weight, since there is no separate shading to evaluate it with.
 class Predictor {
  public:
   /// `popping`: values of perception::PoppingSettings; what is left out takes its default. Throws Error.
   Predictor(gl::Context& context, glm::ivec2 windowPx, const perception::DisplayProfile& display,
             const ParameterValues& popping = {}, PredictionCache* cache = nullptr);
 
-  /// A sequence without change has no region. Throws Error as StimulusRenderer.
+  /// A sequence without change has no region. Throws Error like StimulusRenderer.
   PredictedPopping predict(const Stimulus& stimulus);
-  /// SHA-256 over all that decides the prediction: what changes and when, window, display, settings.
+  /// SHA-256 over everything that determines the prediction: what changes and when, window, display,
+  /// settings.
   std::string key(const Stimulus& stimulus) const;
 
  private:

@@ -25,7 +25,7 @@ std::map<std::string, PredictedPopping> readCache(const std::string& file) {
     std::ifstream stream(file);
     const json all = json::parse(stream);
     if (all.at("limen_predictions").get<int>() != kForm)
-      throw Error("predictions of another form", file, "name another file");
+      throw Error("predictions in another format", file, "name another file");
     for (const auto& [key, value] : all.at("predictions").items()) out[key] = predictedPoppingFromJson(value);
   } catch (const json::exception& error) {
     throw Error(std::string("not a file of predictions: ") + error.what(), file,

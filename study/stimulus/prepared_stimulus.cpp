@@ -11,7 +11,7 @@ namespace {
 
 constexpr int64_t kUnknownBudget = int64_t{1} << 30;
 
-/// KiB of video memory that are free, where the driver tells.
+/// Free video memory in KiB, if the driver reports it.
 std::optional<int64_t> freeKib() {
   GLint kib[4] = {0, 0, 0, 0};
   if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
@@ -43,8 +43,8 @@ PreparedStimulus::PreparedStimulus(std::unique_ptr<StimulusRenderer> renderer, i
   const int64_t needed = int64_t{4} * sizePx_.x * sizePx_.y * pictures;
   if (needed > budgetBytes || pictures > mostLayers) {
     warning_ = fmt::format(
-        "{} pictures of {} x {} px take {} MiB, and {} MiB or {} pictures fit: they are rendered "
-        "while they are shown, and may come late",
+        "{} pictures of {} x {} px take {} MiB, and {} MiB or {} pictures fit: they are rendered during "
+        "presentation and may be late",
         pictures, sizePx_.x, sizePx_.y, needed >> 20, budgetBytes >> 20, mostLayers);
     layers_.emplace(gl::Format::RGBA8, sizePx_, 1, 1);
     layerOfFrame_.assign(static_cast<size_t>(timeline_.frames), 0);

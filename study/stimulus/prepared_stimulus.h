@@ -13,15 +13,15 @@
 
 namespace limen::study {
 
-/// Bytes that pictures may take: half of what the driver says is free, or 1 GiB where it does not say.
+/// Bytes that pictures may take: half of what the driver reports as free, or 1 GiB if it does not report.
 int64_t pictureBudgetBytes();
 
-/// A stimulus ready to be shown: its distinct pictures as layers of one texture, or, where they are more than
-/// the budget, its renderer, which then works while somebody watches.
+/// A stimulus ready to be shown: its distinct pictures as layers of one texture or, if they exceed the
+/// budget, its renderer, which then works during presentation.
 class PreparedStimulus {
  public:
-  /// Renders all pictures and waits for them. `progress` is told how many of how many are done; it may throw
-  /// to stop.
+  /// Renders all pictures and waits for them. `progress` gets the number done and the total; it may throw to
+  /// stop.
   PreparedStimulus(std::unique_ptr<StimulusRenderer> renderer, int64_t budgetBytes,
                    const std::function<void(int done, int all)>& progress = {});
 
@@ -33,11 +33,12 @@ class PreparedStimulus {
   const std::string& warning() const { return warning_; }
   int64_t bytes() const { return layers_->bytes(); }
 
-  /// RGBA8 array, row 0 at the top, values as the display takes them.
+  /// RGBA8 array, row 0 at the top, values as sent to the display.
   const gl::Texture& layers() const { return *layers_; }
-  /// Layer of each frame, the same in every showing.
+  /// Layer of each frame, the same in every presentation.
   const std::vector<int>& layerOfFrame() const { return layerOfFrame_; }
-  /// Layer that shows a frame, rendered now if it was not ahead. Allocates, compiles and reads back nothing.
+  /// Layer that shows a frame, rendered now if it was not prepared. Allocates, compiles and reads back
+  /// nothing.
   int picture(int frame);
 
  private:

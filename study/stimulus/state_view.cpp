@@ -19,10 +19,10 @@ const techniques::TechniqueInfo& techniqueOf(const NamedEntry& entry, const scen
   const techniques::TechniqueInfo& info =
       techniques::TechniqueRegistry::instance().get(entry.name, "stimulus");
   if (info.version != entry.version)
-    throw Error(fmt::format("version {} is asked for", entry.version), where,
+    throw Error(fmt::format("version {} is requested", entry.version), where,
                 fmt::format("this program has version {}", info.version));
   if (info.product != techniques::ProductKind::Colour && info.product != techniques::ProductKind::Visibility)
-    throw Error("its product '" + toText(info.product) + "' is no picture", where,
+    throw Error("its product '" + toText(info.product) + "' is not a picture", where,
                 "a stimulus takes techniques that make colour or visibility");
   checkFiles(entry, where);
   const std::set<std::string> traits = scene.traits();
@@ -37,10 +37,10 @@ void checkSize(glm::ivec2 sizePx, int samples) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (samples >= 1 && std::max(sizePx.x, sizePx.y) <= largest / samples) return;
-  throw Error(fmt::format("{} samples along each axis of {} x {} px", samples, sizePx.x, sizePx.y),
-              "stimulus",
-              fmt::format("this driver has pictures of at most {} px: lower 'samples' or the window's size",
-                          largest));
+  throw Error(
+      fmt::format("{} samples along each axis of {} x {} px", samples, sizePx.x, sizePx.y), "stimulus",
+      fmt::format("this driver supports pictures of at most {} px: lower 'samples' or the window's size",
+                  largest));
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ StateView::StateView(gl::Context& context, std::shared_ptr<const frame::SceneOnG
         info.make(ParameterValues(info.parameters, entry.values.all(), "technique '" + entry.name + "'"));
     technique_->prepare(*frame_);
   }
-  // Inputs are made when first asked for; not while somebody watches.
+  // Inputs are made on first use; that must not be during presentation.
   render(changeSceneTimeS);
 }
 

@@ -17,16 +17,16 @@ namespace limen::study {
 scene::LodSelection levelsOf(const scene::Scene& scene, const LevelChange& change, bool after,
                              double changeSceneTimeS, int heightPx);
 
-/// How a stimulus is shaded; what it leaves out takes its default. Throws Error.
+/// How a stimulus is shaded; missing settings take their defaults. Throws Error.
 frame::ShadedSetting shadingOf(const Stimulus& stimulus);
 
 /// One of the two states of a stimulus, before or after its change, at any scene time. Linear light,
 /// `samples` times the window's size along each axis.
 class StateView {
  public:
-  /// Compiles and allocates; render() does neither. Throws Error: unknown technique, one whose product is no
-  /// picture or which needs what the scene lacks, a picture larger than the driver's largest texture, or
-  /// levels that do not exist.
+  /// Compiles and allocates; render() does neither. Throws Error: unknown technique, one whose product is not
+  /// a picture or which needs something that the scene lacks, a picture larger than the driver's largest
+  /// texture, or levels that do not exist.
   StateView(gl::Context& context, std::shared_ptr<const frame::SceneOnGpu> onGpu, const Stimulus& stimulus,
             bool after, glm::ivec2 sizePx, double changeSceneTimeS);
   ~StateView();
@@ -34,7 +34,7 @@ class StateView {
   struct Picture {
     const gl::Texture* lit = nullptr;  ///< RGBA32F
     /// For a technique that makes visibility: the picture is unlit + visibility * (lit - unlit), `lit` being
-    /// without shadow; else null.
+    /// without shadow; otherwise null.
     const gl::Texture *unlit = nullptr, *visibility = nullptr;
   };
   Picture render(double sceneTimeS);

@@ -17,7 +17,7 @@ json entryToJson(const NamedEntry& entry) {
   return out;
 }
 
-/// Values as JSON has them: their types are those of the declarations that they were once checked against.
+/// Values as in JSON: their types are those of the declarations against which they were once checked.
 ParameterValues valuesFromJson(const json& values) {
   std::vector<Parameter> declared;
   for (const auto& [name, value] : values.items()) {
@@ -72,7 +72,7 @@ template <class Value>
 Value parse(const std::string& text, std::initializer_list<Value> values) {
   for (const Value value : values)
     if (text == toText(value)) return value;
-  throw Error("a stimulus has '" + text + "' where a kind is named", "stimulus");
+  throw Error("a stimulus has '" + text + "' where a kind is expected", "stimulus");
 }
 
 Stimulus read(const json& in) {
@@ -106,7 +106,7 @@ Stimulus read(const json& in) {
   return out;
 }
 
-/// A file is what it holds, wherever it lies.
+/// A file is identified by its content, not its location.
 void nameFilesByContent(json& entry) {
   if (!entry.contains("file_hashes")) return;
   for (const auto& [parameter, hash] : entry["file_hashes"].items()) entry["values"][parameter] = hash;

@@ -14,13 +14,13 @@ namespace limen::study {
 /// A registered scene or technique with a complete set of values.
 struct NamedEntry {
   std::string name;
-  int version = 1;  ///< as its registration declares it
+  int version = 1;  ///< as declared in its registration
   ParameterValues values;
   /// Parameter that names a file -> SHA-256 of the file.
   std::map<std::string, std::string> fileHashes;
 };
 
-/// One object's change of level of detail.
+/// One object's level-of-detail change.
 struct LevelChange {
   int object = 0;                 ///< of Scene::lodObjects
   int before = 1, after = 0;      ///< levels, 0 the finest
@@ -28,7 +28,7 @@ struct LevelChange {
 };
 
 enum class Presentation {
-  Dynamic,  ///< the camera moves as the scene says
+  Dynamic,  ///< the camera moves as defined by the scene
   Static    ///< the frame of the change, before and after it, the camera at rest
 };
 constexpr EnumNames<Presentation, 2> enumNames(Presentation) {
@@ -40,7 +40,7 @@ constexpr EnumNames<CueKind, 3> enumNames(CueKind) {
   return {{{{CueKind::None, "none"}, {CueKind::Arrow, "arrow"}, {CueKind::Circle, "circle"}}}};
 }
 
-/// What guides the viewer's attention before a stimulus.
+/// Cue that guides the viewer's attention before a stimulus.
 struct Cue {
   using Kind = CueKind;
   Kind kind = Kind::None;
@@ -49,8 +49,8 @@ struct Cue {
   double durationS = 0.0;       ///< shown before the stimulus, over its first frame
 };
 
-/// One sequence as it is put on the screen, every value decided: the unit that is rendered, predicted, hashed
-/// and logged. Row 0 on top, window pixels, times in seconds from the sequence's first frame.
+/// One sequence as shown, with every value fixed: the unit that is rendered, predicted, hashed and logged.
+/// Row 0 at the top, window pixels, times in seconds from the sequence's first frame.
 struct Stimulus {
   NamedEntry scene;
   /// What changes: a level of detail, rendered as frame::Shaded ...
@@ -67,13 +67,13 @@ struct Stimulus {
   double sceneStartS = 0.0;
   int showings = 1;   ///< how often it is shown before the question
   double gapS = 1.0;  ///< of background between showings
-  int samples = 2;    ///< a pixel along each axis
+  int samples = 2;    ///< per pixel along each axis
   Cue cue;
 };
 
 /// Canonical form; fromJson() gives the same back. The hash is SHA-256 over it, with the content of files in
-/// place of their paths: with the display profile and the window it decides every pixel that is shown, as
-/// far as the versions of scene and techniques are kept. stimulusFromJson() throws Error on what is no
+/// place of their paths: together with the display profile and the window it determines every pixel shown,
+/// given the versions of scene and techniques. stimulusFromJson() throws Error on anything that is not a
 /// stimulus.
 nlohmann::json toJson(const Stimulus& stimulus);
 Stimulus stimulusFromJson(const nlohmann::json& json);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "study/stimulus/display_coding.h"
+#include "study/stimulus/encode_bindings.h"
 #include "study/stimulus/state_view.h"
 
 namespace limen::study {
@@ -17,7 +18,7 @@ bool sameView(const scene::Camera& a, const scene::Camera& b) {
   return a.eye == b.eye && a.target == b.target && a.up == b.up && a.verticalFovDeg == b.verticalFovDeg;
 }
 
-/// Without alpha, as codes over 255 to the last digit, which drivers' conversions miss.
+/// Without alpha, exactly as codes over 255, which drivers' conversions do not give.
 Image codesOf(const Image& image) {
   Image out(image.width, image.height, 3);
   for (size_t i = 0; i < out.pixels(); ++i)
@@ -42,7 +43,7 @@ StimulusRenderer::StimulusRenderer(gl::Context& context, const Stimulus& stimulu
   std::copy(values.begin(), values.end(), thresholds.data.begin());
   thresholds_.write(thresholds);
 
-  // What a technique makes may depend on more than where the camera stands, say on where it came from.
+  // A technique's output may depend on more than the camera's position, for example on where it came from.
   const bool byCamera = stimulus_.levels.has_value();
   for (int frame = 0; frame < timeline_.frames; ++frame) {
     const double timeS = timeline_.sceneTimeS(frame),
@@ -77,13 +78,13 @@ const gl::Texture& StimulusRenderer::renderState(double sceneTimeS, bool after) 
   const gl::Program& encode = context_.programs().compute("study/stimulus/encode.comp.glsl", defines);
   encode.set("samples", stimulus_.samples);
   encode.set("sizePx", sizePx_);
-  picture.lit->bindTexture(0);
+  picture.lit->bindTexture(kEncodePictureUnit);
   if (picture.visibility) {
-    picture.unlit->bindTexture(1);
-    picture.visibility->bindTexture(2);
+    picture.unlit->bindTexture(kEncodeUnlitUnit);
+    picture.visibility->bindTexture(kEncodeVisibilityUnit);
   }
-  thresholds_.bindTexture(3);
-  coded_.bindImage(0, gl::Access::Write);
+  thresholds_.bindTexture(kEncodeThresholdsUnit);
+  coded_.bindImage(kEncodeImage, gl::Access::Write);
   encode.dispatch(sizePx_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   return coded_;

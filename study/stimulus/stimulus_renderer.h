@@ -17,16 +17,16 @@ namespace limen::study {
 
 class StateView;
 
-/// Renders a stimulus into the very bytes that a display of a profile is given: supersampled, coded by its
-/// transfer curve to the nearest of 256 codes, not dithered. What is brighter than the display's white is
+/// Renders a stimulus into exactly the bytes sent to a display with a profile: supersampled, coded by its
+/// transfer curve to the nearest of 256 codes, not dithered. Anything brighter than the display's white is
 /// white. The same stimulus gives the same bytes on the same machine.
 ///
-/// A dynamic sequence moves on the scene's path from frame to frame, a static one shows two pictures of one
-/// time. See Timeline for which frame shows what.
+/// A dynamic sequence moves along the scene's path from frame to frame, a static one shows two pictures of
+/// one time. See Timeline for which frame shows what.
 class StimulusRenderer {
  public:
-  /// Compiles and allocates all that render() needs. `scenes`, if given, keeps scenes for other renderers.
-  /// Throws Error as timelineOf(), buildStimulusScene() and StateView.
+  /// Compiles and allocates everything render() needs. `scenes`, if given, caches scenes for other renderers.
+  /// Throws Error like timelineOf(), buildStimulusScene() and StateView.
   StimulusRenderer(gl::Context& context, const Stimulus& stimulus, glm::ivec2 sizePx,
                    const perception::DisplayProfile& display, SceneCache* scenes = nullptr);
   ~StimulusRenderer();
@@ -45,7 +45,7 @@ class StimulusRenderer {
   int pictureOf(int frame) const { return pictureOf_[static_cast<size_t>(frame)]; }
   int firstFrameOf(int picture) const { return firstFrames_[static_cast<size_t>(picture)]; }
 
-  /// RGBA8 of the window's size, row 0 at the top, values as the display takes them, alpha 1. Valid until the
+  /// RGBA8 of the window's size, row 0 at the top, values as sent to the display, alpha 1. Valid until the
   /// next render.
   const gl::Texture& render(int frame);
   /// The state before or after the change at any time on the scene's path.
@@ -60,7 +60,7 @@ class StimulusRenderer {
   Timeline timeline_;
   glm::ivec2 sizePx_;
   std::shared_ptr<const frame::SceneOnGpu> scene_;
-  std::unique_ptr<StateView> views_[2];  // before, after; of a sequence without change only what it shows
+  std::unique_ptr<StateView> views_[2];  // before, after; for a sequence without change only the one shown
   std::vector<int> pictureOf_, firstFrames_;
   gl::Texture thresholds_, coded_;
 };

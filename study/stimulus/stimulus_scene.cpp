@@ -13,7 +13,7 @@ void checkFiles(const NamedEntry& entry, const std::string& where) {
     const ParameterValue* file = entry.values.find(path);
     if (file && sha256File(std::get<std::string>(*file)) != hash)
       throw Error("'" + limen::toText(*file) + "' has changed since the stimulus was made", where,
-                  "put the file back, or read the protocol anew");
+                  "restore the file, or read the protocol again");
   }
 }
 
@@ -21,7 +21,7 @@ std::shared_ptr<const frame::SceneOnGpu> buildStimulusScene(const NamedEntry& sc
   const std::string where = "scene '" + scene.name + "'";
   const scene::SceneInfo& info = scene::SceneRegistry::instance().get(scene.name, "stimulus");
   if (info.version != scene.version)
-    throw Error("version " + std::to_string(scene.version) + " is asked for", where,
+    throw Error("version " + std::to_string(scene.version) + " is requested", where,
                 "this program builds version " + std::to_string(info.version));
   checkFiles(scene, where);
   return std::make_shared<const frame::SceneOnGpu>(
@@ -36,7 +36,7 @@ std::shared_ptr<const frame::SceneOnGpu> SceneCache::get(const NamedEntry& scene
     scenes_.splice(scenes_.begin(), scenes_, entry);
     return entry->second;
   }
-  // Room is made first: two large scenes at once may be more than the GPU holds.
+  // Free memory first: two large scenes at once may exceed the GPU's memory.
   while (!scenes_.empty() && scenes_.size() >= most_) scenes_.pop_back();
   scenes_.emplace_front(key, buildStimulusScene(scene));
   return scenes_.front().second;

@@ -10,14 +10,14 @@
 
 namespace limen::study {
 
-/// Throws Error if a file that the entry names no longer has the content that it was hashed with.
+/// Throws Error if a file that the entry names no longer has the content that was hashed.
 void checkFiles(const NamedEntry& entry, const std::string& where);
 
-/// Builds what a stimulus names. Throws Error: unknown name, bad value, and a version that this program does
-/// not have or a file that has changed, whose pictures would not be those that the stimulus stands for.
+/// Builds what a stimulus names. Throws Error: unknown name, bad value, a version that this program does not
+/// have or a file that has changed, since its pictures would not be those of the stimulus.
 std::shared_ptr<const frame::SceneOnGpu> buildStimulusScene(const NamedEntry& scene);
 
-/// The scenes used last: stimuli of a study mostly share theirs. Its OpenGL context is the current one.
+/// The most recently used scenes: stimuli of a study mostly share theirs. Uses the current OpenGL context.
 class SceneCache {
  public:
   explicit SceneCache(size_t most = 4) : most_(most) {}

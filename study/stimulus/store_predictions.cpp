@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Where stimuli were shown: they look the same only in the same window of the same display.
+/// Where stimuli were shown: they look the same only in the same window on the same display.
 struct Place {
   std::string displayHash;
   int widthPx = 0, heightPx = 0;
@@ -34,13 +34,13 @@ struct Place {
   }
 };
 
-/// Displays and, by place and hash, the stimuli with a change.
+/// Displays and, by presentation context and hash, the stimuli with a change.
 struct Shown {
   std::map<std::string, store::StudyDisplay> displays;
   std::map<Place, std::map<std::string, json>> stimuli;
 };
 
-// The protocol was checked when its session began; only its window is asked for here.
+// The protocol was checked when its session began; only its window is needed here.
 glm::ivec2 windowOf(const store::StudyProtocol& protocol) {
   WindowSetting window;
   const YamlNode root = parseYaml(protocol.text, protocol.path);
@@ -151,8 +151,8 @@ StorePredictionEnd predictStore(const StorePredictionRequest& request) {
   const Shown shown = readShown(request);
   if (std::all_of(shown.stimuli.begin(), shown.stimuli.end(),
                   [](const auto& place) { return place.second.empty(); }))
-    throw Error("no stimulus that was shown has a change", request.store,
-                "predictions are of changes of level of detail or technique within a sequence");
+    throw Error("no stimulus shown has a change", request.store,
+                "predictions are for changes of level of detail or technique within a sequence");
   return predictAll(shown, request);
 }
 

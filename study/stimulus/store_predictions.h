@@ -12,9 +12,10 @@ namespace limen::study {
 struct StorePredictionRequest {
   std::string store;
   std::string protocol;  ///< name or SHA-256; "": all
-  std::string display;   ///< preset or profile in place of the one that a session was shown on; "" that one
+  std::string
+      display;  ///< preset or profile to use instead of the one that a session was shown on; "": that one
   ParameterValues popping;  ///< of perception::PoppingSettings
-  /// File that keeps what the popping predictor said, shared with observers who see with it; "" none.
+  /// Cache file for the popping predictor's results, shared with observers that use it; "": none.
   std::string cacheFile;
   /// Called after each stimulus with how many are done and how many there are.
   std::function<void(int, int)> progress;
@@ -25,9 +26,9 @@ struct StorePredictionEnd {
   bool stopped = false;  ///< by SIGINT or SIGTERM
 };
 
-/// What popping predictor and image metrics say of the changes that the sessions of a store showed, practice
-/// aside, added to the store unless it is there. Throws Error: no sessions, none of the protocol, no change
-/// among what was shown, and what predictor and renderer refuse.
+/// Predictions by popping predictor and image metrics for the changes shown in the sessions of a store,
+/// without practice, added to the store unless already present. Throws Error: no sessions, none of the
+/// protocol, no change among the stimuli, and whatever predictor and renderer refuse.
 StorePredictionEnd predictStore(const StorePredictionRequest& request);
 
 }  // namespace limen::study

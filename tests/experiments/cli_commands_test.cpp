@@ -27,9 +27,9 @@ TEST_F(SweepCli, RefusesBadCommandLines) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{}, "no descriptor"},
       {{"--dryrun", "d.yaml"}, "did you mean '--dry-run'?"},
-      {{"--shard", "0/2", "d.yaml"}, "'0/2' is no shard"},
-      {{"--shard", "3/2", "d.yaml"}, "'3/2' is no shard"},
-      {{"--shard", "1/2x", "d.yaml"}, "'1/2x' is no shard"},
+      {{"--shard", "0/2", "d.yaml"}, "'0/2' is not a shard"},
+      {{"--shard", "3/2", "d.yaml"}, "'3/2' is not a shard"},
+      {{"--shard", "1/2x", "d.yaml"}, "'1/2x' is not a shard"},
       {{"--list", "soft/bitmsk"}, "did you mean 'soft/bitmask'?"},
       {{"merge"}, "required"},
       {{"merge", "out.sqlite", "missing.sqlite"}, "missing.sqlite"},

@@ -127,7 +127,7 @@ TEST_F(SweepCli, TakesOverTheRunsOfASweepThatDiesWhileItIsWaitedFor) {
   wait(first, "first");
   const CallResult result = wait(second, "second");
   EXPECT_EQ(result.exitCode, 0);
-  EXPECT_THAT(result.out, HasSubstr("waiting for 2 runs that another sweep holds"));
+  EXPECT_THAT(result.out, HasSubstr("waiting for 2 runs held by another sweep"));
   EXPECT_THAT(result.out, HasSubstr("2 planned, 2 measured"));
 }
 
@@ -140,7 +140,7 @@ TEST_F(SweepCli, InterruptEndsInOrderAndSaysHowToGoOn) {
     ::kill(child, signal);
     const CallResult result = wait(child);
     EXPECT_EQ(result.exitCode, 128 + signal);
-    EXPECT_THAT(result.out, HasSubstr("goes on where it stopped"));
+    EXPECT_THAT(result.out, HasSubstr("resumes where it stopped"));
     for (const store::Run& run : store::Store(path("results/d.sqlite"), store::Access::ReadOnly).allRuns())
       EXPECT_EQ(run.status, "done") << "a claim was left behind";
     const size_t done = doneKeys(path("results/d.sqlite")).size();

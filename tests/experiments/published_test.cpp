@@ -62,18 +62,18 @@ TEST(Published, NothingIsSaidOfKeysOfRuns) {
 
 TEST(Published, RefusesWhatCannotBeCompared) {
   EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask}")),
-              HasSubstr("means several runs of one scene"));
+              HasSubstr("matches several runs of one scene"));
   EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 9}}")),
-              HasSubstr("no planned run is meant by the row 'a'"));
+              HasSubstr("no planned run matches the row 'a'"));
   EXPECT_THAT(printedError(withTable("{name: a, values: [1], of: soft/bitmask, where: {samples: 8}}")),
               HasSubstr("1 values for 2 columns"));
   EXPECT_THAT(printedError(withTable(std::string(kPrintedRow) + ", " + kPrintedRow)),
-              HasSubstr("row 'eight' is there twice"));
+              HasSubstr("row 'eight' is given twice"));
   EXPECT_THAT(printedError(withTable("{name: a, values: [1, 2], of: soft/bitmask, where: {samples: 8}, "
                                      "relative_to: b}")),
               HasSubstr("'relative_to' names no row: 'b'"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_mss")),
-              HasSubstr("'gpu_mss' is no measurement"));
+              HasSubstr("'gpu_mss' is not a measurement"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "note: none")),
               HasSubstr("needs either 'measure' or 'passes'"));
   EXPECT_THAT(printedError(withTable(kPrintedRow, "measure: gpu_ms, passes: [a]")),

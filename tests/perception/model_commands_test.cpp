@@ -175,7 +175,7 @@ TEST_F(Perceive, MaskingModels) {
                   .get<double>(),
               0.98075876362, 5e-11);
   refuses({"masking", "extended", "--contrast", "3"}, "--neighbour-mean is missing");
-  refuses({"masking", "daly", "--contrast", "3", "--neighbour-mean", "1"}, "knows no neighbours");
+  refuses({"masking", "daly", "--contrast", "3", "--neighbour-mean", "1"}, "does not use neighbours");
   refuses({"masking", "dali"}, "did you mean 'daly'?");
   refuses({"masking", "daly", "--b", "0"}, "allowed: number from 0.1");
 }
@@ -216,12 +216,12 @@ TEST_F(Perceive, CsfErrorOfAModelAgainstItselfIsZero) {
 TEST_F(Perceive, SlipsAreRefusedWithAnAnswer) {
   refuses({"csf", "dali98"}, "did you mean 'daly98'?");
   refuses({"csf", "daly98", "--velocty", "3"}, "did you mean --velocity?");
-  refuses({"csf", "barten89", "--c0", "3"}, "'c0' is no constant of barten89");
+  refuses({"csf", "barten89", "--c0", "3"}, "'c0' is not a constant of barten89");
   refuses({"csf", "daly98", "--c0", "x"}, "allowed: number from 0 to 100");
   refuses({"csf", "daly98", "--set", "c0"}, "name=value");
   refuses({"csf", "daly98", "--frequency", "1:0:3"}, "--frequency");
-  refuses({"csf", "daly98", "--frequency", "1,,2"}, "is no number");
-  refuses({"csf", "daly98", "--frequency", "nan"}, "is no number");
+  refuses({"csf", "daly98", "--frequency", "1,,2"}, "is not a number");
+  refuses({"csf", "daly98", "--frequency", "nan"}, "is not a number");
   refuses({"csf", "daly98", "--json", "--csv"}, "exclude");
   refuses({"csf", "daly98", "--frequency", "1:2:100000"}, "10000");
   refuses({"csf", "daly98", "--luminance", "1:2:200", "--velocity", "1:2:200"}, "too many");

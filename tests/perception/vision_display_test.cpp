@@ -175,7 +175,7 @@ TEST_F(DisplayFile, ErrorsNameTheLine) {
   expect(good + "gamma: 2\n", ":6:8", "transfer: gamma");
   expect(good + "transfer: gamma\n", "", "'gamma' is missing");
   expect(good + "diagonal_in: 4\n", ":6:14", "keep one");
-  expect(good + "name: [a]\n", ":6:7", "no text");
+  expect(good + "name: [a]\n", ":6:7", "not a text");
   expect("resolution_px: [100]\n", ":1:16", "[width, height]");
   expect("resolution_px: [100.5, 100]\n", ":1:16", "whole numbers");
   expect("resolution_px: [1e300, 100]\n", ":1:16", "whole numbers");

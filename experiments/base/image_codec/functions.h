@@ -5,8 +5,8 @@
 
 #include "experiments/base/image_file.h"
 
-/// What the image library does. It pulls in hundreds of other libraries, a fifth of a second at every start,
-/// so it is a module of its own that a program loads when it meets its first image file.
+/// What the image library does. It pulls in hundreds of other libraries, which takes a fifth of a second at
+/// start-up, so it is a separate module that a program loads when it first needs an image file.
 namespace limen::codec {
 
 Image readImage(const std::string& path);
@@ -15,7 +15,7 @@ std::string encodeExr(const Image& image, const std::string& description);
 std::string encodePng(const Image& image, const std::string& description);
 ImageFile readImageFile(const std::string& path);
 
-/// The functions above, as the module hands them out.
+/// The functions above, as the module exports them.
 struct Functions {
   decltype(&readImage) read;
   decltype(&encodeExr) exr;
@@ -25,7 +25,7 @@ struct Functions {
 inline constexpr const char* kEntry = "limenImageCodec";
 using Entry = const Functions* (*)();
 
-/// Loads the module, which lies beside the program. Throws Error if it does not.
+/// Loads the module, which is installed beside the program. Throws Error if it is missing.
 const Functions& functions();
 
 }  // namespace limen::codec

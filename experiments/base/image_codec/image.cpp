@@ -42,7 +42,7 @@ Image readImage(const std::string& path) {
 std::string encodeExr(const Image& image, const std::string& description) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
-  // Else the library writes the time of day, and equal images would be different files.
+  // Otherwise the library writes the time of day, and equal images would give different files.
   spec.attribute("DateTime", "");
   if (!description.empty()) spec.attribute("ImageDescription", description);
   return encode("exr", spec, image.data);

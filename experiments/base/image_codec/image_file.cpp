@@ -24,7 +24,8 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Which channels are the picture. Names decide where they can: an EXR may hold depth and normals as well.
+/// Which channels make up the picture. Names decide where they can: an EXR may hold depth and normals as
+/// well.
 Channels pickChannels(const OIIO::ImageSpec& spec, const std::string& path) {
   const auto find = [&](std::initializer_list<const char*> names) {
     for (int c = 0; c < spec.nchannels; ++c)
@@ -48,7 +49,7 @@ Channels pickChannels(const OIIO::ImageSpec& spec, const std::string& path) {
     picked.colour = others;
   } else {
     throw Error("'" + path + "' holds the channels " + join(spec.channelnames), {},
-                "an image has R, G and B or one channel, and A at most");
+                "an image has R, G and B or a single channel, and optionally A");
   }
   return picked;
 }
@@ -88,7 +89,7 @@ std::vector<std::string> remarksOn(const OIIO::ImageSpec& spec, bool integer) {
   const std::string profile = spec.get_string_attribute("ICCProfile:profile_description");
   if (!profile.empty() && lower(profile).find("srgb") == std::string::npos)
     remarks.push_back("the file's colour profile '" + profile + "' is not applied");
-  // Primaries and white of Rec. 709; files that state others mean other colours by the same numbers.
+  // Primaries and white of Rec. 709; files that state others mean other colours with the same numbers.
   constexpr float kRec709[8] = {0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
   if (const OIIO::ParamValue* stated = spec.find_attribute("chromaticities")) {
     const auto* values = static_cast<const float*>(stated->data());
@@ -99,7 +100,7 @@ std::vector<std::string> remarksOn(const OIIO::ImageSpec& spec, bool integer) {
   return remarks;
 }
 
-/// Words of a library in one line.
+/// A library's message on one line.
 std::string oneLine(std::string words) {
   while (!words.empty() && words.back() == '\n') words.pop_back();
   std::replace(words.begin(), words.end(), '\n', ' ');
@@ -110,7 +111,7 @@ std::string oneLine(std::string words) {
 Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path) {
   Image raw(spec.width, spec.height, spec.nchannels);
   bool whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data.data());
-  // Some readers fill in what is missing and only leave a word.
+  // Some readers fill in missing data and only leave a message.
   const std::string words = oneLine(in.geterror());
   whole = whole && words.empty();
   if (!whole)
@@ -127,7 +128,7 @@ ImageFile readImageFile(const std::string& path) {
   if (std::filesystem::is_directory(path, code))
     throw Error("'" + path + "' is a folder", {}, "name its images with a pattern: '" + path + "/*.png'");
   OIIO::ImageSpec wish;
-  // Else colours come multiplied by alpha in coded values, which is no light.
+  // Otherwise encoded values come multiplied by alpha, which has no meaning in terms of light.
   wish.attribute("oiio:UnassociatedAlpha", 1);
   const auto in = OIIO::ImageInput::open(path, &wish);
   if (!in)
@@ -149,12 +150,12 @@ ImageFile readImageFile(const std::string& path) {
   const Image raw = readPixels(*in, spec, path);
   const int further = spec.get_int_attribute("oiio:subimages", 0);
   if (further > 1 || in->seek_subimage(1, 0))
-    file.remarks.push_back("the file holds several pictures; the first one is taken");
+    file.remarks.push_back("the file holds several pictures; the first one is used");
   const size_t taken = channels.colour.size() + (channels.alpha >= 0 ? 1 : 0);
   if (taken < static_cast<size_t>(spec.nchannels))
-    file.remarks.push_back("of the channels " + join(spec.channelnames) + " only the picture's are taken");
+    file.remarks.push_back("of the channels " + join(spec.channelnames) + " only the picture's are used");
 
-  // Files without a display window show all that they hold.
+  // Files without a display window show everything they hold.
   const bool window = spec.full_width > 0 && spec.full_height > 0;
   const int fullWidth = window ? spec.full_width : spec.width;
   const int fullHeight = window ? spec.full_height : spec.height;

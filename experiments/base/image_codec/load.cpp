@@ -13,7 +13,7 @@ const Functions* load() {
   std::error_code code;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
   const std::string module = (program.parent_path() / LIMEN_IMAGE_CODEC).string();
-  // Never closed: exit handlers of the libraries behind it lie in it.
+  // Never closed: it contains exit handlers of the libraries behind it.
   void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* entry = handle ? ::dlsym(handle, kEntry) : nullptr;
   if (!entry) {

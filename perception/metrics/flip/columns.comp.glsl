@@ -2,19 +2,20 @@
 // Filters along columns, then compares: colour difference, feature difference, FLIP. Each invocation makes
 // RUN pixels one above the other, so that a texel is fetched once for all of them. Out: the map, and each
 // group's sum of it.
+#include "perception/metrics/flip/flip_bindings.h"
 #include "perception/metrics/flip/exact.glsl"
 #include "perception/metrics/flip/filters.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = kFlipColumnsGroupX, local_size_y = kFlipColumnsGroupY) in;
 
-layout(binding = 0) uniform sampler2D testSensitivity;
-layout(binding = 1) uniform sampler2D referenceSensitivity;
-layout(binding = 2) uniform sampler2D detectors;
-layout(binding = 3) uniform sampler2D smoothed;
-layout(binding = 0, r32f) uniform writeonly image2D errorMap;
-layout(binding = 0, std430) buffer GroupSums { float groupSums[]; };
+layout(binding = kFlipColumnsTestSensitivityUnit) uniform sampler2D testSensitivity;
+layout(binding = kFlipColumnsReferenceSensitivityUnit) uniform sampler2D referenceSensitivity;
+layout(binding = kFlipColumnsDetectorsUnit) uniform sampler2D detectors;
+layout(binding = kFlipColumnsSmoothedUnit) uniform sampler2D smoothed;
+layout(binding = kFlipErrorMapImage, r32f) uniform writeonly image2D errorMap;
+layout(binding = kFlipGroupSumsBuffer, std430) buffer GroupSums { float groupSums[]; };
 
-const int kInvocations = 32 * 4;
+const int kInvocations = kFlipColumnsGroupX * kFlipColumnsGroupY;
 shared float sums[kInvocations];
 
 // Opponent colour, filtered, to linear RGB, clamped to what a display can show.

@@ -31,8 +31,9 @@ std::vector<glm::vec4> makeSensitivity(int radius, double pixelsPerDegree) {
   for (size_t part = 0; part < kParts.size(); ++part)
     for (int tap = -radius; tap <= radius; ++tap)
       sums[part] += gaussianTap(kParts[part], tap, pixelsPerDegree);
-  // A sum of two Gaussians is not separable but each of them is. Both are normalised on their own and then
-  // weighted by their shares of the two-dimensional sum; the root, since the kernel is applied twice.
+  // A sum of two Gaussians is not separable but each of them is. Both are normalised separately and then
+  // weighted by their shares of the two-dimensional sum, with a square root since the kernel is applied
+  // twice.
   const auto weight = [&](size_t part) {
     return kParts[part].a * std::sqrt(kPi / kParts[part].b) * sums[part] * sums[part];
   };
@@ -61,7 +62,7 @@ std::vector<glm::vec4> makeFeatures(int radius, double pixelsPerDegree) {
     raw.emplace_back(gaussian, -tap * gaussian, (scaled * scaled - 1.0) * gaussian);
     positive += glm::max(raw.back(), 0.0), negative -= glm::min(raw.back(), 0.0);
   }
-  // Positive weights sum to 1 and negative ones to -1, so that a detector's answer to any image is in [-1,
+  // Positive weights sum to 1 and negative ones to -1, so that a detector's response to any image is in [-1,
   // 1].
   std::vector<glm::vec4> taps;
   for (const glm::dvec3& value : raw) {

@@ -18,7 +18,7 @@ struct FlipFilters {
   std::vector<glm::vec4> features;
 };
 
-/// Filters for a display that shows so many pixels per degree of visual angle. Source: Andersson et al.,
+/// Filters for a display with this many pixels per degree of visual angle. Source: Andersson et al.,
 /// "FLIP: A Difference Evaluator for Alternating Images", HPG 2020, sections 4.1.1 and 4.2.1.
 FlipFilters makeFlipFilters(double pixelsPerDegree);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "perception/metrics/flip/flip_bindings.h"
 #include "perception/metrics/flip/flip_filters.h"
 
 namespace limen::perception {
@@ -15,9 +16,9 @@ namespace {
 using gl::Access;
 using gl::Format;
 
-constexpr int kRun = 8;  ///< pixels that an invocation of the column pass makes
-constexpr glm::ivec2 kRowGroup{128, 2};
-constexpr glm::ivec2 kColumnGroup{32, 4};
+constexpr int kRun = 8;  ///< pixels per invocation of the column pass
+constexpr glm::ivec2 kRowGroup{kFlipRowsGroupX, kFlipRowsGroupY};
+constexpr glm::ivec2 kColumnGroup{kFlipColumnsGroupX, kFlipColumnsGroupY};
 
 /// As the uniform block lays them out: both kernels, one after the other.
 std::vector<glm::vec4> kernels(double pixelsPerDegree) {
@@ -56,27 +57,27 @@ void FlipGpu::run(const gl::Texture& test, const gl::Texture& reference) {
   const gl::Program& mean = programs.compute(folder + "mean.comp.glsl");
 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  filters_.bindUniform(0);
-  test.bindTexture(0);
-  reference.bindTexture(1);
-  testSensitivity_.bindImage(0, Access::Write);
-  referenceSensitivity_.bindImage(1, Access::Write);
-  detectors_.bindImage(2, Access::Write);
-  smoothed_.bindImage(3, Access::Write);
+  filters_.bindUniform(kFlipFiltersBlock);
+  test.bindTexture(kFlipRowsTestImageUnit);
+  reference.bindTexture(kFlipRowsReferenceImageUnit);
+  testSensitivity_.bindImage(kFlipRowsTestSensitivityImage, Access::Write);
+  referenceSensitivity_.bindImage(kFlipRowsReferenceSensitivityImage, Access::Write);
+  detectors_.bindImage(kFlipRowsDetectorsImage, Access::Write);
+  smoothed_.bindImage(kFlipRowsSmoothedImage, Access::Write);
   rows.set("grey", gl::channelCount(test.format()) == 1 ? 1 : 0);
   rows.dispatch(sizePx_, kRowGroup);
 
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  testSensitivity_.bindTexture(0);
-  referenceSensitivity_.bindTexture(1);
-  detectors_.bindTexture(2);
-  smoothed_.bindTexture(3);
-  map_.bindImage(0, Access::Write);
-  groupSums_.bindStorage(0);
+  testSensitivity_.bindTexture(kFlipColumnsTestSensitivityUnit);
+  referenceSensitivity_.bindTexture(kFlipColumnsReferenceSensitivityUnit);
+  detectors_.bindTexture(kFlipColumnsDetectorsUnit);
+  smoothed_.bindTexture(kFlipColumnsSmoothedUnit);
+  map_.bindImage(kFlipErrorMapImage, Access::Write);
+  groupSums_.bindStorage(kFlipGroupSumsBuffer);
   columns.dispatch(groups_, {1, 1});
 
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  result_.bindStorage(1);
+  result_.bindStorage(kFlipMeanResultBuffer);
   mean.set("groupCount", static_cast<uint32_t>(groups_.x * groups_.y));
   mean.set("pixelCount", static_cast<float>(sizePx_.x) * static_cast<float>(sizePx_.y));
   mean.dispatch({1, 1}, {1, 1});

@@ -43,13 +43,13 @@ MetricResult measure(const ComparisonInput& input, const FlipMetricSettings& set
   const Comparison pair(input, "flip", Region::All);
   if (!input.gpu)
     throw Error("metric 'flip' needs an OpenGL context", {},
-                "run it where OpenGL 4.5 is found, or use ssim or de94");
+                "run it on a machine with OpenGL 4.5, or use ssim or de94");
   const glm::ivec2 sizePx(pair.width(), pair.height());
   const double pixelsPerDegree = settings.pixelsPerDegree;
   std::shared_ptr<void>& kept = input.gpu->kept("flip");
   auto* flip = static_cast<FlipGpu*>(kept.get());
   if (!flip || flip->sizePx() != sizePx || flip->pixelsPerDegree() != pixelsPerDegree) {
-    kept.reset();  // frees the memory before the next one takes it
+    kept.reset();  // frees the memory before the next one allocates
     const auto made = std::make_shared<FlipGpu>(input.gpu->context(), sizePx, pixelsPerDegree);
     flip = made.get();
     kept = made;

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean of the map from the groups' sums, in an order that does not vary.
+#include "perception/metrics/flip/flip_bindings.h"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kFlipMeanGroup) in;
 
-layout(binding = 0, std430) readonly buffer GroupSums { float groupSums[]; };
-layout(binding = 1, std430) writeonly buffer Result { float mean; };
+layout(binding = kFlipGroupSumsBuffer, std430) readonly buffer GroupSums { float groupSums[]; };
+layout(binding = kFlipMeanResultBuffer, std430) writeonly buffer Result { float mean; };
 
 uniform uint groupCount;
 uniform float pixelCount;
 
-shared float sums[256];
+shared float sums[kFlipMeanGroup];
 
 void main() {
   uint index = gl_LocalInvocationIndex;
   float sum = 0.0;
-  for (uint group = index; group < groupCount; group += 256u) sum += groupSums[group];
+  for (uint group = index; group < groupCount; group += uint(kFlipMeanGroup)) sum += groupSums[group];
   sums[index] = sum;
-  for (uint stride = 128u; stride > 0u; stride /= 2u) {
+  for (uint stride = uint(kFlipMeanGroup) / 2u; stride > 0u; stride /= 2u) {
     barrier();
     if (index < stride) sums[index] += sums[index + stride];
   }

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters both images along their rows. Out: the four parts of contrast sensitivity of each image, and the
 // feature detectors' and their Gaussian's answers of both.
+#include "perception/metrics/flip/flip_bindings.h"
 #include "perception/metrics/flip/exact.glsl"
 #include "perception/metrics/flip/filters.glsl"
 
-layout(local_size_x = 128, local_size_y = 2) in;
+layout(local_size_x = kFlipRowsGroupX, local_size_y = kFlipRowsGroupY) in;
 
-layout(binding = 0) uniform sampler2D testImage;
-layout(binding = 1) uniform sampler2D referenceImage;
-layout(binding = 0, rgba32f) uniform writeonly image2D testSensitivity;
-layout(binding = 1, rgba32f) uniform writeonly image2D referenceSensitivity;
-layout(binding = 2, rgba32f) uniform writeonly image2D detectors;  // test edge, point; reference edge, point
-layout(binding = 3, rg32f) uniform writeonly image2D smoothed;     // test, reference
+layout(binding = kFlipRowsTestImageUnit) uniform sampler2D testImage;
+layout(binding = kFlipRowsReferenceImageUnit) uniform sampler2D referenceImage;
+layout(binding = kFlipRowsTestSensitivityImage, rgba32f) uniform writeonly image2D testSensitivity;
+layout(binding = kFlipRowsReferenceSensitivityImage, rgba32f) uniform writeonly image2D referenceSensitivity;
+layout(binding = kFlipRowsDetectorsImage, rgba32f) uniform writeonly image2D detectors;  // test edge, point; reference edge, point
+layout(binding = kFlipRowsSmoothedImage, rg32f) uniform writeonly image2D smoothed;     // test, reference
 
 uniform bool grey;  // visibility: one channel
 
-const int kWidth = 128 + 2 * RADIUS;
-shared vec3 testRow[2][kWidth];  // Y, Cx, Cz
-shared vec3 referenceRow[2][kWidth];
+const int kWidth = kFlipRowsGroupX + 2 * RADIUS;
+shared vec3 testRow[kFlipRowsGroupY][kWidth];  // Y, Cx, Cz
+shared vec3 referenceRow[kFlipRowsGroupY][kWidth];
 
 // Linear RGB to YCxCz, the opponent space of the filters: XYZ over the white's XYZ, then as CIELAB without
 // its roots.
@@ -57,8 +58,8 @@ void main() {
   ivec2 size = textureSize(testImage, 0);
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   int row = int(gl_LocalInvocationID.y);
-  int first = int(gl_WorkGroupID.x) * 128 - RADIUS;
-  for (int i = int(gl_LocalInvocationID.x); i < kWidth; i += 128) {
+  int first = int(gl_WorkGroupID.x) * kFlipRowsGroupX - RADIUS;
+  for (int i = int(gl_LocalInvocationID.x); i < kWidth; i += kFlipRowsGroupX) {
     ivec2 source = clamp(ivec2(first + i, pixel.y), ivec2(0), size - 1);
     vec3 test = texelFetch(testImage, source, 0).rgb;
     vec3 reference = texelFetch(referenceImage, source, 0).rgb;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The finest level's response difference, then the Minkowski sum over all levels and channels, and weights: the
 // difference map.
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/response.glsl"
 
-layout(binding = 3) uniform sampler2D differences;  // contrast level i at mip level i - 1
-layout(binding = 4) uniform sampler2D disocclusion;
-layout(binding = 5) uniform sampler2D flicker;
-layout(binding = 0, r32f) uniform writeonly image2D jnd;
+layout(binding = kCollapseDifferencesUnit) uniform sampler2D differences;  // contrast level i at mip level i - 1
+layout(binding = kCollapseDisocclusionUnit) uniform sampler2D disocclusion;
+layout(binding = kCollapseFlickerUnit) uniform sampler2D flicker;
+layout(binding = kCollapseJndImage, r32f) uniform writeonly image2D jnd;
 
 uniform int contrastLevels;
 uniform float exponent;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Response difference of the frames at a level of the contrast pyramid.
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/response.glsl"
 
-layout(binding = 0, rgba32f) uniform writeonly image2D differences;
+layout(binding = kDifferencesImage, rgba32f) uniform writeonly image2D differences;
 
 uniform float exponent;
 uniform int shownFrame, shownStage;  // SHOW_STAGES: contrast, luminance, velocity, response, difference

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility in the previous frame by percentage-closer comparison, the larger one of both levels of detail.
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/previous_place.glsl"
 
-layout(local_size_x = 32, local_size_y = 8) in;
+layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = 0) uniform sampler2D depthOfPixel0;
-layout(binding = 1) uniform sampler2D displacement0;
-layout(binding = 2) uniform sampler2D previousDepth0;
-layout(binding = 3) uniform sampler2D depthOfPixel1;
-layout(binding = 4) uniform sampler2D displacement1;
-layout(binding = 5) uniform sampler2D previousDepth1;
-layout(binding = 0, r32f) uniform writeonly image2D weights;
+layout(binding = kDisocclusionDepthOfPixel0Unit) uniform sampler2D depthOfPixel0;
+layout(binding = kDisocclusionDisplacement0Unit) uniform sampler2D displacement0;
+layout(binding = kDisocclusionPreviousDepth0Unit) uniform sampler2D previousDepth0;
+layout(binding = kDisocclusionDepthOfPixel1Unit) uniform sampler2D depthOfPixel1;
+layout(binding = kDisocclusionDisplacement1Unit) uniform sampler2D displacement1;
+layout(binding = kDisocclusionPreviousDepth1Unit) uniform sampler2D previousDepth1;
+layout(binding = kDisocclusionWeightsImage, r32f) uniform writeonly image2D weights;
 
 uniform int viewCount, pcfRadius;
 uniform float depthTolerance, outsideVisibility;

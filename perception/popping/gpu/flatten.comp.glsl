@@ -2,12 +2,12 @@
 // Hangs every pixel right below its root and tells the root of the seeds of its tiles.
 #include "perception/popping/gpu/region_table.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kRegionGroup) in;
 
 uniform uint pixelCount;
 
 void main() {
-  uint pixel = gl_WorkGroupID.y * (gl_NumWorkGroups.x * 256u) + gl_GlobalInvocationID.x;
+  uint pixel = gl_WorkGroupID.y * (gl_NumWorkGroups.x * uint(kRegionGroup)) + gl_GlobalInvocationID.x;
   if (pixel >= pixelCount) return;
   uint root = parents[pixel];
   if (root == kNone) return;

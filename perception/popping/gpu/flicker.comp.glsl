@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marks pixels whose shading changes over time about as much as between the levels of detail.
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/previous_place.glsl"
 
-layout(local_size_x = 32, local_size_y = 8) in;
+layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = 0) uniform sampler2D actual;
-layout(binding = 1) uniform sampler2D predicted;
-layout(binding = 2) uniform sampler2D previousShading;
-layout(binding = 3) uniform sampler2D previousFrame;
-layout(binding = 4) uniform sampler2D displacement;
-layout(binding = 5) uniform sampler2D depthOfPixel;
-layout(binding = 6) uniform sampler2D previousDepth;
-layout(binding = 0, r32f) uniform writeonly image2D weights;
+layout(binding = kFlickerActualUnit) uniform sampler2D actual;
+layout(binding = kFlickerPredictedUnit) uniform sampler2D predicted;
+layout(binding = kFlickerPreviousShadingUnit) uniform sampler2D previousShading;
+layout(binding = kFlickerPreviousFrameUnit) uniform sampler2D previousFrame;
+layout(binding = kFlickerDisplacementUnit) uniform sampler2D displacement;
+layout(binding = kFlickerDepthOfPixelUnit) uniform sampler2D depthOfPixel;
+layout(binding = kFlickerPreviousDepthUnit) uniform sampler2D previousDepth;
+layout(binding = kFlickerWeightsImage, r32f) uniform writeonly image2D weights;
 
 uniform int compareDepth;
 uniform float kappa, largestDisplacement, flickerWeight, depthTolerance;

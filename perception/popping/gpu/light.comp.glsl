@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pixel values of both frames to cone responses, level 0 of their pyramids; alpha: speed in pixels per frame. Marks
 // pixels whose colours differ.
+#include "perception/popping/gpu/popping_bindings.h"
 
-layout(local_size_x = 32, local_size_y = 8) in;
+layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = 0) uniform sampler2D actual;
-layout(binding = 1) uniform sampler2D predicted;
-layout(binding = 2) uniform sampler2D actualDisplacement;
-layout(binding = 3) uniform sampler2D predictedDisplacement;
-layout(binding = 0, rgba32f) uniform writeonly image2DArray cones;  // layer: 0 actual, 1 predicted
-layout(binding = 1, r8ui) uniform writeonly uimage2D seeds;
-layout(binding = 0, std430) buffer Counters { uint flushed, guarded; };
+layout(binding = kLightActualUnit) uniform sampler2D actual;
+layout(binding = kLightPredictedUnit) uniform sampler2D predicted;
+layout(binding = kLightActualDisplacementUnit) uniform sampler2D actualDisplacement;
+layout(binding = kLightPredictedDisplacementUnit) uniform sampler2D predictedDisplacement;
+layout(binding = kLightConesImage, rgba32f) uniform writeonly image2DArray cones;  // layer: 0 actual, 1 predicted
+layout(binding = kLightSeedsImage, r8ui) uniform writeonly uimage2D seeds;
+layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
 
 uniform int frameCount;  // 2; a uniform, so that both frames go through the same code, not through copies of it
 uniform int grey, transfer, hasDisplacement, everySeed;
@@ -67,5 +68,5 @@ void main() {
   if (inside) imageStore(seeds, pixel, uvec4(differs || everySeed != 0 ? 1u : 0u));
   if (flushedHere != 0u) atomicAdd(groupFlushed, flushedHere);
   barrier();
-  if (gl_LocalInvocationIndex == 0u && groupFlushed != 0u) atomicAdd(flushed, groupFlushed);
+  if (gl_LocalInvocationIndex == 0u && groupFlushed != 0u) atomicAdd(counters.flushed, groupFlushed);
 }

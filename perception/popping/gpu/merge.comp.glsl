@@ -3,10 +3,9 @@
 // edge, then one for each right of a tile's left edge.
 #include "perception/popping/gpu/region_table.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kRegionGroup) in;
 
 uniform ivec2 sizePx;
-const int kTile = 32;
 
 uint indexOf(ivec2 pixel) { return uint(pixel.y) * uint(sizePx.x) + uint(pixel.x); }
 
@@ -50,17 +49,17 @@ void uniteAcross(ivec2 pixel, ivec2 towards, ivec2 along, bool mayLeave) {
 
 void main() {
   uint index = gl_GlobalInvocationID.x;
-  uint edgeRows = uint((sizePx.y - 1) / kTile), edgeColumns = uint((sizePx.x - 1) / kTile);
+  uint edgeRows = uint((sizePx.y - 1) / kRegionTile), edgeColumns = uint((sizePx.x - 1) / kRegionTile);
   uint width = uint(sizePx.x), height = uint(sizePx.y);
   if (index < edgeRows * width) {
-    ivec2 pixel = ivec2(index % width, (index / width + 1u) * uint(kTile));
+    ivec2 pixel = ivec2(index % width, (index / width + 1u) * uint(kRegionTile));
     uniteAcross(pixel, ivec2(0, -1), ivec2(1, 0), true);
     return;
   }
   index -= edgeRows * width;
   if (index >= edgeColumns * height) return;
-  ivec2 pixel = ivec2((index / height + 1u) * uint(kTile), index % height);
+  ivec2 pixel = ivec2((index / height + 1u) * uint(kRegionTile), index % height);
   // In a tile's first row the edge above relies on this one: four tiles that meet in a set corner would else
   // each leave it to the others.
-  uniteAcross(pixel, ivec2(-1, 0), ivec2(0, 1), pixel.y % kTile != 0);
+  uniteAcross(pixel, ivec2(-1, 0), ivec2(0, 1), pixel.y % kRegionTile != 0);
 }

@@ -8,7 +8,7 @@
 
 namespace limen::perception {
 
-/// Opens a pass where there is a list to note it; closed when the result dies.
+/// Opens a pass if there is a list to record it; closed when the result is destroyed.
 inline std::unique_ptr<gl::PassList::Scope> openPass(gl::PassList* passes, const char* name) {
   return std::unique_ptr<gl::PassList::Scope>(passes ? new gl::PassList::Scope(passes->open(name)) : nullptr);
 }

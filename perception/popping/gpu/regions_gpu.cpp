@@ -10,6 +10,7 @@
 #include <string>
 
 #include "perception/popping/gpu/open_pass.h"
+#include "perception/popping/gpu/popping_bindings.h"
 
 namespace limen::perception {
 namespace {
@@ -17,16 +18,9 @@ namespace {
 using gl::Access;
 using gl::Format;
 
-constexpr int kTile = 32, kChunk = 4096, kGroup = 256, kHeaderBytes = 16;
-constexpr glm::ivec2 kStatsTile{32, 64};
+constexpr glm::ivec2 kStatsTile{kStatsGroupX, kStatsGroupY* kStatsRows};
+constexpr int64_t kHeaderBytes = sizeof(RegionTableHeader), kChunk = kRegionChunk;
 const char* const kFolder = "perception/popping/gpu/";
-
-/// As in region_table.glsl.
-struct Record {
-  uint32_t sizePx, sum[4], largestBits, leastX, leastY, mostX, mostY, x0, x1, y0, y1;
-  float sigma, rating;
-};
-static_assert(sizeof(Record) == 64);
 
 /// Regions of 8 neighbours need a free pixel around, those of 4 one beside.
 int64_t mostRegions(glm::ivec2 size, int connectivity) {
@@ -36,11 +30,11 @@ int64_t mostRegions(glm::ivec2 size, int connectivity) {
 
 int64_t pixelsOf(glm::ivec2 size) { return int64_t{size.x} * size.y; }
 
-/// Runs one invocation for each element, in groups of 256 spread over two dimensions where one has not
+/// Runs one invocation for each element, in groups spread over two dimensions where one has not
 /// enough.
 void dispatchLinear(const gl::Program& program, int64_t elements) {
   constexpr int64_t kMostGroups = 32768;
-  const int64_t groups = (elements + kGroup - 1) / kGroup;
+  const int64_t groups = (elements + kRegionGroup - 1) / kRegionGroup;
   const int64_t across = std::min(groups, kMostGroups), down = (groups + across - 1) / across;
   program.dispatch({static_cast<int>(across), static_cast<int>(down)}, {1, 1});
 }
@@ -55,8 +49,9 @@ RegionsGpu::RegionsGpu(gl::Context& context, glm::ivec2 sizePx, const PoppingSet
       labels_(Format::R32UI, sizePx),
       parents_(pixelsOf(sizePx) * 4, nullptr),
       roots_(pixelsOf(sizePx) * 4, nullptr),
-      table_(kHeaderBytes + mostRegions(sizePx, settings.regions.connectivity) * int64_t{sizeof(Record)},
-             nullptr),
+      table_(
+          kHeaderBytes + mostRegions(sizePx, settings.regions.connectivity) * int64_t{sizeof(RegionRecord)},
+          nullptr),
       chunks_((pixelsOf(sizePx) + kChunk - 1) / kChunk * 4, nullptr) {
   for (const char* name : {"tile", "merge", "flatten", "count", "assign", "stats", "finish"})
     context_.programs().compute(std::string(kFolder) + name + ".comp.glsl", defines_);
@@ -72,22 +67,22 @@ void RegionsGpu::run(const gl::Texture& jnd, const gl::Texture& seeds, gl::PassL
   const auto threshold = static_cast<float>(settings_.regions.thresholdJnd);
   const auto exponent = static_cast<float>(settings_.minkowskiExponent);
 
-  parents_.bindStorage(0);
-  roots_.bindStorage(1);
-  table_.bindStorage(2);
-  chunks_.bindStorage(3);
-  jnd.bindTexture(0);
-  seeds.bindTexture(1);
+  parents_.bindStorage(kRegionParentsBuffer);
+  roots_.bindStorage(kRegionRootsBuffer);
+  table_.bindStorage(kRegionTableBuffer);
+  chunks_.bindStorage(kRegionChunksBuffer);
+  jnd.bindTexture(kRegionJndUnit);
+  seeds.bindTexture(kRegionSeedsUnit);
   {
     const auto pass = openPass(passes, "popping/regions_tile");
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     const gl::Program& tile = program("tile");
     tile.set("threshold", threshold);
-    tile.dispatch((sizePx_ + kTile - 1) / kTile, {1, 1});
+    tile.dispatch((sizePx_ + kRegionTile - 1) / kRegionTile, {1, 1});
   }
   {
     const auto pass = openPass(passes, "popping/regions_merge");
-    const glm::ivec2 edges = (sizePx_ - 1) / kTile;
+    const glm::ivec2 edges = (sizePx_ - 1) / kRegionTile;
     const int64_t elements = int64_t{edges.y} * sizePx_.x + int64_t{edges.x} * sizePx_.y;
     if (elements > 0) {
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -115,7 +110,7 @@ void RegionsGpu::run(const gl::Texture& jnd, const gl::Texture& seeds, gl::PassL
     const auto pass = openPass(passes, "popping/regions_sum");
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     const gl::Program& stats = program("stats");
-    labels_.bindImage(0, Access::Write);
+    labels_.bindImage(kRegionLabelsImage, Access::Write);
     stats.set("threshold", threshold);
     stats.set("exponent", exponent);
     stats.dispatch((sizePx_ + kStatsTile - 1) / kStatsTile, {1, 1});
@@ -135,10 +130,10 @@ RegionMap RegionsGpu::read() const {
   RegionMap map;
   map.width = sizePx_.x, map.height = sizePx_.y;
   map.labels = labels_.readUint();
-  const uint32_t count = table_.read<uint32_t>(0, 1).front();
-  const std::vector<Record> records = table_.read<Record>(kHeaderBytes, count);
+  const uint32_t count = table_.read<RegionTableHeader>(0, 1).front().regionCount;
+  const std::vector<RegionRecord> records = table_.read<RegionRecord>(kHeaderBytes, count);
   for (uint32_t i = 0; i < count; ++i) {
-    const Record& record = records[i];
+    const RegionRecord& record = records[i];
     PoppingRegion region;
     region.label = i + 1;
     region.sizePx = record.sizePx;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Response of the vision model at a level of the contrast pyramid, for groups of 32 x 8 pixels. Call prepare() from
 // all of them, then responseDifference().
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/masking.glsl"
 
-layout(local_size_x = 32, local_size_y = 8) in;
+layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = 0) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
-layout(binding = 2) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
-layout(binding = 0, std430) buffer Counters { uint flushed, guarded; };
-layout(binding = 1, std430) readonly buffer Mean { float meanLuminance[2]; };
+layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
+layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
+layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
+layout(binding = kMeanLuminanceBuffer, std430) readonly buffer Mean { float meanLuminance[2]; };
 
 uniform int frameCount;  // 2; a uniform, so that both frames go through the same code, not through copies of it
 uniform int level, adaptationLevel, adaptationSource, eyeMovement;
@@ -18,7 +19,7 @@ uniform float epsilon, gain, greyGain, fixedLuminance, leastVelocity, degSPerPx;
 uniform ivec2 tableSize;          // nodes of velocity and luminance
 uniform vec2 tableLow, tablePer;  // log2 of the first node; nodes per octave
 
-const ivec2 kNeighbours = ivec2(18, 6);  // pixels of the next level around a group
+const ivec2 kNeighbours = ivec2(kPoppingGroupX, kPoppingGroupY) / 2 + 2;  // pixels of the next level around a group
 const int kNeighbourCount = kNeighbours.x * kNeighbours.y;
 shared vec4 next[2 * kNeighbourCount];   // the next level
 shared vec4 after[2 * kNeighbourCount];  // the one after it, at the next one's size
@@ -31,9 +32,9 @@ vec3 taps(int position) { return (position & 1) == 0 ? evenTaps.xyx : vec3(0.0, 
 void prepare() {
   int index = int(gl_LocalInvocationIndex);
   if (index == 0) groupGuarded = 0u;
-  ivec2 origin = ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1;
+  ivec2 origin = ivec2(gl_WorkGroupID.xy) * ivec2(kPoppingGroupX, kPoppingGroupY) / 2 - 1;
   ivec2 nextSize = textureSize(cones, level + 1).xy, afterSize = textureSize(cones, level + 2).xy;
-  for (int i = index; i < frameCount * kNeighbourCount; i += 256) {
+  for (int i = index; i < frameCount * kNeighbourCount; i += kPoppingGroupX * kPoppingGroupY) {
     int frame = i / kNeighbourCount, neighbour = i % kNeighbourCount;
     ivec2 place =
         clamp(origin + ivec2(neighbour % kNeighbours.x, neighbour / kNeighbours.x), ivec2(0), nextSize - 1);
@@ -97,7 +98,7 @@ struct Stages {
 
 // Response of the actual frame minus that of the predicted one, channels A, a, b.
 vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
-  ivec2 m = pixel / 2 - (ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) - 1);
+  ivec2 m = pixel / 2 - (ivec2(gl_WorkGroupID.xy) * ivec2(kPoppingGroupX, kPoppingGroupY) / 2 - 1);
   vec3 across = taps(pixel.x), down = taps(pixel.y);
   precise vec3 difference = vec3(0.0);
   uint guardedHere = 0u;
@@ -135,5 +136,5 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
 // Call from all of the group after responseDifference().
 void countGuarded() {
   barrier();
-  if (gl_LocalInvocationIndex == 0u && groupGuarded != 0u) atomicAdd(guarded, groupGuarded);
+  if (gl_LocalInvocationIndex == 0u && groupGuarded != 0u) atomicAdd(counters.guarded, groupGuarded);
 }

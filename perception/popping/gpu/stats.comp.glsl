@@ -2,18 +2,18 @@
 // Labels pixels and sums up regions. Each invocation walks down a column of ROWS pixels and hands on what it
 // gathered when the region changes; what belongs to the group's most common region meets in shared memory first, so
 // that few additions reach the table. Sums are integers: their order does not matter.
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/region_table.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = kStatsGroupX, local_size_y = kStatsGroupY) in;
 
-layout(binding = 0) uniform sampler2D jnd;
-layout(binding = 0, r32ui) uniform writeonly uimage2D labels;
+layout(binding = kRegionJndUnit) uniform sampler2D jnd;
+layout(binding = kRegionLabelsImage, r32ui) uniform writeonly uimage2D labels;
 
 uniform float threshold, exponent;
 
-const int kRows = 16;
 shared uint leader;  // label of the region that is summed up in `tally`
-shared Region tally;
+shared RegionRecord tally;
 
 struct Gathered {
   uint label, sizePx, sum[4], largestBits, leastY, mostY, ySum;
@@ -80,13 +80,13 @@ void main() {
   uint index = gl_LocalInvocationIndex;
   if (index == 0u) {
     leader = kNone;
-    tally = Region(0u, uint[4](0u, 0u, 0u, 0u), 0u, kNone, kNone, 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+    tally = RegionRecord(0u, uint[4](0u, 0u, 0u, 0u), 0u, kNone, kNone, 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
   }
   barrier();
-  int x = int(gl_GlobalInvocationID.x), top = int(gl_GlobalInvocationID.y) * kRows;
-  uint label[kRows];
+  int x = int(gl_GlobalInvocationID.x), top = int(gl_GlobalInvocationID.y) * kStatsRows;
+  uint label[kStatsRows];
   uint first = 0u;
-  for (int row = 0; row < kRows; ++row) {
+  for (int row = 0; row < kStatsRows; ++row) {
     label[row] = 0u;
     if (x >= size.x || top + row >= size.y) continue;
     uint root = parents[uint(top + row) * uint(size.x) + uint(x)];
@@ -101,7 +101,7 @@ void main() {
   Gathered g;
   clearGathered(g);
   if (first != 0u) {
-    for (int row = 0; row < kRows; ++row) {
+    for (int row = 0; row < kStatsRows; ++row) {
       if (label[row] != g.label) {
         handOn(g, uint(x));
         clearGathered(g);

@@ -55,7 +55,8 @@ Aperture apertureOf(const std::vector<double>& horizonRad) {
     solidAngle += sector * (1.0 - std::sin(h));
     const double outwards = 0.5 * (0.5 * kPi - h) - 0.25 * std::sin(2.0 * h),
                  upwards = 0.5 * std::cos(h) * std::cos(h);
-    // A direction stands for its sector: its mean over the sector is shorter by sin(x) / x of half of it.
+    // A direction represents its sector: its mean over the sector is shorter by sin(x) / x, x being half the
+    // sector.
     const double width = 2.0 * std::sin(0.5 * sector);
     mean += glm::dvec3(width * outwards * std::cos(azimuth), sector * upwards,
                        width * outwards * std::sin(azimuth));
@@ -79,8 +80,8 @@ double capIntersection(double a, double b, double d) {
   if (d <= std::abs(a - b)) return capArea(std::min(a, b));
   // Caps that together reach around the sphere: what neither covers is the lens of their complements.
   if (a + b + d >= 2.0 * kPi) return capArea(a) + capArea(b) - 4.0 * kPi;
-  // Two sectors less the kite between both axes and both crossings of the rims. Sectors and the kite's
-  // spherical excess in half-angle forms, which lose nothing where a cap is small.
+  // Two sectors minus the kite between both axes and both crossings of the rims. Sectors and the kite's
+  // spherical excess in half-angle forms, which stay accurate for small caps.
   const double s = 0.5 * (a + b + d);
   const double atA = cornerAngle(s, b, a, d), atB = cornerAngle(s, a, b, d);
   const double product =

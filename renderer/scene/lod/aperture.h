@@ -16,14 +16,14 @@ struct Aperture {
 };
 
 /// Horizon elevations in radians, at least 0, in `azimuths` directions around the point: direction k is
-/// (cos, sin)(2 pi (k + 0.5) / azimuths) in (x, z). Heights are met at every grid spacing along each.
+/// (cos, sin)(2 pi (k + 0.5) / azimuths) in (x, z). Heights are sampled at every grid spacing along each.
 /// `highest`: field.highest().
 std::vector<double> horizon(const HeightField& field, double highest, int i, int j, int azimuths);
 
-/// The cap of a horizon, each direction standing for its sector.
+/// The cap of a horizon, each direction representing its sector.
 Aperture apertureOf(const std::vector<double>& horizonRad);
 
-/// Of all points of the field, in its order.
+/// Apertures of all points of the field, in its order.
 std::vector<Aperture> apertures(const HeightField& field, int azimuths);
 
 /// Solid angle that two spherical caps share, with angular radii a and b and the angle d between their axes,
@@ -31,8 +31,8 @@ std::vector<Aperture> apertures(const HeightField& field, int azimuths);
 double capIntersection(double a, double b, double d);
 
 /// What an aperture lets through. Sun: the share of a disc of angular radius sunRadius that lies in the cone,
-/// by the cosine to the surface. Sky: the irradiance of a uniform sky through the cone over that of the whole
-/// sky: sin^2(angle) by the cosine to the axis.
+/// times the cosine to the surface. Sky: the irradiance of a uniform sky through the cone relative to that of
+/// the whole sky: sin^2(angle) times the cosine to the axis.
 struct ApertureLight {
   double sun = 0.0, sky = 0.0;
 };

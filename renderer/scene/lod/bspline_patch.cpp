@@ -102,7 +102,7 @@ LodSet patchLevels(const BicubicPatch& patch, const std::vector<int>& factors) {
     if (i > 0) level.deviation = sampledDeviation(set.levels[0].mesh, level.mesh);
     for (const glm::vec4& at : level.mesh.attributes) {
       const int next = factors[std::min(i + 1, factors.size() - 1)];
-      // From the integers, so that a vertex of both levels stays exactly where it is.
+      // From the integers, so that a vertex shared by both levels stays exactly where it is.
       const double u = std::round(double(at.x) * factors[i]) / factors[i],
                    v = std::round(double(at.y) * factors[i]) / factors[i];
       level.mesh.morphTargets.push_back(tessellatedPoint(patch, next, u, v));

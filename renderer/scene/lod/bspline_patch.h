@@ -24,8 +24,8 @@ glm::dvec3 tessellatedPoint(const BicubicPatch& patch, int factor, double u, dou
 
 /// Levels by tessellation factors, descending (Schwarz 2009, section 10.4.1: 9, 3, 2).
 /// deviation: sampledDeviation() from the first level. statedError: largest distance from the patch itself at
-/// the same parameters, on a grid of 8 x 8 points a cell. Morph targets: the next level's point at the same
-/// parameters; the surface morphs into exactly the next level where one factor divides the other.
+/// the same parameters, on a grid of 8 x 8 points per cell. Morph targets: the next level's point at the same
+/// parameters; the surface morphs into exactly the next level if one factor divides the other.
 LodSet patchLevels(const BicubicPatch& patch, const std::vector<int>& factors);
 
 }  // namespace limen::scene

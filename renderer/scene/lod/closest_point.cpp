@@ -38,7 +38,7 @@ std::vector<glm::dvec3> surfaceSamples(const Mesh& mesh, int count, int64_t seed
   if (!(total > 0.0)) return out;
   Random random(seed);
   for (int i = 0; i < count; ++i) {
-    // Stratified along the summed area, so that no large triangle is left out by chance.
+    // Stratified over the cumulative area, so that no large triangle is missed by chance.
     const double at = total * (i + random.uniform(0.0, 1.0)) / count;
     const auto found = std::upper_bound(areas.begin(), areas.end() - 1, at);
     const glm::uvec3 t = mesh.triangles[static_cast<size_t>(found - areas.begin())];
@@ -72,7 +72,7 @@ glm::dvec3 closestOnTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec
     const double u = (d22 * e1 - d12 * e2) / determinant, v = (d11 * e2 - d12 * e1) / determinant;
     if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) return a + u * ab + v * ac;
   }
-  // Outside, or without area: the nearest lies on an edge.
+  // Outside, or degenerate: the nearest point lies on an edge.
   glm::dvec3 best = closestOnSegment(a, b, point);
   for (const glm::dvec3& other : {closestOnSegment(b, c, point), closestOnSegment(c, a, point)})
     if (glm::dot(other - point, other - point) < glm::dot(best - point, best - point)) best = other;

@@ -8,8 +8,8 @@
 
 namespace limen::scene {
 
-/// Nearest point of a triangle mesh, in double precision, by a tree of boxes. Degenerate triangles count as
-/// the segment or point that they are.
+/// Nearest point of a triangle mesh, in double precision, with a bounding-box tree. Degenerate triangles
+/// count as the segment or point to which they collapse.
 class ClosestPoint {
  public:
   /// Copies the corners. The mesh must have a triangle.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of bumpy spheres in a few levels of detail that go away from the camera, behind a fence on the left
-// half, before a patterned wall: what the interactive perceptual pipeline is about (Schwarz 2009, section 9.5
-// and Fig. 9.8: statues, partly masked). The thesis's scene is not available; this one is made from a seed.
+// Rows of bumpy spheres in a few levels of detail that recede from the camera, behind a fence on the left
+// half, in front of a patterned wall: the use case of the interactive perceptual pipeline (Schwarz 2009,
+// section 9.5 and Fig. 9.8: statues, partly masked). The thesis's scene is not available; this one is made
+// from a seed.
 #include <cmath>
 
 #include "renderer/scene/bumps.h"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kRadius = 0.45;
 
-/// Where the objects stand.
+/// Arrangement of the objects.
 struct GridSettings {
   int rows = 5, columns = 4;
   double spacing = 1.8;
@@ -26,7 +27,7 @@ struct GridSettings {
         Binding(&S::rows, "rows", Range{0, 32}, "", "Rows of objects, one behind another").formerly({"rows"}),
         Binding(&S::columns, "columns", Range{0, 32}, "", "Objects in a row").formerly({"columns"}),
         Binding(&S::spacing, "spacing", Range{0.5, 20.0}, "world units",
-                "Between objects, whose radius is about 0.45")
+                "Distance between objects, whose radius is about 0.45")
             .formerly({"spacing"})};
     return kTable;
   }
@@ -38,16 +39,12 @@ struct SphereLevels {
   static const SettingsTable<SphereLevels>& table() {
     using S = SphereLevels;
     static const SettingsTable<S> kTable = {
-        {&S::count,
-         "count",
-         {1, 8},
-         "",
-         "Levels of detail; fewer where the coarsest would have no triangles"},
+        {&S::count, "count", {1, 8}, "", "Levels of detail; fewer if the coarsest would have no triangles"},
         Binding(&S::tessellation, "tessellation", Range{1, 96}, "segments",
                 "Segments in a quarter circle of the finest level; 8 times its square triangles")
             .formerly({"tessellation"}),
         Binding(&S::ratio, "ratio", Range{0.3, 0.9}, "",
-                "Segments of each level over those of the one before; its square is that of triangles")
+                "Segments of each level relative to the one before; the square is the ratio of triangles")
             .formerly({"level_ratio"})};
     return kTable;
   }
@@ -67,11 +64,11 @@ struct MaskerSettings {
 };
 
 struct Fence {
-  static constexpr const char *kKind = "bars", *kSummary = "a fence before the left half";
+  static constexpr const char *kKind = "bars", *kSummary = "a fence in front of the left half";
   double pitch = 0.3, share = 0.4;
   static const SettingsTable<Fence>& table() {
     static const SettingsTable<Fence> kTable = {
-        Binding(&Fence::pitch, "pitch", Range{0.01, 4.0}, "world units", "From bar to bar")
+        Binding(&Fence::pitch, "pitch", Range{0.01, 4.0}, "world units", "Distance from bar to bar")
             .formerly({"fence_pitch"}),
         Binding(&Fence::share, "share", Range{0.05, 0.95}, "", "Share of the pitch that a bar fills")
             .formerly({"fence_share"})};
@@ -96,13 +93,13 @@ struct FieldSettings {
   static const SettingsTable<FieldSettings>& table() {
     using S = FieldSettings;
     static const SettingsTable<S> kTable = {
-        {&S::grid, "grid", "Where the objects stand"},
+        {&S::grid, "grid", "Arrangement of the objects"},
         Binding(&S::levels, "levels", "Levels of detail").shorthand("count"),
-        {&S::bumps, "bumps", {0.0, 0.8}, "", "Height of the objects' bumps over their radius"},
+        {&S::bumps, "bumps", {0.0, 0.8}, "", "Height of the objects' bumps relative to their radius"},
         {&S::objectContrast, "object_contrast", {0.0, 1.0}, "", "Contrast of the objects' solid texture"},
         {&S::masker, "masker", "The pattern on ground and wall"},
         {&S::fence, "fence", "What hides parts of the objects and shadows them"},
-        {&S::seed, "seed", {0, 1000000}, "", "Of bumps, places and turns"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of bumps, positions and rotations"},
         switchBinding(&S::switching),
         distanceBinding(&S::distance, 50.0),
         motionBinding(&S::motion)};
@@ -148,7 +145,7 @@ Scene buildField(const FieldSettings& settings) {
           cardGrid({0.0, 3.0, -spacing * rows - 1.5}, {1.5 * width, 0.0, 0.0}, {0.0, 3.0, 0.0}, 8), {},
           Role::ReceiverOnly);
   scene.materials.back() = textured("wall", {0.45F, 0.43F, 0.4F}, contrast, size);
-  // Bars on the left half, before the nearest row: they hide parts of the objects and shadow them.
+  // Bars on the left half, in front of the nearest row: they hide parts of the objects and shadow them.
   if (const auto* fence = std::get_if<Fence>(&settings.fence)) {
     Mesh bars;
     const double bar = fence->share * fence->pitch;
@@ -182,12 +179,12 @@ Scene buildField(const FieldSettings& settings) {
   return scene;
 }
 
-const RegisteredScene<FieldSettings> kField{
-    {.name = "lod/field",
-     .version = 1,
-     .summary = "Rows of bumpy spheres with levels behind a fence, before a patterned wall: masked LODs",
-     .source = "stand-in for Schwarz 2009, Fig. 9.8"},
-    buildField};
+const RegisteredScene<FieldSettings> kField{{.name = "lod/field",
+                                             .version = 1,
+                                             .summary = "Rows of bumpy spheres with levels of detail behind "
+                                                        "a fence, in front of a patterned wall: masked LODs",
+                                             .source = "stand-in for Schwarz 2009, Fig. 9.8"},
+                                            buildField};
 
 }  // namespace
 }  // namespace limen::scene

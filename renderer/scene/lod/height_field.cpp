@@ -7,7 +7,7 @@
 namespace limen::scene {
 namespace {
 
-/// Uniform in [-1, 1], from integers alone (finaliser of MurmurHash3).
+/// Uniform in [-1, 1], computed from integers only (finaliser of MurmurHash3).
 double latticeValue(int64_t i, int64_t j, int64_t octave, int64_t seed) {
   uint64_t h =
       static_cast<uint64_t>(i) * 0x9e3779b97f4a7c15U ^ static_cast<uint64_t>(j) * 0xc2b2ae3d27d4eb4fU ^

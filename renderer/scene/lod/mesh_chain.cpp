@@ -45,7 +45,7 @@ Step simplified(const Mesh& mesh, size_t triangles) {
   for (const glm::uvec3& triangle : mesh.triangles)
     indices.insert(indices.end(), {triangle.x, triangle.y, triangle.z});
   std::vector<unsigned> kept(indices.size());
-  // Bounded by the count of triangles alone: the error relative to the mesh's extent may be anything.
+  // Bounded by the triangle count only: any error relative to the mesh's extent is allowed.
   constexpr float kAnyError = 1.0F;
   float error = 0.0F;
   kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes in a few concrete levels on a ground plane, met by a moving camera: the first example of Schwarz
-// 2009, section 10.3.5, and the objects of section 10.4.2. The thesis takes its levels from Direct3D 9's
-// progressive meshes; here they are collapsed by meshoptimizer, each from the one before, which gives other
-// triangles at the same counts.
+// Meshes in a few discrete levels on a ground plane, approached by a moving camera: the first example of
+// Schwarz 2009, section 10.3.5, and the objects of section 10.4.2. The thesis takes its levels from Direct3D
+// 9's progressive meshes; here they are collapsed by meshoptimizer, each from the one before, which gives
+// other triangles at the same counts.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -27,14 +27,15 @@ struct ChainSettings {
   static const SettingsTable<ChainSettings>& table() {
     using S = ChainSettings;
     static const SettingsTable<S> kTable = {
-        {&S::count, "count", {2, 8}, "", "Levels of detail, the mesh itself included"},
+        {&S::count, "count", {2, 8}, "", "Levels of detail, including the mesh itself"},
         Binding(&S::reduction, "reduction", Range{0.03, 0.99}, "",
                 "Share of the triangles that the coarsest level lacks; the others lie between, each smaller "
                 "by the same factor",
                 "Schwarz 2009, section 10.4.2 (3 % to 88 %)")
             .formerly({"reduction"}),
-        Binding(&S::normals, "normals",
-                "Normals of coarser levels: those of the mesh's vertices, or from their own triangles")
+        Binding(
+            &S::normals, "normals",
+            "Normals of coarser levels: those of the mesh's vertices, or recomputed from their own triangles")
             .formerly({"level_normals"})};
     return kTable;
   }
@@ -46,8 +47,8 @@ struct RowSettings {
   static const SettingsTable<RowSettings>& table() {
     using S = RowSettings;
     static const SettingsTable<S> kTable = {
-        {&S::count, "count", {1, 16}, "", "Objects with levels"},
-        Binding(&S::spacing, "spacing", Range{1.0, 10.0}, "world units", "Between objects")
+        {&S::count, "count", {1, 16}, "", "Number of objects with levels of detail"},
+        Binding(&S::spacing, "spacing", Range{1.0, 10.0}, "world units", "Distance between objects")
             .formerly({"spacing"})};
     return kTable;
   }
@@ -66,13 +67,13 @@ struct ShowSettings {
   static const SettingsTable<ShowSettings>& table() {
     using S = ShowSettings;
     static const SettingsTable<S> kTable = {
-        Binding(&S::levels, "levels", "Levels of detail by collapsing edges").shorthand("count"),
+        Binding(&S::levels, "levels", "Levels of detail by edge collapse").shorthand("count"),
         Binding(&S::objects, "objects", "How many objects, and how far apart").shorthand("count"),
-        {&S::yawDeg, "yaw_deg", {-180.0, 180.0}, "deg", "Turn of the first object"},
-        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Of the eye around the first object"},
+        {&S::yawDeg, "yaw_deg", {-180.0, 180.0}, "deg", "Rotation of the first object"},
+        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Azimuth of the eye around the first object"},
         {&S::objectContrast, "object_contrast", {0.0, 1.0}, "", "Contrast of the objects' solid texture"},
         {&S::groundContrast, "ground_contrast", {0.0, 1.0}, "", "Contrast of the ground's solid texture"},
-        {&S::seed, "seed", {0, 1000000}, "", "Of places, turns and textures"},
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of positions, rotations and textures"},
         switchBinding(&S::switching),
         distanceBinding(&S::distance, 50.0),
         motionBinding(&S::motion)};
@@ -113,8 +114,8 @@ std::shared_ptr<const LodSet> makeChain(const std::string& path, const ChainSett
   standOnGround(imported.mesh, 1.0);
   std::vector<double> kept;
   for (int i = 1; i < settings.count; ++i)
-    kept.push_back(std::pow(1.0 - settings.reduction,
-                            static_cast<double>(i) / static_cast<double>(settings.count - 1)));
+    kept.push_back(
+        std::pow(1.0 - settings.reduction, static_cast<double>(i) / static_cast<double>(settings.count - 1)));
   return std::make_shared<const LodSet>(
       simplifiedChain(std::filesystem::path(path).stem().string(), imported.mesh, kept, settings.normals));
 }
@@ -147,8 +148,7 @@ Scene stage(const LodSet& set, const ShowSettings& settings) {
   };
   constexpr double kGroundSize = 60.0;
   addGround(scene, kGroundSize);
-  scene.materials[0] =
-      material("ground", scene.materials[0].albedo, settings.groundContrast, 0.4, shift());
+  scene.materials[0] = material("ground", scene.materials[0].albedo, settings.groundContrast, 0.4, shift());
   const int64_t objects = settings.objects.count;
   const auto columns = static_cast<int64_t>(std::ceil(std::sqrt(static_cast<double>(objects))));
   const double spacing = settings.objects.spacing;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stimulus of the patch experiment (SP-54; Schwarz 2009, section 10.4.1): a bicubic B-spline patch with a
-// tip, before a dark grey background, that the camera approaches. The thesis shows the patch in a figure and
-// gives no control points: a tent of 16, pinched towards its middle so that the middle stands out as a tip
-// against the background.
+// tip, in front of a dark grey background, that the camera approaches. The thesis shows the patch in a figure
+// and gives no control points: a tent of 16, pinched towards its middle so that the middle stands out as a
+// tip against the background.
 #include "renderer/scene/lod/bspline_patch.h"
 #include "renderer/scene/lod_scene_parameters.h"
 #include "renderer/scene/stage.h"
@@ -29,17 +29,17 @@ BicubicPatch tent(double tip, double pinch) {
 
 const char* const kPatchExperiment = "Schwarz 2009, section 10.4.1";
 
-/// How many pieces a side each level is tessellated into.
+/// Number of pieces per side that each level is tessellated into.
 struct FactorSettings {
   int fine = 9, middle = 3, coarse = 2;
   static const SettingsTable<FactorSettings>& table() {
     using S = FactorSettings;
     static const SettingsTable<S> kTable = {
-        Binding(&S::fine, "fine", Range{1, 64}, "", "Of the finest level", kPatchExperiment)
+        Binding(&S::fine, "fine", Range{1, 64}, "", "Factor of the finest level", kPatchExperiment)
             .formerly({"factor_fine"}),
-        Binding(&S::middle, "middle", Range{1, 64}, "", "Of the second level", kPatchExperiment)
+        Binding(&S::middle, "middle", Range{1, 64}, "", "Factor of the second level", kPatchExperiment)
             .formerly({"factor_middle"}),
-        Binding(&S::coarse, "coarse", Range{1, 64}, "", "Of the coarsest level", kPatchExperiment)
+        Binding(&S::coarse, "coarse", Range{1, 64}, "", "Factor of the coarsest level", kPatchExperiment)
             .formerly({"factor_coarse"})};
     return kTable;
   }
@@ -67,10 +67,14 @@ struct PatchSettings {
          "pinch",
          {0.05, 1.0},
          "",
-         "Middle control points' distance from the middle, as a share of an even net's",
+         "Distance of the middle control points from the centre, as a share of that in an even net",
          "reconstructed"},
-        {&S::elevationDeg, "elevation_deg", {0.0, 80.0}, "deg", "Of the eye above the patch's plane"},
-        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Of the eye around the patch"},
+        {&S::elevationDeg,
+         "elevation_deg",
+         {0.0, 80.0},
+         "deg",
+         "Elevation of the eye above the patch's plane"},
+        {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Azimuth of the eye around the patch"},
         {&S::contrast, "contrast", {0.0, 1.0}, "", "Contrast of the solid texture; the thesis shows none"},
         switchBinding(&S::switching),
         distanceBinding(&S::distance, 50.0),
@@ -82,8 +86,7 @@ struct PatchSettings {
 Scene buildPatches(const PatchSettings& settings) {
   Scene scene;
   scene.patches = {tent(settings.tipHeight, settings.pinch)};
-  const std::vector<int> factors = {settings.factors.fine, settings.factors.middle,
-                                    settings.factors.coarse};
+  const std::vector<int> factors = {settings.factors.fine, settings.factors.middle, settings.factors.coarse};
   Material material{"patch", {0.7F, 0.68F, 0.62F}};
   material.surface = SurfaceKind::BicubicPatch;
   if (settings.contrast > 0.0) {
@@ -106,7 +109,8 @@ Scene buildPatches(const PatchSettings& settings) {
 const RegisteredScene<PatchSettings> kPatchSceneRegistered{
     {.name = "lod/patch",
      .version = 1,
-     .summary = "Bicubic B-spline patch with a tip, tessellated 9, 3 or 2 times a side, approached",
+     .summary =
+         "Bicubic B-spline patch with a tip, tessellated 9, 3 or 2 times per side, approached by the camera",
      .source = kPatchExperiment},
     buildPatches};
 

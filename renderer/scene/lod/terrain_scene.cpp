@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fly-over of mountains in tiles with levels of detail (SP-55, SP-56): the second example of Schwarz 2009,
 // section 10.3.5. The thesis's terrain data are not given; here the mountains are made by noise. Its chunks
-// follow a quadtree; here tiles stand side by side on one grid, each with the levels that a quadtree's would
-// have had, so that any tile may show any level.
+// follow a quadtree; here tiles lie side by side on one grid, each with the levels that a quadtree's would
+// have, so that any tile may show any level.
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -25,19 +25,15 @@ struct TileLevels {
   static const SettingsTable<TileLevels>& table() {
     using S = TileLevels;
     static const SettingsTable<S> kTable = {
-        {&S::perSide,
-         "per_side",
-         {1, 16},
-         "",
-         "Tiles along a side of the terrain, which is 16 world units wide"},
-        Binding(&S::cells, "cells", oneOf({4, 8, 16, 32}), "", "Cells along a side of a tile's finest level")
+        {&S::perSide, "per_side", {1, 16}, "", "Tiles per side of the terrain, which is 16 world units wide"},
+        Binding(&S::cells, "cells", oneOf({4, 8, 16, 32}), "", "Cells per side of a tile's finest level")
             .formerly({"cells"}),
         Binding(&S::levels, "levels", Range{2, 6}, "",
-                "Levels of a tile, each with every second point of the one before; no fewer than two cells a "
-                "side are left",
+                "Levels of a tile, each with every second point of the one before; at least two cells per "
+                "side remain",
                 kFlyOver)
             .formerly({"levels"}),
-        Binding(&S::skirts, "skirts", "Hangs strips from the borders of tiles, which close cracks")
+        Binding(&S::skirts, "skirts", "Close cracks with strips that hang from the borders of tiles")
             .formerly({"skirts"})};
     return kTable;
   }
@@ -50,14 +46,14 @@ struct MountainShape {
   static const SettingsTable<MountainShape>& table() {
     using S = MountainShape;
     static const SettingsTable<S> kTable = {
-        Binding(&S::relief, "relief", Range{0.1, 10.0}, "world units", "Heights lie between 0 and this")
+        Binding(&S::relief, "relief", Range{0.1, 10.0}, "world units", "Largest height; the smallest is 0")
             .formerly({"relief"}),
         Binding(&S::octaves, "octaves", Range{1, 10}, "", "Octaves of the noise that shapes the mountains")
             .formerly({"octaves"}),
         Binding(&S::azimuths, "azimuths", Range{4, 64}, "",
-                "Directions in which the horizon of a point is found", kFlyOver)
+                "Directions in which the horizon of a point is searched", kFlyOver)
             .formerly({"azimuths"}),
-        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Of the noise").formerly({"seed"})};
+        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Seed of the noise").formerly({"seed"})};
     return kTable;
   }
 };
@@ -67,26 +63,28 @@ struct SunSettings {
   static const SettingsTable<SunSettings>& table() {
     using S = SunSettings;
     static const SettingsTable<S> kTable = {
-        Binding(&S::elevationDeg, "elevation_deg", Range{1.0, 90.0}, "deg", "Height: the time of day",
-                kFlyOver)
+        Binding(&S::elevationDeg, "elevation_deg", Range{1.0, 90.0}, "deg",
+                "Elevation of the sun: the time of day", kFlyOver)
             .formerly({"sun_elevation_deg"}),
-        Binding(&S::azimuthDeg, "azimuth_deg", Range{-180.0, 180.0}, "deg", "0 is +z, 90 is +x")
+        Binding(&S::azimuthDeg, "azimuth_deg", Range{-180.0, 180.0}, "deg",
+                "Azimuth of the sun: 0 is +z, 90 is +x")
             .formerly({"sun_azimuth_deg"}),
         Binding(&S::radiusDeg, "radius_deg", Range{0.01, 20.0}, "deg",
-                "Angular radius, 0.27 in nature; larger ones make softer shadows")
+                "Angular radius, 0.27 in nature; larger ones give softer shadows")
             .formerly({"sun_radius_deg"})};
     return kTable;
   }
 };
 
 struct LookAhead {
-  static constexpr const char *kKind = "ahead", *kSummary = "a point ahead, at an altitude over all mountains";
+  static constexpr const char *kKind = "ahead",
+                              *kSummary = "a point ahead, at an altitude over all mountains";
   double altitude = 0.6;
   static const SettingsTable<LookAhead>& table() {
-    static const SettingsTable<LookAhead> kTable = {
-        Binding(&LookAhead::altitude, "altitude", Range{0.01, 20.0}, "world units",
-                "Of the eye above the terrain's relief")
-            .formerly({"altitude"})};
+    static const SettingsTable<LookAhead> kTable = {Binding(&LookAhead::altitude, "altitude",
+                                                            Range{0.01, 20.0}, "world units",
+                                                            "Altitude of the eye above the terrain's relief")
+                                                        .formerly({"altitude"})};
     return kTable;
   }
 };
@@ -97,7 +95,7 @@ struct LookAtTile {
   static const SettingsTable<LookAtTile>& table() {
     static const SettingsTable<LookAtTile> kTable = {
         Binding(&LookAtTile::number, "number", Range{0, 255}, "",
-                "In the order of objects; the last one if there are fewer")
+                "Index in the order of objects; the last one if there are fewer")
             .formerly({"tile"})};
     return kTable;
   }
@@ -120,13 +118,13 @@ struct TerrainSettings {
         {&S::mountains, "mountains", "Shape of the terrain"},
         {&S::contrast, "contrast", {0.0, 1.0}, "", "Contrast of the solid texture"},
         {&S::sun, "sun", "The light"},
-        {&S::target, "target", "What the ride leads to"},
+        {&S::target, "target", "Target of the ride"},
         {&S::azimuthDeg,
          "azimuth_deg",
          {-180.0, 180.0},
          "deg",
          "Side of the terrain that the eye comes from"},
-        {&S::pitchDeg, "pitch_deg", {0.0, 80.0}, "deg", "Of the view below the horizontal"},
+        {&S::pitchDeg, "pitch_deg", {0.0, 80.0}, "deg", "Pitch of the view below the horizontal"},
         switchBinding(&S::switching),
         distanceBinding(&S::distance, 30.0),
         motionBinding(&S::motion)};
@@ -139,8 +137,8 @@ struct Ground {
   std::vector<Aperture> apertures;
 };
 
-/// Apertures take seconds for large fields: the last ground is kept for scenes that differ in camera, sun or
-/// tiles.
+/// Apertures take seconds for large fields: the last ground is cached for scenes that differ only in camera,
+/// sun or tiles.
 std::shared_ptr<const Ground> groundOf(const MountainSetting& setting, int azimuths) {
   static std::mutex guard;
   static std::string keptKey;
@@ -183,7 +181,7 @@ Scene buildTerrain(const TerrainSettings& settings) {
   for (const LodSet& set : terrainTiles(ground->field, ground->apertures, tiling))
     addLodObject(scene, set, {}, material, settings.switching.distances(set.levels.size()));
 
-  // The sun, far enough to be in the same direction everywhere up to a thousandth of a degree.
+  // The sun, far enough away for its direction to be the same everywhere to within a thousandth of a degree.
   const double elevation = glm::radians(settings.sun.elevationDeg),
                azimuth = glm::radians(settings.sun.azimuthDeg);
   const glm::dvec3 toSun(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),

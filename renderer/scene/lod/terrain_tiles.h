@@ -10,8 +10,8 @@
 namespace limen::scene {
 
 struct TileSetting {
-  int tiles = 8;   ///< along a side of the terrain
-  int cells = 16;  ///< along a side of a tile's finest level; field.side = tiles * cells + 1
+  int tiles = 8;   ///< per side of the terrain
+  int cells = 16;  ///< per side of a tile's finest level; field.side = tiles * cells + 1
   int levels = 4;  ///< level i takes every 2^i-th point: cells is divisible by 2^(levels - 1)
   bool skirts = true;
 };
@@ -22,9 +22,9 @@ struct TileSetting {
 ///
 /// deviation and statedError: largest difference of height from the finest level, exact, since both are
 /// linear over the cells of the finest. Morph targets: straight up or down to the next level's surface, into
-/// which a tile morphs exactly. With skirts, borders between tiles are hung with a strip down to below
-/// anything that any level of the neighbour may show, so that no pair of levels leaves a gap; the terrain's
-/// own edge has none.
+/// which a tile morphs exactly. With skirts, a strip hangs from each border between tiles to below anything
+/// that any level of the neighbour may show, so that no pair of levels leaves a gap; the terrain's outer edge
+/// has none.
 std::vector<LodSet> terrainTiles(const HeightField& field, const std::vector<Aperture>& apertures,
                                  const TileSetting& setting);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean of the samples of each pixel's square.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D sampled;
-layout(binding = 0, rgba32f) uniform writeonly image2D outImage;
+#include "renderer/techniques/lod/lod_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kBoxResolveSampledUnit) uniform sampler2D sampled;
+layout(binding = kBoxResolveImage, rgba32f) uniform writeonly image2D outImage;
 uniform int samples;
 uniform ivec2 sizePx;
 

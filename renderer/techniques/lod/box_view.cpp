@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include "experiments/base/error.h"
+#include "renderer/techniques/lod/lod_bindings.h"
 
 namespace limen::techniques {
 
@@ -33,8 +34,8 @@ void BoxView::renderAt(double timeS) {
   const auto scope = parent_.passes().open(pass_);
   resolve_->set("samples", samples_);
   resolve_->set("sizePx", parent_.sizePx());
-  texture_->bindTexture(0);
-  resolved_->bindImage(0, gl::Access::Write);
+  texture_->bindTexture(kBoxResolveSampledUnit);
+  resolved_->bindImage(kBoxResolveImage, gl::Access::Write);
   resolve_->dispatch(parent_.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   texture_ = &*resolved_;

@@ -11,12 +11,12 @@
 
 namespace limen::techniques {
 
-/// A shaded picture of chosen levels with samples x samples samples a pixel, averaged over the pixel's square
-/// (box filter). One sample a pixel costs no extra pass.
+/// A shaded picture of chosen levels with samples x samples samples per pixel, averaged over the pixel's
+/// square (box filter). One sample per pixel costs no extra pass.
 class BoxView {
  public:
-  /// `name` tells its passes from others of the same frame. Throws Error if the samples make an image larger
-  /// than the driver's largest texture.
+  /// `name` distinguishes its passes from others of the same frame. Throws Error if the samples make an image
+  /// larger than the driver's largest texture.
   BoxView(frame::Frame& parent, const std::string& name, frame::ShadedSetting shaded, int samples);
 
   /// Follows the parent's time.
@@ -40,6 +40,6 @@ class BoxView {
 /// The line `samples` in the table of a technique with a BoxView.
 template <class S>
 Binding<S> samplesBinding(int S::*member) {
-  return {member, "samples", Range{1, 16}, "", "Samples a pixel along each axis, box filter"};
+  return {member, "samples", Range{1, 16}, "", "Samples per pixel along each axis, box filter"};
 }
 }  // namespace limen::techniques

@@ -18,10 +18,10 @@ const SettingsTable<ByDistance>& ByDistance::table() {
 const SettingsTable<ByExtent>& ByExtent::table() {
   static const SettingsTable<ByExtent> kTable = {
       Binding(&ByExtent::finestPx, "finest_px", Range{1.0, 8192.0}, "px",
-              "The finest level is shown from this height on the screen up")
+              "The finest level is shown from this screen height upwards")
           .formerly({"extent_px"}),
       Binding(&ByExtent::ratio, "ratio", Range{0.05, 0.95}, "",
-              "Each further level is shown from this share of the height of the one before")
+              "Each further level is shown from this share of the previous level's height")
           .formerly({"extent_ratio"})};
   return kTable;
 }
@@ -36,21 +36,21 @@ const SettingsTable<ByError>& ByError::table() {
 }
 
 const SettingsTable<ByLevel>& ByLevel::table() {
-  static const SettingsTable<ByLevel> kTable = {
-      Binding(&ByLevel::level, "level", Range{0, 15}, "", "0 the finest; past an object's last: its last")
-          .formerly({"level"})};
+  static const SettingsTable<ByLevel> kTable = {Binding(&ByLevel::level, "level", Range{0, 15}, "",
+                                                        "0 is the finest; clamped to each object's coarsest")
+                                                    .formerly({"level"})};
   return kTable;
 }
 
 const SettingsTable<LevelControlSettings>& LevelControlSettings::table() {
   using S = LevelControlSettings;
   static const SettingsTable<S> kTable = {
-      {&S::control, "control", "What decides an object's level", "Schwarz 2009, sections 2.4, 9.5 and 10.1"},
+      {&S::control, "control", "How an object's level is chosen", "Schwarz 2009, sections 2.4, 9.5 and 10.1"},
       {&S::frameRateHz,
        "frame_rate",
        {1.0, 1000.0},
        "Hz",
-       "At which switches of level are counted along the camera path"}};
+       "Frame rate at which level switches are counted along the camera path"}};
   return kTable;
 }
 
@@ -91,7 +91,7 @@ std::vector<Counter> selectionCounters(const scene::Scene& scene, const scene::L
                                        const scene::LodView& view) {
   double levels = 0.0;
   for (const int level : selection.levels) levels += level;
-  // An eye inside an object's bounds makes the bound infinite, which no table holds.
+  // An eye inside an object's bounds makes the bound infinite, which tables cannot hold.
   const double error = std::min(largestScreenErrorPx(scene, selection, view), 1e9);
   return {{"triangles_drawn", static_cast<double>(triangleCount(scene, selection))},
           {"level_mean", levels / static_cast<double>(std::max<size_t>(selection.levels.size(), 1))},
@@ -100,10 +100,10 @@ std::vector<Counter> selectionCounters(const scene::Scene& scene, const scene::L
 
 Quantity trianglesDrawn() { return {"triangles_drawn", "Triangles drawn", "", Direction::LowerIsBetter}; }
 Quantity screenErrorPx() {
-  return {"screen_error_px", "Largest deviation on the screen", "px", Direction::Neither,
+  return {"screen_error_px", "Largest screen-space deviation", "px", Direction::Neither,
           "Schwarz 2009, section 10.1"};
 }
-Quantity levelSwitches() { return {"level_switches", "Switches of level", "", Direction::Neither}; }
+Quantity levelSwitches() { return {"level_switches", "Level switches", "", Direction::Neither}; }
 
 std::vector<Quantity> selectionQuantities() {
   return {trianglesDrawn(), {"level_mean", "Mean level", "", Direction::Neither}, screenErrorPx()};

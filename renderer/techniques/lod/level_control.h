@@ -10,7 +10,7 @@
 
 namespace limen::techniques {
 
-// What decides an object's level: the conventional ways (SP-57), none of which looks at the picture.
+// How an object's level is chosen: the conventional ways (SP-57), none of which considers the picture.
 
 struct ByDistance {
   static constexpr const char *kKind = "distance", *kSummary = "by the scene's switch distances";
@@ -19,27 +19,27 @@ struct ByDistance {
 };
 
 struct ByExtent {
-  static constexpr const char *kKind = "extent", *kSummary = "by the object's height on the screen";
+  static constexpr const char *kKind = "extent", *kSummary = "by the object's screen height";
   double finestPx = 256.0;  ///< height from which the finest level is shown
-  double ratio = 0.5;       ///< of the heights from which a level and the one before it are shown
+  double ratio = 0.5;       ///< ratio of the heights from which a level and the previous one are shown
   static const SettingsTable<ByExtent>& table();
 };
 
 struct ByError {
-  static constexpr const char *kKind = "error", *kSummary = "by the level's deviation on the screen";
+  static constexpr const char *kKind = "error", *kSummary = "by the level's screen-space deviation";
   double tolerancePx = 0.5;
   static const SettingsTable<ByError>& table();
 };
 
 struct ByLevel {
   static constexpr const char *kKind = "fixed", *kSummary = "one level for all objects";
-  int level = 0;  ///< 0 the finest; past an object's last: its last
+  int level = 0;  ///< 0 is the finest; clamped to each object's coarsest
   static const SettingsTable<ByLevel>& table();
 };
 
 struct LevelControlSettings {
   std::variant<ByDistance, ByExtent, ByError, ByLevel> control;
-  double frameRateHz = 60.0;  ///< at which switches are counted
+  double frameRateHz = 60.0;  ///< rate at which switches are counted
   static const SettingsTable<LevelControlSettings>& table();
 };
 
@@ -49,7 +49,7 @@ class LevelControl {
   explicit LevelControl(LevelControlSettings settings) : settings_(settings) {}
 
   scene::LodSelection choose(const scene::Scene& scene, const scene::LodView& view) const;
-  /// Changes of level of any object on the scene's whole camera path, met at the frame rate.
+  /// Level changes of any object along the scene's whole camera path, sampled at the frame rate.
   int64_t switchesOnPath(const scene::Scene& scene, int heightPx) const;
   /// triangles_drawn, level_mean, screen_error_px, level_switches of a frame with the chosen levels.
   std::vector<Counter> counters(const scene::Scene& scene, const scene::LodView& view) const;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nearest surface of each pixel over all layers, and the nearest of another layer than that: together they
 // give the composite of all layers and, for each layer, of all others. Adds up to five layers to what is there.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D colours[5];
-layout(binding = 5) uniform sampler2D depths[5];
-layout(binding = 10) uniform usampler2D triangleIds[5];
-layout(binding = 0, rgba32f) uniform image2D frontColour;
-layout(binding = 1, rgba32ui) uniform uimage2D frontKey;
-layout(binding = 2, rgba32f) uniform image2D secondColour;
-layout(binding = 3, rgba32ui) uniform uimage2D secondKey;
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kCompositeColoursUnit) uniform sampler2D colours[kCompositeLayers];
+layout(binding = kCompositeDepthsUnit) uniform sampler2D depths[kCompositeLayers];
+layout(binding = kCompositeIdsUnit) uniform usampler2D triangleIds[kCompositeLayers];
+layout(binding = kCompositeFrontColourImage, rgba32f) uniform image2D frontColour;
+layout(binding = kCompositeFrontKeyImage, rgba32ui) uniform uimage2D frontKey;
+layout(binding = kCompositeSecondColourImage, rgba32f) uniform image2D secondColour;
+layout(binding = kCompositeSecondKeyImage, rgba32ui) uniform uimage2D secondKey;
 
 uniform ivec2 sizePx;
 uniform vec3 background;
 uniform int layerCount, first;  // first: nothing is there yet
-uniform int layerNumbers[5];
+uniform int layerNumbers[kCompositeLayers];
 
 #include "renderer/techniques/perceptual_lod/surface_key.glsl"
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // C_i: what the picture would show without layer i, with the shadows that fall on the layer's visible surfaces
 // as a pattern on it.
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 #include "renderer/techniques/perceptual_lod/surface_key.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D frontColour;
-layout(binding = 1) uniform usampler2D frontKey;
-layout(binding = 2) uniform sampler2D secondColour;
-layout(binding = 3) uniform sampler2D mask;
-layout(binding = 0, rgba32f) uniform writeonly image2D context;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kContextFrontColourUnit) uniform sampler2D frontColour;
+layout(binding = kContextFrontKeyUnit) uniform usampler2D frontKey;
+layout(binding = kContextSecondColourUnit) uniform sampler2D secondColour;
+layout(binding = kContextMaskUnit) uniform sampler2D mask;
+layout(binding = kContextImage, rgba32f) uniform writeonly image2D context;
 
 uniform ivec2 sizePx;
 uniform int layer;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts what lod_difference.glsl finds in the object's rectangle: sums in shared memory, then one addition of
 // integers a group, so that the order does not matter.
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 #include "renderer/techniques/perceptual_lod/lod_difference.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) buffer Counts { uint counts[]; };  // covered, visible, next visible; a test each
-layout(binding = 0, r32f) uniform writeonly image2D visibleMap;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(std430, binding = kLevelTestCountsBuffer) buffer Counts { uint counts[]; };  // covered, visible, next visible; a test each
+layout(binding = kLevelTestVisibleImage, r32f) uniform writeonly image2D visibleMap;
 
 uniform ivec2 lowPx, highPx;  // rectangle, high excluded
 uniform int test;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels by distance alone at the cost of lod/perceptual (SP-38): the scene's switch distances are multiplied
+// Levels by distance only, at the cost of lod/perceptual (SP-38): the scene's switch distances are multiplied
 // by one factor, the smallest with which at least as many triangles are drawn as lod/perceptual draws in its
 // first frame with the same parameters. So whatever lod/perceptual does better, it does with no more
-// triangles in the picture; what its tests cost on top is in its own counters and times. Source: Schwarz
+// triangles in the picture; the extra cost of its tests is in its own counters and times. Source: Schwarz
 // 2009, Fig. 9.8, which compares at "roughly the same frame rate".
 #include "renderer/techniques/perceptual_lod/distance_matched.h"
 
@@ -16,8 +16,8 @@
 namespace limen::techniques {
 
 double factorForTriangles(const scene::Scene& scene, const scene::LodView& view, uint64_t triangles) {
-  // The choice changes only where an object's distance equals one of its switch distances times the factor:
-  // just above that quotient the object is finer.
+  // The selection changes only where an object's distance equals one of its switch distances times the
+  // factor: just above that quotient the object is finer.
   std::vector<double> factors = {0.0};
   for (const scene::LodObject& object : scene.lodObjects)
     for (const double from : object.switchDistances)
@@ -44,7 +44,7 @@ struct TriangleBudget {
   static const SettingsTable<TriangleBudget>& table() {
     static const SettingsTable<TriangleBudget> kTable = {Binding(&TriangleBudget::count, "count",
                                                                  Range{1, 4'000'000'000.0}, "triangles",
-                                                                 "Background included")
+                                                                 "Triangles, including the background")
                                                              .formerly({"triangle_budget"})};
     return kTable;
   }
@@ -55,7 +55,7 @@ struct MatchedSettings {
   PerceptualLodSettings perceptual;
   static const SettingsTable<MatchedSettings>& table() {
     using S = MatchedSettings;
-    static const SettingsTable<S> kTable = {{&S::budget, "budget", "Triangles to draw at least"},
+    static const SettingsTable<S> kTable = {{&S::budget, "budget", "Smallest number of triangles to draw"},
                                             included(&S::perceptual)};
     return kTable;
   }
@@ -95,7 +95,7 @@ class DistanceMatched : public Technique {
   static scene::LodView viewAt(const frame::Frame& frame, double timeS) {
     return {frame.scene().camera.at(timeS), frame.sizePx().y};
   }
-  /// What lod/perceptual draws in its first frame. In a frame of its own, whose memory goes with it.
+  /// What lod/perceptual draws in its first frame. In a separate frame, whose memory is freed with it.
   uint64_t perceptualTriangles(frame::Frame& frame) const {
     frame::Frame own(frame.context(), frame.scene(), frame.gpuScene(), frame.sizePx(), frame.timeS(),
                      frame.raster());
@@ -123,7 +123,7 @@ std::vector<Quantity> matchedQuantities() {
 const RegisteredTechnique<DistanceMatched> kDistanceMatchedRegistered{
     {.name = "lod/distance_matched",
      .version = 1,
-     .summary = "Levels by distance alone, scaled to draw no fewer triangles than lod/perceptual",
+     .summary = "Levels by distance only, scaled to draw no fewer triangles than lod/perceptual",
      .source = "Schwarz 2009, section 9.5, Fig. 9.8 (SP-38)",
      .product = ProductKind::Colour,
      .needs = {"lod_sets"},

@@ -8,11 +8,11 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr int kBatch = 5;  // layers in one dispatch: three textures each, of the 16 that are granted
 constexpr const char* kFolder = "renderer/techniques/perceptual_lod/";
 constexpr const char* kComposite = "perceptual_lod/composite";
 
@@ -91,28 +91,30 @@ void LayerImages::render(double timeS, const scene::LodSelection& shown, const s
 }
 
 void LayerImages::compositeLayers(const std::vector<int>& drawn) {
+  static_assert(kCompositeDepthsUnit - kCompositeColoursUnit >= kCompositeLayers &&
+                kCompositeIdsUnit - kCompositeDepthsUnit >= kCompositeLayers);
   // Made before the pass opens: passes do not nest.
   const auto scope = parent_.passes().open(kComposite);
   const gl::Program& program = compositeProgram_;
   program.set("sizePx", parent_.sizePx());
   program.set("background", glm::vec3(static_cast<float>(shading_.background)));
-  frontColour_.bindImage(0, gl::Access::ReadWrite);
-  frontKey_.bindImage(1, gl::Access::ReadWrite);
-  secondColour_.bindImage(2, gl::Access::ReadWrite);
-  secondKey_.bindImage(3, gl::Access::ReadWrite);
-  constexpr std::array<const char*, kBatch> kNumbers = {
+  frontColour_.bindImage(kCompositeFrontColourImage, gl::Access::ReadWrite);
+  frontKey_.bindImage(kCompositeFrontKeyImage, gl::Access::ReadWrite);
+  secondColour_.bindImage(kCompositeSecondColourImage, gl::Access::ReadWrite);
+  secondKey_.bindImage(kCompositeSecondKeyImage, gl::Access::ReadWrite);
+  constexpr std::array<const char*, kCompositeLayers> kNumbers = {
       "layerNumbers[0]", "layerNumbers[1]", "layerNumbers[2]", "layerNumbers[3]", "layerNumbers[4]"};
-  for (size_t done = 0; done < drawn.size(); done += kBatch) {
-    const size_t count = std::min<size_t>(kBatch, drawn.size() - done);
-    for (size_t k = 0; k < kBatch; ++k) {
+  for (size_t done = 0; done < drawn.size(); done += kCompositeLayers) {
+    const size_t count = std::min<size_t>(kCompositeLayers, drawn.size() - done);
+    for (size_t k = 0; k < kCompositeLayers; ++k) {
       // Units beyond `count` are bound to something and never read.
       const int layer = drawn[done + std::min(k, count - 1)];
       frame::Frame& frame = layers_[static_cast<size_t>(layer)]->view.frame();
       const auto& ids = frame.get<frame::TriangleIds>();
       const auto unit = static_cast<uint32_t>(k);
-      frame.get<frame::Shaded>(shading_).texture().bindTexture(unit);
-      ids.depth().bindTexture(kBatch + unit);
-      ids.texture().bindTexture(2 * kBatch + unit);
+      frame.get<frame::Shaded>(shading_).texture().bindTexture(kCompositeColoursUnit + unit);
+      ids.depth().bindTexture(kCompositeDepthsUnit + unit);
+      ids.texture().bindTexture(kCompositeIdsUnit + unit);
       program.set(kNumbers[k], layer);
     }
     program.set("layerCount", static_cast<int>(count));
@@ -145,20 +147,20 @@ void LayerImages::makeContext(int number) {
     maskProgram_.set("bias", frame::kShadowBias);
     maskProgram_.set("slopeBias", frame::kShadowSlopeBias);
     maskProgram_.set("maxSlope", frame::kShadowMaxSlope);
-    receivers->texture().bindTexture(0);
-    map->texture().bindTexture(1);
-    layer.mask->bindImage(0, gl::Access::Write);
+    receivers->texture().bindTexture(kShadowMaskReceiversUnit);
+    map->texture().bindTexture(kShadowMaskShadowMapUnit);
+    layer.mask->bindImage(kShadowMaskImage, gl::Access::Write);
     maskProgram_.dispatch(parent_.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
   contextProgram_.set("sizePx", parent_.sizePx());
   contextProgram_.set("layer", number);
   contextProgram_.set("attenuation", layer.mask ? static_cast<float>(attenuation_) : 1.0F);
-  frontColour_.bindTexture(0);
-  frontKey_.bindTexture(1);
-  secondColour_.bindTexture(2);
-  (layer.mask ? *layer.mask : frontColour_).bindTexture(3);
-  layer.context->bindImage(0, gl::Access::Write);
+  frontColour_.bindTexture(kContextFrontColourUnit);
+  frontKey_.bindTexture(kContextFrontKeyUnit);
+  secondColour_.bindTexture(kContextSecondColourUnit);
+  (layer.mask ? *layer.mask : frontColour_).bindTexture(kContextMaskUnit);
+  layer.context->bindImage(kContextImage, gl::Access::Write);
   contextProgram_.dispatch(parent_.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -11,20 +11,20 @@
 
 namespace limen::techniques {
 
-/// The picture taken apart (Schwarz 2009, section 9.5): layer 0 is the background, layers 1.. hold objects by
-/// distance. All colours are linear RGBA32F as frame::Shaded has them.
+/// The picture split into layers (Schwarz 2009, section 9.5): layer 0 is the background, layers 1.. hold
+/// objects by distance. All colours are linear RGBA32F as in frame::Shaded.
 ///
 /// Each layer is lit with the shadows of everything. The composite keeps, for each pixel, the nearest surface
-/// and the nearest one of another layer, which is all that every C_i needs. Depths are the raster's own, so
+/// and the nearest one of another layer, which is all that each C_i needs. Depths are the raster's own, so
 /// the composite equals the ordinary picture bit for bit.
 class LayerImages {
  public:
   LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings);
 
   int layers() const { return static_cast<int>(layers_.size()); }  ///< the background included
-  /// Renders all layers that hold something, and their composite. `layerOf`: 1.. for each object.
+  /// Renders all non-empty layers and their composite. `layerOf`: 1.. for each object.
   void render(double timeS, const scene::LodSelection& shown, const std::vector<int>& layerOf);
-  /// Makes M_i, if shadows are a pattern, and C_i of a layer of the last render().
+  /// Computes M_i, if shadows are a pattern, and C_i of a layer of the last render().
   void makeContext(int layer);
   /// Runs every input and pass once, so that none is new in a timed frame.
   void prime(double timeS);
@@ -36,7 +36,7 @@ class LayerImages {
   const gl::Texture& image(int layer);          ///< O_i
   const gl::Texture* mask(int layer) const;     ///< M_i: R32F, 0 or 1; null without shadow masks
   const gl::Texture& context(int layer) const;  ///< C_i of a layer of objects
-  /// Casters of the frame, to be shadowed by; null without shadows.
+  /// The shadow casters of the frame; null without shadows.
   frame::Frame* casters() { return casters_ ? &casters_->frame() : nullptr; }
   /// The camera of the last render().
   const frame::Frame& view() { return layers_[0]->view.frame(); }
@@ -50,7 +50,7 @@ class LayerImages {
     LevelView view;
     bool drawn = false;
     std::optional<gl::Texture> context, mask;
-    std::unique_ptr<LevelView> others;  ///< casters but the layer's own
+    std::unique_ptr<LevelView> others;  ///< all casters except the layer's own
   };
   scene::LodSelection selectionOf(int layer) const;
   void drawLayer(int layer);

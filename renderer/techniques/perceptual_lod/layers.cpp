@@ -26,7 +26,7 @@ std::vector<double> readBorders(const std::string& text) {
     const auto [end, problem] = std::from_chars(text.data() + at, text.data() + text.size(), value);
     if (problem != std::errc() || !(value > 0.0) || !std::isfinite(value) ||
         (!out.empty() && value <= out.back()))
-      throw Error("'" + text + "' is no list of ascending distances", "borders",
+      throw Error("'" + text + "' is not a list of ascending distances", "borders",
                   "write them like \"2.5, 5, 10\"");
     out.push_back(value);
     at = static_cast<size_t>(end - text.data());
@@ -42,12 +42,12 @@ std::vector<double> readBorders(const std::string& text) {
 const SettingsTable<LayerRange>& LayerRange::table() {
   using S = LayerRange;
   static const SettingsTable<S> kTable = {
-      {&S::count, "count", {1, kMostLayers}, "", "Layers of objects beside the background", kLayerSource},
+      {&S::count, "count", {1, kMostLayers}, "", "Layers of objects besides the background", kLayerSource},
       Binding(&S::nearest, "nearest", Range{0.0, 1e9}, "world units",
-              "Where the first layer begins; 0: at the nearest object of each frame", kLayerSource)
+              "Start of the first layer; 0: at the nearest object of each frame", kLayerSource)
           .formerly({"nearest"}),
       Binding(&S::farthest, "farthest", Range{0.0, 1e9}, "world units",
-              "Where the last layer ends; 0: at the farthest object of each frame", kLayerSource)
+              "End of the last layer; 0: at the farthest object of each frame", kLayerSource)
           .formerly({"farthest"})};
   return kTable;
 }

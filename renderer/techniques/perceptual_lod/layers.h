@@ -9,10 +9,11 @@
 
 namespace limen::techniques {
 
-// How objects with levels of detail are shared among layers: by distance from the eye to the middle of their
-// bounds. Source: Schwarz 2009, section 9.5, which names neither the number of layers nor the borders.
+// How objects with levels of detail are distributed among layers: by distance from the eye to the centre of
+// their bounds. Source: Schwarz 2009, section 9.5, which specifies neither the number of layers nor the
+// borders.
 
-/// A range of distances that is divided.
+/// A range of distances to be divided.
 struct LayerRange {
   int count = 4;  ///< layers of objects; the background is one more
   /// Ends of the range, world units; 0: distance of the nearest or farthest object.
@@ -22,13 +23,13 @@ struct LayerRange {
 };
 
 struct LogLayers {
-  static constexpr const char *kKind = "log", *kSummary = "borders at even ratios of distance";
+  static constexpr const char *kKind = "log", *kSummary = "logarithmically spaced borders";
   LayerRange range;
   static const SettingsTable<LogLayers>& table();
 };
 
 struct UniformLayers {
-  static constexpr const char *kKind = "uniform", *kSummary = "borders at even distances";
+  static constexpr const char *kKind = "uniform", *kSummary = "evenly spaced borders";
   LayerRange range;
   static const SettingsTable<UniformLayers>& table();
 };
@@ -38,7 +39,7 @@ struct ExplicitLayers {
   std::string borders = "5, 10";  ///< ascending distances at which the next layer begins
   static const SettingsTable<ExplicitLayers>& table();
   void check() const { distances(); }
-  /// Throws Error on borders that are no ascending positive numbers.
+  /// Throws Error on borders that are not ascending positive numbers.
   std::vector<double> distances() const;
 };
 
@@ -47,7 +48,7 @@ using LayerPartition = std::variant<LogLayers, UniformLayers, ExplicitLayers>;
 /// Layers of objects; the background is one more.
 int layerCount(const LayerPartition& partition);
 /// Borders between layers, ascending, one fewer than layers. A distance on a border belongs to the farther
-/// layer. Empty input, or a range without extent, gives borders that put all into layer 0.
+/// layer. Empty input, or a range without extent, gives borders that put everything into layer 0.
 std::vector<double> layerBorders(const LayerPartition& partition, const std::vector<double>& distances);
 /// Layer of each distance, 0 (nearest) to count - 1.
 std::vector<int> assignLayers(const LayerPartition& partition, const std::vector<double>& distances);

@@ -8,7 +8,7 @@
 
 namespace limen::techniques {
 
-/// A view of the parent's scene with levels of its own; nothing is uploaded while they stay.
+/// A view of the parent's scene with its own levels; nothing is uploaded while they stay the same.
 class LevelView {
  public:
   LevelView(frame::Frame& parent, const std::string& name) : frame_(parent, name, parent.sizePx()) {}
@@ -35,7 +35,7 @@ PixelRect pixelsOf(const scene::Bounds& bounds, const frame::Frame& frame);
 
 /// No object, no background.
 scene::LodSelection nothingOf(const scene::Scene& scene);
-/// One object alone.
+/// A single object.
 scene::LodSelection onlyObject(const scene::Scene& scene, int object, int level);
 
 }  // namespace limen::techniques

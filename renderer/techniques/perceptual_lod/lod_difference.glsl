@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where an object is seen, and where its current level differs visibly from the finest.
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 #include "renderer/techniques/perceptual_lod/surface_key.glsl"
 
-layout(binding = 0) uniform sampler2D frontColour;
-layout(binding = 1) uniform usampler2D frontKey;
-layout(binding = 2) uniform sampler2D secondColour;
-layout(binding = 3) uniform usampler2D secondKey;
-layout(binding = 4) uniform sampler2D threshold;
-layout(binding = 5) uniform sampler2D finestColour;
-layout(binding = 6) uniform sampler2D finestDepth;
-layout(binding = 7) uniform usampler2D finestIds;
+layout(binding = kLevelTestFrontColourUnit) uniform sampler2D frontColour;
+layout(binding = kLevelTestFrontKeyUnit) uniform usampler2D frontKey;
+layout(binding = kLevelTestSecondColourUnit) uniform sampler2D secondColour;
+layout(binding = kLevelTestSecondKeyUnit) uniform usampler2D secondKey;
+layout(binding = kLevelTestThresholdUnit) uniform sampler2D threshold;
+layout(binding = kLevelTestFinestColourUnit) uniform sampler2D finestColour;
+layout(binding = kLevelTestFinestDepthUnit) uniform sampler2D finestDepth;
+layout(binding = kLevelTestFinestIdsUnit) uniform usampler2D finestIds;
 #ifdef NEXT
-layout(binding = 8) uniform sampler2D nextColour;
-layout(binding = 9) uniform sampler2D nextDepth;
-layout(binding = 10) uniform usampler2D nextIds;
+layout(binding = kLevelTestNextColourUnit) uniform sampler2D nextColour;
+layout(binding = kLevelTestNextDepthUnit) uniform sampler2D nextDepth;
+layout(binding = kLevelTestNextIdsUnit) uniform usampler2D nextIds;
 #endif
 
 uniform uint firstTriangle, triangleCount;  // of the object's current level

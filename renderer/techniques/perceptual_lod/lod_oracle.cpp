@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The picture with the coarsest levels that an exhaustive search calls invisible: what lod/perceptual aims at
-// with a test that costs a frame next to nothing. See oracle.h.
+// The picture with the coarsest levels that an exhaustive search finds indistinguishable from the finest: the
+// target of lod/perceptual, whose test costs a frame next to nothing. See oracle.h.
 #include <optional>
 
 #include "renderer/techniques/lod/box_view.h"
@@ -19,7 +19,7 @@ struct PixelLimit {
          "most",
          {0.0, 1e8},
          "px",
-         "Most visible pixels of a level that counts as invisible"}};
+         "Largest number of visible pixels of a level that counts as invisible"}};
     return kTable;
   }
 };
@@ -45,7 +45,7 @@ struct LodOracleSettings {
   static const SettingsTable<LodOracleSettings>& table() {
     using S = LodOracleSettings;
     static const SettingsTable<S> kTable = {
-        Binding(&S::limit, "limit", "Up to what a level counts as invisible",
+        Binding(&S::limit, "limit", "Limit up to which a level counts as invisible",
                 "Schwarz 2009, section 9.5 (not given there)")
             .shorthand("most")
             .formerly({"limit_unit"}),
@@ -95,7 +95,8 @@ class LodOracle : public Technique {
 const RegisteredTechnique<LodOracle> kLodOracleRegistered{
     {.name = "lod/oracle",
      .version = 1,
-     .summary = "Coarsest levels without a visible difference, by trying all in double precision (slow)",
+     .summary =
+         "Coarsest levels without a visible difference, by exhaustive search in double precision (slow)",
      .source = "bench, for Schwarz 2009, section 9.5",
      .product = ProductKind::Colour,
      .needs = {"lod_sets"},

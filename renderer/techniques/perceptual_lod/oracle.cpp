@@ -117,7 +117,7 @@ void countOracle(frame::Frame& frame, double timeS, const frame::ShadedSetting& 
 std::vector<Quantity> levelQuantities() {
   return {{"triangles_drawn", "Triangles drawn", "triangles", Direction::LowerIsBetter},
           {"mean_level", "Mean level", "levels", Direction::Neither},
-          {"wrong_invisible_share", "Share of objects shown too coarse", "", Direction::Neither},
+          {"wrong_invisible_share", "Share of objects shown too coarsely", "", Direction::Neither},
           {"levels_above_oracle", "Levels coarser than the search's", "levels", Direction::Neither},
           {"levels_below_oracle", "Levels finer than the search's", "levels", Direction::Neither},
           {"objects_seen", "Objects seen", "objects", Direction::Neither}};

@@ -9,7 +9,7 @@
 
 namespace limen::techniques {
 
-/// What an exhaustive search found for one object: for each of its levels how many pixels show the object at
+/// Result of an exhaustive search for one object: for each of its levels, how many pixels show the object at
 /// that level or at the finest, and in how many of them the picture differs visibly from the finest.
 struct OracleVerdict {
   std::vector<uint32_t> coveredPx, visiblePx;
@@ -27,8 +27,8 @@ struct OracleVerdict {
 std::vector<OracleVerdict> searchLevels(frame::Frame& like, double timeS, const frame::ShadedSetting& shading,
                                         const SeenOn& seenOn);
 
-/// Share of the seen objects whose level the oracle calls visible; mean over them of levels that are coarser
-/// (above) or finer (below) than the oracle's.
+/// Share of the seen objects whose level the oracle finds visible; mean over them of how many levels they are
+/// coarser (above) or finer (below) than the oracle's.
 struct OracleComparison {
   double wrongInvisibleShare = 0.0, levelsAbove = 0.0, levelsBelow = 0.0;
   int objectsSeen = 0;
@@ -36,7 +36,7 @@ struct OracleComparison {
 OracleComparison compareWithOracle(const std::vector<OracleVerdict>& verdicts, const LevelRule& rule,
                                    const std::vector<int>& levels);
 
-/// "triangles_drawn" and "mean_level" of a choice of levels.
+/// "triangles_drawn" and "mean_level" of a level selection.
 std::vector<Counter> countLevels(const scene::Scene& scene, const std::vector<int>& levels);
 /// Adds "wrong_invisible_share", "levels_above_oracle", "levels_below_oracle" and "objects_seen".
 void countOracle(frame::Frame& frame, double timeS, const frame::ShadedSetting& shading, const SeenOn& seenOn,

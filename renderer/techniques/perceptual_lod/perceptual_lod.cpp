@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interactive perceptual pipeline (SP-35 to SP-37): each frame is drawn in layers, what the other layers
-// show masks differences between levels of detail in a layer, and objects are tested in turn against their
-// finest level. Source: Schwarz 2009, section 9.5.
+// The interactive perceptual pipeline (SP-35 to SP-37): each frame is drawn in layers, the content of the
+// other layers masks differences between levels of detail in a layer, and objects are tested in turn against
+// their finest level. Source: Schwarz 2009, section 9.5.
 //
 // What the thesis leaves open, and the choices made here:
-// - Layers: their number, and uniform, logarithmic or given borders of distance (parameters).
+// - Layers: their number, and uniform, logarithmic or explicit distance borders (parameters).
 // - Depth: the raster's own, so that the composite equals the ordinary picture bit for bit.
-// - Shadow mask M_i: surfaces of layer i that a shadow map without the layer's own objects calls shadowed,
+// - Shadow mask M_i: surfaces of layer i that are shadowed according to a shadow map without the layer's own
+// objects,
 //   whether or not an object of the layer shadows them too. In C_i it darkens what lies behind the visible
 //   part of the layer by a constant factor.
 // - Where only one of two levels covers a pixel, the other shows what the other layers have there; objects of
-//   the same layer behind it are not looked for. An object of the same layer between the two levels' surfaces
-//   is taken for part of the object.
-// - The finest level is lit with the shadow that the scene has with the object at its finest level.
-// - C_i leaves out the object (and its layer), as in the thesis, whose thresholds are therefore those of
-//   another picture than the one seen; the counters of the oracle say what comes of it.
-// - An object of which no pixel is seen keeps its level. Objects wholly off the screen are passed over.
+// the same layer behind it are ignored. An object of the same layer between the two levels' surfaces is taken
+// to be part of the object.
+// - The finest level is lit with the shadows that the scene has with the object at its finest level.
+// - C_i leaves out the object (and its layer), as in the thesis, so the thresholds are not those of the
+// picture seen; the oracle's counters quantify the effect.
+// - An object of which no pixel is visible keeps its level. Objects entirely off screen are skipped.
 #include <epoxy/gl.h>
 
 #include <optional>
@@ -37,7 +38,7 @@ class PerceptualLod : public Technique {
     pipeline_->prime(frame.timeS());
     for (int n = settings_.settleFrames; n > 0; --n)
       pipeline_->render(frame.timeS() - n * settings_.frameStepS, true);
-    // All results are there when the first frame asks for them.
+    // All results are available when the first frame asks for them.
     glFinish();
   }
 
@@ -78,11 +79,11 @@ std::vector<Quantity> layeredQuantities() {
   out.insert(out.end(),
              {{"triangles_tested", "Triangles drawn for tests", "triangles", Direction::LowerIsBetter},
               {"objects_tested", "Tests", "tests", Direction::LowerIsBetter},
-              {"tests_dropped", "Tests that came too late", "tests", Direction::LowerIsBetter},
-              {"level_switches", "Switches of level", "switches", Direction::Neither},
-              {"level_reversals", "Switches back to the level before", "switches", Direction::Neither},
+              {"tests_dropped", "Tests that arrived too late", "tests", Direction::LowerIsBetter},
+              {"level_switches", "Level switches", "switches", Direction::Neither},
+              {"level_reversals", "Switches back to the previous level", "switches", Direction::Neither},
               {"layers_drawn", "Layers drawn", "layers", Direction::LowerIsBetter},
-              {"threshold_maps", "Threshold maps made", "maps", Direction::LowerIsBetter}});
+              {"threshold_maps", "Threshold maps computed", "maps", Direction::LowerIsBetter}});
   return out;
 }
 
@@ -90,7 +91,7 @@ const RegisteredTechnique<PerceptualLod> kPerceptualLodRegistered{
     {.name = "lod/perceptual",
      .version = 1,
      .summary =
-         "Levels by visible difference: layers, a threshold map of each one's surroundings, tests in turn",
+         "Levels by visible difference: layers, a threshold map of each layer's surroundings, tests in turn",
      .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",
      .product = ProductKind::Colour,
      .needs = {"lod_sets"},

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -103,7 +104,7 @@ frame::Frame& PerceptualPipeline::versionOf(LevelView& view, LevelView* casters,
     all.levels[static_cast<size_t>(object)] = level;
   }
   if (casters) {
-    // The object casts its shadow with the level that is looked at; the others as they are.
+    // The object casts its shadow with the level under test; the others with their current levels.
     casters->show(timeS_, all);
     view.frame().setCasters(&casters->frame());
   }
@@ -126,18 +127,18 @@ void PerceptualPipeline::test(int number, int object, bool priming) {
   }
   const auto scope = parent_.passes().open(testPass(number));
   if (priming) return;
-  const auto bindVersion = [&](frame::Frame& frame, uint32_t unit) {
-    frame.get<frame::Shaded>(settings_.shading).texture().bindTexture(unit);
-    frame.get<frame::TriangleIds>().depth().bindTexture(unit + 1);
-    frame.get<frame::TriangleIds>().texture().bindTexture(unit + 2);
+  const auto bindVersion = [&](frame::Frame& frame, uint32_t colour, uint32_t depth, uint32_t ids) {
+    frame.get<frame::Shaded>(settings_.shading).texture().bindTexture(colour);
+    frame.get<frame::TriangleIds>().depth().bindTexture(depth);
+    frame.get<frame::TriangleIds>().texture().bindTexture(ids);
   };
-  images_.composite().bindTexture(0);
-  images_.frontKey().bindTexture(1);
-  images_.secondColour().bindTexture(2);
-  images_.secondKey().bindTexture(3);
-  maps_[static_cast<size_t>(layerOf_[static_cast<size_t>(object)] - 1)].bindTexture(4);
-  bindVersion(finest, 5);
-  if (next) bindVersion(*next, 8);
+  images_.composite().bindTexture(kLevelTestFrontColourUnit);
+  images_.frontKey().bindTexture(kLevelTestFrontKeyUnit);
+  images_.secondColour().bindTexture(kLevelTestSecondColourUnit);
+  images_.secondKey().bindTexture(kLevelTestSecondKeyUnit);
+  maps_[static_cast<size_t>(layerOf_[static_cast<size_t>(object)] - 1)].bindTexture(kLevelTestThresholdUnit);
+  bindVersion(finest, kLevelTestFinestColourUnit, kLevelTestFinestDepthUnit, kLevelTestFinestIdsUnit);
+  if (next) bindVersion(*next, kLevelTestNextColourUnit, kLevelTestNextDepthUnit, kLevelTestNextIdsUnit);
   const auto index = static_cast<size_t>(object);
   counts_.count({object, level, scene.triangles(scene.lodObjects[index], level), pixels_[index]});
 }
@@ -160,7 +161,7 @@ void PerceptualPipeline::render(double timeS, bool wait) {
     pixels_.push_back(pixelsOf(object.bounds, images_.view()));
 
   std::vector<int> objects;
-  // With all batches under way the GPU is far behind: this frame tests nothing rather than wait.
+  // With all batches in flight the GPU is far behind: this frame tests nothing instead of waiting.
   if (counts_.ready()) objects = control_.nextTests(settings_.tests.objectsPerFrame, testable());
   std::vector<char> needed(static_cast<size_t>(images_.layers()), 0);
   for (const int layer : layerOf_)

@@ -13,7 +13,7 @@
 
 namespace limen::techniques {
 
-/// The interactive perceptual pipeline: picture and control of levels, frame after frame. See
+/// The interactive perceptual pipeline: picture and level control, frame by frame. See
 /// perceptual_lod.cpp for what the thesis leaves open.
 class PerceptualPipeline {
  public:
@@ -22,7 +22,7 @@ class PerceptualPipeline {
   /// Runs every pass once without changing a level.
   void prime(double timeS);
   /// One frame: takes the results that are due, draws layers and composite, tests the next objects. `wait`:
-  /// for results that are due.
+  /// wait for results that are due.
   void render(double timeS, bool wait);
 
   const gl::Texture& picture() const { return images_.composite(); }
@@ -31,7 +31,7 @@ class PerceptualPipeline {
   const scene::LodSelection& shown() const { return images_.shown(); }
   const std::vector<int>& layerOf() const { return layerOf_; }  ///< 1.., of the last frame
   LayerImages& images() { return images_; }
-  /// All tests whose results the last frame took.
+  /// All tests whose results the last frame used.
   const std::vector<LevelTest>& taken() const { return taken_; }
   int mapsMade() const { return mapsMade_; }                    ///< in the last frame
   int64_t trianglesTested() const { return trianglesTested_; }  ///< drawn for tests in the last frame
@@ -40,7 +40,7 @@ class PerceptualPipeline {
   std::map<std::string, const gl::Texture*> debugViews();
 
  private:
-  /// Views that one test of a frame needs.
+  /// Views needed by one test of a frame.
   struct TestViews {
     TestViews(frame::Frame& parent, int number, bool shadows, bool withNext);
     LevelView finest;

@@ -17,11 +17,11 @@ const SettingsTable<ModelSettings>& ModelSettings::table() {
 const SettingsTable<TestSettings>& TestSettings::table() {
   using S = TestSettings;
   static const SettingsTable<S> kTable = {
-      Binding(&S::objectsPerFrame, "objects_per_frame", Range{1, 16}, "",
-              "Objects that are tested in a frame, in turn", kOpen)
+      Binding(&S::objectsPerFrame, "objects_per_frame", Range{1, 16}, "", "Objects tested per frame, in turn",
+              kOpen)
           .formerly({"objects_per_frame"}),
       Binding(&S::latencyFrames, "latency_frames", Range{1, 6}, "",
-              "Frames after which a test's result is used at the earliest", kOpen)
+              "Smallest number of frames before a test's result is used", kOpen)
           .formerly({"latency_frames"}),
       Binding(
           &S::wait, "wait_for_results",
@@ -33,7 +33,7 @@ const SettingsTable<TestSettings>& TestSettings::table() {
               "Schwarz 2009, section 9.5 (query)")
           .formerly({"count"}),
       Binding(&S::thresholdMaps, "threshold_maps",
-              "Layers whose threshold map is made in a frame: those with an object under test, or all",
+              "Layers whose threshold map is computed in a frame: those with an object under test, or all",
               "Schwarz 2009, section 9.5 (all)")
           .formerly({"threshold_maps"})};
   return kTable;
@@ -42,7 +42,7 @@ const SettingsTable<TestSettings>& TestSettings::table() {
 const SettingsTable<DarkenedShadows>& DarkenedShadows::table() {
   static const SettingsTable<DarkenedShadows> kTable = {
       Binding(&DarkenedShadows::factor, "factor", Range{0.0, 1.0}, "",
-              "Factor of the pattern where a shadow falls; 0.2: ambient light alone", kOpen)
+              "Factor of the pattern in shadow; 0.2: ambient light only", kOpen)
           .formerly({"shadow_attenuation"})};
   return kTable;
 }
@@ -50,24 +50,24 @@ const SettingsTable<DarkenedShadows>& DarkenedShadows::table() {
 const SettingsTable<PerceptualLodSettings>& PerceptualLodSettings::table() {
   using S = PerceptualLodSettings;
   static const SettingsTable<S> kTable = {
-      Binding(&S::layers, "layers", "How objects are shared among layers", kOpen)
+      Binding(&S::layers, "layers", "How objects are distributed among layers", kOpen)
           .shorthand("count")
           .formerly({"partition"}),
       {&S::rule, "rule", "When a test changes a level"},
       {&S::tests, "tests", "What a frame tests"},
-      {&S::startLevel, "start_level", "Of all objects, before the first test", kOpen},
+      {&S::startLevel, "start_level", "Level of all objects before the first test", kOpen},
       {&S::settleFrames,
        "settle_frames",
        {0, 4096},
        "",
-       "Frames that run before the first that is shown or timed, as part of the preparation; they end where "
+       "Frames that run before the first one shown or timed, as part of the preparation; they end where "
        "it "
        "begins"},
       {&S::frameStepS,
        "frame_step_s",
        {0.0, 10.0},
        "s",
-       "Time on the camera path from one frame to the next; 0: whoever asks for frames moves the camera"},
+       "Time on the camera path from one frame to the next; 0: the caller moves the camera"},
       Binding(&S::castShadows, "cast_shadows", "Shadows that other layers cast on a layer", kOpen)
           .formerly({"shadow_mask"}),
       {&S::oracle, "oracle",

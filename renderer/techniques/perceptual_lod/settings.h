@@ -12,8 +12,8 @@
 
 namespace limen::techniques {
 
-/// What turns a picture into thresholds: the display it is seen on and the model of Schwarz 2009, section
-/// 9.4.
+/// What turns a picture into thresholds: the display it is viewed on and the model of Schwarz 2009,
+/// section 9.4.
 struct SeenOn {
   perception::DisplayProfile display;
   perception::ThresholdMapSettings map;
@@ -37,7 +37,7 @@ constexpr EnumNames<CountMethod, 2> enumNames(CountMethod) {
   return {{{{CountMethod::Compute, "compute"}, {CountMethod::Query, "query"}}}};
 }
 
-/// Layers whose threshold map is made in a frame.
+/// Layers whose threshold map is computed in a frame.
 enum class MappedLayers {
   Tested,  ///< those with an object under test
   All
@@ -61,11 +61,10 @@ struct TestSettings {
   static const SettingsTable<TestSettings>& table();
 };
 
-/// Shadows that other layers cast on a layer, as a pattern that masks.
+/// Shadows that other layers cast on a layer, as a masking pattern.
 struct DarkenedShadows {
-  static constexpr const char *kKind = "darkened",
-                              *kSummary = "count as a pattern, where shading has shadows";
-  double factor = 0.2;  ///< of what lies in the shadow
+  static constexpr const char *kKind = "darkened", *kSummary = "count as a pattern, if shading has shadows";
+  double factor = 0.2;  ///< factor in shadow
   static const SettingsTable<DarkenedShadows>& table();
 };
 
@@ -73,7 +72,7 @@ struct IgnoredShadows {
   static constexpr const char *kKind = "ignored", *kSummary = "do not mask";
 };
 
-/// All of the interactive perceptual pipeline (Schwarz 2009, section 9.5).
+/// All settings of the interactive perceptual pipeline (Schwarz 2009, section 9.5).
 struct PerceptualLodSettings {
   LayerPartition layers;
   LevelRule rule;

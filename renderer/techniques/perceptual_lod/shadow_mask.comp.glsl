@@ -2,10 +2,12 @@
 // M_i: 1 where a surface of the layer is shadowed by objects of other layers. The map holds all casters but
 // the layer's own. Surfaces turned away from the light are dark by themselves and not marked. The comparison
 // is that of renderer/frame/shaded.comp.glsl.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D shadowMap;
-layout(binding = 0, r32f) uniform writeonly image2D mask;
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kShadowMaskReceiversUnit) uniform sampler2D receivers;
+layout(binding = kShadowMaskShadowMapUnit) uniform sampler2D shadowMap;
+layout(binding = kShadowMaskImage, r32f) uniform writeonly image2D mask;
 
 uniform ivec2 sizePx;
 uniform vec2 tangentLow, tangentSize;

@@ -5,6 +5,8 @@
 
 #include <cassert>
 
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -74,8 +76,8 @@ void TestCounts::count(const CountRequest& request) {
     program_.set("lowPx", request.pixels.low);
     program_.set("highPx", request.pixels.high);
     program_.set("test", static_cast<int>(test));
-    counts_.bindStorage(0);
-    visible_.bindImage(0, gl::Access::Write);
+    counts_.bindStorage(kLevelTestCountsBuffer);
+    visible_.bindImage(kLevelTestVisibleImage, gl::Access::Write);
     program_.dispatch(size);
     return;
   }
@@ -121,7 +123,7 @@ bool TestCounts::arrived(const Batch& batch, bool wait) const {
   }
   if (wait) return true;  // reading a query waits for it
   GLuint available = GL_FALSE;
-  // Queries end in order: the last of the batch is there if all are.
+  // Queries complete in order: if the last of the batch is available, all are.
   glGetQueryObjectuiv(query(oldest_, batch.tests.size() - 1, withNext_ ? 2 : 1), GL_QUERY_RESULT_AVAILABLE,
                       &available);
   return available == GL_TRUE;

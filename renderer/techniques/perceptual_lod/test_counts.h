@@ -14,33 +14,33 @@
 
 namespace limen::techniques {
 
-/// What the GPU is asked to count for one object.
+/// What the GPU counts for one object.
 struct CountRequest {
   int object = 0, level = 0;
   scene::TriangleRange triangles;  ///< of the object's current level
   PixelRect pixels;
 };
 
-/// Counts of tests that come back frames later: by occlusion queries (Schwarz 2009, section 9.5), or in a
-/// compute shader whose sums are copied to mapped memory behind a fence. Batches, one a frame, are read in
+/// Counts of tests that arrive frames later: by occlusion queries (Schwarz 2009, section 9.5), or in a
+/// compute shader whose sums are copied to mapped memory behind a fence. Batches, one per frame, are read in
 /// order; nothing waits unless asked to.
 class TestCounts {
  public:
   /// `visible` is R32F, cleared each frame and set to 1 where a test found a visible difference. `withNext`:
-  /// the next coarser level is looked at too.
+  /// the next coarser level is tested too.
   TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
              const gl::Texture& visible);
   ~TestCounts();
   TestCounts(const TestCounts&) = delete;
   TestCounts& operator=(const TestCounts&) = delete;
 
-  /// False if too many batches are still under way for one more.
+  /// False if too many batches are in flight for another one.
   bool ready() const { return batches_[next_].tests.empty(); }
   void begin(int64_t frame, float blackCdM2, float rangeCdM2);
   /// The textures of lod_difference.glsl are bound by the caller.
   void count(const CountRequest& request);
   void end();
-  /// The oldest batch, if it is of frame `newest` or before and has arrived.
+  /// The oldest batch, if it is of frame `newest` or earlier and has arrived.
   std::optional<std::vector<LevelTest>> take(int64_t newest, bool wait);
   int64_t bytes() const { return counts_.bytes() * (1 + kBatches); }
 

@@ -11,17 +11,17 @@ namespace {
 
 constexpr const char* kRuleSource = "Schwarz 2009, section 9.5 (values not given there)";
 
-/// Throws Error if every object between the limits would change its level for ever.
+/// Throws Error if every object between the limits would keep changing its level forever.
 void checkOrder(double lower, double upper) {
   if (lower > upper)
     throw Error(
-        "the lower limit is above the upper one: every object between them would change its level for "
+        "the lower limit is above the upper one: every object between them would keep changing its level for "
         "ever",
         "lower", "give lower <= upper");
 }
 
-const char* const kLowerHelp = "With fewer visible pixels: to the next coarser level";
-const char* const kUpperHelp = "With more visible pixels: to the next finer level";
+const char* const kLowerHelp = "With fewer visible pixels, switch to the next coarser level";
+const char* const kUpperHelp = "With more visible pixels, switch to the next finer level";
 
 }  // namespace
 
@@ -52,7 +52,7 @@ const SettingsTable<LevelRule>& LevelRule::table() {
           .formerly({"delta_unit"}),
       Binding(&S::coarsen, "coarsen",
               "Below the lower limit go coarser at once, or only if the next coarser level is not above the "
-              "upper one (a second rendering for each test)",
+              "upper one (needs a second rendering per test)",
               "Schwarz 2009, section 9.5 (at_once)")
           .formerly({"coarsen"})};
   return kTable;

@@ -9,12 +9,12 @@
 
 namespace limen::techniques {
 
-/// What a test of an object at one level found.
+/// Result of testing an object at one level.
 struct LevelTest {
   int object = 0, level = 0;   ///< as they were when the test was drawn
   uint32_t coveredPx = 0;      ///< pixels where the object is seen at this level or at the finest
   uint32_t visiblePx = 0;      ///< of these, how many differ from the finest level by more than the threshold
-  uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, where that was looked at
+  uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, if that was tested
 };
 
 /// Limits in pixels: the thesis's, counts that grow with resolution and with the object.
@@ -36,10 +36,10 @@ struct ShareLimits {
 
 /// What happens to an object whose visible pixels are below the lower limit.
 enum class Coarsen {
-  AtOnce,  ///< the thesis's rule, which looks at the current level alone
-  /// Coarser only if the next coarser level would not be sent back at once (n_vis <= upper limit). Without,
-  /// an object goes to and fro between its last invisible and its first visible level unless n_vis of the
-  /// latter lies between the limits.
+  AtOnce,  ///< the thesis's rule, which considers only the current level
+  /// Coarser only if the next coarser level would not be reverted at once (n_vis <= upper limit). Otherwise
+  /// an object oscillates between its last invisible and its first visible level unless n_vis of the latter
+  /// lies between the limits.
   IfInvisible
 };
 constexpr EnumNames<Coarsen, 2> enumNames(Coarsen) {
@@ -60,11 +60,12 @@ struct LevelRule {
     if (std::holds_alternative<PixelLimits>(limits)) return count;
     return coveredPx > 0 ? double(count) / coveredPx : 0.0;
   }
-  /// +1: coarser, -1: finer, 0: keep; the caller clamps. An object of which nothing is seen keeps its level.
+  /// +1: coarser, -1: finer, 0: keep; the caller clamps. An object of which nothing is visible keeps its
+  /// level.
   int step(const LevelTest& test) const;
 };
 
-/// Levels of all objects, and whose turn it is to be tested.
+/// Levels of all objects, and which are next to be tested.
 class TestedLevels {
  public:
   /// `levelCounts`: levels of each object, at least one.
@@ -72,16 +73,16 @@ class TestedLevels {
 
   const std::vector<int>& levels() const { return levels_; }
   const LevelRule& rule() const { return rule_; }
-  /// The next at most `count` objects in turn among those that may be tested (`testable`, one an object) and
+  /// The next at most `count` objects in turn among those that may be tested (`testable`, one per object) and
   /// have more than one level.
   std::vector<int> nextTests(int count, const std::vector<char>& testable);
-  /// Applies a test; one of a level that the object has left since is dropped.
+  /// Applies a test; a test of a level that the object has since left is dropped.
   void apply(const LevelTest& test);
 
   int64_t tested() const { return tested_; }  ///< tests applied or dropped
   int64_t dropped() const { return dropped_; }
   int64_t switches() const { return switches_; }
-  /// Switches that took the object back to where it came from with its last: oscillation.
+  /// Switches that undid the object's previous switch: oscillation.
   int64_t reversals() const { return reversals_; }
 
  private:

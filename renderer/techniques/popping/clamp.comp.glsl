@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a display can show of a picture: light between its black and its white.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D picture;
-layout(binding = 0, rgba32f) uniform writeonly image2D shown;
+#include "renderer/techniques/popping/switch_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kClampPictureUnit) uniform sampler2D picture;
+layout(binding = kClampShownImage, rgba32f) uniform writeonly image2D shown;
 uniform ivec2 sizePx;
 
 void main() {

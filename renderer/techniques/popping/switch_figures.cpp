@@ -14,7 +14,7 @@
 namespace limen::techniques {
 namespace {
 
-/// No table holds infinity, which an eye within the object's bounds gives.
+/// Tables cannot hold infinity, which an eye inside the object's bounds gives.
 double bounded(double value) { return std::min(value, 1e9); }
 
 /// Mean length of the object's displacement in the new frame [px per frame].
@@ -40,7 +40,7 @@ Image objectMask(frame::Frame& frame, const SwitchSetting& setting) {
   Image mask(sizePx.x, sizePx.y, 1);
   for (const scene::LodSelection* selection : {&actual, &predicted}) {
     const scene::TriangleRange range = frame.scene().triangles(object, selection->levels[setting.object]);
-    // A frame with passes of its own, so that the technique's are not mixed with these.
+    // A frame with its own passes, so that they do not mix with the technique's.
     frame::Frame view(frame.context(), frame.scene(), frame.gpuScene(), sizePx, frame.timeS(),
                       frame.raster());
     view.setLevels(*selection);
@@ -112,13 +112,13 @@ std::vector<Quantity> switchFigureQuantities() {
           {"coverage_of_object", "Share of the object in popping regions", "", none},
           {"largest_jnd", "Largest difference", "JND", none},
           {"max_de94", "Largest colour difference", "dE94", none},
-          {"flushed_inputs", "Inputs taken for 0", "", none},
+          {"flushed_inputs", "Inputs replaced by 0", "", none},
           {"guarded_contrasts", "Contrasts with a bounded denominator", "", none},
           {"object_px", "Pixels of the object", "px", none},
           {"object_distance", "Distance of the object", "world units", none},
-          {"object_extent_px", "Height of the object on the screen", "px", none},
-          {"screen_error_px", "Largest deviation on the screen", "px", none},
-          {"screen_velocity_deg_s", "Velocity on the screen", "deg/s", none},
+          {"object_extent_px", "Screen height of the object", "px", none},
+          {"screen_error_px", "Largest screen-space deviation", "px", none},
+          {"screen_velocity_deg_s", "Screen velocity", "deg/s", none},
           {"pixels_per_degree", "Pixels per degree", "px/deg", none},
           {"triangles_before", "Triangles before the change", "", none},
           {"triangles_after", "Triangles after the change", "", none}};

@@ -11,7 +11,7 @@
 
 namespace limen::techniques {
 
-/// What a predictor found in one change of level.
+/// A predictor's results for one level change.
 struct SwitchFinding {
   perception::RegionMap regions;
   double largestJnd = 0.0;
@@ -21,7 +21,7 @@ struct SwitchFinding {
 /// 1 channel: 1 where the object is seen before or after the change.
 Image objectMask(frame::Frame& frame, const SwitchSetting& setting);
 
-/// The figures of a change: of its regions, its object, its camera. All are finite.
+/// The figures of a change: of its regions, object and camera. All are finite.
 std::vector<Counter> switchFigures(frame::Frame& frame, const SwitchSetting& setting,
                                    const SwitchImages& images, const SwitchFinding& finding);
 /// Their declarations.
@@ -30,8 +30,8 @@ std::vector<Quantity> switchFigureQuantities();
 /// The frame after the change in grey with its popping regions in colour (SP-50).
 Image regionPicture(const SwitchImages& images, const perception::RegionMap& regions);
 
-/// What the `rating` of a change without regions counts as: one less than that of a region of one pixel at
-/// the threshold, the least that a region can have.
+/// The `rating` of a change without regions: one less than that of a region of one pixel at the threshold,
+/// the lowest that a region can have.
 double ratingWithoutRegion(const perception::PoppingSettings& settings);
 
 }  // namespace limen::techniques

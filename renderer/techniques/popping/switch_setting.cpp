@@ -14,9 +14,8 @@ namespace limen::techniques {
 const SettingsTable<DynamicPresentation>& DynamicPresentation::table() {
   using S = DynamicPresentation;
   static const SettingsTable<S> kTable = {
-      Binding(
-          &S::dtS, "dt_s", Range{0.0, 1.0}, "s",
-          "Time from the last frame before the change to the first after it; 0: one of the display's frames")
+      Binding(&S::dtS, "dt_s", Range{0.0, 1.0}, "s",
+              "Time from the last frame before the change to the first after it; 0: one frame of the display")
           .formerly({"dt_s"}),
       Binding(&S::flickerLevel, "flicker_level",
               "Level whose shading is compared with the previous frame; after: the change itself counts as "
@@ -30,13 +29,13 @@ const SettingsTable<SwitchSettings>& SwitchSettings::table() {
   using S = SwitchSettings;
   const std::string kThesis = "Schwarz 2009, section 10.3.1";
   static const SettingsTable<S> kTable = {
-      {&S::object, "object", {0, 65535}, "", "Number of the object that changes its level"},
+      {&S::object, "object", {0, 65535}, "", "Index of the object that changes its level"},
       {&S::fromLevel, "from_level", {0, 15}, "", "Level before the change; 0 is the finest", kThesis},
       {&S::toLevel, "to_level", {0, 15}, "", "Level after the change", kThesis},
       {&S::others, "others",
        "Levels of all other objects: the finest, by the scene's switch distances, or not drawn"},
       {&S::presentation, "presentation", "How the change is shown", "Schwarz 2009, section 10.4.1"},
-      // Four samples a pixel are what common antialiasing shows; the thesis does not say what it used.
+      // Four samples per pixel correspond to common antialiasing; the thesis does not say what it used.
       samplesBinding(&S::samples),
       included(&S::viewing),
       frame::shadingBinding(&S::shading),

@@ -17,8 +17,8 @@ namespace limen::techniques {
 
 /// Level whose shading is compared with the previous frame.
 enum class FlickerLevel {
-  Before,  ///< what the level before the change shows over time
-  After    ///< what the level after it shows against the frame before, which has the change in it
+  Before,  ///< flicker of the level before the change
+  After    ///< the level after the change against the previous frame, which includes the change
 };
 constexpr EnumNames<FlickerLevel, 2> enumNames(FlickerLevel) {
   return {{{{FlickerLevel::Before, "before"}, {FlickerLevel::After, "after"}}}};
@@ -37,8 +37,9 @@ constexpr EnumNames<OtherLevels, 3> enumNames(OtherLevels) {
 }
 
 struct DynamicPresentation {
-  static constexpr const char *kKind = "dynamic", *kSummary = "the camera moves as the scene says";
-  double dtS = 0.0;  ///< from the last frame before the change to the first after it; 0: a display's frame
+  static constexpr const char *kKind = "dynamic", *kSummary = "the camera moves as defined by the scene";
+  double dtS =
+      0.0;  ///< from the last frame before the change to the first after it; 0: one frame of the display
   FlickerLevel flickerLevel = FlickerLevel::Before;
   static const SettingsTable<DynamicPresentation>& table();
 };
@@ -62,19 +63,19 @@ struct SwitchSettings {
   void check() const;
 };
 
-/// One object's change from a level of detail to another, and who watches it.
+/// One object's change from one level of detail to another, and how it is viewed.
 struct SwitchSetting {
   size_t object = 0;  ///< of Scene::lodObjects
   int fromLevel = 1, toLevel = 0;
   OtherLevels others = OtherLevels::Finest;
-  bool dynamic = true;      ///< the camera moves as the scene says; false: both frames of it at rest
-  double dtS = 1.0 / 60.0;  ///< between the frame before the change and the first one after
-  /// Flicker is what the level before the change shows over time; false: what the level after it shows
-  /// against the frame before, which has the change in it.
+  bool dynamic = true;      ///< the camera moves as defined by the scene; false: it rests in both frames
+  double dtS = 1.0 / 60.0;  ///< between the last frame before the change and the first after it
+  /// Flicker is that of the level before the change; false: the level after the change is compared with the
+  /// previous frame, which includes the change.
   bool flickerOfBefore = true;
-  int samples = 2;  ///< a pixel along each axis, of what is shown
+  int samples = 2;  ///< per pixel along each axis, of the pictures shown
   frame::ShadedSetting shaded;
-  /// Its refreshHz is 1 / dtS: the rate at which displacements in pixels per frame follow one another.
+  /// Its refreshHz is 1 / dtS: the frame rate of displacements in pixels per frame.
   perception::DisplayProfile display;
   perception::PoppingSettings popping;
 
@@ -82,8 +83,8 @@ struct SwitchSetting {
   /// Throws Error on an unreadable display.
   explicit SwitchSetting(const SwitchSettings& settings);
 
-  /// Levels of all objects after and before the change: {actual, predicted}. Throws Error if the scene has no
-  /// such object or the object no such level.
+  /// Levels of all objects after and before the change: {actual, predicted}. Throws Error if there is no such
+  /// object or level.
   std::pair<scene::LodSelection, scene::LodSelection> levels(const frame::Frame& frame) const;
   bool usesDisocclusion() const { return dynamic && popping.usesDisocclusion(); }
   bool usesFlicker() const { return dynamic && popping.usesFlicker(); }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "renderer/techniques/popping/switch_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -17,10 +19,9 @@ frame::LodPairSetting pairSetting(const SwitchSetting& setting) {
   return out;
 }
 
-/// Albedos are at most 1, so only these can bring a pixel above the display's white.
+/// Albedos are at most 1, so only these can raise a pixel above the display's white.
 bool mayPassWhite(const frame::ShadedSetting& shaded) {
-  return shaded.specular > 0.0 || shaded.ambient + shaded.diffuse > 1.0 ||
-         shaded.background > 1.0;
+  return shaded.specular > 0.0 || shaded.ambient + shaded.diffuse > 1.0 || shaded.background > 1.0;
 }
 
 }  // namespace
@@ -54,8 +55,8 @@ void SwitchViews::render(frame::Frame& parent) {
   const auto pass = parent.passes().open("popping/clamp");
   clamp_->set("sizePx", parent.sizePx());
   for (size_t i = 0; i < 2; ++i) {
-    shown_[i]->bindTexture(0);
-    clamped_[i].bindImage(0, gl::Access::Write);
+    shown_[i]->bindTexture(kClampPictureUnit);
+    clamped_[i].bindImage(kClampShownImage, gl::Access::Write);
     clamp_->dispatch(parent.sizePx());
     shown_[i] = &clamped_[i];
   }

@@ -18,12 +18,12 @@ struct SwitchImages {
   std::optional<perception::FlickerInput> flicker;
 };
 
-/// The views of a change of level that a viewer is shown (SP-39). The frame is a window of the display, pixel
-/// for pixel; its pictures are supersampled and clamped to the display's range. Displacement, depth and what
-/// flicker is evaluated by are those of the pixels' centres.
+/// The views of a level change as shown to a viewer (SP-39). The frame is a window of the display, pixel for
+/// pixel; its pictures are supersampled and clamped to the display's range. Displacement, depth and flicker
+/// inputs are those of the pixel centres.
 class SwitchViews {
  public:
-  /// Throws Error as SwitchSetting::levels().
+  /// Throws Error like SwitchSetting::levels().
   SwitchViews(frame::Frame& parent, const SwitchSetting& setting);
   /// Between the parent's begin() and end().
   void render(frame::Frame& parent);
@@ -35,14 +35,14 @@ class SwitchViews {
   const frame::LodPair::View& flickering() const {
     return setting_.flickerOfBefore ? pair_.predicted() : pair_.actual();
   }
-  /// Reads back what the last render() made.
+  /// Reads back the results of the last render().
   SwitchImages read() const;
 
  private:
   SwitchSetting setting_;
   frame::LodPair pair_;
-  std::optional<BoxView> supersampled_[2];  // with more than one sample a pixel
-  const gl::Program* clamp_ = nullptr;      // null where no picture can leave the display's range
+  std::optional<BoxView> supersampled_[2];  // with more than one sample per pixel
+  const gl::Program* clamp_ = nullptr;      // null if no picture can leave the display's range
   std::vector<gl::Texture> clamped_;
   const gl::Texture* shown_[2] = {nullptr, nullptr};
 };

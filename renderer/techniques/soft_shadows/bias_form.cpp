@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/bias_form.h"
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
-constexpr uint32_t kBiasUnit = 9;
 constexpr Range kConstants{0.0, 0.1};
 constexpr const char* kConstantText =
     "Constant depth bias as a share of the receiver's distance from the light's plane";
@@ -28,13 +29,13 @@ const SettingsTable<PerLevelBias>& PerLevelBias::table() {
   return kTable;
 }
 
-// Where the light is seen from the receiver's plane within an angle whose tangent, times that of the plane's
+// If the light is seen from the receiver's plane within an angle whose tangent, times that of the plane's
 // tilt, is c, occluders of the plane itself darken it unless the scale is 1 / (1 - c) or more.
 const SettingsTable<StoredBias>& StoredBias::table() {
   static const SettingsTable<StoredBias> kTable = {
       {&StoredBias::constant, "constant", kConstants, "", kConstantText, kFormsSource},
       Binding(&StoredBias::scale, "scale", Range{0.0, 16.0}, "",
-              "Multiple of the stored bias that is tested with", "Schwarz 2009, section 4.5.4 (1)")
+              "Factor applied to the stored bias in the test", "Schwarz 2009, section 4.5.4 (1)")
           .formerly({"stored_scale"}),
       {&StoredBias::maxSlope,
        "max_slope",
@@ -63,7 +64,7 @@ void BiasForm::make(frame::Frame& frame, const frame::ShadowMapSettings& map) {
 }
 
 void BiasForm::bind() const {
-  if (stored_) stored_->biases().bindTexture(kBiasUnit);
+  if (stored_) stored_->biases().bindTexture(kTexelBiasesUnit);
 }
 
 void BiasForm::configure(const gl::Program& program) const {

@@ -3,13 +3,9 @@
 
 #include <cmath>
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
-namespace {
-
-constexpr uint32_t kDepthUnit = 10, kExtentUnit = 11;
-
-}  // namespace
-
 CoarseOccluders::CoarseOccluders(const OccluderChoice& occluders, const LevelSettings& levels)
     : occluders_(occluders) {
   if (const auto* fixed = std::get_if<FixedLevel>(&levels)) fixedLevel_ = fixed->level;
@@ -23,8 +19,8 @@ void CoarseOccluders::make(frame::Frame& frame, const frame::ShadowMapSettings& 
 
 void CoarseOccluders::bind() const {
   if (!rects_) return;
-  rects_->depths().bindTexture(kDepthUnit);
-  rects_->extents().bindTexture(kExtentUnit);
+  rects_->depths().bindTexture(kRectDepthsUnit);
+  rects_->extents().bindTexture(kRectExtentsUnit);
 }
 
 void CoarseOccluders::configure(const gl::Program& program) const {

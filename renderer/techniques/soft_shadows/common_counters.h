@@ -9,7 +9,7 @@
 
 namespace limen::techniques {
 
-/// That of `all` with this name, which must be there.
+/// The one in `all` with this name, which must exist.
 inline Quantity counterOf(const std::vector<Quantity>& all, std::string_view name) {
   for (const Quantity& counter : all)
     if (counter.name == name) return counter;
@@ -17,7 +17,7 @@ inline Quantity counterOf(const std::vector<Quantity>& all, std::string_view nam
   return std::string(name);
 }
 
-/// Bytes of what a technique makes of the scene or of its shadow map before it looks anything up.
+/// Bytes of what a technique builds from the scene or its shadow map before any lookup.
 inline Quantity structureBytes() {
   return {"structure_bytes", "Memory of the acceleration structure", "byte", Direction::LowerIsBetter};
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smallest and largest depth over an area of the shadow map, conservatively, by the acceleration structure that the host
 // chose (occluder_search.cpp). Schwarz 2009, section 4.3.
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
-layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
-layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+layout(binding = kMinimumMapUnit) uniform sampler2D minimumMap;  // level 0: the linear shadow map
+layout(binding = kMaximumMapUnit) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
 
 // Texels [low, high) of level 0.
 struct Area {

@@ -2,7 +2,9 @@
 // Depth range of an area by squares of a power of two that lie anywhere: multi-scale shadow map (MSSM) or N-buffer, see
 // renderer/frame/multi_scale_map.h. Schwarz 2009, section 4.3.1; where the squares lie is reconstructed from there.
 // CORNER: windows are stored at their lower corner (N-buffer) and not at their centre.
-layout(binding = 3) uniform sampler2DArray multiScaleMap;  // its layer i is the structure's layer i + 1
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
+layout(binding = kMultiScaleMapUnit) uniform sampler2DArray multiScaleMap;  // its layer i is the structure's layer i + 1
 uniform int baseLevel;                                     // level of the pyramid that is layer 0
 
 // Depth range of the square of 2^layer texels from `start` on, which may begin or end outside of the map.

@@ -8,7 +8,7 @@
 namespace limen::techniques {
 namespace {
 
-/// Defaults of a struct hold no values of the entry.
+/// A struct's defaults contain no values of the entry.
 ParameterValues completeValues(const ChosenEntry& inner) {
   return {TechniqueRegistry::instance().get(inner.name).parameters, inner.values.all()};
 }

@@ -12,8 +12,8 @@
 
 namespace limen::techniques {
 
-/// Which techniques a technique can be wrapped around that runs another one: for chosen points, for the
-/// samples of a pixel, for the frames of a motion.
+/// The techniques that a wrapper can run: for chosen points, for the samples of a pixel, or for the frames of
+/// a motion.
 enum class InnerKind {
   Backprojecting,  ///< soft_shadows/backprojection and soft_shadows/bitmask
   OrRayTraced,     ///< these, and soft_shadows/ray_traced
@@ -22,7 +22,7 @@ enum class InnerKind {
 /// Their names as registered; the first is the default.
 std::vector<std::string> innerEntries(InnerKind kind);
 
-/// Binds the member that holds a wrapper's inner technique with all settings of its own:
+/// Binds the member that holds a wrapper's inner technique with all its settings:
 /// `inner: {kind: bitmask, budget: 64}`.
 template <class S>
 Binding<S> innerBinding(ChosenEntry S::*member, InnerKind kind) {
@@ -32,14 +32,14 @@ Binding<S> innerBinding(ChosenEntry S::*member, InnerKind kind) {
 
 /// The inner technique; its frame decides which points it sees.
 std::unique_ptr<Technique> makeInner(const ChosenEntry& inner);
-/// The map that a backprojecting inner technique reads: the one from the light's centre.
+/// The map that a backprojecting inner technique reads: that from the light's centre.
 frame::ShadowMapSettings innerMap(const ChosenEntry& inner);
-/// The bias that a backprojecting inner technique adds for the receiver's slope; no slope where its bias is
-/// of another form.
+/// The bias that a backprojecting inner technique adds for the receiver's slope; none if its bias has another
+/// form.
 SlopeBias innerBias(const ChosenEntry& inner);
 /// What count() of the inner technique returns, as far as innerCounters() holds it.
 std::vector<Counter> countInner(Technique& inner, frame::Frame& frame);
-/// What inner techniques of any kind count.
+/// The counters of any inner technique.
 std::vector<Quantity> innerCounters();
 
 }  // namespace limen::techniques

@@ -8,7 +8,8 @@ const SettingsTable<MapSettings>& MapSettings::table() {
       {&MapSettings::resolution, "resolution", oneOf({1, 2, 64, 128, 256, 512, 1024, 2048, 4096}), "texel",
        "Side of the shadow map", "Schwarz 2009, section 4.5"},
       {&MapSettings::raster, "raster",
-       "How the shadow map is rasterised: in compute shaders or by the driver; auto: what was measured to be "
+       "How the shadow map is rasterised: in compute shaders or by the driver; auto: whichever was measured "
+       "to be "
        "faster"}};
   return kTable;
 }
@@ -22,7 +23,7 @@ const SettingsTable<SlopeBias>& SlopeBias::table() {
        "Constant depth bias as a share of the receiver's distance from the light's plane",
        "Schwarz 2009, section 4.4.5 (value not given there)"},
       Binding(&SlopeBias::slope, "slope", Range{0.0, 16.0}, "texel",
-              "Depth bias by the receiver's slope, in texels of the level that is read",
+              "Depth bias by the receiver's slope, in texels of the level read",
               "Schwarz 2009, section 4.4.5 (reconstructed)")
           .formerly({"slope_bias"}),
       Binding(&SlopeBias::maxSlope, "max_slope", Range{0.1, 1e6}, "",

@@ -8,7 +8,7 @@ namespace limen::techniques {
 
 /// The shadow map that a technique reads; included in its settings.
 struct MapSettings {
-  int resolution = 1024;  ///< texels along a side
+  int resolution = 1024;  ///< texels per side
   frame::Raster raster = frame::Raster::Auto;
   static const SettingsTable<MapSettings>& table();
 };
@@ -18,7 +18,7 @@ struct MapSettings {
 struct SlopeBias {
   static constexpr const char *kKind = "receiver_slope", *kSummary = "by the receiver's slope over a texel";
   double constant = 1e-4;  ///< share of the receiver's distance from the light's plane
-  double slope = 1.0;      ///< texels of the level that is read
+  double slope = 1.0;      ///< texels of the level read
   double maxSlope = 10.0;  ///< slope of depth, relative to distance and tangent, up to which the bias grows
   static const SettingsTable<SlopeBias>& table();
 };

@@ -8,16 +8,16 @@
 
 namespace limen::techniques {
 
-/// The shadow maps whose occluders a technique joins, and those of them that a frame reads.
+/// The shadow maps whose occluders a technique combines, and those that a frame reads.
 class MapSource {
  public:
   MapSource(const MapSettings& map, const MapChoice& choice);
 
-  /// Throws Error where the scene has no such maps.
+  /// Throws Error if the scene has no such maps.
   void prepare(const scene::Scene& scene);
   /// At least one; valid from prepare() on.
   const std::vector<frame::ShadowMapSettings>& maps() const { return maps_; }
-  /// Each map has masks of its own, which stay while its object does.
+  /// Each map has its own masks, which are reused while its object does not change.
   bool perObject() const { return std::holds_alternative<ObjectMaps>(choice_); }
 
   /// Decides which maps the frame at this time reads: all, or some in turn while the camera rests.

@@ -5,8 +5,10 @@
 //
 // GAP_FILL as for micropatches: a rectangle is stretched to where its lower bounds lie at the depth of the microrect before
 // it.
-layout(binding = 10) uniform sampler2D rectDepths;  // its level i is level i + 1
-layout(binding = 11) uniform usampler2D rectExtents;
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
+layout(binding = kRectDepthsUnit) uniform sampler2D rectDepths;  // its level i is level i + 1
+layout(binding = kRectExtentsUnit) uniform usampler2D rectExtents;
 
 // A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in
 // either's.

@@ -18,17 +18,15 @@ const SettingsTable<Micropatches>& Micropatches::table() {
 const SettingsTable<Microrects>& Microrects::table() {
   static const SettingsTable<Microrects> kTable = {
       {&Microrects::gapFill, "gap_fill", kGapText, kGapSource},
-      Binding(
-          &Microrects::mergeMetric, "merge_metric",
-          "Difference of depth by which a microrect is merged with one of two neighbours: as it is, or as "
-          "a share of the nearer one's depth",
-          "Schwarz 2009, section 4.5.2 (absolute)")
+      Binding(&Microrects::mergeMetric, "merge_metric",
+              "Depth difference that decides which of two neighbours a microrect is merged with: absolute, "
+              "or as a share of the nearer one's depth",
+              "Schwarz 2009, section 4.5.2 (absolute)")
           .formerly({"merge_metric"}),
-      Binding(
-          &Microrects::diagonalMerge, "diagonal_merge",
-          "Which neighbour takes a microrect that both axes drop: the lower left one that spans it already "
-          "or else the upper right one, or the nearest in depth of four",
-          "Schwarz 2009, section 4.5.2 (contained)")
+      Binding(&Microrects::diagonalMerge, "diagonal_merge",
+              "Neighbour that absorbs a microrect dropped on both axes: the lower left one if it spans it "
+              "already, otherwise the upper right one; or the closest in depth of the four",
+              "Schwarz 2009, section 4.5.2 (contained)")
           .formerly({"diagonal_merge"})};
   return kTable;
 }

@@ -10,11 +10,11 @@
 
 namespace limen::techniques {
 
-/// What is made of texels that block. Sources: Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and
-/// 5.1.2.
+/// Types of micro-occluder made from blocking texels. Sources: Schwarz 2009,
+/// sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2.
 enum class OccluderKind {
   Micropatches,         ///< rectangles at one depth
-  Microquads,           ///< a mesh between the texels' centres
+  Microquads,           ///< a mesh between texel centres
   MicroquadsMicrotris,  ///< that with triangles where three of four block
   Contours,             ///< outlines of the texels that block
   Microrects,           ///< rectangles of their own extents
@@ -56,7 +56,7 @@ struct Microrects : OccluderAlternative<OccluderKind::Microrects> {
   static const SettingsTable<Microrects>& table();
 };
 
-/// What a search needs to know of the chosen alternative.
+/// What a search needs to know about the chosen alternative.
 struct OccluderChoice {
   OccluderKind kind = OccluderKind::Micropatches;
   GapFill gapFill = GapFill::LeftBottom;

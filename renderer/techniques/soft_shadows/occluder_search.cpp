@@ -5,15 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_pass.h"
 
 namespace limen::techniques {
-namespace {
-
-constexpr uint32_t kLayersUnit = 3;
-
-}  // namespace
-
 OccluderSearch::OccluderSearch(const SearchSettings& settings, const LevelSettings& levels,
                                const OccluderChoice& occluders)
     : budget_(mostOf(settings.budget)),
@@ -27,8 +22,8 @@ gl::ShaderDefines OccluderSearch::defines() const {
   gl::ShaderDefines defines = bias_.defines();
   occluders_.define(defines);
   defineStructure(structure_, defines);
-  // With one level for all pixels, what it makes of the shadow is the question: no pixel may escape it by
-  // texels that are finer.
+  // With one level for all pixels, its effect on the shadow is the question: no pixel may avoid it through
+  // finer texels.
   if (coarse_.isFixed()) defines["GROW"] = "1";
   return defines;
 }
@@ -48,7 +43,7 @@ const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame
   structureBytes_.resize(std::max(structureBytes_.size(), map + 1));
   structureBytes_[map] = bytes;
   // Last, since making the inputs binds textures too.
-  if (layers) layers->texture().bindTexture(kLayersUnit);
+  if (layers) layers->texture().bindTexture(kMultiScaleMapUnit);
   coarse_.bind();
   bias_.bind();
   maxIterations_ = maxLoopIterations(frame);

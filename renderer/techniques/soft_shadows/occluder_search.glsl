@@ -3,6 +3,7 @@
 // 4.2. The including shader defines what is gathered: clearGathered(), isSaturated(), gatheredVisibility(), and what the
 // file of occluders asks for.
 // OCCLUDERS: see occluder_kinds.h.
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
 uniform int levels, refinements;
 uniform int fixedLevel;  // of all micro-occluders; below 0: by the budget
@@ -105,7 +106,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
 float projectionScale(float z, float pz) { return z / (pz - z); }
 
 #ifdef BIAS_STORED
-layout(binding = 9) uniform sampler2D texelBiases;
+layout(binding = kTexelBiasesUnit) uniform sampler2D texelBiases;
 uniform float storedScale;
 #endif
 

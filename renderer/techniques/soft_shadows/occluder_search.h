@@ -9,10 +9,10 @@
 
 namespace limen::techniques {
 
-/// Finds the texels of a shadow map that can matter for a receiver by an acceleration structure, and says
-/// what micro-occluders are made of them: the inputs and uniforms of occluder_search.glsl, those of levels
-/// aside. What a micro-occluder does to the visibility is a Gathering's. Source: Schwarz 2009, sections 4.1
-/// to 4.4.
+/// Finds the texels of a shadow map that can matter for a receiver with an acceleration structure and
+/// determines the micro-occluders made from them: the inputs and uniforms of occluder_search.glsl except
+/// those of levels. The effect of a micro-occluder on the visibility is up to a Gathering. Source: Schwarz
+/// 2009, sections 4.1 to 4.4.
 class OccluderSearch {
  public:
   OccluderSearch(const SearchSettings& settings, const LevelSettings& levels,
@@ -20,18 +20,18 @@ class OccluderSearch {
 
   gl::ShaderDefines defines() const;
   /// Makes and binds the pyramid of a map, the layers above it and what occluders and biases are read from;
-  /// returns the map's frustum. `map` is the number of the map among those that are joined.
+  /// returns the map's frustum. `map` is the index of the map among those combined.
   const frame::LightFrustum& bind(frame::Frame& frame, const frame::ShadowMapSettings& settings, size_t map);
   void configure(const gl::Program& program) const;
 
   /// The minimum/maximum pyramid, of which every structure needs the minimum for micro-occluders, and the
   /// layers above it, of all maps together; valid once they are bound.
   int64_t structureBytes() const;
-  /// Of what is stored for the kind of occluders or form of bias alone.
+  /// Memory stored only for the kind of occluders or form of bias.
   int64_t occluderBytes() const { return coarse_.bytes() + bias_.bytes(); }
 
  private:
-  int64_t budget_;  // the most for a pixel; 0: no limit
+  int64_t budget_;  // largest per pixel; 0: no limit
   int refinements_;
   StructureSettings structure_;
   OccluderChoice occluders_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Percentage-closer filtering: the share of taps, on a regular grid over a window of the map, that do not block.
-layout(binding = 1) uniform sampler2D shadowMap;
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
+layout(binding = kShadowMapUnit) uniform sampler2D shadowMap;
 uniform int filterTaps;  // along a side
 
 // Tap (i, j) of n x n over a window of `size` texels around `centre`; outside the map nothing blocks.

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What became of a pixel: the first count channel. For C++ and GLSL.
 #pragma once
 
-#include <cstdint>
+#include "renderer/gl/shader_shared.h"
+
+#ifdef __cplusplus
+namespace limen::techniques::pixel_class {
+#endif
+
+const uint kNotReceiver = 0u;  // no surface that receives shadows
+const uint kLit = 1u;          // found to be lit without a look at occluders
+const uint kUmbra = 2u;        // found to be in umbra likewise
+const uint kProcessed = 3u;    // visibility from occluders
+const uint kOutside = 4u;      // looks past the map
+const uint kCutShort = 5u;     // needs more loop iterations than the driver grants
+const uint kClassCount = 6u;
+
+#ifdef __cplusplus
+}  // namespace limen::techniques::pixel_class
 
 namespace limen::techniques {
 
-namespace pixel_class {
-using uint = uint32_t;
-#include "renderer/techniques/soft_shadows/pixel_class.glsl"
-}  // namespace pixel_class
-
-/// Values of the first count channel.
 enum PixelClass : uint32_t {
   NotReceiver = pixel_class::kNotReceiver,
   Lit = pixel_class::kLit,
@@ -22,3 +32,4 @@ enum PixelClass : uint32_t {
 };
 
 }  // namespace limen::techniques
+#endif

@@ -18,7 +18,7 @@ void PixelCounts::add(const CountImages& images) {
     search = std::move(newSearch);
     return;
   }
-  // A pixel is what the map that had the most to do made of it; later maps need not see everything.
+  // A pixel's class is that of the map with the most work for it; later maps need not see everything.
   const auto rank = [](uint32_t kind) {
     constexpr std::array<int, ClassCount> kRank = {0, 1, 3, 4, 2, 5};
     return kRank.at(kind);
@@ -51,7 +51,7 @@ std::vector<Counter> visibilityCounters(const PixelCounts& counted) {
   const double all = static_cast<double>(counted.work.size()) / 4.0;
   if (pixels[CutShort] > 0.0)
     throw Error(shortestNumber(pixels[CutShort]) +
-                    " pixels need more loop iterations than this software renderer grants",
+                    " pixels need more loop iterations than this software renderer allows",
                 {}, "set 'budget', lower 'resolution', or run on a GPU");
   const double processed = pixels[Processed], receivers = all - pixels[NotReceiver];
   const auto share = [&](double part) { return all > 0.0 ? part / all : 0.0; };

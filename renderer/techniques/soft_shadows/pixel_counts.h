@@ -14,8 +14,8 @@ struct CountImages {
   gl::Texture work, search;
 };
 
-/// Four figures a pixel each: class, micro-occluders, fetches, level, rounded up where it lies between two;
-/// and search area in texels, micro-occluders examined, those that covered any of the light, bits of the real
+/// Four values per pixel each: class, micro-occluders, fetches, level, rounded up if between two; and search
+/// area in texels, micro-occluders examined, those that covered any of the light, bits of the real-valued
 /// level.
 struct PixelCounts {
   glm::ivec2 sizePx{0};
@@ -25,7 +25,7 @@ struct PixelCounts {
   void add(const CountImages& images);
 };
 
-/// A technique whose count() says what became of each pixel.
+/// A technique whose count() classifies each pixel.
 class CountsPixels {
  public:
   virtual ~CountsPixels() = default;
@@ -34,7 +34,7 @@ class CountsPixels {
 };
 
 /// Shares of lit, umbra, processed and outside pixels; micro-occluders, fetches and texels searched per
-/// processed pixel; the share of micro-occluders that were examined for nothing. Throws Error if a driver cut
+/// processed pixel; the share of micro-occluders examined in vain. Throws Error if a driver cut
 /// loops short.
 std::vector<Counter> visibilityCounters(const PixelCounts& counted);
 /// What they mean.

@@ -17,7 +17,7 @@ const FixedSums* fixedSums(const PrefilteredSettings& settings) {
 
 const SettingsTable<FixedWindow>& FixedWindow::table() {
   static const SettingsTable<FixedWindow> kTable = {
-      Binding(&FixedWindow::radius, "radius", Range{0.5, 256}, "texel", "Half the side of the window")
+      Binding(&FixedWindow::radius, "radius", Range{0.5, 256}, "texel", "Half-width of the window")
           .formerly({"filter_radius"})};
   return kTable;
 }
@@ -25,7 +25,7 @@ const SettingsTable<FixedWindow>& FixedWindow::table() {
 const SettingsTable<SearchedWindow>& SearchedWindow::table() {
   static const SettingsTable<SearchedWindow> kTable = {
       Binding(&SearchedWindow::scale, "scale", Range{0.01, 4}, "", kScaleText).formerly({"search_scale"}),
-      Binding(&SearchedWindow::taps, "taps", Range{1, 32}, "", "Taps of the blocker search along a side")
+      Binding(&SearchedWindow::taps, "taps", Range{1, 32}, "", "Taps of the blocker search per side")
           .formerly({"search_taps"})};
   return kTable;
 }
@@ -34,21 +34,21 @@ const SettingsTable<ConvolvedWindow>& ConvolvedWindow::table() {
   static const SettingsTable<ConvolvedWindow> kTable = {
       Binding(&ConvolvedWindow::scale, "scale", Range{0.01, 4}, "", kScaleText),
       Binding(&ConvolvedWindow::threshold, "threshold", Range{0.001, 0.5}, "",
-              "Share of the search's window that must block before there is a blocker")
+              "Smallest blocking share of the search window that counts as a blocker")
           .formerly({"search_threshold"})};
   return kTable;
 }
 
 const SettingsTable<FixedSums>& FixedSums::table() {
   static const SettingsTable<FixedSums> kTable = {
-      Binding(&FixedSums::bits, "bits", Range{0, 24}, "bit", "Bits of a value; 0: as many as never overflow")
+      Binding(&FixedSums::bits, "bits", Range{0, 24}, "bit", "Bits of a value; 0: as many as cannot overflow")
           .formerly({"sum_bits"})};
   return kTable;
 }
 
 const SettingsTable<SumsPrefilter>& SumsPrefilter::table() {
   static const SettingsTable<SumsPrefilter> kTable = {
-      Binding(&SumsPrefilter::form, "form", "How the sums are held", "Schwarz 2009, section 3.2.1")
+      Binding(&SumsPrefilter::form, "form", "How the sums are stored", "Schwarz 2009, section 3.2.1")
           .formerly({"sums"})};
   return kTable;
 }
@@ -57,8 +57,8 @@ const SettingsTable<PrefilteredSettings>& PrefilteredSettings::table() {
   using S = PrefilteredSettings;
   static const SettingsTable<S> kTable = {
       included(&S::map),
-      Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
-      {&S::prefilter, "prefilter", "What averages are taken from", "Schwarz 2009, section 3.2.1"}};
+      Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
+      {&S::prefilter, "prefilter", "Structure for averages", "Schwarz 2009, section 3.2.1"}};
   return kTable;
 }
 
@@ -67,7 +67,7 @@ void PrefilteredSettings::check() const {
   const int limit = frame::sumBits(map.resolution);
   if (!fixed || fixed->bits <= limit) return;
   throw Error("values of " + std::to_string(fixed->bits) + " bits over a map of " +
-                  std::to_string(map.resolution) + " texels a side need sums of more than 32 bits",
+                  std::to_string(map.resolution) + " texels per side need sums of more than 32 bits",
               "prefilter.form.bits", "give at most " + std::to_string(limit) + ", or a smaller resolution");
 }
 

@@ -8,34 +8,34 @@
 
 namespace limen::techniques {
 
-/// Window of fixed size that is averaged.
+/// Averaging window of fixed size.
 struct FixedWindow {
   static constexpr const char *kKind = "fixed", *kSummary = "of fixed size";
   double radius = 4.0;  ///< texels
   static const SettingsTable<FixedWindow>& table();
 };
 
-/// Window as wide as percentage-closer soft shadows have it, the blockers being found by taps.
+/// Window of the same size as for percentage-closer soft shadows, with blockers found by taps.
 struct SearchedWindow {
   static constexpr const char *kKind = "searched",
                               *kSummary = "by the blockers' average depth, searched by taps";
   double scale = 1.0;  ///< share of the light's extents
-  int taps = 8;        ///< along a side
+  int taps = 8;        ///< per side
   static const SettingsTable<SearchedWindow>& table();
 };
 
-/// The same, the blockers' average depth being an average of the map.
+/// The same, with the blockers' average depth taken from averages of the map.
 struct ConvolvedWindow {
   static constexpr const char *kKind = "convolved",
                               *kSummary = "by the blockers' average depth, from averages of the map";
   double scale = 1.0;       ///< share of the light's extents
-  double threshold = 0.05;  ///< share of the window that must block before there is a blocker
+  double threshold = 0.05;  ///< smallest blocking share of the window that counts as a blocker
   static const SettingsTable<ConvolvedWindow>& table();
 };
 
 using AnyWindow = std::variant<SearchedWindow, ConvolvedWindow, FixedWindow>;
 
-/// How the sums of a summed-area table are held.
+/// How the sums of a summed-area table are stored.
 struct FloatSums {
   static constexpr const char *kKind = "float", *kSummary = "32-bit floats";
 };
@@ -44,11 +44,11 @@ struct FloatMeanSums {
 };
 struct FixedSums {
   static constexpr const char *kKind = "fixed", *kSummary = "32-bit whole numbers";
-  int bits = 0;  ///< of a value; 0: as many as never overflow
+  int bits = 0;  ///< of a value; 0: as many as cannot overflow
   static const SettingsTable<FixedSums>& table();
 };
 
-/// What averages are taken from.
+/// The structure for averages.
 struct SumsPrefilter {
   static constexpr const char *kKind = "sums", *kSummary = "summed-area table: any rectangle";
   std::variant<FloatSums, FloatMeanSums, FixedSums> form;
@@ -58,16 +58,16 @@ struct MipsPrefilter {
   static constexpr const char *kKind = "mips", *kSummary = "pyramid: squares of the window's area";
 };
 
-/// What all techniques that average a shadow map have beside their windows; included in their settings.
+/// Common settings, besides the window, of all techniques that average a shadow map; included in theirs.
 struct PrefilteredSettings {
   MapSettings map = {};
   SlopeBias bias = {};
   std::variant<SumsPrefilter, MipsPrefilter> prefilter = {};
   static const SettingsTable<PrefilteredSettings>& table();
-  /// Throws Error if values of so many bits need sums of more than 32.
+  /// Throws Error if values of this many bits need sums of more than 32.
   void check() const;
 
-  /// Map, way of averaging, form of the sums.
+  /// Map, averaging structure, form of the sums.
   frame::PrefilterSettings prefilterSettings() const;
 };
 

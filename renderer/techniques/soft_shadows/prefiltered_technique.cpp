@@ -2,6 +2,7 @@
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -53,8 +54,8 @@ PrefilteredTechnique::PrefilteredTechnique(const std::string& name, const Prefil
 const frame::LightFrustum& PrefilteredTechnique::bindMap(frame::Frame& frame) {
   map_ = &frame.get<frame::PrefilteredMap>(prefilter_);
   const auto& map = frame.get<frame::ShadowMap>(mapSettings());
-  map.texture().bindTexture(1);
-  map_->bind(2);
+  map.texture().bindTexture(kShadowMapUnit);
+  map_->bind(kAveragesUnit);
   return map.frustum();
 }
 

@@ -12,13 +12,13 @@ namespace limen::techniques {
 /// Binding of a technique's windows, a variant of some of AnyWindow's alternatives.
 template <class S, class... W>
 Binding<S> windowBinding(std::variant<W...> S::*member) {
-  return {member, "window", "What is averaged", "Schwarz 2009, section 3.2.1"};
+  return {member, "window", "Window that is averaged", "Schwarz 2009, section 3.2.1"};
 }
 
-/// Base of the techniques that average a shadow map before they compare with it (SS-03): one look-up of a
-/// window instead of many comparisons. The window is fixed, or as wide as percentage-closer soft shadows have
-/// it, from the average depth of the blockers; the part of it that lies beyond the map is lit, as nothing is
-/// known to block there. The shader includes prefiltered_window.glsl and defines estimate().
+/// Base of the techniques that average a shadow map before they compare with it (SS-03): one lookup of a
+/// window instead of many comparisons. The window is fixed, or sized as for percentage-closer soft shadows by
+/// the average depth of the blockers; the part beyond the map counts as lit, as nothing is known to block
+/// there. The shader includes prefiltered_window.glsl and defines estimate().
 class PrefilteredTechnique : public VisibilityTechnique {
  public:
   std::vector<Counter> count(frame::Frame& frame) override;
@@ -26,7 +26,7 @@ class PrefilteredTechnique : public VisibilityTechnique {
   static TechniqueInfo info(std::string name, std::string summary);
 
  protected:
-  /// `prefilter` is common.prefilterSettings() with what the technique stores of depths.
+  /// `prefilter` is common.prefilterSettings() with the technique's encoding of depths.
   template <class... W>
   PrefilteredTechnique(const std::string& name, const PrefilteredSettings& common,
                        const std::variant<W...>& window, const frame::PrefilterSettings& prefilter)

@@ -2,7 +2,7 @@
 // The window over which a prefiltered map is averaged, and what its part beyond the map adds. The technique defines
 // estimate(): visibility by the averages over a rectangle within the map, for a receiver at a normalised depth.
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
-#define SUMS_UNIT 2
+#define SUMS_UNIT kAveragesUnit
 #include "renderer/frame/prefiltered_map.glsl"
 
 #ifdef WINDOW_FIXED

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastTexels = 10.0, kMiddleTexels = 400.0, kMostTexels = 6000.0;
 constexpr double kCoarsestLevel = 5.0;
-constexpr double kLeastRoot = 4.0, kMostRoot = 36.0;  // 12 is half-way between their logarithms
+constexpr double kLeastRoot = 4.0, kMostRoot = 36.0;  // 12 is halfway between their logarithms
 
 /// Blue at 0, green at 1/2, red at 1.
 glm::vec3 heat(double value) {

@@ -13,11 +13,11 @@ const SettingsTable<SearchSettings>& SearchSettings::table() {
   static const SettingsTable<S> kTable = {
       included(&S::map),
       Binding(&S::bias, "bias",
-              "What a depth must undercut the receiver's by, to keep a surface from shadowing itself",
+              "Bias that keeps a surface from shadowing itself: how far a depth must be below the receiver's",
               "Schwarz 2009, section 4.5.4")
           .shorthand("constant")
           .formerly({"bias_form"}),
-      Binding(&S::budget, "budget", "Micro-occluders allowed for a pixel",
+      Binding(&S::budget, "budget", "Micro-occluders allowed per pixel",
               "Schwarz 2009, sections 4.1, 4.5 and 5.2.1")
           .shorthand("limit")
           .formerly({"budget_map"}),
@@ -25,9 +25,9 @@ const SettingsTable<SearchSettings>& SearchSettings::table() {
        "refinements",
        {0, 3},
        "",
-       "Times that the search area is narrowed by its depth range",
+       "Number of times that the search area is narrowed by its depth range",
        "Schwarz 2009, section 4.1"},
-      {&S::structure, "structure", "What finds the depth range of a search area",
+      {&S::structure, "structure", "Structure that provides the depth range of a search area",
        "Schwarz 2009, sections 4.1 and 4.3; N-buffer: Décoret 2005"}};
   return kTable;
 }
@@ -39,7 +39,7 @@ void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, 
   const auto tooCoarse = [&](double level, const char* where) {
     if (level > coarsest)
       throw Error("level " + shortestNumber(level) + " of a map of " + std::to_string(resolution) +
-                      " texels a side is asked for, of which level " + std::to_string(coarsest) +
+                      " texels per side was requested, of which level " + std::to_string(coarsest) +
                       " is a single texel",
                   where, "give a lower level, or a higher resolution");
   };
@@ -47,14 +47,14 @@ void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, 
   if (occluders.morphLevel) {
     tooCoarse(*occluders.morphLevel, "occluders.level");
     if (!std::holds_alternative<FinestWithin>(levels))
-      throw Error("morphing microquads lie between two levels of their own, and 'levels' would choose others",
-                  "levels", "leave it out, or give other occluders");
+      throw Error("morphing microquads lie between two levels of their own, which conflict with 'levels'",
+                  "levels", "leave it out, or choose other occluders");
   }
   if (!fixed && !occluders.morphLevel) return;
   const auto* uniform = std::get_if<UniformBudget>(&search.budget);
   if (!uniform || uniform->limit != UniformBudget{}.limit)
-    throw Error("a budget leads to a level for each pixel, and here all have one level", "budget",
-                fixed ? "leave it out, or give other levels" : "leave it out, or give other occluders");
+    throw Error("a budget leads to a level per pixel, but here all pixels have the same level", "budget",
+                fixed ? "leave it out, or choose other levels" : "leave it out, or choose other occluders");
 }
 
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {
@@ -62,9 +62,9 @@ void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {
                         occluders.kind == OccluderKind::Microquads ||
                         occluders.kind == OccluderKind::MicroquadsMicrotris;
   if (std::holds_alternative<StoredBias>(search.bias) && !ofTexels)
-    throw Error(std::string("a stored bias belongs to a texel of a level, and ") + limen::toText(occluders.kind) +
-                    " are made of others or of several",
-                "bias", "give another form, or occluders: micropatches or microquads");
+    throw Error(std::string("a stored bias belongs to a texel of a level, and ") +
+                    limen::toText(occluders.kind) + " are made of others or of several",
+                "bias", "choose another form, or occluders: micropatches or microquads");
 }
 
 }  // namespace limen::techniques

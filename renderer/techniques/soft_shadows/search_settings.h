@@ -9,23 +9,23 @@
 
 namespace limen::techniques {
 
-/// What all techniques have that search the shadow map for the texels that can matter to a receiver; included
-/// in their settings. Source: Schwarz 2009, sections 4.1 to 4.4.
+/// Common settings of all techniques that search the shadow map for the texels that can matter to a receiver;
+/// included in theirs. Source: Schwarz 2009, sections 4.1 to 4.4.
 struct SearchSettings {
   MapSettings map = {};
-  /// A micropatch of the receiver's own plane stands above that plane by the slope over one texel. Leaving
-  /// out the receiver's texel and the next leaves only patches whose false elevation is below half of the
-  /// plane's own.
+  /// A micropatch of the receiver's own plane is above that plane by the slope over one texel. Skipping the
+  /// receiver's texel and the next leaves only patches whose false elevation is below half of the plane's
+  /// own.
   BiasSettings bias = SlopeBias{.slope = 2.0};
   BudgetSettings budget = {};
-  int refinements = 2;  ///< times that the search area is narrowed
+  int refinements = 2;  ///< number of times that the search area is narrowed
   StructureSettings structure = HierarchicalMap{};
   static const SettingsTable<SearchSettings>& table();
 };
 
-/// Throws Error where a level is asked for that the map does not have, or more than one choice is made of it.
+/// Throws Error if a requested level is not in the map, or if levels are chosen in more than one way.
 void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels);
-/// Throws Error where occluders have no single texel whose stored bias would count.
+/// Throws Error if occluders have no single texel whose stored bias would apply.
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders);
 
 }  // namespace limen::techniques

@@ -8,11 +8,10 @@
 #include "renderer/techniques/soft_shadows/quality/level_step_search.h"
 #include "renderer/techniques/soft_shadows/quality/quality_counters.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
-
-constexpr uint32_t kBudgetUnit = 12;
 
 void append(std::vector<Counter>& all, std::vector<Counter> more) {
   for (Counter& counter : more) all.push_back(std::move(counter));
@@ -59,7 +58,7 @@ const frame::LightFrustum& SearchTechnique::bindInputs(frame::Frame& frame,
                                                        const frame::ShadowMapSettings& map) {
   if (split_) split_->makeInputs(frame);
   const frame::LightFrustum& frustum = search_.bind(frame, map, current_);
-  if (budgetMap_) budgetMap_->bindTexture(kBudgetUnit);
+  if (budgetMap_) budgetMap_->bindTexture(kBudgetMapUnit);
   if (split_) split_->bindInputs(frame);
   return frustum;
 }
@@ -74,14 +73,14 @@ void SearchTechnique::runPasses(frame::Frame& frame, const CountImages* counts) 
   if (split_) {
     assert(maps_.maps().size() == 1);  // techniques with several refuse split passes
     split_->run(frame, pass_, *this, maps_.maps()[0], counts);
-    if (counts) counted_.add(*counts);
+    if (counts) counted_->add(*counts);
     return;
   }
   const auto scope = frame.passes().open(pass_.name());
   for (current_ = 0; current_ < maps_.maps().size(); ++current_) {
     if (!maps_.isDue(current_)) continue;
     pass_.run(frame, *this, maps_.maps()[current_], counts);
-    if (counts) counted_.add(*counts);
+    if (counts) counted_->add(*counts);
   }
   current_ = 0;
 }
@@ -91,13 +90,13 @@ void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   for (current_ = 0; current_ < maps_.maps().size(); ++current_)
     if (maps_.isDue(current_)) VisibilityPass::makeInputs(frame, *this, maps_.maps()[current_]);
   current_ = 0;
-  // Frames that count take longer than those they stand for.
+  // Frames that count take longer than those they represent.
   BudgetDriver* steered = counts ? nullptr : budgets_.get();
   if (steered) steered->begin();
   runPasses(frame, counts);
-  // Levels of several maps stand behind one visibility, of which none has a step of its own.
+  // Levels of several maps contribute to one visibility, so none has a step of its own.
   if (counts && maps_.maps().size() == 1)
-    levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, counted_);
+    levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, *counted_);
   if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
   gathering_->join(frame, pass_.visibility());
   if (last_) last_->run(frame, pass_.visibility());
@@ -122,20 +121,20 @@ std::vector<Quantity> SearchTechnique::quantities() {
 }
 
 std::vector<Counter> SearchTechnique::count(frame::Frame& frame) {
-  // Of a whole image, however few maps the last frame read.
+  // For a whole image, however few maps the last frame read.
   maps_.chooseAll();
   levelSteps_.reset();
   const CountImages counts{gl::Texture(gl::Format::RGBA32UI, frame.sizePx()),
                            gl::Texture(gl::Format::RGBA32UI, frame.sizePx())};
-  counted_ = {frame.sizePx(), {}, {}};
+  counted_ = std::make_shared<PixelCounts>(PixelCounts{frame.sizePx(), {}, {}});
   frame.begin();
   run(frame, &counts);
   frame.end();
-  std::vector<Counter> all = visibilityCounters(counted_);
+  std::vector<Counter> all = visibilityCounters(*counted_);
   all.push_back({"structure_bytes", static_cast<double>(search_.structureBytes())});
   all.push_back({"occluder_bytes", static_cast<double>(search_.occluderBytes())});
   const std::optional<Image> budgets = budgetMap_ ? std::optional(budgetMap_->read()) : std::nullopt;
-  append(all, qualityCounters(counted_, budgets ? &*budgets : nullptr, budget_));
+  append(all, qualityCounters(*counted_, budgets ? &*budgets : nullptr, budget_));
   if (maps_.maps().size() == 1) append(all, levelStepCounters(levelSteps_.value_or(LevelSteps{})));
   append(all, budgetFacts());
   append(all, gathering_->count(frame));
@@ -155,11 +154,13 @@ std::map<std::string, const gl::Texture*> SearchTechnique::debugViews() const {
   return views;
 }
 
-std::map<std::string, Image> SearchTechnique::pictures() const {
-  std::map<std::string, Image> all;
-  if (!counted_.work.empty())
-    all = {{"search_area", searchAreaPicture(counted_)}, {"levels", levelPicture(counted_)}};
-  if (budgetMap_) all["budget"] = budgetPicture(budgetMap_->read());
+std::map<std::string, PictureMaker> SearchTechnique::pictures() const {
+  std::map<std::string, PictureMaker> all;
+  if (!counted_->work.empty()) {
+    all["search_area"] = [counted = counted_] { return searchAreaPicture(*counted); };
+    all["levels"] = [counted = counted_] { return levelPicture(*counted); };
+  }
+  if (budgetMap_) all["budget"] = [budgets = budgetMap_->read()] { return budgetPicture(budgets); };
   return all;
 }
 

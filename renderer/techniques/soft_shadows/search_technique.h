@@ -14,9 +14,9 @@
 
 namespace limen::techniques {
 
-/// The techniques that backproject the shadow map's texels onto the light, put together from parts: maps, the
-/// search for occluders in them, levels, budgets, what occluders are gathered into, and what makes the
-/// product of that. Source: Schwarz 2009, chapters 4 and 5.
+/// The techniques that backproject the shadow map's texels onto the light, composed of parts: maps, the
+/// search for occluders in them, levels, budgets, the gathering of occluders, and what turns that into the
+/// product. Source: Schwarz 2009, chapters 4 and 5.
 class SearchTechnique : public Technique, public CountsPixels, private PassInputs {
  public:
   /// prepare() of all parts, then the frames in which a driver of the budget settles.
@@ -24,22 +24,22 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   void render(frame::Frame& frame) override;
   const gl::Texture& product() const override;
   std::vector<Counter> count(frame::Frame& frame) override;
-  /// Of the split form: areas and levels of split_search.h; and the budget map, where there is one, with what
-  /// its driver shows.
+  /// In the split form: areas and levels of split_search.h; and the budget map, if there is one, with its
+  /// driver's images.
   std::map<std::string, const gl::Texture*> debugViews() const override;
   /// Search areas in the colours of the thesis's figure 4.10 and levels as in figure 4.11, once count() ran;
   /// and the budget map.
-  std::map<std::string, Image> pictures() const override;
+  std::map<std::string, PictureMaker> pictures() const override;
 
-  const PixelCounts& counted() const override { return counted_; }
-  /// What count() found; empty before, with several maps, and where all pixels have one level.
+  const PixelCounts& counted() const override { return *counted_; }
+  /// What count() found; empty before, with several maps, and if all pixels have one level.
   const std::optional<LevelSteps>& levelSteps() const { return levelSteps_; }
-  /// What the driver of the budget says of the last frame; without waiting or rendering another one.
+  /// The budget driver's counters for the last frame, without waiting or rendering another one.
   std::vector<Counter> budgetFacts() const;
 
-  /// What count() returns, that of gathering and product aside: those of every visibility technique;
-  /// structure_bytes and occluder_bytes, see OccluderSearch; those of quality_counters.h; where one map is
-  /// read, those of level_steps.h; and those of drivers.
+  /// What count() returns, except that of gathering and product: the counters of every visibility technique;
+  /// structure_bytes and occluder_bytes, see OccluderSearch; those of quality_counters.h; if one map is read,
+  /// those of level_steps.h; and those of drivers.
   static std::vector<Quantity> quantities();
 
  protected:
@@ -51,7 +51,7 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
     OccluderChoice occluders;
     MapChoice maps;
     std::unique_ptr<Gathering> gathering;
-    std::unique_ptr<ProductStage> last;  ///< null: the visibility as it was gathered
+    std::unique_ptr<ProductStage> last;  ///< null: the visibility as gathered
   };
   explicit SearchTechnique(Parts parts);
 
@@ -68,14 +68,15 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   OccluderSearch search_;
   LevelOfQuality quality_;
   MapSource maps_;
-  size_t current_ = 0;                      // the map that is read at present
-  int64_t budget_;                          // the most for a pixel; 0: no limit
+  size_t current_ = 0;                      // the map currently read
+  int64_t budget_;                          // largest per pixel; 0: no limit
   std::unique_ptr<BudgetDriver> budgets_;   // null: the same budget for all pixels
   const gl::Texture* budgetMap_ = nullptr;  // of this frame
   std::unique_ptr<Gathering> gathering_;
   std::unique_ptr<ProductStage> last_;
   std::optional<SplitRunner> split_;  // empty: a single pass
-  PixelCounts counted_;
+  /// Replaced by count(), never changed after it: pictures still read it on other threads.
+  std::shared_ptr<PixelCounts> counted_ = std::make_shared<PixelCounts>();
   std::optional<LevelSteps> levelSteps_;
 };
 

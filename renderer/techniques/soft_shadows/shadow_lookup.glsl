@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every soft-shadow shader shares: the receiver points, the map's frustum, biases, and where results go.
 // VisibilityPass binds all of it.
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kReceiversUnit) uniform sampler2D receivers;
+layout(binding = kVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
-layout(binding = 1, rgba32ui) uniform uimage2D outCounts;
-layout(binding = 2, rgba32ui) uniform writeonly uimage2D outSearch;
+layout(binding = kCountsImage, rgba32ui) uniform uimage2D outCounts;
+layout(binding = kSearchImage, rgba32ui) uniform writeonly uimage2D outSearch;
 #endif
 
 uniform ivec2 sizePx;
@@ -19,7 +20,7 @@ uniform vec2 eyeOnLight;  // place that the map is seen from and receivers are r
 uniform int resolution;
 uniform float bias, slopeBias, maxSlope;
 
-#include "renderer/techniques/soft_shadows/pixel_class.glsl"
+#include "renderer/techniques/soft_shadows/pixel_class.h"
 
 // Classes and work of this pixel; the compiler removes them where nobody counts. A level that lies between two stands for
 // both.

@@ -8,15 +8,14 @@ namespace limen::techniques {
 const SettingsTable<LayerSettings>& LayerSettings::table() {
   static const SettingsTable<LayerSettings> kTable = {
       Binding(&LayerSettings::rangeSamples, "range_samples",
-              "Squares that answer a depth range: one around the area, four at its corners, or one for the "
+              "Squares used for a depth range: one around the area, four at its corners, or one for the "
               "first range of a pixel",
               "Schwarz 2009, section 4.3.1 (one_then_four)")
           .formerly({"range_samples"}),
-      Binding(
-          &LayerSettings::growth, "growth",
-          "Take whole micro-occluders of the level that the budget leads to; without, an edge stands where "
-          "pixels become fully lit",
-          "Schwarz 2009, section 4.3.1")
+      Binding(&LayerSettings::growth, "growth",
+              "Use whole micro-occluders of the level that the budget leads to; otherwise there is an edge "
+              "where pixels become fully lit",
+              "Schwarz 2009, section 4.3.1")
           .formerly({"growth"})};
   return kTable;
 }

@@ -9,7 +9,7 @@
 
 namespace limen::techniques {
 
-/// Squares that answer a depth range in structures with layers.
+/// Squares used for a depth range in structures with layers.
 enum class RangeSamples {
   One,          ///< around the area
   OneThenFour,  ///< one for the first range of a pixel, then four
@@ -46,12 +46,12 @@ struct NBufferLayers {
 };
 struct YLayers {
   static constexpr const char *kKind = "ysm", *kSummary = "Y shadow map: layers over a coarse level";
-  int base = 256;  ///< texels along a side of the layers, at most the map's
+  int base = 256;  ///< texels per side of the layers, at most the map's
   LayerSettings layers;
   static const SettingsTable<YLayers>& table();
 };
 
-/// Acceleration structure: what tells the depth range of an area of the shadow map. Source: Schwarz 2009,
+/// Acceleration structure: provides the depth range of an area of the shadow map. Source: Schwarz 2009,
 /// sections 4.1 and 4.3.
 using StructureSettings =
     std::variant<NoStructure, HierarchicalMap, MultiScaleLayers, NBufferLayers, YLayers>;
@@ -60,9 +60,9 @@ using StructureSettings =
 const LayerSettings* layersOf(const StructureSettings& structure);
 /// What depth_bounds.glsl reads, and GROW of occluder_search.glsl.
 void defineStructure(const StructureSettings& structure, gl::ShaderDefines& defines);
-/// Depth ranges of a pixel, from the first on, that one square answers; 0 without layers.
+/// Number of a pixel's first depth ranges that use one square; 0 without layers.
 int roughQueries(const StructureSettings& structure);
-/// The layers over a map of `resolution` texels a side; the structure has layers.
+/// The layers over a map of `resolution` texels per side; the structure has layers.
 frame::MultiScaleSettings multiScaleSettings(const StructureSettings& structure,
                                              const frame::ShadowMapSettings& map);
 

@@ -5,6 +5,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/receivers_from.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -50,11 +51,11 @@ void VisibilityPass::bind(frame::Frame& frame, const gl::Program& program, PassI
   program.set("eyeOnLight", glm::vec2(map.eye));
   program.set("resolution", map.resolution);
   inputs.setUniforms(program);
-  receiversOf(frame, map.eye).bindTexture(0);
-  visibility_->bindImage(0, gl::Access::Write);
+  receiversOf(frame, map.eye).bindTexture(kReceiversUnit);
+  visibility_->bindImage(kVisibilityImage, gl::Access::Write);
   if (!counts) return;
-  counts->work.bindImage(1, gl::Access::ReadWrite);
-  counts->search.bindImage(2, gl::Access::Write);
+  counts->work.bindImage(kCountsImage, gl::Access::ReadWrite);
+  counts->search.bindImage(kSearchImage, gl::Access::Write);
 }
 
 void VisibilityPass::run(frame::Frame& frame, PassInputs& inputs, const frame::ShadowMapSettings& map,
@@ -67,8 +68,8 @@ void VisibilityPass::run(frame::Frame& frame, PassInputs& inputs, const frame::S
 
 BoundPyramid bindPyramid(frame::Frame& frame, const frame::ShadowMapSettings& map) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(map);
-  pyramid.minimum().bindTexture(1);
-  pyramid.maximum().bindTexture(2);
+  pyramid.minimum().bindTexture(kMinimumMapUnit);
+  pyramid.maximum().bindTexture(kMaximumMapUnit);
   return {pyramid.frustum(), pyramid.levels()};
 }
 

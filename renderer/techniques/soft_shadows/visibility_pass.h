@@ -10,11 +10,11 @@
 
 namespace limen::techniques {
 
-/// What a shader of visibility reads beside receivers: the shadow map, and all that is the technique's own.
+/// What a visibility shader reads besides receivers: the shadow map and everything specific to the technique.
 class PassInputs {
  public:
   virtual ~PassInputs() = default;
-  /// Makes and binds the map and what belongs to it, from texture unit 1; returns its frustum.
+  /// Makes and binds the map and associated inputs, from texture unit 1; returns its frustum.
   virtual const frame::LightFrustum& bindInputs(frame::Frame& frame, const frame::ShadowMapSettings& map) = 0;
   /// Sets the uniforms, biases among them.
   virtual void setUniforms(const gl::Program& program) const = 0;
@@ -23,14 +23,14 @@ class PassInputs {
 /// A compute shader over the receivers into a visibility image. The shader includes shadow_lookup.glsl, which
 /// declares what this class binds:
 ///   texture unit 0: receivers; from unit 1: what PassInputs binds
-///   image unit 0: visibility; units 1 and 2, where COUNT is defined: CountImages
+///   image unit 0: visibility; units 1 and 2, if COUNT is defined: CountImages
 class VisibilityPass {
  public:
   /// `shader` is a path from the repository root, `name` the one in the pass list.
   VisibilityPass(std::string shader, std::string name, gl::ShaderDefines defines);
 
   const std::string& name() const { return name_; }
-  /// Adds to what the shader is compiled with; before prepare().
+  /// Adds defines for the shader; call before prepare().
   void define(const gl::ShaderDefines& more);
   /// Allocates the visibility image.
   void prepare(frame::Frame& frame);
@@ -41,7 +41,7 @@ class VisibilityPass {
 
   /// The shader; compiles it the first time.
   const gl::Program& program(frame::Frame& frame, bool counting, const gl::ShaderDefines& more = {}) const;
-  /// Makes all that bind() will bind, outside of any pass.
+  /// Makes everything that bind() will bind, outside of any pass.
   static void makeInputs(frame::Frame& frame, PassInputs& inputs, const frame::ShadowMapSettings& map);
   /// `counts` is null in a plain frame.
   void bind(frame::Frame& frame, const gl::Program& program, PassInputs& inputs,
@@ -62,10 +62,10 @@ struct BoundPyramid {
   const frame::LightFrustum& frustum;
   int levels;
 };
-/// The map's pyramid: minimum at texture unit 1, maximum at 2. Making it binds textures too: call it first,
-/// or once it has been made.
+/// The map's pyramid: minimum at texture unit 1, maximum at 2. Making it binds textures too: call this first,
+/// or after it has been made.
 BoundPyramid bindPyramid(frame::Frame& frame, const frame::ShadowMapSettings& map);
-/// Iterations that a loop of a shader may have: llvmpipe leaves all loops silently after 65,535.
+/// Number of iterations that a shader loop may have: llvmpipe silently exits any loop after 65,535.
 int maxLoopIterations(frame::Frame& frame);
 
 }  // namespace limen::techniques

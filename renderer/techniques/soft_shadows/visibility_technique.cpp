@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
 
 VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader,
@@ -17,7 +19,7 @@ void VisibilityTechnique::prepare(frame::Frame& frame) {
 
 const frame::LightFrustum& VisibilityTechnique::bindMap(frame::Frame& frame) {
   const auto& map = frame.get<frame::ShadowMap>(map_);
-  map.texture().bindTexture(1);
+  map.texture().bindTexture(kShadowMapUnit);
   return map.frustum();
 }
 

@@ -9,7 +9,7 @@
 namespace limen::techniques {
 
 /// A soft-shadow technique of one pass over one shadow map: derive from it, give it a shader, and set the
-/// shader's uniforms. Others put parts together themselves (search_technique.h).
+/// shader's uniforms. Others compose parts themselves (search_technique.h).
 class VisibilityTechnique : public Technique, public CountsPixels, private PassInputs {
  public:
   void prepare(frame::Frame& frame) override;

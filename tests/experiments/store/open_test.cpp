@@ -50,7 +50,7 @@ TEST_F(StoreTest, AMissingFolderIsMade) {
 TEST_F(StoreTest, AFileInTheWayOfTheFolderIsRefused) {
   writeFile(path("a"), "text");
   EXPECT_THAT(errorOf([&] { Store store(path("a/s.sqlite"), Access::ReadWrite); }),
-              HasSubstr("cannot be made"));
+              HasSubstr("cannot be created"));
 }
 
 TEST_F(StoreTest, AStoreOpenedForReadingRefusesToWrite) {

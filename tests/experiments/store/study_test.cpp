@@ -248,8 +248,8 @@ TEST_F(StoreTest, AFullDiskLosesTheEntryAndNothingBefore) {
       log.append(id, {began});
     }
   });
-  EXPECT_THAT(error,
-              AllOf(HasSubstr("s.sqlite"), HasSubstr("the disk is full"), HasSubstr("what is done is kept")));
+  EXPECT_THAT(
+      error, AllOf(HasSubstr("s.sqlite"), HasSubstr("the disk is full"), HasSubstr("finished work is kept")));
   EXPECT_GT(number, 3);
   {
     SessionReader reader(store);

@@ -109,7 +109,7 @@ TEST_F(CompareCli, LimitsDecideTheExitCode) {
             1);
   expectRefused(with({"--fail-above", "psnr=30"}), {"--fail-below psnr=30"});
   expectRefused(with({"--fail-above", "largest=1"}), {"largest_error"});
-  expectRefused(with({"--fail-above", "largest_error=x"}), {"'x' is no number"});
+  expectRefused(with({"--fail-above", "largest_error=x"}), {"'x' is not a number"});
   expectRefused(with({"--fail-above", "0.5"}), {"FIGURE=VALUE", "0.5"});
 }
 

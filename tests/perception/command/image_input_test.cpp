@@ -95,7 +95,7 @@ TEST_F(ImageInputCli, AlphaIsInFrontOfBlackInLightUnlessIgnored) {
   save("covered.exr", covered, {OIIO::TypeDesc::FLOAT, {}, {}});
   const nlohmann::json found = compared("a.png", "covered.exr");
   EXPECT_LE(figure(found, "largest_error"), 1e-6);
-  EXPECT_EQ(found.at("inputs").at("image").at("alpha"), "in front of black");
+  EXPECT_EQ(found.at("inputs").at("image").at("alpha"), "composited over black");
   EXPECT_EQ(figure(compared("a.png", "opaque.png", {"--alpha", "ignore"}), "largest_error"), 0.0);
   EXPECT_TRUE(compared("a.png", "opaque.png").at("figures").at("rmse_coded").is_null());
 }

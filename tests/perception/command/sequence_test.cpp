@@ -122,8 +122,8 @@ TEST_F(SequenceCli, RefusesSequencesThatDoNotBelongTogether) {
   expectRefused({"compare", "a_%d.png", "b_%d.png"}, {"lacks the frames 1"});
   expectRefused({"compare", "b_%d.png", "a_%d.png"}, {"lacks the frames 1"});
   expectRefused({"compare", "a_*.png", "b_*.png"}, {"3 images", "2"});
-  expectRefused({"compare", "c_%d.png", "a_%d.png"}, {"no file fits 'c_%d.png'"});
-  expectRefused({"compare", "c_*.png", "a_%d.png"}, {"no file fits"});
+  expectRefused({"compare", "c_%d.png", "a_%d.png"}, {"no file matches 'c_%d.png'"});
+  expectRefused({"compare", "c_*.png", "a_%d.png"}, {"no file matches"});
   expectRefused({"compare", "a_%d_%d.png", "a_%d.png"}, {"two numbers"});
 }
 

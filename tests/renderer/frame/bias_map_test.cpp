@@ -7,6 +7,7 @@
 #include <array>
 #include <random>
 
+#include "renderer/frame/frame_bindings.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/frame/depth_pyramid.h"
 #include "tests/renderer/gl/gl_fixture.h"

@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "renderer/frame/frame_bindings.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/frame/microrect_twin.h"
 #include "tests/renderer/gl/gl_fixture.h"

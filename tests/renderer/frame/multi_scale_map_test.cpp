@@ -4,6 +4,7 @@
 #include <random>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/frame_bindings.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/frame/depth_pyramid.h"
 #include "tests/renderer/gl/gl_fixture.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/receivers_from.h"
 #include "renderer/frame/shadow_map.h"

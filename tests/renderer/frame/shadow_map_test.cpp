@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/frame/frame_bindings.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/gl/gl_fixture.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over many rectangles, for comparison with sums in double precision.
-#define SUMS_UNIT 2
+#include "tests/renderer/frame/readback_bindings.h"
+
+#define SUMS_UNIT kSumsReadbackSumsUnit
 #include "renderer/frame/summed_area_table.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 1) readonly buffer Windows { vec4 windows[]; };  // low, high
-layout(std430, binding = 2) writeonly buffer Totals { vec2 totals[]; };   // a layer after another
+layout(std430, binding = kSumsReadbackWindowsBuffer) readonly buffer Windows { vec4 windows[]; };  // low, high
+layout(std430, binding = kSumsReadbackTotalsBuffer) writeonly buffer Totals { vec2 totals[]; };   // a layer after another
 uniform int count, layers;
 
 void main() {

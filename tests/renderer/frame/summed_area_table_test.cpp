@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/renderer/frame/readback_bindings.h"
 #include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::frame {
@@ -41,9 +42,9 @@ class SummedAreaTableTest : public gl::GlTest {
         "tests/renderer/frame/summed_area_probe.comp.glsl", SummedAreaTable::defines(form));
     const int count = static_cast<int>(windows.size());
     const gl::Buffer in(windows), out(int64_t{8} * count * map.layers, nullptr);
-    table.bind(2);
-    in.bindStorage(1);
-    out.bindStorage(2);
+    table.bind(kSumsReadbackSumsUnit);
+    in.bindStorage(kSumsReadbackWindowsBuffer);
+    out.bindStorage(kSumsReadbackTotalsBuffer);
     program.set("count", count);
     program.set("layers", map.layers);
     program.set("sumsUnit", 1.0F);

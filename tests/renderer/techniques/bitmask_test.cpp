@@ -7,6 +7,8 @@
 
 #include "tests/renderer/techniques/technique_fixture.h"
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::techniques {
 namespace {
 

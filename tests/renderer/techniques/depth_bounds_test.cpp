@@ -5,9 +5,12 @@
 #include <map>
 #include <random>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/multi_scale_map.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "tests/renderer/frame/depth_pyramid.h"
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -47,12 +50,12 @@ class DepthBounds : public TechniqueTest {
           context(), map.width >> baseLevel,
           structure.isCorner ? frame::WindowAnchor::Corner : frame::WindowAnchor::Centre);
       layers->build(pyramid.minimum(), pyramid.maximum(), baseLevel);
-      layers->texture().bindTexture(3);
+      layers->texture().bindTexture(kMultiScaleMapUnit);
     }
-    pyramid.minimum().bindTexture(1);
-    pyramid.maximum().bindTexture(2);
-    in.bindStorage(0);
-    out.bindStorage(1);
+    pyramid.minimum().bindTexture(kMinimumMapUnit);
+    pyramid.maximum().bindTexture(kMaximumMapUnit);
+    in.bindStorage(kDepthBoundsReadbackAreasBuffer);
+    out.bindStorage(kDepthBoundsReadbackRangesBuffer);
     program.set("count", static_cast<int>(areas.size()));
     program.set("rough", rough ? 1 : 0);
     program.set("baseLevel", baseLevel);

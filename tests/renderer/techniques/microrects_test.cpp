@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/microrect_map.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 

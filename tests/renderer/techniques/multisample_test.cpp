@@ -9,6 +9,7 @@
 #include <random>
 
 #include "experiments/base/error.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/techniques/technique_fixture.h"
@@ -57,10 +58,10 @@ class MultisampleResolve : public TechniqueTest {
     program.set("neighbours", setting.neighbours);
     program.set("tolerance", setting.tolerance);
     program.set("interpolate", setting.interpolate ? 1 : 0);
-    sampleDepths.bindTexture(0);
-    depths.bindTexture(1);
-    visibility.bindTexture(2);
-    out.bindImage(0, gl::Access::Write);
+    sampleDepths.bindTexture(kSampleResolveSampleDepthsUnit);
+    depths.bindTexture(kSampleResolveDepthsUnit);
+    visibility.bindTexture(kSampleResolveVisibilityUnit);
+    out.bindImage(kSampleResolveVisibilityImage, gl::Access::Write);
     program.dispatch(view.sizePx);
     return out.read();
   }
@@ -194,9 +195,9 @@ TEST_F(MultisampleShadows, SamplesSeeWhatRaysThroughTheirPlacesSee) {
     program.set(("samplePlaces[" + std::to_string(k) + "]").c_str(), ids.places()[static_cast<size_t>(k)]);
   frame.begin();
   ids.draw(frame);
-  ids.bindTexture(0);
-  spread.bindImage(0, gl::Access::Write);
-  places.bindImage(1, gl::Access::Write);
+  ids.bindTexture(kSampleIdsUnit);
+  spread.bindImage(kSamplePointIdsImage, gl::Access::Write);
+  places.bindImage(kSamplePlacesImage, gl::Access::Write);
   program.dispatch(sizePx);
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   frame.end();

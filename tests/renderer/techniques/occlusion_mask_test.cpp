@@ -5,6 +5,7 @@
 #include <random>
 
 #include "renderer/gl/buffer.h"
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -72,8 +73,8 @@ TEST_P(OcclusionMask, EqualsTestingEverySample) {
   const gl::Buffer in(given), out(int64_t{kRectangles} * words * 4, nullptr);
   const gl::Program& program = context().programs().compute(
       "tests/renderer/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
-  in.bindStorage(0);
-  out.bindStorage(1);
+  in.bindStorage(kMaskReadbackRectanglesBuffer);
+  out.bindStorage(kMaskReadbackMasksBuffer);
   program.set("count", kRectangles);
   program.dispatch({kRectangles, 1}, {64, 1});
   const auto masks = out.read<uint32_t>();
@@ -110,8 +111,8 @@ TEST_P(OcclusionMask, RectanglesThatShareAnEdgeShareNoSample) {
   const gl::Buffer in(given), out(static_cast<int64_t>(given.size()) * words * 4, nullptr);
   const gl::Program& program = context().programs().compute(
       "tests/renderer/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
-  in.bindStorage(0);
-  out.bindStorage(1);
+  in.bindStorage(kMaskReadbackRectanglesBuffer);
+  out.bindStorage(kMaskReadbackMasksBuffer);
   program.set("count", static_cast<int>(given.size()));
   program.dispatch({static_cast<int>(given.size()), 1}, {64, 1});
   const auto masks = out.read<uint32_t>();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What variance and convolution shadow maps make of windows that hold two depths.
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "renderer/frame/prefiltered_map.glsl"
 #include "renderer/techniques/soft_shadows/variance/chebyshev.glsl"
 #include "renderer/techniques/soft_shadows/convolution/fourier_step.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Windows { vec4 windows[]; };  // two depths, share of the first, receiver
-layout(std430, binding = 1) readonly buffer Moments { vec2 moments[]; };
-layout(std430, binding = 2) writeonly buffer Results { vec2 results[]; };
+layout(std430, binding = kPrefilteredReadbackWindowsBuffer) readonly buffer Windows { vec4 windows[]; };  // two depths, share of the first, receiver
+layout(std430, binding = kPrefilteredReadbackMomentsBuffer) readonly buffer Moments { vec2 moments[]; };
+layout(std430, binding = kPrefilteredReadbackResultsBuffer) writeonly buffer Results { vec2 results[]; };
 uniform int count;
 uniform float minVariance;
 

@@ -7,6 +7,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/prefiltered_map.h"
 #include "renderer/gl/buffer.h"
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -49,9 +50,9 @@ TEST_F(Prefiltered, FormulasHoldForAnyWindowOfTwoDepths) {
       context().programs().compute("tests/renderer/techniques/prefiltered_probe.comp.glsl");
   const gl::Buffer in(windows), averages(moments),
       out(static_cast<int64_t>(windows.size() * sizeof(glm::vec2)), nullptr);
-  in.bindStorage(0);
-  averages.bindStorage(1);
-  out.bindStorage(2);
+  in.bindStorage(kPrefilteredReadbackWindowsBuffer);
+  averages.bindStorage(kPrefilteredReadbackMomentsBuffer);
+  out.bindStorage(kPrefilteredReadbackResultsBuffer);
   program.set("count", static_cast<int>(windows.size()));
   program.set("terms", kTerms);
   program.set("minVariance", static_cast<float>(kMinVariance));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the mask that each of many quads sets, or its convex hull, for comparison with brute force.
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 #include "renderer/techniques/soft_shadows/bitmask/quad_mask.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Quads { vec4 corners[]; };  // two for each quad
-layout(std430, binding = 1) writeonly buffer Results { int results[]; };
+layout(std430, binding = kQuadMaskReadbackQuadsBuffer) readonly buffer Quads { vec4 corners[]; };  // two for each quad
+layout(std430, binding = kQuadMaskReadbackResultsBuffer) writeonly buffer Results { int results[]; };
 uniform int count;
 
 void main() {

@@ -9,7 +9,9 @@
 #include "renderer/techniques/soft_shadows/bitmask/bitmask_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "tests/renderer/techniques/quad_mask_twin.h"
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -63,8 +65,8 @@ class QuadMasks : public TechniqueTest, public testing::WithParamInterface<Sampl
     const gl::Buffer in(corners), out(static_cast<int64_t>(quads.size()) * results * 4, nullptr);
     const gl::Program& program =
         context().programs().compute("tests/renderer/techniques/quad_mask_probe.comp.glsl", defines);
-    in.bindStorage(0);
-    out.bindStorage(1);
+    in.bindStorage(kQuadMaskReadbackQuadsBuffer);
+    out.bindStorage(kQuadMaskReadbackResultsBuffer);
     program.set("count", static_cast<int>(quads.size()));
     program.dispatch({static_cast<int>(quads.size()), 1}, {64, 1});
     return out.read<int>();
@@ -75,7 +77,7 @@ class QuadMasks : public TechniqueTest, public testing::WithParamInterface<Sampl
     std::optional<gl::Texture> table;
     if (mask == QuadMask::HalfSpaceTable) {
       table.emplace(makeHalfSpaceTable(lightSamples(fromText<LightPattern>(pattern.name)), tableSize));
-      table->bindTexture(7);
+      table->bindTexture(kHalfSpacesUnit);
     }
     const int words = pattern.samples() / 32;
     gl::ShaderDefines defines = {{"PATTERN", pattern.define}, {"TABLE_SIZE", std::to_string(tableSize)}};

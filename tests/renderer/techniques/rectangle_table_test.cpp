@@ -9,6 +9,8 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/soft_shadows/bitmask/rectangle_table.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+#include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -21,7 +23,7 @@ class RectangleTable : public TechniqueTest, public testing::WithParamInterface<
   static std::vector<uint32_t> masks(const std::vector<glm::vec4>& given,
                                      const std::vector<glm::dvec2>& samples, int size) {
     const gl::Texture table = makeRectangleTable(samples, size);
-    table.bindTexture(6);
+    table.bindTexture(kRectangleMasksUnit);
     const auto count = static_cast<int>(given.size());
     const gl::Buffer in(given), out(int64_t{count} * static_cast<int64_t>(samples.size()) / 8, nullptr);
     const gl::Program& program =
@@ -29,8 +31,8 @@ class RectangleTable : public TechniqueTest, public testing::WithParamInterface<
                                      {{"PATTERN", "0"},
                                       {"SAMPLES", std::to_string(samples.size())},
                                       {"RECTANGLES", std::to_string(size)}});
-    in.bindStorage(0);
-    out.bindStorage(1);
+    in.bindStorage(kMaskReadbackRectanglesBuffer);
+    out.bindStorage(kMaskReadbackMasksBuffer);
     program.set("count", count);
     program.dispatch({count, 1}, {64, 1});
     return out.read<uint32_t>();

@@ -50,7 +50,7 @@ TEST_F(SceneNeedsTest, WhatTheLightsCentreDoesNotSeeNeedsASecondLayer) {
   // A high box's sides, which the light sees from its rim alone.
   const Chosen chosen = choose(makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}}));
   EXPECT_THAT(chosen.remarks, Contains(StartsWith("two peeled layers")));
-  EXPECT_THAT(chosen.remarks, Contains("bitmask: layers need it"));
+  EXPECT_THAT(chosen.remarks, Contains("bitmask: required by layers"));
   EXPECT_THAT(chosen.remarks.at(0), HasSubstr("maps=peeled"));
 }
 
@@ -74,7 +74,7 @@ TEST_F(SceneNeedsTest, OneFlatCasterNeedsNeitherLayersNorMasks) {
 
 TEST_F(SceneNeedsTest, AreasKnowNoRoundLights) {
   const Chosen chosen = choose(makeScene("parallel_rectangle", {{"light_shape", std::string("disc")}}));
-  EXPECT_THAT(chosen.remarks, Contains("bitmask: the light is no rectangle"));
+  EXPECT_THAT(chosen.remarks, Contains("bitmask: the light is not a rectangle"));
   EXPECT_THAT(chosen.remarks.at(0), StartsWith("chosen: soft_shadows/bitmask"));
 }
 

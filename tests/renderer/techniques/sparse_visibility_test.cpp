@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -47,11 +48,11 @@ class SparseVisibility : public TechniqueTest {
     program.set("anchorToCamera", glm::mat4(1.0F));
     program.set("depthTolerance", kTolerance);
     program.set("normalPower", 4.0F);
-    picture.bind(0);
-    grid.bind(3);
-    grid.visibility.bindTexture(6);
-    out.bindImage(0, gl::Access::Write);
-    classes.bindImage(1, gl::Access::Write);
+    picture.bind(kSparseReceiversUnit);
+    grid.bind(kSparseUpsampleGridReceiversUnit);
+    grid.visibility.bindTexture(kSparseUpsampleGridVisibilityUnit);
+    out.bindImage(kSparseReconstructVisibilityImage, gl::Access::Write);
+    classes.bindImage(kSparseReconstructClassImage, gl::Access::Write);
     program.dispatch(sizePx);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     return {out.read(), classes.readUint()};

@@ -89,7 +89,7 @@ TEST(ExampleReader, RefusesWhatDoesNotFit) {
   EXPECT_THAT(messageOf(with("title: t\n", "")), HasSubstr("'title' is missing"));
   EXPECT_THAT(messageOf(with("    observer: {kind: lapsing, lapse: {kind: own, value: 0.1}}\n", "")),
               HasSubstr("'observer' is missing"));
-  EXPECT_THAT(messageOf(with("    seed: 7", "    name: ../other")), HasSubstr("no name of a study"));
+  EXPECT_THAT(messageOf(with("    seed: 7", "    name: ../other")), HasSubstr("not a name for a study"));
   EXPECT_THAT(messageOf(with("analyses:", "  - {protocol: quick, observer: {kind: ideal}}\nanalyses:")),
               AllOf(HasSubstr("e.yaml:9:"), HasSubstr("two studies are called 'quick'")));
   EXPECT_THAT(messageOf("title: t\nquestion: q\nstudies: []\n"), HasSubstr("e.yaml:3:"));

@@ -267,7 +267,7 @@ TEST(Observer, BadBlocksAreRefusedWithTheirLine) {
   EXPECT_THAT(refusal("simulation: {threshold: 3}"), HasSubstr("variable"));
   EXPECT_THAT(refusal("simulation: {variable: distanse, threshold: 3, width: 1}"), HasSubstr("distanse"));
   EXPECT_THAT(refusal("simulation: {variable: distance, threshold: 3, width: -1}"), HasSubstr("not above 0"));
-  EXPECT_THAT(refusal("simulation: {detected: 1.2}"), HasSubstr("no probability"));
+  EXPECT_THAT(refusal("simulation: {detected: 1.2}"), HasSubstr("not a probability"));
   EXPECT_THAT(refusal("simulation: {detected: 0.5, guess: 0.7, lapse: 0.4}"), HasSubstr("less than 1"));
   EXPECT_THAT(refusal("simulation: {detected: 0.5, theory: signal_detection}"),
               HasSubstr("guess rate above 0"));

@@ -45,7 +45,7 @@ TEST(ProcedureSettings, SlipsNameTheKeyAndTheMend) {
   EXPECT_THAT(refusal("constant", R"({"stimulus": null})"), HasSubstr("'stimulus' is missing"));
   EXPECT_THAT(
       refusal("constant", R"({"stimulus": [{"name": "x", "values": [1]}, {"name": "x", "values": [1]}]})"),
-      HasSubstr("two dimensions are called 'x'"));
+      HasSubstr("two dimensions are named 'x'"));
   EXPECT_THAT(refusal("staircase", R"({"steps": [2, 0]})"), HasSubstr("procedure.steps: found 0"));
   EXPECT_THAT(refusal("staircase", R"({"stop": {"trails": 5}})"), HasSubstr("did you mean 'trials'"));
   EXPECT_THAT(refusal("staircase", R"({"stop": {"trials": null, "reversals": null}})"),
@@ -62,7 +62,7 @@ TEST(ProcedureSettings, SlipsNameTheKeyAndTheMend) {
   EXPECT_THAT(refusal("psi", R"({"parameters": {"threshold": null}})"),
               HasSubstr("procedure.parameters: 'threshold' is missing"));
   EXPECT_THAT(refusal("psi", R"({"parameters": {"slope": [-1, 1]}})"),
-              HasSubstr("-1 is no value of 'slope'"));
+              HasSubstr("-1 is not a value of 'slope'"));
   EXPECT_THAT(refusal("psi", R"({"parameters": {"guess": 0.97}})"), HasSubstr("sum to 1.02"));
   EXPECT_THAT(refusal("psi", R"({"nuisance": ["lapses"]})"), HasSubstr("did you mean 'lapse'"));
   EXPECT_THAT(refusal("psi", R"({"nuisance": ["threshold", "slope", "lapse"]})"), HasSubstr("leave one"));
@@ -78,10 +78,10 @@ TEST(ProcedureSettings, SlipsNameTheKeyAndTheMend) {
   EXPECT_THAT(refusal("interleaved", R"({"procedures": [{"type": "constant"}]})"),
               HasSubstr("procedure.procedures[0]: 'stimulus' is missing"));
   EXPECT_THAT(refusal("quest_plus", R"({"asymptotes": "equal", "parameters": {"lapse": 0.5}})"),
-              HasSubstr("0.5 is no value of 'lapse'"));
+              HasSubstr("0.5 is not a value of 'lapse'"));
   EXPECT_THAT(refusal("quest_plus", R"({"candidates": 22})"), HasSubstr("22 candidates of 21 stimuli"));
   EXPECT_THAT(refusal("psi", R"({"stimulus": {"from": -1, "spacing": "linear"}})"),
-              HasSubstr("knows no stimulus -1"));
+              HasSubstr("does not cover stimulus -1"));
   EXPECT_THAT(refusal("interleaved", R"({"procedures": []})"), HasSubstr("at least one"));
 }
 

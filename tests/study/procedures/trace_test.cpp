@@ -56,7 +56,7 @@ TEST(Trace, SlipsInAnswersAreRefused) {
       readAnswers(text, "--answers");
       ADD_FAILURE() << text;
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("is no answer")) << text;
+      EXPECT_THAT(error.what(), HasSubstr("is not an answer")) << text;
       EXPECT_EQ(error.where(), "--answers");
     }
   }

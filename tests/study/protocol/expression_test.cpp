@@ -59,9 +59,9 @@ TEST(Expression, ZeroHasNoSign) {
 TEST(Expression, RefusalsSayPlaceAndReason) {
   EXPECT_THAT(refused("distnace + 1"),
               HasSubstr("p.yaml:3:14: no variable 'distnace'; did you mean 'distance'?"));
-  EXPECT_THAT(refused("1 + kind"), HasSubstr("p.yaml:3:14: in '=1 + kind' \"wood\" is no number"));
-  EXPECT_THAT(refused("1 + flag"), HasSubstr("true is no number"));
-  EXPECT_THAT(refused("-kind"), HasSubstr("is no number"));
+  EXPECT_THAT(refused("1 + kind"), HasSubstr("p.yaml:3:14: in '=1 + kind' \"wood\" is not a number"));
+  EXPECT_THAT(refused("1 + flag"), HasSubstr("true is not a number"));
+  EXPECT_THAT(refused("-kind"), HasSubstr("is not a number"));
   EXPECT_THAT(refused("1 / zero"), HasSubstr("divided by 0"));
   EXPECT_THAT(refused("1 / (distance - 4)"), HasSubstr("divided by 0"));
   EXPECT_THAT(refused(""), HasSubstr("something is missing at the end"));
@@ -70,9 +70,9 @@ TEST(Expression, RefusalsSayPlaceAndReason) {
   EXPECT_THAT(refused("1 2"), HasSubstr("'2' is left over"));
   EXPECT_THAT(refused("1)"), HasSubstr("')' is left over"));
   EXPECT_THAT(refused("2 ^ 3"), HasSubstr("'^ 3' is left over"));
-  EXPECT_THAT(refused("* 3"), HasSubstr("'*' stands where a number or a name should"));
-  EXPECT_THAT(refused("1e308 * 10"), HasSubstr("no finite number"));
-  EXPECT_THAT(refused("."), HasSubstr("begins no number"));
+  EXPECT_THAT(refused("* 3"), HasSubstr("'*' where a number or a name is expected"));
+  EXPECT_THAT(refused("1e308 * 10"), HasSubstr("not a finite number"));
+  EXPECT_THAT(refused("."), HasSubstr("does not start a number"));
   EXPECT_THAT(refused(std::string(100000, '(')), HasSubstr("nested too deeply"));
 }
 

@@ -46,7 +46,8 @@ std::vector<Mistake> mistakes() {
        "2:31: scene 'box' has no parameter 'distanc'; did you mean 'distance'?"},
       {kYesNo + "stimulus: {scene: {name: box, distance: 60}, levels: {before: 1, after: 0}}\n", "2:41: "},
       {kYesNo + "stimulus: {scene: {name: box, distance: [1, 2]}, levels: {before: 1, after: 0}}\n",
-       "2:41: 'distance' of scene 'box' is a list; a stimulus has one value; several are levels of a factor"},
+       "2:41: 'distance' of scene 'box' is a list; a stimulus has a single value; several values are levels "
+       "of a factor"},
       {kYesNo + "stimulus: {scene: {name: box, distance: = 3 * sped}, levels: {before: 1, after: "
                 "0}}\nvariables: {speed: 2}\n",
        "2:41: no variable 'sped'; did you mean 'speed'?"},
@@ -59,7 +60,7 @@ std::vector<Mistake> mistakes() {
       {kYesNo + "stimulus: {scene: {name: box, distance: = 1 / (speed - 2)}, levels: {before: 1, after: "
                 "0}}\nvariables: {speed: 2}\n",
        "2:41: "},
-      {kYesNo + "stimulus: {scene: {name: box}}\n", "2:11: nothing says what a stimulus shows"},
+      {kYesNo + "stimulus: {scene: {name: box}}\n", "2:11: the stimulus does not say what it shows"},
       {kYesNo + "stimulus: {scene: {name: box}, before: {name: exact}}\n",
        "2:11: nothing changes in the stimuli of a task 'yes_no'"},
       {kYesNo + "stimulus: {scene: {name: box}, levels: {before: 1, after: 0}, before: {name: exact}}\n",
@@ -82,8 +83,8 @@ std::vector<Mistake> mistakes() {
        "2:85: 'shading' is without 'levels'"},
       {kYesNo + kBox + "factors: {distance: 4}\n", "5:21: factor 'distance' is '4'; write it as a list"},
       {kYesNo + kBox + "factors: {distance: [4, 6, 4]}\n", "5:28: factor 'distance' has level '4' twice"},
-      {kYesNo + kBox + "factors: {change: [4, 6]}\n", "5:11: a factor is called 'change'"},
-      {kYesNo + kBox + "factors: {lod-change: [4, 6]}\n", "5:11: 'lod-change' is no name of a factor"},
+      {kYesNo + kBox + "factors: {change: [4, 6]}\n", "5:11: a factor is named 'change'"},
+      {kYesNo + kBox + "factors: {lod-change: [4, 6]}\n", "5:11: 'lod-change' is not a name for a factor"},
       {kYesNo + kBox + "factors: {pair: {a: {x: 1}, b: {}}}\n",
        "5:29: level 'b' of factor 'pair' sets no 'x'"},
       {kYesNo + kBox + "factors: {pair: {a: {x: 1}, b: {x: 1, y: 2}}}\n",
@@ -96,12 +97,12 @@ std::vector<Mistake> mistakes() {
       {kYesNo + kBox + kTwo + "blocks: {by: distanze}\n",
        "6:14: no factor 'distanze' to make blocks of; did you mean 'distance'?"},
       {kYesNo + kBox + kTwo + "blocks: {by: distance, order: [1]}\n",
-       "6:31: level '2' has no place in the order of blocks"},
+       "6:31: level '2' is missing in the order of blocks"},
       {kYesNo + kBox + kTwo + "blocks: {by: distance, order: [1, 2, 3]}\n",
        "6:31: factor 'distance' has no level '3'"},
       {kYesNo + kBox + kTwo + "order: random\n", "6:8: 'order' is random; allowed: one of fixed, shuffle"},
       {kYesNo + kBox + kTwo + "order: {kind: fixed, at_most_in_a_row: {change: 2}}\n",
-       "6:40: 'at_most_in_a_row' goes with the order 'fixed'"},
+       "6:40: 'at_most_in_a_row' is used with the order 'fixed'"},
       {kYesNo + kBox + kTwo + "order: {at_most_in_a_row: {distanz: 2}}\n",
        "6:28: unknown key 'distanz' of at_most_in_a_row"},
       {kYesNo + kBox + kTwo + "trials: {change: 3}\norder: {at_most_in_a_row: {change: 2}}\n",
@@ -117,11 +118,11 @@ std::vector<Mistake> mistakes() {
       {kYesNo + kBox + "procedure: {type: quest_pluss}\n", "5:19: procedure.type"},
       {kYesNo + kBox +
            "procedure: {type: staircase, stimulus: {name: x, start: 10}, steps: 1, stop: {trials: 20}}\n",
-       "5:12: the procedure may ask for any 'x'; give its stimulus a minimum and a maximum"},
+       "5:12: the procedure may request any 'x'; give its stimulus a minimum and a maximum"},
       {kYesNo + kBox +
            "procedure: {type: staircase, stimulus: {name: x, start: 10, minimum: 1, maximum: 40}, steps: 1, "
            "stop: {reversals: 20}}\n",
-       "5:12: the procedure may go on for ever"},
+       "5:12: the procedure may never end"},
       {kYesNo + kBox + kStaircase + "trials: {change: 3}\n", "6:10: unknown key 'change' of trials"},
       {kYesNo + kBox + kStaircase + "practice: {trials: 3}\n", "6:11: 'stimuli' of practice is missing"},
       {kYesNo + kBox + kStaircase + "practice: {trials: 3, stimuli: [{}]}\n", "6:33: 'x' is missing"},
@@ -130,7 +131,7 @@ std::vector<Mistake> mistakes() {
       {kYesNo + "stimulus: {scene: {name: box, distance: = 2 * x}, levels: {before: 1, after: 0}}\n" +
            kStaircase,
        "2:41: 'distance' becomes '80' by '= 2 * x' with x = 40"},
-      {kYesNo + kBox + "practice: {trials: 3, correct: 4}\n", "5:11: 4 right answers in 3 trials"},
+      {kYesNo + kBox + "practice: {trials: 3, correct: 4}\n", "5:11: 4 correct answers in 3 trials"},
       {"task: {type: rating, question: q}\n" + kBox + "practice: {trials: 3, correct: 2}\n",
        "5:11: 'correct' or 'feedback'"},
       {kYesNo + kBox + kTwo + "trials: {change: 10000}\n",

@@ -81,10 +81,10 @@ TEST(Replay, EventsThatCannotFollowAreRefusedWithWhatWasDue) {
   EXPECT_THAT(applyAll(other), HasSubstr("begins trial 2, attempt 0; due was trial 0, attempt 0"));
   auto screen = events;
   screen[1].data["screen"] = "break";
-  EXPECT_THAT(applyAll(screen), HasSubstr("leaves another screen; due was screen instructions"));
+  EXPECT_THAT(applyAll(screen), HasSubstr("leaves a different screen; due was screen instructions"));
   auto empty = events;
   empty[4].data.erase("answer");
-  EXPECT_THAT(applyAll(empty), HasSubstr("event 4 (answered) lacks what such an event must say"));
+  EXPECT_THAT(applyAll(empty), HasSubstr("event 4 (answered) lacks required data"));
   auto seed = events;
   seed[0].data["seed"] = "6";
   EXPECT_THAT(applyAll(seed), HasSubstr("has another seed"));

@@ -310,9 +310,9 @@ TEST_F(SessionStoreTest, ChangedStimuliAreNoticedOnResuming) {
   EXPECT_THROW(run(protocol, first), Killed);
   Protocol changed = protocol;  // as if a scene had changed its version: same text, other stimuli
   for (FactorLevel& level : changed.parts[0].factors[0].levels) level.variables["distance"] = 7;
-  EXPECT_THAT(
-      errorOf([&] { resume(changed, second); }),
-      AllOf(HasSubstr("shown with other stimuli"), HasSubstr("use the version that began the session")));
+  EXPECT_THAT(errorOf([&] { resume(changed, second); }),
+              AllOf(HasSubstr("shown with different stimuli"),
+                    HasSubstr("use the version that started the session")));
 }
 
 TEST_F(SessionStoreTest, VerificationFindsRowsThatWereChangedByHand) {

@@ -272,7 +272,8 @@ TEST_F(SessionStoreTest, AnAnswerThatTheProtocolDoesNotHaveIsRefusedAndNotStored
       return result;
     }
   } frontEnd(protocol);
-  EXPECT_THAT(errorOf([&] { run(protocol, frontEnd); }), HasSubstr("'perhaps' is no answer of part 'main'"));
+  EXPECT_THAT(errorOf([&] { run(protocol, frontEnd); }),
+              HasSubstr("'perhaps' is not an answer of part 'main'"));
   EXPECT_EQ(store::SessionReader(request_.store).events(1).back().kind, "trial_started");
   ScriptedFrontEnd right(protocol);
   EXPECT_EQ(resume(protocol, right).kind, Step::Kind::Finished);

@@ -67,7 +67,7 @@ TEST_F(SessionsCommandTest, SessionsAreListedReplayedAndChecked) {
     EXPECT_EQ(trial["seed"], std::to_string(frontEnd.trials[i].seed));
   }
   EXPECT_THAT(call("replay " + request_.store + " p02").text,
-              AllOf(HasSubstr("invalid: paused"), HasSubstr("every row is what the events say")));
+              AllOf(HasSubstr("invalid: paused"), HasSubstr("every row agrees with the events")));
 
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(request_.store.c_str(), &database), SQLITE_OK);

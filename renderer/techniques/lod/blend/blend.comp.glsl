@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One picture of two levels of detail. See blend.cpp.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D oldLevel;
-layout(binding = 1) uniform sampler2D newLevel;
-layout(binding = 0, rgba32f) uniform writeonly image2D outImage;
+#include "renderer/techniques/lod/lod_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kBlendOldLevelUnit) uniform sampler2D oldLevel;
+layout(binding = kBlendNewLevelUnit) uniform sampler2D newLevel;
+layout(binding = kBlendImage, rgba32f) uniform writeonly image2D outImage;
 uniform float weight;  // share of the new level
 uniform ivec2 sizePx;
 #ifdef ALTERNATING
 // Motion of what is shown now; the other level's picture is of the previous frame.
 #ifdef REPROJECT
-layout(binding = 2) uniform sampler2D displacement;
+layout(binding = kBlendDisplacementUnit) uniform sampler2D displacement;
 #endif
 uniform int previousIsNew;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blending two levels of detail in image space over some frames instead of switching (SP-57; Schwarz 2009,
-// section 2.4). image_space renders both levels each frame and mixes them. alternating renders one level a
-// frame and combines it with the picture of the other level from the frame before, each pixel copied from one
-// of the two, with shares that follow the blend.
+// section 2.4). image_space renders both levels each frame and mixes them. alternating renders one level per
+// frame and combines it with the previous frame's picture of the other level, each pixel copied from one of
+// the two, with shares that follow the blend.
 //
-// Departures and choices: the thesis names neither the pattern of the copied pixels nor which level comes
-// first: an 8 x 8 ordered dither here, the new level in frames with an odd number. `reproject` looks the
-// older picture up where each point lay then, which the thesis does not mention; without it, as there, a
-// moving camera shows the older picture a frame late.
+// Departures and choices: the thesis specifies neither the pattern of the copied pixels nor which level comes
+// first: here an 8 x 8 ordered dither, with the new level in odd frames. `reproject` samples the older
+// picture where each point was then, which the thesis does not mention; without it, as in the thesis, a
+// moving camera shows the older picture one frame late.
 #include <epoxy/gl.h>
 
 #include <optional>
@@ -15,6 +15,7 @@
 #include "renderer/frame/motion.h"
 #include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/lod/level_control.h"
+#include "renderer/techniques/lod/lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -28,16 +29,16 @@ struct ImageSpaceBlend {
 };
 
 struct AlternatingBlend {
-  static constexpr const char *kKind = "alternating", *kSummary = "one level a frame and pixels copied";
+  static constexpr const char *kKind = "alternating", *kSummary = "one level per frame, pixels copied";
   double frameRateHz = 60.0;
   bool reproject = false;
   static const SettingsTable<AlternatingBlend>& table() {
     using S = AlternatingBlend;
     static const SettingsTable<S> kTable = {
         Binding(&S::frameRateHz, "frame_rate", Range{1.0, 1000.0}, "Hz",
-                "Tells how far the camera moved since the last frame")
+                "Time since the last frame, which determines the camera's motion")
             .formerly({"frame_rate"}),
-        Binding(&S::reproject, "reproject", "Follows the camera's motion in the older picture")
+        Binding(&S::reproject, "reproject", "Reproject the older picture by the camera's motion")
             .formerly({"reproject"})};
     return kTable;
   }
@@ -57,8 +58,12 @@ struct BlendSettings {
          "from_level",
          {0, 15},
          "",
-         "Level of all objects before the blend; at most their last"},
-        {&S::toLevel, "to_level", {0, 15}, "", "Level of all objects after it; at most their last"},
+         "Level of all objects before the blend, clamped to each object's coarsest"},
+        {&S::toLevel,
+         "to_level",
+         {0, 15},
+         "",
+         "Level of all objects after the blend, clamped to each object's coarsest"},
         {&S::blendFrames, "blend_frames", {1, 1000}, "frames", "Length of the blend", kBlendSource},
         {&S::frame, "frame", {0, 1000}, "frames", "Frames since the blend began; past its end it is over"},
         samplesBinding(&S::samples),
@@ -99,7 +104,7 @@ class Blend : public Technique {
       motion_.emplace(frame, "motion", frame.sizePx());
       motion_->setLevels(uniformLevels(frame.scene(), newIsNow() ? to_ : from_));
     }
-    // The picture of the frame before, which an alternating frame finds and does not pay for.
+    // The previous frame's picture, which an alternating frame reuses at no cost.
     if (alternating_) renderBefore(frame);
   }
 
@@ -122,10 +127,10 @@ class Blend : public Technique {
     program_->set("weight", static_cast<float>(weight()));
     program_->set("sizePx", frame.sizePx());
     program_->set("previousIsNew", newIsNow() ? 0 : 1);
-    old_->texture().bindTexture(0);
-    new_->texture().bindTexture(1);
-    if (displacement) displacement->bindTexture(2);
-    product_->bindImage(0, gl::Access::Write);
+    old_->texture().bindTexture(kBlendOldLevelUnit);
+    new_->texture().bindTexture(kBlendNewLevelUnit);
+    if (displacement) displacement->bindTexture(kBlendDisplacementUnit);
+    product_->bindImage(kBlendImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
@@ -168,7 +173,7 @@ class Blend : public Technique {
 const RegisteredTechnique<Blend> kBlendRegistered{
     {.name = "lod/blend",
      .version = 1,
-     .summary = "A frame of a blend from one level to another, both mixed or one a frame",
+     .summary = "One frame of a blend between two levels, either both mixed or one per frame",
      .source = "Schwarz 2009, section 2.4 (SP-57)",
      .product = ProductKind::Colour,
      .needs = {"lod_sets"},

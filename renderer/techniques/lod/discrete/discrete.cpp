@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discrete levels of detail with hard switches (SP-57; Schwarz 2009, section 2.4): each frame one level an
-// object, chosen by distance (SP-38), by extent or error on the screen, or fixed. Switching uploads nothing.
+// Discrete levels of detail with hard switches (SP-57; Schwarz 2009, section 2.4): in each frame one level
+// per object, chosen by distance (SP-38), by screen extent or screen error, or fixed. Switching uploads
+// nothing.
 #include <optional>
 
 #include "renderer/techniques/lod/box_view.h"
@@ -57,7 +58,7 @@ std::vector<Quantity> discreteQuantities() {
 const RegisteredTechnique<Discrete> kDiscreteRegistered{
     {.name = "lod/discrete",
      .version = 1,
-     .summary = "One level an object and frame, chosen by distance, extent or error on the screen",
+     .summary = "One level per object and frame, chosen by distance, screen extent or screen error",
      .source = "Schwarz 2009, sections 2.4 and 10.3.5 (SP-57)",
      .product = ProductKind::Colour,
      .needs = {"lod_sets"},

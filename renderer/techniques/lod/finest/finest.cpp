@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reference of all LOD techniques: every object at its finest level, many samples a pixel. Its own error is
-// that of the box filter's finite samples; it has none in geometry.
+// Reference of all LOD techniques: every object at its finest level, many samples per pixel. Its only error
+// comes from the finite samples of the box filter; its geometry is exact.
 #include <optional>
 
 #include "renderer/techniques/lod/box_view.h"

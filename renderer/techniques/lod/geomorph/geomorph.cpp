@@ -2,10 +2,10 @@
 // Geomorphing (SP-57; Schwarz 2009, section 2.4): the vertices of a level move in straight lines onto the
 // next coarser level while the object recedes, so that geometry does not jump when the level changes.
 //
-// Terrain and patches morph into exactly their next level where one divides the other. Simplified meshes have
-// no map of collapsed vertices here: each vertex goes to the nearest point of the next level, whose surface
-// the morphed one approaches without being identical to it. Normals and apertures stay those of the finer
-// level, so shading still jumps a little at the change.
+// Terrain and patches morph exactly into their next level if one factor divides the other. Simplified meshes
+// have no map of collapsed vertices here: each vertex goes to the nearest point of the next level, whose
+// surface the morphed one approaches without being identical to it. Normals and apertures remain those of the
+// finer level, so shading still jumps a little at the switch.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -14,13 +14,14 @@
 
 #include "renderer/techniques/lod/box_view.h"
 #include "renderer/techniques/lod/level_control.h"
+#include "renderer/techniques/lod/lod_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
 constexpr const char* kMorphPass = "lod/geomorph";
 
-/// Vertices of one level of one object, and group 0 for all that never moves.
+/// Vertices of one level of one object; group 0 holds everything that never moves.
 std::vector<uint32_t> groupsOf(const scene::Scene& scene) {
   std::vector<uint32_t> out(scene.mesh.positions.size() + scene.coarser.positions.size(), 0);
   const auto before = static_cast<uint32_t>(scene.mesh.positions.size());
@@ -62,7 +63,7 @@ struct MorphByDistance {
         Binding(&S::factor, "factor", Range{0.001, 1000.0}, "", "Multiplies the scene's switch distances")
             .formerly({"distance_factor"}),
         Binding(&S::range, "range", Range{0.0, 1.0}, "",
-                "Last share of the way to a switch over which a level morphs; 0 switches hard")
+                "Final share of the distance to a switch over which a level morphs; 0: hard switches")
             .formerly({"morph_range"})};
     return kTable;
   }
@@ -75,9 +76,10 @@ struct FixedMorph {
   static const SettingsTable<FixedMorph>& table() {
     using S = FixedMorph;
     static const SettingsTable<S> kTable = {
-        Binding(&S::level, "level", Range{0, 15}, "", "Of all objects; at most their last")
+        Binding(&S::level, "level", Range{0, 15}, "",
+                "Level of all objects, clamped to each object's coarsest")
             .formerly({"level"}),
-        Binding(&S::morph, "morph", Range{0.0, 1.0}, "", "Share of the way to the next level")
+        Binding(&S::morph, "morph", Range{0.0, 1.0}, "", "Degree of morphing into the next level")
             .formerly({"morph"})};
     return kTable;
   }
@@ -90,7 +92,7 @@ struct GeomorphSettings {
   static const SettingsTable<GeomorphSettings>& table() {
     using S = GeomorphSettings;
     static const SettingsTable<S> kTable = {
-        {&S::control, "control", "What decides level and morph", kMorphSource},
+        {&S::control, "control", "How level and morph are determined", kMorphSource},
         samplesBinding(&S::samples),
         frame::shadingBinding(&S::shading)};
     return kTable;
@@ -124,14 +126,14 @@ class Geomorph : public Technique {
     {
       const auto scope = frame.passes().open(kMorphPass);
       const auto vertices = static_cast<int>(frame.gpuScene().vertexCount());
-      constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups a dimension
-      frame.gpuScene().positions().bindStorage(0);
-      targets_->bindStorage(1);
-      groups_->bindStorage(2);
-      shares_->bindStorage(3);
-      moved_->bindStorage(4);
+      constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
+      frame.gpuScene().positions().bindStorage(kMorphPositionsBuffer);
+      targets_->bindStorage(kMorphTargetsBuffer);
+      groups_->bindStorage(kMorphGroupsBuffer);
+      shares_->bindStorage(kMorphSharesBuffer);
+      moved_->bindStorage(kMorphMovedBuffer);
       program_->set("vertexCount", frame.gpuScene().vertexCount());
-      program_->dispatch({std::min(vertices, kPerRow), (vertices + kPerRow - 1) / kPerRow}, {64, 1});
+      program_->dispatch({std::min(vertices, kPerRow), (vertices + kPerRow - 1) / kPerRow}, {kMorphGroup, 1});
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
     }
     view_->render();
@@ -159,7 +161,7 @@ class Geomorph : public Technique {
     int level = 0;
     while (level < last && distance >= factor * object.switchDistances[static_cast<size_t>(level)]) ++level;
     if (level == last) return {level, 0.0};
-    // Begins at this share of the way to the switch; complete where the level changes.
+    // Begins at this share of the distance to the switch; complete where the level changes.
     const double end = factor * object.switchDistances[static_cast<size_t>(level)],
                  begin = end * (1.0 - range);
     return {level, end > begin ? std::clamp((distance - begin) / (end - begin), 0.0, 1.0) : 0.0};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moves the vertices of each level towards their targets by the level's share.
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 1) readonly buffer Targets { float targets[]; };
-layout(std430, binding = 2) readonly buffer Groups { uint groupOf[]; };  // of each vertex
-layout(std430, binding = 3) readonly buffer Shares { float shares[]; };  // of each group
-layout(std430, binding = 4) writeonly buffer Moved { float moved[]; };
+#include "renderer/techniques/lod/lod_bindings.h"
+
+layout(local_size_x = kMorphGroup) in;
+layout(std430, binding = kMorphPositionsBuffer) readonly buffer Positions { float positions[]; };
+layout(std430, binding = kMorphTargetsBuffer) readonly buffer Targets { float targets[]; };
+layout(std430, binding = kMorphGroupsBuffer) readonly buffer Groups { uint groupOf[]; };  // of each vertex
+layout(std430, binding = kMorphSharesBuffer) readonly buffer Shares { float shares[]; };  // of each group
+layout(std430, binding = kMorphMovedBuffer) writeonly buffer Moved { float moved[]; };
 uniform uint vertexCount;
 
 void main() {

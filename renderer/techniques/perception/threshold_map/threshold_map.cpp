@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Threshold map of the shaded frame (SP-29 to SP-34): for each pixel the luminance increment that stays
-// invisible. Source: Schwarz 2009, section 9.4, in compute. Departures, each a parameter where it changes the
-// map: the kernel is the binomial one, which the thesis leaves open; the adaptation luminance is blended of
-// two levels so that it is a mean over one degree, where the nearest level's pixels are only about a degree
-// apart; what is flat has an elevation of 1 by a small contrast added; the stack exists for a tile at a time;
-// 16 bits store bands in place of luminances.
+// invisible. Source: Schwarz 2009, section 9.4, in compute. Departures, each a parameter if it changes the
+// map: the kernel, which the thesis leaves open, is the binomial one; the adaptation luminance is blended
+// from two levels so that it is a mean over one degree, whereas the pixels of the nearest level are only
+// about a degree apart; a small contrast is added so that flat regions have an elevation of 1; the stack
+// exists for one tile at a time; 16 bits store bands instead of luminances.
 #include <optional>
 
 #include "perception/threshold_maps/threshold_map_gpu.h"

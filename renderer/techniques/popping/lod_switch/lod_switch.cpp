@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How visible a change of level of detail is: the popping predictor on the frames of one object's change
-// (SP-39 to SP-52; Schwarz 2009, chapter 10). The product is the difference map in JND, weighted; what it
-// means for a viewer is counted.
+// (SP-39 to SP-52; Schwarz 2009, chapter 10). The product is the weighted difference map in JND; its
+// consequences for a viewer are counters.
 //
-// Choices. The frame is a window of the display, pixel for pixel: what a picture of twice the size shows is
-// twice as large on the retina. The frames are not rounded to 8 bits. In a static presentation nothing moves
-// and nothing flickers, so weights are 1, as they are for a camera at rest.
+// Choices. The frame is a window of the display, pixel for pixel: in a picture of twice the size everything
+// is twice as large on the retina. The frames are not rounded to 8 bits. In a static presentation nothing
+// moves and nothing flickers, so weights are 1, as they are for a camera at rest.
 #include <algorithm>
 
 #include "perception/popping/popping_gpu.h"
@@ -63,8 +63,10 @@ class LodSwitch : public Technique {
                           counts.flushedInputs, counts.guardedContrasts});
   }
 
-  std::map<std::string, Image> pictures() const override {
-    return {{"regions", regionPicture(views_->read(), predictor_->readRegions())}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"regions", [views = views_->read(), regions = predictor_->readRegions()] {
+               return regionPicture(views, regions);
+             }}};
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {

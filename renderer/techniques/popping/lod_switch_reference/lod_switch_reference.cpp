@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference of popping/lod_switch (SP-51): weights and predictor in double precision on the CPU, on the same
-// frames, which are rendered on the GPU. Its product is rounded to single precision, its figures are not.
+// frames, which are rendered on the GPU. Its product is rounded to single precision; its figures are not.
 #include <algorithm>
 
 #include "renderer/techniques/popping/switch_figures.h"
@@ -41,8 +41,8 @@ class LodSwitchReference : public Technique {
         {result_.regions, result_.summary.largestJnd, result_.flushedInputs, result_.guardedContrasts});
   }
 
-  std::map<std::string, Image> pictures() const override {
-    return {{"regions", regionPicture(images_, result_.regions)}};
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"regions", [picture = regionPicture(images_, result_.regions)] { return picture; }}};
   }
 
  private:

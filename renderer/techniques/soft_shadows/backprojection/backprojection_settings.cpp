@@ -28,7 +28,7 @@ const SettingsTable<SummedMicrotris>& SummedMicrotris::table() {
 const SettingsTable<Contours>& Contours::table() {
   static const SettingsTable<Contours> kTable = {
       Binding(&Contours::inset, "inset", Range{0.0, 1.0}, "",
-              "Place of contours (t): 0 along the borders of the texels that block, 1 through their centres",
+              "Position of contours (t): 0 along the borders of blocking texels, 1 through their centres",
               "Schwarz 2009, section 4.4.5 (after Guennebaud 2007)")
           .formerly({"contour_inset"})};
   return kTable;
@@ -48,7 +48,7 @@ const SettingsTable<BackprojectionSettings>& BackprojectionSettings::table() {
   using S = BackprojectionSettings;
   static const SettingsTable<S> kTable = {
       included(&S::search),
-      {&S::occluders, "occluders", "What is made of texels that block",
+      {&S::occluders, "occluders", "Type of micro-occluder made from blocking texels",
        "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3, 4.4.5, 4.5.1 and 5.1.2"},
       levelsBinding(&S::levels),
       passesBinding(&S::passes)};

@@ -5,8 +5,8 @@
 
 namespace limen::techniques {
 
-/// Area that a microquad adds. Whether one that folds over on the light adds or takes away is left open by
-/// the thesis: it sums the signed areas of a quad's two triangles.
+/// Area that a microquad adds. The thesis leaves open whether a quad that folds over on the light adds or
+/// subtracts: it sums the signed areas of the quad's two triangles.
 enum class QuadArea {
   Absolute,  ///< its size
   Signed     ///< its size with the sign of its orientation, so that folds cancel
@@ -16,7 +16,7 @@ constexpr EnumNames<QuadArea, 2> enumNames(QuadArea) {
 }
 
 struct SummedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
-  static constexpr const char* kSummary = "a mesh between the centres of texels";
+  static constexpr const char* kSummary = "a mesh between texel centres";
   QuadArea area = QuadArea::Absolute;
   static const SettingsTable<SummedMicroquads>& table();
 };

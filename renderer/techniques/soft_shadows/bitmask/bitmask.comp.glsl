@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // KEEP_MASKS: masks of all pixels stay in an image, so that further maps add to them and other passes read them. Not where
 // LEVEL_STEPS tries levels that no pixel has chosen.
+
 #ifdef LEVEL_STEPS
 #undef KEEP_MASKS
 #endif
@@ -24,7 +25,7 @@ float gatheredVisibility() { return visibleShare(); }
 #ifndef KEEP_MASKS
 void clearGathered() { clearMask(); }
 #else
-layout(binding = 3, rgba32ui) uniform uimage2DArray keptMasks;
+layout(binding = kKeptMasksImage, rgba32ui) uniform uimage2DArray keptMasks;
 #include "renderer/techniques/soft_shadows/bitmask/kept_masks.glsl"
 uniform int keptSet;  // of the masks in the image
 uniform int joins;    // 0: the set's first map

@@ -14,7 +14,7 @@ constexpr const char *kMaskText = "Samples that a microquad covers",
 const SettingsTable<HalfSpaceTable>& HalfSpaceTable::table() {
   static const SettingsTable<HalfSpaceTable> kTable = {
       Binding(&HalfSpaceTable::size, "size", oneOf({64, 128, 256, 512, 1024}), "",
-              "Angles, and distances, of lines that the table holds; its memory grows by the square",
+              "Number of angles, and of distances, of lines in the table; memory grows quadratically",
               "Schwarz 2009, section 4.4.4 (value not given there)")
           .formerly({"table_size"})};
   return kTable;
@@ -56,8 +56,8 @@ void checkSamples(const MaskedOccluders& occluders, LightPattern pattern) {
 
 void checkMaps(const MapChoice& maps, const SearchSettings& search) {
   if (!std::holds_alternative<CentreMap>(maps) && std::holds_alternative<StoredBias>(search.bias))
-    throw Error("stored biases are those of the map from the light's centre alone", "bias",
-                "give another form, or maps: centre");
+    throw Error("stored biases exist only for the map from the light's centre", "bias",
+                "choose another form, or maps: centre");
 }
 
 const SettingsTable<BitmaskSettings>& BitmaskSettings::table() {
@@ -69,7 +69,7 @@ const SettingsTable<BitmaskSettings>& BitmaskSettings::table() {
       passesBinding(&S::passes),
       patternBinding(&S::pattern),
       mapsBinding(&S::maps),
-      {&S::filter, "filter", "What smooths the steps that few light samples leave",
+      {&S::filter, "filter", "Filter against the steps that few light samples leave",
        "Schwarz 2009, section 4.2.3 (not given there)"}};
   return kTable;
 }
@@ -82,12 +82,12 @@ void BitmaskSettings::check() const {
   checkMaps(maps, search);
   if (std::holds_alternative<CentreMap>(maps)) return;
   if (std::holds_alternative<SplitPasses>(passes))
-    throw Error("several maps are joined mask by mask, which is one pass's work", "passes",
+    throw Error("several maps are combined mask by mask, within a single pass", "passes",
                 "give passes: single, or maps: centre");
   const LevelRule rule = ruleOf(levels);
   if (rule != LevelRule::FinestWithin && rule != LevelRule::CoarsestOver)
-    throw Error(std::string("several maps are joined mask by mask, and 'levels: ") + limen::toText(rule) +
-                    "' blends what masks come to",
+    throw Error(std::string("several maps are combined mask by mask, and 'levels: ") + limen::toText(rule) +
+                    "' blends the resulting visibilities",
                 "levels", "give levels: finest_within, or maps: centre");
 }
 

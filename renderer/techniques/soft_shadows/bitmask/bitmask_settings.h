@@ -9,7 +9,8 @@
 namespace limen::techniques {
 
 struct ApproximateMask {
-  static constexpr const char *kKind = "approximate", *kSummary = "samples of a rectangle in a quad's place";
+  static constexpr const char *kKind = "approximate",
+                              *kSummary = "samples of a rectangle in place of the quad";
 };
 struct HalfSpaceTable {
   static constexpr const char *kKind = "half_space_table",
@@ -23,11 +24,11 @@ struct ArithmeticMask {
 };
 
 struct MaskedMicroquads : OccluderAlternative<OccluderKind::Microquads> {
-  static constexpr const char* kSummary = "a mesh between the centres of texels";
+  static constexpr const char* kSummary = "a mesh between texel centres";
   std::variant<ApproximateMask, HalfSpaceTable, ArithmeticMask> mask;
   static const SettingsTable<MaskedMicroquads>& table();
 };
-/// A rectangle says nothing about a triangle.
+/// A rectangle cannot approximate a triangle.
 struct MaskedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> {
   static constexpr const char* kSummary = "that mesh with triangles where three of four texels block";
   std::variant<ArithmeticMask, HalfSpaceTable> mask;
@@ -35,13 +36,13 @@ struct MaskedMicrotris : OccluderAlternative<OccluderKind::MicroquadsMicrotris> 
 };
 using MaskedOccluders = std::variant<Micropatches, MaskedMicroquads, MaskedMicrotris, Microrects>;
 
-/// Patterns of light samples as alternatives: those on grids have no parameters.
+/// Patterns of light samples as alternatives; those on grids have no parameters.
 template <LightPattern P>
 struct GridSamples {
   static constexpr LightPattern kPattern = P;
   static constexpr const char *kKind = limen::toText(P), *kSummary = "";
 };
-/// Steps on either axis of the table of rectangles for patterns without a grid.
+/// Steps per axis of the rectangle table for patterns without a grid.
 template <LightPattern P>
 struct HaltonSamples {
   static constexpr LightPattern kPattern = P;
@@ -64,7 +65,7 @@ using PatternSettings =
                  RandomSamples<LightPattern::Random1024>, RandomSamples<LightPattern::Stratified256>,
                  HaltonSamples<LightPattern::Halton256>>;
 
-/// What masks need to know of the chosen pattern.
+/// What masks need to know about the chosen pattern.
 struct SampleChoice {
   LightPattern pattern = LightPattern::Jittered16;
   int64_t seed = 1;
@@ -95,9 +96,9 @@ struct QuadMaskChoice {
 };
 QuadMaskChoice quadMaskChoice(const MaskedOccluders& occluders);
 
-/// Throws Error where masks cannot be found for the samples.
+/// Throws Error if masks cannot be found for the samples.
 void checkSamples(const MaskedOccluders& occluders, LightPattern pattern);
-/// Throws Error where several maps are asked for and something else knows one alone.
+/// Throws Error if several maps are requested with a setting that supports only one.
 void checkMaps(const MapChoice& maps, const SearchSettings& search);
 
 struct BitmaskSettings {
@@ -115,23 +116,23 @@ struct BitmaskSettings {
 /// The bindings that techniques with masks share.
 template <class S>
 Binding<S> maskedOccludersBinding(MaskedOccluders S::*member) {
-  return {member, "occluders", "What is made of texels that block",
+  return {member, "occluders", "Type of micro-occluder made from blocking texels",
           "Schwarz 2009, sections 4.1, 4.4.1, 4.4.3 and 4.5.1"};
 }
 template <class S>
 Binding<S> mapsBinding(MapChoice S::*member) {
-  return {member, "maps", "Shadow maps whose occluders are joined", "Schwarz 2009, section 4.2.2"};
+  return {member, "maps", "Shadow maps whose occluders are combined", "Schwarz 2009, section 4.2.2"};
 }
 template <class S, class P>
 Binding<S> patternBinding(P S::*member) {
   return {member, "pattern",
-          "Light samples: regular grids, 16 x 16 in rotated pairs, or places without a grid",
+          "Light samples: regular grids, 16 x 16 in rotated pairs, or positions without a grid",
           "Schwarz 2009, sections 4.2.1 and 4.2.2"};
 }
 template <class S>
 Binding<S> rectangleTableBinding(int S::*member) {
   return Binding(member, "rectangle_table", oneOf({16, 32, 64, 128, 256}), "",
-                 "Steps on either axis of the table of rectangles",
+                 "Steps per axis of the rectangle table",
                  "Schwarz 2009, section 4.2.1 (value not given there)")
       .formerly({"rectangle_table"});
 }
@@ -144,7 +145,7 @@ const SettingsTable<HaltonSamples<P>>& HaltonSamples<P>::table() {
 template <LightPattern P>
 const SettingsTable<RandomSamples<P>>& RandomSamples<P>::table() {
   static const SettingsTable<RandomSamples> kTable = {
-      Binding(&RandomSamples::seed, "seed", Range{0, 1000000}, "", "Seed of the places")
+      Binding(&RandomSamples::seed, "seed", Range{0, 1000000}, "", "Seed of the sample positions")
           .formerly({"pattern_seed"}),
       rectangleTableBinding(&RandomSamples::rectangleTable)};
   return kTable;

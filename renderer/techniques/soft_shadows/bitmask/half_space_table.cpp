@@ -22,8 +22,8 @@ gl::Texture makeHalfSpaceTable(const std::vector<glm::dvec2>& samples, int size)
     for (size_t column = 0; column < side; ++column) {
       const double angle = std::numbers::pi * double(column) / size;
       const glm::dvec2 normal(-std::sin(angle), std::cos(angle));
-      // A sample is in the masks of all rows up to the last whose line it does not lie to the right of: enter
-      // it there, then take all rows into those before them.
+      // A sample is in the masks of all rows up to the last one whose line it does not lie to the right of:
+      // enter it there, then OR each row into the one before it.
       for (size_t b = first; b < end; ++b) {
         const double place = (glm::dot(normal, samples[b]) / step) + 0.5 * (size - 1);
         const double nearest = std::round(place);

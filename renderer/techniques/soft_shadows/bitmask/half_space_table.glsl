@@ -5,7 +5,9 @@
 // The thesis tabulates all directions of an edge; here an edge that points downwards takes the complement of its reverse,
 // so that hulls on both sides of an edge share no sample and leave none out, however coarse the table. half_space_table.h
 // states the table's layout.
-layout(binding = 7) uniform usampler2DArray halfSpaces;
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
+layout(binding = kHalfSpacesUnit) uniform usampler2DArray halfSpaces;
 
 #define TABLE_LAYERS ((MASK_WORDS + 3) / 4)
 const int kTableSide = 32;  // of the grid of convexHull; the samples need none

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility by the masks of several objects together. Schwarz 2009, section 4.2.2.
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_bindings.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
-layout(binding = 3, rgba32ui) uniform readonly uimage2DArray keptMasks;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kJoinMasksReceiversUnit) uniform sampler2D receivers;
+layout(binding = kJoinMasksVisibilityImage, r32f) uniform writeonly image2D outVisibility;
+layout(binding = kKeptMasksImage, rgba32ui) uniform readonly uimage2DArray keptMasks;
 #include "renderer/techniques/soft_shadows/bitmask/kept_masks.glsl"
 uniform ivec2 sizePx;
 uniform int sets;

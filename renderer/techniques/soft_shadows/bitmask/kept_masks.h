@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/gl/texture.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 
@@ -11,11 +12,9 @@ namespace limen::techniques {
 /// include kept_masks.glsl.
 class KeptMasks {
  public:
-  static constexpr uint32_t kImageUnit = 3;
-
   KeptMasks(glm::ivec2 sizePx, size_t samples, size_t sets)
       : image_(gl::Format::RGBA32UI, sizePx, 1, static_cast<int>((samples + 127) / 128 * sets)) {}
-  void bind() const { image_.bindImage(kImageUnit, gl::Access::ReadWrite); }
+  void bind() const { image_.bindImage(kKeptMasksImage, gl::Access::ReadWrite); }
   int64_t bytes() const { return image_.bytes(); }
   const gl::Texture& image() const { return image_; }
 

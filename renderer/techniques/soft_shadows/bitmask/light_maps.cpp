@@ -9,7 +9,7 @@ namespace {
 constexpr const char *kMapsSource = "Schwarz 2009, section 4.2.2",
                      *kOpenMaps = "Schwarz 2009, section 4.2.2 (not given there)";
 
-/// Places in [-1, 1]^2; the light's centre comes first, where it is one of them.
+/// Points in [-1, 1]^2; the light's centre comes first, if it is one of them.
 std::vector<glm::dvec2> pointsOf(int count) {
   std::vector<glm::dvec2> points;
   if (count % 2 == 1) points.emplace_back(0.0);
@@ -43,7 +43,7 @@ std::vector<frame::ShadowMapSettings> mapsOf(const LightPointMaps& choice, const
   frame::ShadowMapSettings map = usual;
   for (const glm::dvec2 point : pointsOf(choice.points)) {
     map.eye = 0.5 + 0.5 * choice.spread * point;
-    // Without a spread all points are one.
+    // Without a spread all points coincide.
     if (out.empty() || map.eye != out[0].eye) out.push_back(map);
   }
   return out;
@@ -52,8 +52,8 @@ std::vector<frame::ShadowMapSettings> mapsOf(const LightPointMaps& choice, const
 std::vector<frame::ShadowMapSettings> mapsOf(const ObjectMaps&, const scene::Scene& scene,
                                              const frame::ShadowMapSettings& usual) {
   if (!scene.lodObjects.empty())
-    throw Error("maps of single objects know no levels of detail, which '" + scene.name + "' has", "maps",
-                "give maps: centre, or another scene");
+    throw Error("maps of single objects do not support levels of detail, which '" + scene.name + "' has",
+                "maps", "give maps: centre, or another scene");
   std::vector<frame::ShadowMapSettings> out;
   frame::ShadowMapSettings map = usual;
   for (size_t part = 0; part < scene.parts.size(); ++part) {
@@ -73,8 +73,7 @@ const SettingsTable<PeeledMaps>& PeeledMaps::table() {
               "Surfaces along a ray from the light's centre", kMapsSource)
           .formerly({"layers"}),
       Binding(&PeeledMaps::bias, "bias", Range{0.0, 0.1}, "",
-              "Share of the distance by which a layer's surface lies behind the one before, at least",
-              kOpenMaps)
+              "Smallest distance from one layer's surface to the next, as a share of the depth", kOpenMaps)
           .formerly({"peel_bias"}),
       Binding(&PeeledMaps::laterExtent, "later_extent", Range{0.05, 1.0}, "",
               "Extent of the frustum of all layers but the first, around the light's axis", kOpenMaps)
@@ -84,25 +83,23 @@ const SettingsTable<PeeledMaps>& PeeledMaps::table() {
 
 const SettingsTable<LightPointMaps>& LightPointMaps::table() {
   static const SettingsTable<LightPointMaps> kTable = {
-      Binding(
-          &LightPointMaps::points, "points", oneOf({2, 4, 5, 9}), "",
-          "Points that maps are seen from: two opposite corners, all corners, those and the centre, those "
-          "and the middles of the sides",
-          kMapsSource)
+      Binding(&LightPointMaps::points, "points", oneOf({2, 4, 5, 9}), "",
+              "Viewpoints of the maps: two opposite corners, all corners, those and the centre, those "
+              "and the middles of the sides",
+              kMapsSource)
           .formerly({"light_points"}),
       Binding(&LightPointMaps::spread, "spread", Range{0.0, 1.0}, "",
-              "Place of these corners between the light's centre and its own")
+              "Position of these corners between the light's centre and its actual corners")
           .formerly({"point_spread"})};
   return kTable;
 }
 
 const SettingsTable<ObjectMaps>& ObjectMaps::table() {
   static const SettingsTable<ObjectMaps> kTable = {
-      Binding(
-          &ObjectMaps::updates, "updates", Range{0, 64}, "objects",
-          "Objects whose map and masks a frame makes anew, in turn; masks of the others stay as they are, "
-          "until the camera moves; 0: all",
-          kMapsSource)
+      Binding(&ObjectMaps::updates, "updates", Range{0, 64}, "objects",
+              "Objects whose map and masks are updated per frame, in turn; masks of the others are reused "
+              "until the camera moves; 0: all",
+              kMapsSource)
           .formerly({"updates"})};
   return kTable;
 }

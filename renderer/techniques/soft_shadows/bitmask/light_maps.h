@@ -11,7 +11,7 @@
 namespace limen::techniques {
 
 struct CentreMap {
-  static constexpr const char *kKind = "centre", *kSummary = "the map from the light's centre alone";
+  static constexpr const char *kKind = "centre", *kSummary = "only the map from the light's centre";
 };
 struct PeeledMaps {
   static constexpr const char *kKind = "peeled", *kSummary = "that map and the layers behind it";
@@ -25,17 +25,17 @@ struct LightPointMaps {
   double spread = 1.0;
   static const SettingsTable<LightPointMaps>& table();
 };
-/// Each object has a map and masks of its own, which stay while the object does.
+/// Each object has its own map and masks, which are reused while the object does not change.
 struct ObjectMaps {
   static constexpr const char *kKind = "per_object", *kSummary = "a map for each object";
   int updates = 0;
   static const SettingsTable<ObjectMaps>& table();
 };
 
-/// The shadow maps whose occluders a bitmask joins. Source: Schwarz 2009, section 4.2.2.
+/// The shadow maps whose occluders a bitmask combines. Source: Schwarz 2009, section 4.2.2.
 using MapChoice = std::variant<CentreMap, PeeledMaps, LightPointMaps, ObjectMaps>;
 
-/// Maps of a scene's first light, `usual` being the one from its centre. Throws Error where a scene has no
+/// Maps of a scene's first light, `usual` being the one from its centre. Throws Error if the scene has no
 /// such maps.
 std::vector<frame::ShadowMapSettings> lightMaps(const MapChoice& choice, const scene::Scene& scene,
                                                 const frame::ShadowMapSettings& usual);

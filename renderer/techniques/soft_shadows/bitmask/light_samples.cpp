@@ -9,7 +9,7 @@
 namespace limen::techniques {
 namespace {
 
-/// Digits of `index` in `base`, mirrored behind the point (van der Corput).
+/// Digits of `index` in `base`, mirrored at the radix point (van der Corput).
 double mirrored(int index, int base) {
   double value = 0.0, place = 1.0 / base;
   for (; index > 0; index /= base, place /= base) value += place * (index % base);
@@ -34,7 +34,7 @@ std::vector<glm::dvec2> halton(int number) {
 }
 
 std::vector<glm::dvec2> randomPlaces(int number, int64_t seed) {
-  // The engine alone is the same everywhere; distributions are not.
+  // Only the engine is the same everywhere; distributions are not.
   std::mt19937_64 random(static_cast<uint64_t>(seed));
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<glm::dvec2> samples;
@@ -103,7 +103,7 @@ std::vector<uint32_t> lightMask(const scene::AreaLight& light, const std::vector
     if (light.contains(samples[i])) mask[i / 32] |= 1U << (i % 32);
   if (bitCount(mask) == 0)
     throw Error("none of the " + std::to_string(samples.size()) + " light samples lies on the light",
-                "pattern", "give a pattern of more samples");
+                "pattern", "choose a pattern with more samples");
   return mask;
 }
 

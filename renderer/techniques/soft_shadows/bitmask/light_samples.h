@@ -11,8 +11,8 @@
 
 namespace limen::techniques {
 
-/// Where on the light samples lie: on grids, at random, at random in strata, or by Halton's sequence; the
-/// number is that of samples, of grids that along a side. Source: Schwarz 2009, section 4.2.1.
+/// Positions of samples on the light: on grids, random, stratified, or by Halton's sequence; the number is
+/// that of samples, for grids that per side. Source: Schwarz 2009, section 4.2.1.
 enum class LightPattern {
   Regular8,
   Regular16,
@@ -36,7 +36,7 @@ constexpr EnumNames<LightPattern, 9> enumNames(LightPattern) {
             {LightPattern::Halton256, "halton_256"}}}};
 }
 
-/// Those on grids, for techniques without tables.
+/// Patterns on grids, for techniques without tables.
 enum class GridPattern { Regular8, Regular16, Regular32, Jittered16 };
 constexpr EnumNames<GridPattern, 4> enumNames(GridPattern) {
   return {{{{GridPattern::Regular8, "regular_8"},
@@ -48,20 +48,20 @@ inline LightPattern lightPattern(GridPattern pattern) {
   return fromText<LightPattern>(limen::toText(pattern));
 }
 
-/// True if masks of rectangles are worked out by arithmetic; of others a table holds them.
+/// True if masks of rectangles are computed; for other patterns they come from a table.
 bool isGridPattern(LightPattern pattern);
 /// PATTERN of occlusion_mask.glsl.
 std::string patternDefine(LightPattern pattern);
 
-/// Places of a pattern's light samples in unit light coordinates, in the order of the mask's bits; a whole
-/// number of words of 32 bits, at most 1024. Grids come in rows of ascending y, each of ascending x. `seed`
-/// decides random and stratified patterns.
+/// Positions of a pattern's light samples in unit light coordinates, in the order of the mask's bits; a
+/// multiple of 32, at most 1024. Grids come in rows of ascending y, each with ascending x. `seed` applies to
+/// random and stratified patterns.
 std::vector<glm::dvec2> lightSamples(LightPattern pattern, int64_t seed = 1);
 
 /// Mask of the samples that lie on a light which need not fill its bounding rectangle: bit b of the words is
 /// sample b. Throws Error if there are none. Source: Schwarz 2009, section 4.2.2.
 std::vector<uint32_t> lightMask(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples);
-/// Bits that are set.
+/// Number of bits set.
 int bitCount(const std::vector<uint32_t>& mask);
 
 }  // namespace limen::techniques

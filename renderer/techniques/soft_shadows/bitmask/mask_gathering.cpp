@@ -3,18 +3,20 @@
 
 #include <epoxy/gl.h>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_bindings.h"
 #include "renderer/techniques/soft_shadows/bitmask/half_space_table.h"
 #include "renderer/techniques/soft_shadows/bitmask/rectangle_table.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
 constexpr const char *kTables = "soft_shadows/mask_tables", *kKept = "soft_shadows/kept_masks",
                      *kJoin = "soft_shadows/join_masks";
-constexpr uint32_t kRectangleUnit = 6, kHalfSpaceUnit = 7, kLightMaskBinding = 0;
 
-/// How many samples there are, and where.
+/// Number and positions of the samples.
 gl::ShaderDefines sampleDefines(const SampleChoice& samples) {
   gl::ShaderDefines defines = {{"PATTERN", patternDefine(samples.pattern)}};
   if (isGridPattern(samples.pattern)) return defines;
@@ -64,14 +66,14 @@ gl::ShaderDefines MaskGathering::prepare(frame::Frame& frame, const MapSource& m
 
 int MaskGathering::bindMasks() const {
   masks_->bind();
-  if (lightMask_) lightMask_->bindStorage(kLightMaskBinding);
+  if (lightMask_) lightMask_->bindStorage(kLightMaskBuffer);
   return sets_;
 }
 
 void MaskGathering::configure(const gl::Program& program, size_t map) const {
-  if (halfSpaces_) halfSpaces_->bindTexture(kHalfSpaceUnit);
-  if (rectangles_) rectangles_->bindTexture(kRectangleUnit);
-  if (lightMask_) lightMask_->bindStorage(kLightMaskBinding);
+  if (halfSpaces_) halfSpaces_->bindTexture(kHalfSpacesUnit);
+  if (rectangles_) rectangles_->bindTexture(kRectangleMasksUnit);
+  if (lightMask_) lightMask_->bindStorage(kLightMaskBuffer);
   if (!masks_) return;
   masks_->bind();
   const int number = static_cast<int>(map);
@@ -85,8 +87,8 @@ void MaskGathering::join(frame::Frame& frame, const gl::Texture& visibility) {
   const auto scope = frame.passes().open(kJoin);
   join_->set("sizePx", frame.sizePx());
   join_->set("sets", bindMasks());
-  receivers.bindTexture(0);
-  visibility.bindImage(0, gl::Access::Write);
+  receivers.bindTexture(kJoinMasksReceiversUnit);
+  visibility.bindImage(kJoinMasksVisibilityImage, gl::Access::Write);
   join_->dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -10,18 +10,18 @@
 
 namespace limen::techniques {
 
-/// Occlusion bitmasks: light samples that some micro-occluder covers are bits that are set once, so
-/// overlapping occluders fuse, also those of several shadow maps. On a light that does not fill its rectangle
-/// only the samples that lie on it count. Source: Schwarz 2009, sections 4.2 and 4.4.
+/// Occlusion bitmasks: each light sample covered by a micro-occluder is one bit, so overlapping occluders
+/// fuse, including those of several shadow maps. If the light does not fill its rectangle, only the samples
+/// on it count. Source: Schwarz 2009, sections 4.2 and 4.4.
 ///
 /// Convex hulls differ from the thesis in that their corners are rounded to 1/4096 of the distance between
-/// two samples (exact from there on), that the table of half-spaces holds upward lines alone, and that rows
-/// are filled between a hull's edges at once.
+/// two samples (exact after that), that the table of half-spaces holds upward lines only, and that rows
+/// between a hull's edges are filled at once.
 class MaskGathering : public Gathering {
  public:
   enum class Masks {
     Joined,  ///< into the visibility
-    Stored   ///< for a later stage, in an image, though there be one map alone
+    Stored   ///< into an image for later use, even for a single map
   };
   MaskGathering(const MaskedOccluders& occluders, const SampleChoice& samples, Masks masks);
 
@@ -34,13 +34,13 @@ class MaskGathering : public Gathering {
 
   /// Samples of the light, in the order of the mask's bits; valid from prepare() on.
   const std::vector<glm::dvec2>& samples() const { return samples_; }
-  /// What shaders that include occlusion_mask.glsl are compiled with; valid from prepare() on.
+  /// Defines for shaders that include occlusion_mask.glsl; valid from prepare() on.
   const gl::ShaderDefines& maskDefines() const { return maskDefines_; }
-  /// Binds the stored masks and what they need; returns the number of sets, which are to be joined.
+  /// Binds the stored masks and what they need; returns the number of sets to combine.
   int bindMasks() const;
 
  private:
-  /// Maps that see anything at all. Waits for the GPU.
+  /// Number of non-empty maps. Waits for the GPU.
   int mapsWithCasters(frame::Frame& frame) const;
 
   SampleChoice pattern_;

@@ -6,6 +6,8 @@
 // A rectangle (x0, y0, x1, y1) covers the samples with x0 < s <= x1 and likewise in y, so rectangles that share an
 // edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4); here the fraction is compared instead,
 // because that sum rounds, and a bound just below a sample would then count as on it.
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 #if PATTERN == 0
 #define MASK_WORDS (SAMPLES / 32)
 #elif PATTERN == 8
@@ -25,7 +27,7 @@ uint mask[MASK_WORDS];
 // set in lightMask. The others count as covered from the start, so that a mask is full once the light is. Schwarz 2009,
 // section 4.2.2.
 #ifdef SHAPED_LIGHT
-layout(std430, binding = 0) readonly buffer LightMask { uint lightMask[MASK_WORDS]; };
+layout(std430, binding = kLightMaskBuffer) readonly buffer LightMask { uint lightMask[MASK_WORDS]; };
 #else
 #define LIGHT_SAMPLES SAMPLES
 #endif
@@ -52,7 +54,7 @@ ivec2 samplesUpTo(vec2 v, float n, float offset) {
 }
 
 #if PATTERN == 0
-layout(binding = 6) uniform usampler2DArray rectangleMasks;
+layout(binding = kRectangleMasksUnit) uniform usampler2DArray rectangleMasks;
 
 // Bounds are rounded to the table's steps, those of two rectangles at one edge alike.
 void addToMask(vec2 low, vec2 high) {

@@ -12,7 +12,8 @@ gl::Texture makeRectangleTable(const std::vector<glm::dvec2>& samples, int size)
   gl::Texture table(gl::Format::RGBA32UI, glm::ivec2(size + 1), 1, static_cast<int>(samples.size() / 128));
   for (size_t first = 0; first < samples.size(); first += 128) {
     std::vector<uint32_t> texels(side * side * 4, 0);
-    // Each sample into the first texel that holds it, then rows and columns into those after them.
+    // Enter each sample in the first texel that contains it, then OR rows and columns into the following
+    // ones.
     for (size_t bit = 0; bit < 128; ++bit) {
       const glm::dvec2 at = glm::ceil(samples[first + bit] * double(size));
       const auto column = static_cast<size_t>(at.x), row = static_cast<size_t>(at.y);

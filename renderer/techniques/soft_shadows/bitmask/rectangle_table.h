@@ -8,8 +8,8 @@
 
 namespace limen::techniques {
 
-/// Masks of the light samples within rectangles that start at the light's lower corner, from which those of
-/// all rectangles follow as areas do from a summed-area table. Source: Schwarz 2009, section 4.2.1.
+/// Masks of the light samples within rectangles that start at the light's lower corner; masks of all other
+/// rectangles follow as with a summed-area table. Source: Schwarz 2009, section 4.2.1.
 ///
 /// Texel (i, j) of size + 1 on either axis holds the samples with x <= i / size and y <= j / size. `samples`
 /// are at most 1024, a multiple of 128, in unit light coordinates; bit b is sample b, 128 to a layer.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean of visibility over neighbours along one axis, see visibility_filter.h.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D visibilities;
-layout(binding = 2) uniform sampler2D positions;
-layout(binding = 3) uniform sampler2D normals;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kVisibilityFilterReceiversUnit) uniform sampler2D receivers;
+layout(binding = kVisibilityFilterVisibilitiesUnit) uniform sampler2D visibilities;
+layout(binding = kVisibilityFilterPositionsUnit) uniform sampler2D positions;
+layout(binding = kVisibilityFilterNormalsUnit) uniform sampler2D normals;
+layout(binding = kVisibilityFilterVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 
 uniform ivec2 sizePx, direction;
 uniform int radius;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -22,16 +23,15 @@ const SettingsTable<SurfaceMean>& SurfaceMean::table() {
               "Neighbours on either side over which visibility is averaged", kFilterSource)
           .formerly({"filter_radius"}),
       Binding(&SurfaceMean::step, "step", Range{0.001, 1.0}, "",
-              "Largest step of visibility between neighbours that samples are taken to explain",
-              kFilterSource)
+              "Largest step of visibility between neighbours attributed to sampling", kFilterSource)
           .formerly({"filter_step"}),
       Binding(&SurfaceMean::planeShare, "plane_share", Range{0.0, 1.0}, "",
-              "Distance of a neighbour's point from the pixel's plane, as a share of that from its point, up "
-              "to which both are of one surface",
+              "Largest distance of a neighbour's point from the pixel's plane on the same surface, as a "
+              "share of the distance between the points",
               kFilterSource)
           .formerly({"filter_plane_share"}),
       Binding(&SurfaceMean::angle, "angle", Range{0.0, 90.0}, "deg",
-              "Angle between normals up to which both are of one surface", kFilterSource)
+              "Largest angle between normals on the same surface", kFilterSource)
           .formerly({"filter_angle"})};
   return kTable;
 }
@@ -56,13 +56,13 @@ void VisibilityFilter::run(frame::Frame& frame, const gl::Texture& visibility) {
   program_->set("maxStep", static_cast<float>(settings_.step));
   program_->set("planeShare", static_cast<float>(settings_.planeShare));
   program_->set("normalCosine", static_cast<float>(std::cos(glm::radians(settings_.angle))));
-  receivers.bindTexture(0);
-  positions.bindTexture(2);
-  normals.bindTexture(3);
+  receivers.bindTexture(kVisibilityFilterReceiversUnit);
+  positions.bindTexture(kVisibilityFilterPositionsUnit);
+  normals.bindTexture(kVisibilityFilterNormalsUnit);
   for (int axis = 0; axis < 2; ++axis) {
     program_->set("direction", glm::ivec2(1 - axis, axis));
-    (axis == 0 ? visibility : *rows_).bindTexture(1);
-    (axis == 0 ? *rows_ : *filtered_).bindImage(0, gl::Access::Write);
+    (axis == 0 ? visibility : *rows_).bindTexture(kVisibilityFilterVisibilitiesUnit);
+    (axis == 0 ? *rows_ : *filtered_).bindImage(kVisibilityFilterVisibilityImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

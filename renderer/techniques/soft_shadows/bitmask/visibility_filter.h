@@ -17,21 +17,21 @@ struct SurfaceMean {
                               *kSummary = "the mean over neighbours on the same surface";
   int radius = 4;           ///< px on either side
   double step = 0.125;      ///< between neighbours: two rows of 16 by 16 samples
-  double planeShare = 0.1;  ///< of the distance of a neighbour's point
+  double planeShare = 0.1;  ///< share of the distance to a neighbour's point
   double angle = 15.0;      ///< degrees
   static const SettingsTable<SurfaceMean>& table();
 };
 struct NoFilter {
-  static constexpr const char *kKind = "none", *kSummary = "visibility as it was gathered";
+  static constexpr const char *kKind = "none", *kSummary = "visibility as gathered";
 };
 using FilterSettings = std::variant<NoFilter, SurfaceMean>;
 
 /// Smooths the steps that few light samples leave in a visibility image: the mean over a row and then a
-/// column of neighbours on the same surface. Neighbours are walked to on both sides up to the radius, the end
-/// of the surface, or a step that is larger than samples explain, and as many are taken on one side as on the
-/// other, so that a visibility that changes evenly stays as it is. All visibilities are multiples of one
-/// sample, so where there is no step of them nothing changes. Source: Schwarz 2009, section 4.2.3, which
-/// leaves open how to filter.
+/// column of neighbours on the same surface. The walk on either side ends at the radius, the end of the
+/// surface, or a step larger than sampling explains, and both sides use the same number of neighbours, so
+/// that linearly changing visibility stays unchanged. All visibilities are multiples of one sample, so
+/// nothing changes where there are no steps. Source: Schwarz 2009, section 4.2.3, which leaves the filter
+/// open.
 class VisibilityFilter : public ProductStage {
  public:
   explicit VisibilityFilter(const SurfaceMean& settings) : settings_(settings) {}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coloured and textured lights by occlusion bitmasks (SS-17, SS-18): what samples that are not covered emit
-// is added up, by a mask for each colour, by a table of sums for groups of samples, or one by one. Source:
-// Schwarz 2009, section 4.2.2.
+// Coloured and textured lights with occlusion bitmasks (SS-17, SS-18): the emission of uncovered samples is
+// summed by a mask per colour, by a table of sums for groups of samples, or one by one. Source: Schwarz 2009,
+// section 4.2.2.
 //
-// The thesis keeps its table in a texture of 256 columns; here it is a buffer of the same half floats, so
-// that groups of 16 samples fit, too.
+// The thesis stores its table in a texture of 256 columns; here it is a buffer of the same half floats, so
+// that groups of 16 samples fit as well.
 #include <epoxy/gl.h>
 
 #include "experiments/base/error.h"
@@ -12,6 +12,7 @@
 #include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/coloured_settings.h"
 #include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.h"
+#include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours_bindings.h"
 #include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
@@ -20,11 +21,10 @@ namespace {
 constexpr const char *kColourPass = "soft_shadows/light_colours",
                      *kColourShader =
                          "renderer/techniques/soft_shadows/bitmask_coloured/light_colours.comp.glsl";
-constexpr uint32_t kTableBinding = 1, kSharesBinding = 2;
-/// Colours up to which masks are of any use: each costs as many operations as the samples have words.
+/// Number of colours up to which masks pay off: each costs one operation per word of samples.
 constexpr size_t kMostColours = 64;
 
-/// What visible samples emit, from the stored masks of all pixels.
+/// The emission of visible samples, from the stored masks of all pixels.
 class LightColourStage : public ProductStage {
  public:
   /// `masks` outlives this.
@@ -51,7 +51,7 @@ class LightColourStage : public ProductStage {
       if (masks.size() > kMostColours)
         throw Error(
             "the light's samples have " + std::to_string(masks.size()) + " colours, too many for masks",
-            "colours", "give colours: table or colours: samples");
+            "colours", "choose colours: table or colours: samples");
       for (const ColourMask& colour : masks) {
         words.insert(words.end(), colour.mask.begin(), colour.mask.end());
         rows.emplace_back(glm::vec3(colour.share), 0.0F);
@@ -80,10 +80,10 @@ class LightColourStage : public ProductStage {
     program_->set("sets", masks_.bindMasks());
     program_->set("absent", absent_);
     program_->set("colours", colourCount_);
-    if (table_) table_->bindStorage(kTableBinding);
-    shares_->bindStorage(kSharesBinding);
-    receivers.bindTexture(0);
-    colour_->bindImage(0, gl::Access::Write);
+    if (table_) table_->bindStorage(kLightColoursTableBuffer);
+    shares_->bindStorage(kLightColoursSharesBuffer);
+    receivers.bindTexture(kLightColoursReceiversUnit);
+    colour_->bindImage(kLightColoursColourImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
@@ -132,7 +132,7 @@ std::vector<Quantity> colouredQuantities() {
 const RegisteredTechnique<BitmaskColoured> kBitmaskColouredRegistered{
     {.name = "soft_shadows/bitmask_coloured",
      .version = 1,
-     .summary = "Share of a coloured or textured light's radiance that a bit field of light samples leaves",
+     .summary = "Visible share of a coloured or textured light's radiance, by a bit field of light samples",
      .source = "Schwarz 2009, section 4.2.2 (SS-17, SS-18)",
      .product = ProductKind::LightColour,
      .needs = {"area_light"},

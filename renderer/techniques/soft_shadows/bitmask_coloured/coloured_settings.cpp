@@ -20,7 +20,7 @@ const SettingsTable<ColouredSettings>& ColouredSettings::table() {
       levelsBinding(&S::levels),
       patternBinding(&S::pattern),
       mapsBinding(&S::maps),
-      {&S::colours, "colours", "How what visible samples emit is added up",
+      {&S::colours, "colours", "How the emission of visible samples is summed",
        "Schwarz 2009, section 4.2.2 (samples: bench)"}};
   return kTable;
 }

@@ -5,7 +5,7 @@
 
 namespace limen::techniques {
 
-/// Patterns of light samples that stand for cells of the light.
+/// Patterns whose light samples represent cells of the light.
 template <LightPattern P>
 struct CellSamples {
   static constexpr LightPattern kPattern = P;
@@ -33,7 +33,7 @@ struct ColourSamples {
 };
 using ColourSums = std::variant<ColourMasks, ColourTable, ColourSamples>;
 
-/// Colours follow from the masks of all pixels: one level for each, in one pass.
+/// Colours follow from the masks of all pixels: one level per pixel, in a single pass.
 struct ColouredSettings {
   SearchSettings search = {};
   WholeLevelSettings levels = {};
@@ -43,7 +43,7 @@ struct ColouredSettings {
   ColourSums colours = ColourTable{};
   static const SettingsTable<ColouredSettings>& table();
   void check() const;
-  /// Samples emit the mean of their cell of the light.
+  /// Samples emit the mean over their cell of the light.
   bool prefilters() const;
 };
 
@@ -51,7 +51,7 @@ template <LightPattern P>
 const SettingsTable<CellSamples<P>>& CellSamples<P>::table() {
   static const SettingsTable<CellSamples> kTable = {
       Binding(&CellSamples::prefilter, "prefilter",
-              "Samples emit the mean of their cell of the light, not what is emitted at their place")
+              "Samples emit the mean over their cell of the light, not the emission at their position")
           .formerly({"prefilter"})};
   return kTable;
 }

@@ -2,20 +2,22 @@
 // Share of the light that reaches a pixel, channel by channel, by its mask. Schwarz 2009, section 4.2.2.
 // COLOURS_MASKS: one mask for each colour; COLOURS_TABLE: a table of sums for groups of GROUP_BITS samples; COLOURS_SAMPLES:
 // sample by sample.
+#include "renderer/techniques/soft_shadows/bitmask_coloured/light_colours_bindings.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 0, rgba32f) uniform writeonly image2D outColour;
-layout(binding = 3, rgba32ui) uniform readonly uimage2DArray keptMasks;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kLightColoursReceiversUnit) uniform sampler2D receivers;
+layout(binding = kLightColoursColourImage, rgba32f) uniform writeonly image2D outColour;
+layout(binding = kKeptMasksImage, rgba32ui) uniform readonly uimage2DArray keptMasks;
 #include "renderer/techniques/soft_shadows/bitmask/kept_masks.glsl"
 uniform ivec2 sizePx;
 uniform int sets;
 uniform vec3 absent;  // 1 in channels of which the light has nothing: nothing of it is missing
 
 #if defined(COLOURS_MASKS)
-layout(std430, binding = 1) readonly buffer ColourMasks { uint colourMasks[]; };
-layout(std430, binding = 2) readonly buffer Shares { vec4 shares[]; };  // of a sample of each colour
+layout(std430, binding = kLightColoursColourMasksBuffer) readonly buffer ColourMasks { uint colourMasks[]; };
+layout(std430, binding = kLightColoursSharesBuffer) readonly buffer Shares { vec4 shares[]; };  // of a sample of each colour
 uniform int colours;
 
 vec3 visibleColour() {
@@ -28,7 +30,7 @@ vec3 visibleColour() {
   return sum;
 }
 #elif defined(COLOURS_TABLE)
-layout(std430, binding = 1) readonly buffer Table { uvec2 table[]; };
+layout(std430, binding = kLightColoursTableBuffer) readonly buffer Table { uvec2 table[]; };
 
 vec3 visibleColour() {
   const int kGroups = 32 / GROUP_BITS;  // in a word
@@ -42,7 +44,7 @@ vec3 visibleColour() {
   return sum / float(SAMPLES);
 }
 #else
-layout(std430, binding = 2) readonly buffer Shares { vec4 shares[]; };  // of each sample
+layout(std430, binding = kLightColoursSharesBuffer) readonly buffer Shares { vec4 shares[]; };  // of each sample
 
 vec3 visibleColour() {
   vec3 sum = vec3(0.0);

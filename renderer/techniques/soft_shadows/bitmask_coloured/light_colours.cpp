@@ -11,8 +11,8 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-/// The part of a polygon with sign * coordinate <= sign * bound (Sutherland and Hodgman 1974). Of one that is
-/// not convex several pieces may hang together by edges without area.
+/// The part of a polygon with sign * coordinate <= sign * bound (Sutherland and Hodgman 1974). For a
+/// non-convex polygon, several pieces may be connected by degenerate edges.
 Polygon clip(const Polygon& polygon, int axis, double sign, double bound) {
   Polygon out;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -37,7 +37,7 @@ double areaWithin(Polygon polygon, glm::dvec2 low, glm::dvec2 high) {
 double shareIn(const scene::LightPart& part, glm::dvec2 sample, int cells) {
   if (part.outline.empty()) return 1.0;
   if (cells == 0) {
-    // A sample on the edge between two parts is of the one to its right or above.
+    // A sample on the edge between two parts belongs to the one to its right or above.
     const glm::dvec2 inside = sample + glm::dvec2(0x1p-30, 0x1p-31);
     return scene::polygonContains(part.outline, inside) ? 1.0 : 0.0;
   }
@@ -88,7 +88,7 @@ std::vector<glm::uvec2> colourTable(const std::vector<glm::dvec3>& shares, int g
     for (size_t pattern = 0; pattern < patterns; ++pattern) {
       glm::dvec3 sum(0.0);
       if (pattern > 0) {
-        // One bit more than a pattern that is known.
+        // A known pattern plus one bit.
         size_t bit = 0;
         while (!(pattern >> bit & 1U)) ++bit;
         const size_t sample = group * bits + bit;

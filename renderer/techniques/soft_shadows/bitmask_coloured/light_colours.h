@@ -9,12 +9,12 @@
 
 namespace limen::techniques {
 
-/// What light samples emit, as shares of all that the samples emit: channel by channel they sum to 1 (to 0
-/// where the light has none of a channel). Source: Schwarz 2009, section 4.2.2.
+/// The emission of light samples, as shares of their total: each channel sums to 1 (to 0 for a channel that
+/// the light does not have). Source: Schwarz 2009, section 4.2.2.
 ///
-/// A place emits the sum of the radiances of the parts that it lies in. `cells` > 0: a sample stands for its
-/// cell of a square grid of as many cells a side, and emits its mean; 0: what is emitted at its own place.
-/// Samples off the light emit nothing.
+/// A point emits the sum of the radiances of the parts that contain it. `cells` > 0: a sample represents its
+/// cell of a square grid with this many cells per side, and emits the mean over it; 0: the emission at its
+/// own position. Samples off the light emit nothing.
 std::vector<glm::dvec3> emissionShares(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples,
                                        int cells);
 
@@ -23,7 +23,7 @@ struct ColourMask {
   glm::dvec3 share{0.0};  ///< of one sample
   std::vector<uint32_t> mask;
 };
-/// One for each share that differs, in order of their first samples; samples that emit nothing are left out.
+/// One per distinct share, in order of their first samples; samples that emit nothing are left out.
 std::vector<ColourMask> colourMasks(const std::vector<glm::dvec3>& shares);
 
 /// Sums of shares for groups of `groupBits` samples (4, 8 or 16) and all patterns of visible ones: entry

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Change of visibility over one step of the light, or the mean of several steps' absolute changes. See change.cpp.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D visibilityBefore;
-layout(binding = 1) uniform sampler2D visibilityAfter;
-layout(binding = 2) uniform sampler2D receiversBefore;
-layout(binding = 3) uniform sampler2D receiversAfter;
-layout(binding = 0, r32f) uniform image2D change;
+#include "renderer/techniques/soft_shadows/change/change_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kChangeVisibilityBeforeUnit) uniform sampler2D visibilityBefore;
+layout(binding = kChangeVisibilityAfterUnit) uniform sampler2D visibilityAfter;
+layout(binding = kChangeReceiversBeforeUnit) uniform sampler2D receiversBefore;
+layout(binding = kChangeReceiversAfterUnit) uniform sampler2D receiversAfter;
+layout(binding = kChangeImage, r32f) uniform image2D change;
 
 uniform ivec2 sizePx;
 uniform int isFirst;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How much visibility changes from one frame to the next while the light moves (SS-43). Compared with the
-// same change of a reference, what is left is the method's own: micro-occluders swim as the casters'
+// same change of a reference, the difference is the method's own: micro-occluders swim as the casters'
 // rasterisation in the shadow map changes, the more the coarser they are. Source: Schwarz 2009, sections 4.5
-// and 5.2.2, which describe it and measure nothing.
+// and 5.2.2, which describe but do not measure it.
 //
-// The map is fitted to the casters in every frame, so that a single flat caster parallel to the light carries
-// the map's texels along and does not swim at all.
+// The map is fitted to the casters in every frame, so the map's texels move with a single flat caster
+// parallel to the light, which does not swim at all.
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
+
+#include "renderer/techniques/soft_shadows/change/change_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -34,21 +36,17 @@ struct MeanAbsolute {
 };
 
 struct Unsmoothed {
-  static constexpr const char *kKind = "none", *kSummary = "each frame by itself";
+  static constexpr const char *kKind = "none", *kSummary = "each frame on its own";
 };
 
 struct Smoothed {
   static constexpr const char *kKind = "history",
-                              *kSummary = "averaged with the frames before, as soft_shadows/history does";
+                              *kSummary = "averaged with the previous frames, as in soft_shadows/history";
   int leadIn = 0;
   HistorySettings history;
   static const SettingsTable<Smoothed>& table() {
     static const SettingsTable<Smoothed> kTable = {
-        {&Smoothed::leadIn,
-         "lead_in",
-         {0, 31},
-         "steps",
-         "Steps of the light before those whose change is measured"},
+        {&Smoothed::leadIn, "lead_in", {0, 31}, "steps", "Steps of the light before those that are measured"},
         included(&Smoothed::history)};
     return kTable;
   }
@@ -63,9 +61,9 @@ struct ChangeSettings {
     using S = ChangeSettings;
     static const SettingsTable<S> kTable = {
         innerBinding(&S::inner, InnerKind::OrExact),
-        {&S::quantity, "quantity", "Which change of visibility"},
+        {&S::quantity, "quantity", "Which change of visibility to show"},
         included(&S::way),
-        {&S::smoothing, "smoothing", "Whether frames are averaged with those before them",
+        {&S::smoothing, "smoothing", "Whether frames are averaged with previous ones",
          "Schwarz 2009, section 5.2.2 (suggested there)"}};
     return kTable;
   }
@@ -94,11 +92,11 @@ class Change : public Technique {
       program_->set("sizePx", frame.sizePx());
       program_->set("isFirst", step == leadIn_ ? 1 : 0);
       program_->set("steps", static_cast<float>(steps_));
-      before.visibility->bindTexture(0);
-      after.visibility->bindTexture(1);
-      before.receivers->bindTexture(2);
-      after.receivers->bindTexture(3);
-      change_->bindImage(0, gl::Access::ReadWrite);
+      before.visibility->bindTexture(kChangeVisibilityBeforeUnit);
+      after.visibility->bindTexture(kChangeVisibilityAfterUnit);
+      before.receivers->bindTexture(kChangeReceiversBeforeUnit);
+      after.receivers->bindTexture(kChangeReceiversAfterUnit);
+      change_->bindImage(kChangeImage, gl::Access::ReadWrite);
       program_->dispatch(frame.sizePx());
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     });
@@ -120,17 +118,18 @@ class Change : public Technique {
     return all;
   }
 
-  /// Red where light came, blue where it went, full at a quarter of the light.
-  std::map<std::string, Image> pictures() const override {
-    constexpr float kFull = 0.25F;
-    const Image change = change_->read();
-    Image picture(change.width, change.height, 3);
-    for (size_t i = 0; i < change.pixels(); ++i) {
-      const float value = change.data[i] / kFull;
-      picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
-      picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
-    }
-    return {{"signed_change", std::move(picture)}};
+  /// Red where light appeared, blue where it vanished, saturated at a quarter of the light.
+  std::map<std::string, PictureMaker> pictures() const override {
+    return {{"signed_change", [change = change_->read()] {
+               constexpr float kFull = 0.25F;
+               Image picture(change.width, change.height, 3);
+               for (size_t i = 0; i < change.pixels(); ++i) {
+                 const float value = change.data[i] / kFull;
+                 picture.data[3 * i] = std::clamp(value, 0.0F, 1.0F);
+                 picture.data[3 * i + 2] = std::clamp(-value, 0.0F, 1.0F);
+               }
+               return picture;
+             }}};
   }
 
  private:

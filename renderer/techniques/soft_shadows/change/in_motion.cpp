@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Visibility at the end of a motion of the light, and of the camera (SS-43): a history still remembers places
-// where the light was. Against the visibility of a light that never moved this is its lag, the price of what
-// it does for stability. Without a history it is the inner technique itself.
+// Visibility at the end of a motion of the light, and of the camera (SS-43): a history still contains earlier
+// positions of the light. Compared with the visibility of a light that never moved, this is its lag, the
+// price of its stability. Without a history it is the inner technique itself.
 #include "renderer/techniques/soft_shadows/change/light_motion.h"
 
 namespace limen::techniques {
 namespace {
 
 struct StillFrame {
-  static constexpr const char *kKind = "none", *kSummary = "the last frame by itself";
+  static constexpr const char *kKind = "none", *kSummary = "the last frame on its own";
 };
 
 struct MotionHistory {
   static constexpr const char *kKind = "history",
-                              *kSummary = "averaged with the frames before it, as soft_shadows/history does";
+                              *kSummary = "averaged with the previous frames, as in soft_shadows/history";
   LightWay way;
   int steps = 1;
   double cameraStepS = 0.0;
@@ -25,7 +25,7 @@ struct MotionHistory {
         Binding(&S::steps, "steps", Range{1, 32}, "steps", "Steps of the light up to the frame in question")
             .formerly({"steps"}),
         Binding(&S::cameraStepS, "camera_step_s", Range{0, 10}, "s",
-                "Time that the camera moves on along its path with each step of the light")
+                "Time that the camera advances along its path with each step of the light")
             .formerly({"camera_step_s"}),
         included(&S::history)};
     return kTable;
@@ -39,7 +39,7 @@ struct InMotionSettings {
     using S = InMotionSettings;
     static const SettingsTable<S> kTable = {
         innerBinding(&S::inner, InnerKind::OrExact),
-        {&S::smoothing, "smoothing", "What the light's motion leaves in the last frame",
+        {&S::smoothing, "smoothing", "What remains of the light's motion in the last frame",
          "Schwarz 2009, section 5.2.2 (suggested there)"}};
     return kTable;
   }
@@ -70,7 +70,8 @@ class InMotion : public Technique {
 const RegisteredTechnique<InMotion> kInMotionTechnique{
     {.name = "soft_shadows/in_motion",
      .version = 1,
-     .summary = "Visibility of another technique at the end of a motion of the light, with a history or not",
+     .summary =
+         "Visibility of another technique at the end of a motion of the light, with or without a history",
      .source = "Schwarz 2009, section 5.2.2 (SS-43)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},

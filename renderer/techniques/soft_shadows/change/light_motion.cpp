@@ -21,12 +21,12 @@ const SettingsTable<LightWay>& LightWay::table() {
        "light_step",
        {0, 100},
        "",
-       "Way of the light in its plane from one frame to the next, as a share of its extents"},
+       "Distance that the light moves in its plane per frame, as a share of its extents"},
       {&LightWay::directionDeg,
        "direction_deg",
        {0, 360},
        "deg",
-       "Direction of that way, from the light's x axis to its y axis"}};
+       "Direction of that motion, from the light's x axis to its y axis"}};
   return kTable;
 }
 

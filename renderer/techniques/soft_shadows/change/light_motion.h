@@ -18,36 +18,36 @@ struct LightWay {
   static const SettingsTable<LightWay>& table();
 };
 
-/// A technique watched while the light moves in its own plane, in equal steps that end where the scene has
-/// it. Each place of the light is a view of its own within the frame, with its own shadow maps, as it would
-/// be frame after frame; a history goes along, if there is one. Work and bytes are those of all places
+/// A technique observed while the light moves in its own plane, in equal steps that end at its position in
+/// the scene. Each position of the light is a separate view within the frame, with its own shadow maps, as in
+/// consecutive frames; a history, if any, is carried along. Work and bytes are those of all positions
 /// together.
 class LightMotion {
  public:
-  /// What one frame of the motion shows.
+  /// The content of one frame of the motion.
   struct Seen {
     const gl::Texture* visibility = nullptr;  ///< R32F
-    const gl::Texture* receivers = nullptr;   ///< as frame::Receivers has them
+    const gl::Texture* receivers = nullptr;   ///< as in frame::Receivers
   };
-  /// `after` is the frame's, `before` the one before it; valid during the call.
+  /// `after` belongs to the frame, `before` to the previous one; valid during the call.
   using StepVisitor = std::function<void(int step, const Seen& before, const Seen& after)>;
 
-  /// `history`: none if null.
+  /// `history`: null for none.
   LightMotion(ChosenEntry inner, const LightWay& way, const HistorySettings* history);
 
-  /// Time that the camera moves on between two places, s; at the last it is where the frame has it. Before
-  /// prepare().
+  /// Time that the camera advances between two positions, s; at the last it is where the frame has it. Call
+  /// before prepare().
   void setCameraStep(double seconds) { cameraStepS_ = seconds; }
 
-  /// `steps` of the light lead to where the scene has it: steps + 1 places.
+  /// `steps` of the light lead to its position in the scene: steps + 1 positions.
   void prepare(frame::Frame& frame, int steps);
-  /// Shows all places in order, the history starting anew with the first, and visits the steps between them,
-  /// numbered from 0 on.
+  /// Renders all positions in order, the history restarting with the first, and visits the steps between
+  /// them, numbered from 0.
   void render(frame::Frame& frame, const StepVisitor& visit = {});
-  /// The frame at the last place. After render().
+  /// The frame at the last position. After render().
   const Seen& last() const { return last_; }
 
-  /// Of the last place.
+  /// Of the last position.
   std::vector<Counter> count();
   static std::vector<Quantity> counters();
 

@@ -4,15 +4,15 @@
 // the depth, gives the blockers' average without a search. Source: Schwarz 2009, section 3.2.1 (after Annen
 // et al. 2007 and 2008; the formulas are not given there).
 //
-// The step is blurred over 1 / M of the depths that the series spans, and rings: occluders so close are lost,
-// and light leaks by up to 9 % of what is blocked.
+// The step is blurred over 1 / M of the depths that the series spans, and rings: occluders that close are
+// lost, and light leaks by up to 9 % of what is blocked.
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
 
 namespace limen::techniques {
 namespace {
 
 struct ConvolutionSettings {
-  // A texture a term: 64 MiB for eight of them at 1024 x 1024.
+  // One texture per term: 64 MiB for eight of them at 1024 x 1024.
   PrefilteredSettings common{.map = {.resolution = 256}};
   AnyWindow window;
   int terms = 8;
@@ -26,19 +26,20 @@ struct ConvolutionSettings {
          "terms",
          {4, 16},
          "",
-         "Terms of the series (M), a texture each",
+         "Terms of the series (M), one texture each",
          "Schwarz 2009, section 3.2.1 (value not given there)"},
         {&S::periodShare,
          "period_share",
          {0.5, 1},
          "",
          "Share of half the series' period that depths from 0 to 1 span; near 1 the step at its end lets "
-         "through what is far before the receiver"},
+         "through occluders far in front of the receiver"},
         {&S::shift,
          "shift",
          {0, 4},
          "",
-         "How far the receiver is moved towards the light, in units of 1 / 2M of half the period, where the "
+         "Distance that the receiver is moved towards the light, in units of 1 / 2M of half the period, "
+         "where the "
          "series peaks"}};
     return kTable;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 
-layout(binding = 1) uniform sampler2D shadowMap;
+layout(binding = kShadowMapUnit) uniform sampler2D shadowMap;
 
 float visibilityOf(vec4 receiver, ivec2 pixel) {
   const vec2 at = mapTexel(receiver.xy / receiver.z);

@@ -12,7 +12,7 @@ struct HardSettings {
   static const SettingsTable<HardSettings>& table() {
     static const SettingsTable<HardSettings> kTable = {
         included(&HardSettings::map),
-        Binding(&HardSettings::bias, "bias", "What keeps a surface from shadowing itself")
+        Binding(&HardSettings::bias, "bias", "Bias that keeps a surface from shadowing itself")
             .shorthand("constant")};
     return kTable;
   }

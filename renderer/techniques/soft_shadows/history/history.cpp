@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another technique's visibility averaged over the frames that were rendered so far (SS-43). The first frame
-// is the other technique's own; what later ones gain and lose in motion is measured by soft_shadows/change
-// and soft_shadows/in_motion, which have the same history within.
+// Another technique's visibility averaged over the frames rendered so far (SS-43). The first frame is the
+// other technique's own; what later ones gain and lose in motion is measured by soft_shadows/change and
+// soft_shadows/in_motion, which contain the same history.
 #include "renderer/techniques/soft_shadows/history/visibility_history.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 

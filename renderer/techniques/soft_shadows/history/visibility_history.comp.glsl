@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One frame more of a visibility history. See visibility_history.h.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D presentVisibility;
-layout(binding = 2) uniform sampler2D depths;
-layout(binding = 3) uniform sampler2D normals;
-layout(binding = 4) uniform sampler2D pastVisibility;
-layout(binding = 5) uniform sampler2D pastSurface;  // normal, depth; depth 0: no receiver
+#include "renderer/techniques/soft_shadows/history/history_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kHistoryReceiversUnit) uniform sampler2D receivers;
+layout(binding = kHistoryPresentVisibilityUnit) uniform sampler2D presentVisibility;
+layout(binding = kHistoryDepthsUnit) uniform sampler2D depths;
+layout(binding = kHistoryNormalsUnit) uniform sampler2D normals;
+layout(binding = kHistoryPastVisibilityUnit) uniform sampler2D pastVisibility;
+layout(binding = kHistoryPastSurfaceUnit) uniform sampler2D pastSurface;  // normal, depth; depth 0: no receiver
 #ifdef MOVING
-layout(binding = 6) uniform sampler2D displacement;
-layout(binding = 7) uniform sampler2D previousDepth;
+layout(binding = kHistoryDisplacementUnit) uniform sampler2D displacement;
+layout(binding = kHistoryPreviousDepthUnit) uniform sampler2D previousDepth;
 #endif
 #ifdef FATES
-layout(binding = 0, r32ui) uniform writeonly uimage2D outFate;
+layout(binding = kHistoryFateImage, r32ui) uniform writeonly uimage2D outFate;
 #else
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
-layout(binding = 1, rgba32f) uniform writeonly image2D outSurface;
+layout(binding = kHistoryVisibilityImage, r32f) uniform writeonly image2D outVisibility;
+layout(binding = kHistorySurfaceImage, rgba32f) uniform writeonly image2D outSurface;
 #endif
 
 uniform ivec2 sizePx;
 uniform int hasPast, clampRadius;
 uniform float alpha, depthTolerance, normalCosine;
-
-const uint kNoReceiver = 0u, kNoPast = 1u, kPastTaken = 2u, kPastBounded = 3u;
 
 bool isReceiver(ivec2 pixel) { return texelFetch(receivers, pixel, 0).w >= 0.0; }
 
@@ -77,21 +77,21 @@ vec2 presentRange(ivec2 pixel) {
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
-  uint fate = kNoReceiver;
+  uint fate = kFateNoReceiver;
   float visibility = 1.0;
   vec4 surface = vec4(0.0);
   if (isReceiver(pixel)) {
-    fate = kNoPast;
+    fate = kFateNoPast;
     visibility = texelFetch(presentVisibility, pixel, 0).x;
     surface = vec4(texelFetch(normals, pixel, 0).xyz, texelFetch(depths, pixel, 0).x);
     const Past past = findPast(pixel, surface.xyz, surface.w);
     if (past.known) {
-      fate = kPastTaken;
+      fate = kFatePastTaken;
       float before = past.visibility;
       if (clampRadius > 0) {
         const vec2 range = presentRange(pixel);
         before = min(max(before, range.x), range.y);
-        if (before != past.visibility) fate = kPastBounded;
+        if (before != past.visibility) fate = kFatePastBounded;
       }
       // From the present on, so that it stays what it is, to the bit, where the past has no weight or agrees.
       precise const float averaged = visibility + (1.0 - alpha) * (before - visibility);

@@ -7,6 +7,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/motion.h"
+#include "renderer/techniques/soft_shadows/history/history_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -15,11 +16,8 @@ constexpr const char *kHistoryPass = "soft_shadows/history",
                      *kHistoryShader =
                          "renderer/techniques/soft_shadows/history/visibility_history.comp.glsl";
 
-/// What the shader writes about a pixel where FATES is defined.
-enum Fate : uint32_t { NoReceiver = 0, NoPast = 1, PastTaken = 2, PastBounded = 3 };
-
-/// Times of frames are sums and differences of doubles; equal steps must not differ in their last digits,
-/// since each length of step has an input of its own.
+/// Frame times are sums and differences of doubles; equal steps must not differ in their last digits, since
+/// each step length has its own input.
 double stepBetween(double fromS, double toS) {
   constexpr double kNanoseconds = 1e9;
   return std::round((toS - fromS) * kNanoseconds) / kNanoseconds;
@@ -37,7 +35,7 @@ gl::ShaderDefines historyDefines(bool moving, bool fates) {
 const SettingsTable<NeighbourhoodClamp>& NeighbourhoodClamp::table() {
   static const SettingsTable<NeighbourhoodClamp> kTable = {
       Binding(&NeighbourhoodClamp::radius, "radius", Range{1, 8}, "px",
-              "Half the side of the square that is looked at, without its middle")
+              "Half-width of the neighbourhood, excluding the centre")
           .formerly({"clamp_radius"})};
   return kTable;
 }
@@ -50,21 +48,21 @@ const SettingsTable<HistorySettings>& HistorySettings::table() {
        "alpha",
        {0.01, 1},
        "",
-       "Weight of the present frame; the past has the rest; 1: no history",
+       "Weight of the current frame, the rest going to the history; 1: no history",
        kSource},
       {&S::depthTolerance,
        "depth_tolerance",
        {0, 1},
        "",
-       "Difference of depth from the past at which it is another surface, as a share of the depth",
+       "Depth difference at which the history belongs to another surface, as a share of the depth",
        kSource},
       {&S::normalToleranceDeg,
        "normal_tolerance_deg",
        {0, 180},
        "deg",
-       "Angle between normals from which the past is another surface",
+       "Angle between normals at which the history belongs to another surface",
        kSource},
-      Binding(&S::clamp, "clamp", "Bounds of the past", "Karis 2014")};
+      Binding(&S::clamp, "clamp", "Bounds of the history", "Karis 2014")};
   return kTable;
 }
 
@@ -112,29 +110,29 @@ void VisibilityHistory::run(frame::Frame& frame, const gl::Texture& visibility, 
   program.set("depthTolerance", depthTolerance_);
   program.set("normalCosine", normalCosine_);
   program.set("clampRadius", clampRadius_);
-  receivers.bindTexture(0);
-  visibility.bindTexture(1);
-  depths.bindTexture(2);
-  normals.bindTexture(3);
-  visibility_.at(latest_)->bindTexture(4);
-  surface_.at(latest_)->bindTexture(5);
+  receivers.bindTexture(kHistoryReceiversUnit);
+  visibility.bindTexture(kHistoryPresentVisibilityUnit);
+  depths.bindTexture(kHistoryDepthsUnit);
+  normals.bindTexture(kHistoryNormalsUnit);
+  visibility_.at(latest_)->bindTexture(kHistoryPastVisibilityUnit);
+  surface_.at(latest_)->bindTexture(kHistoryPastSurfaceUnit);
   if (motion) {
-    motion->displacement().bindTexture(6);
-    motion->previousDepth().bindTexture(7);
+    motion->displacement().bindTexture(kHistoryDisplacementUnit);
+    motion->previousDepth().bindTexture(kHistoryPreviousDepthUnit);
   }
   if (fates) {
-    fates->bindImage(0, gl::Access::Write);
+    fates->bindImage(kHistoryFateImage, gl::Access::Write);
   } else {
-    visibility_.at(1 - latest_)->bindImage(0, gl::Access::Write);
-    surface_.at(1 - latest_)->bindImage(1, gl::Access::Write);
+    visibility_.at(1 - latest_)->bindImage(kHistoryVisibilityImage, gl::Access::Write);
+    surface_.at(1 - latest_)->bindImage(kHistorySurfaceImage, gl::Access::Write);
   }
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 std::vector<Quantity> VisibilityHistory::counters() {
-  return {{"history_taken_share", "Share of receivers that find a past", "", Direction::Neither},
-          {"history_bounded_share", "Share of receivers whose past is bounded", "", Direction::Neither}};
+  return {{"history_taken_share", "Share of receivers with a history", "", Direction::Neither},
+          {"history_bounded_share", "Share of receivers whose history is clamped", "", Direction::Neither}};
 }
 
 std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Texture& visibility) {
@@ -144,9 +142,9 @@ std::vector<Counter> VisibilityHistory::count(frame::Frame& frame, const gl::Tex
   frame.end();
   double receivers = 0.0, taken = 0.0, bounded = 0.0;
   for (const uint32_t fate : fates.readUint()) {
-    receivers += fate != NoReceiver;
-    taken += fate == PastTaken || fate == PastBounded;
-    bounded += fate == PastBounded;
+    receivers += fate != kFateNoReceiver;
+    taken += fate == kFatePastTaken || fate == kFatePastBounded;
+    bounded += fate == kFatePastBounded;
   }
   const auto share = [&](double part) { return receivers > 0.0 ? part / receivers : 0.0; };
   return {{"history_taken_share", share(taken)}, {"history_bounded_share", share(bounded)}};

@@ -12,48 +12,47 @@
 
 namespace limen::techniques {
 
-/// The past is taken as it is.
+/// The history is used as it is.
 struct UnboundedPast {
-  static constexpr const char *kKind = "none", *kSummary = "the past is taken as it is";
+  static constexpr const char *kKind = "none", *kSummary = "the history is used as it is";
 };
-/// The past lies within what the present has around the pixel.
+/// The history is clamped to the current frame's values around the pixel.
 struct NeighbourhoodClamp {
-  static constexpr const char *kKind = "neighbourhood",
-                              *kSummary =
-                                  "least and greatest visibility of receivers around the pixel in the "
-                                  "present frame";
-  int radius = 1;  ///< px, half the side of the square without its middle
+  static constexpr const char
+      *kKind = "neighbourhood",
+      *kSummary = "smallest and largest visibility of receivers around the pixel in the current frame";
+  int radius = 1;  ///< px, half-width of the square, excluding the centre
   static const SettingsTable<NeighbourhoodClamp>& table();
 };
 
 struct HistorySettings {
-  double alpha = 0.2;  ///< weight of the present frame
+  double alpha = 0.2;  ///< weight of the current frame
   double depthTolerance = 0.01, normalToleranceDeg = 20.0;
   std::variant<UnboundedPast, NeighbourhoodClamp> clamp;
   static const SettingsTable<HistorySettings>& table();
 };
 
-/// Visibility averaged over past frames with weights that fall exponentially. Where a pixel's surface point
-/// lay in the frame before is known from the camera's motion; the light may move as it likes, which is what
-/// the history smooths and what it lags behind. Source: Schwarz 2009, section 5.2.2, suggests it and leaves
-/// all else open; reprojection after Scherzer et al. 2007 (named there), rejecting what depth or normal show
-/// to be another surface; bounding the past by the present's neighbourhood after Karis 2014.
+/// Visibility averaged over past frames with weights that fall exponentially. The previous position of a
+/// pixel's surface point is known from the camera's motion; the light may move freely, which is what the
+/// history smooths and lags behind. Source: Schwarz 2009, section 5.2.2, suggests it and leaves the rest
+/// open; reprojection after Scherzer et al. 2007 (named there), rejecting points that depth or normal show to
+/// be on another surface; clamping the history to the current neighbourhood after Karis 2014.
 class VisibilityHistory {
  public:
   explicit VisibilityHistory(const HistorySettings& settings);
 
   void prepare(frame::Frame& frame);
-  /// The next frame has no past.
+  /// The next frame has no history.
   void forget() { hasPast_ = false; }
-  /// Adds the visibility of the frame at hand (R32F); frames come in order. Opens a pass of its own. After
+  /// Adds the visibility of the current frame (R32F); frames come in order. Opens its own pass. After
   /// the first frame with a moving camera, equal steps of time allocate nothing.
   void add(frame::Frame& frame, const gl::Texture& visibility);
-  /// R32F: the average up to the frame last added, and up to the one before it; 1 outside receivers.
+  /// R32F: the average up to and including the last frame, and up to the one before it; 1 outside receivers.
   const gl::Texture& current() const { return *visibility_.at(latest_); }
   const gl::Texture& before() const { return *visibility_.at(1 - latest_); }
 
-  /// Shares of receivers that find a past, and whose past is bounded by the present, were the frame at hand
-  /// added once more. Changes nothing.
+  /// Shares of receivers that have a history, and whose history is clamped, if the current frame were added
+  /// once more. Changes nothing.
   std::vector<Counter> count(frame::Frame& frame, const gl::Texture& visibility);
   static std::vector<Quantity> counters();
 
@@ -61,11 +60,11 @@ class VisibilityHistory {
   void run(frame::Frame& frame, const gl::Texture& visibility, const gl::Texture* fates);
 
   float alpha_, depthTolerance_, normalCosine_;
-  int clampRadius_ = 0;  // 0: the past is taken as it is
+  int clampRadius_ = 0;  // 0: the history is used as it is
   std::array<std::optional<gl::Texture>, 2> visibility_, surface_;
   size_t latest_ = 0;
   bool hasPast_ = false;
-  double timeS_ = 0.0;  // of the frame last added
+  double timeS_ = 0.0;  // of the last frame added
 };
 
 }  // namespace limen::techniques

@@ -6,8 +6,8 @@
 float hiddenArea = 0.0;
 #endif
 
-layout(binding = 1) uniform sampler2D minimumMap;  // level 0: the linear shadow map
-layout(binding = 2) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+layout(binding = kMinimumMapUnit) uniform sampler2D minimumMap;  // level 0: the linear shadow map
+layout(binding = kMaximumMapUnit) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
 
 uniform int levels, finestLevel;
 uniform int maxIterations;  // that the driver's compiler allows

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hierarchical traversal of the min/max pyramid (SS-07): each receiver walks the quadtree over the shadow map
-// down to the texels that hide the light, and takes a tile that lies in the shaft to the light, all texels of
-// which are nearer than the receiver, as one block. Source: Schwarz 2009, sections 3.2.1 and 4.3.3 (after
-// Dmitriev 2007, who keeps a stack; here the order of the tiles needs none).
+// down to the texels that hide the light; a tile in the shaft to the light, all of whose texels are nearer
+// than the receiver, is treated as one block. Source: Schwarz 2009, sections 3.2.1 and 4.3.3 (after Dmitriev
+// 2007, who keeps a stack; here the order of the tiles needs none).
 //
-// A block has one depth, which the thesis leaves open: declared as 'blocks'. Tiles that the shaft's
-// sides cut are taken apart, so blocks are the only approximation beside micropatches.
+// A block has one depth, which the thesis leaves open: declared as 'blocks'. Tiles cut by the shaft's sides
+// are subdivided, so blocks are the only approximation besides micropatches.
 #include <bit>
 
 #include "experiments/base/error.h"
@@ -28,7 +28,7 @@ struct SummedArea {
   static constexpr const char *kKind = "area", *kSummary = "hidden areas of the light are summed";
 };
 struct JoinedMask {
-  static constexpr const char *kKind = "bitmask", *kSummary = "hidden samples of the light are joined";
+  static constexpr const char *kKind = "bitmask", *kSummary = "hidden samples of the light are combined";
   GridPattern pattern = GridPattern::Jittered16;
   static const SettingsTable<JoinedMask>& table() {
     static const SettingsTable<JoinedMask> kTable = {
@@ -49,20 +49,19 @@ struct TraversalSettings {
     using S = TraversalSettings;
     static const SettingsTable<S> kTable = {
         included(&S::map),
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
-        {&S::accumulation, "accumulation", "What is gathered of the tiles that hide the light",
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::accumulation, "accumulation", "What is accumulated from tiles that hide the light",
          "Schwarz 2009, sections 3.2.1 and 4.2"},
-        Binding(
-            &S::blocks, "blocks",
-            "Depth at which a tile within the shaft to the light that is nearer than the receiver all over "
-            "counts as one block; none: every texel is visited",
-            "Schwarz 2009, section 3.2.1 (after Dmitriev 2007)")
+        Binding(&S::blocks, "blocks",
+                "Depth of a tile that lies within the shaft to the light, is nearer than the receiver "
+                "everywhere and so counts as one block; none: every texel is visited",
+                "Schwarz 2009, section 3.2.1 (after Dmitriev 2007)")
             .formerly({"block_depth"}),
         {&S::finestLevel,
          "finest_level",
          {0, 12},
          "",
-         "Level of the pyramid below which no tile is taken apart; 0: texels"}};
+         "Finest level of the pyramid to which tiles are subdivided; 0: texels"}};
     return kTable;
   }
 
@@ -117,7 +116,7 @@ class HsmTraversal : public VisibilityTechnique {
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
-    // A tile costs a turn of the loop and at most one more on the way back up.
+    // A tile costs one iteration of the loop and at most one more on the way back up.
     maxIterations_ = maxIterations(frame) / 2;
     return bindPyramid(frame);
   }

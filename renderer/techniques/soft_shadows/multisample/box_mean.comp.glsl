@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean visibility of a pixel's square of samples.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D sampled;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kBoxMeanSampledUnit) uniform sampler2D sampled;
+layout(binding = kBoxMeanVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 uniform int samples;  // along each axis
 uniform ivec2 sizePx;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soft shadows for frames with several samples a pixel (SS-35; Schwarz 2009, section 4.6): visibility is
-// found for one sample a pixel; samples on another surface take it from the neighbour that is closest to them
-// in depth.
+// Soft shadows for frames with several samples per pixel (SS-35; Schwarz 2009, section 4.6): visibility is
+// found for one sample per pixel; samples on another surface take it from the neighbour closest in depth.
 //
 // Departures and choices: the product is the mean visibility of a pixel's samples; weights by their colours
-// are left out, since products here are visibilities. The thesis does not give the tolerance. Samples that no
-// light can reach (background, turned away) are known to and neither give nor take visibility; there, their
-// colour is 0. Every sample's depth comes from its triangle in compute instead of from a multisampled colour
-// buffer.
+// are left out, since products here are visibilities. The thesis does not give the tolerance. Samples that
+// light cannot reach (background, facing away) are recognised and neither lend nor take visibility; in the
+// thesis their colour is 0. Every sample's depth is computed from its triangle instead of read from a
+// multisampled colour buffer.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
 
@@ -72,9 +72,9 @@ class Multisample : public Technique {
   void render(frame::Frame& frame) override { run(frame, *resolve_, nullptr); }
   const gl::Texture& product() const override { return *visibility_; }
 
-  /// Points asked for a pixel and their micro-occluders; where one sample stands for others, also the share
-  /// of pixels that see several surfaces, and of samples that took a neighbour's visibility, or one that is
-  /// not of their surface.
+  /// Points evaluated per pixel and their micro-occluders; if one sample represents others, also the share of
+  /// pixels that see several surfaces, and of samples that took a neighbour's visibility or one from another
+  /// surface.
   std::vector<Counter> count(frame::Frame& frame) override {
     std::optional<gl::Texture> counts;
     const gl::Program* program = resolve_;
@@ -133,7 +133,7 @@ class Multisample : public Technique {
     const auto scope = frame.passes().open(kResolve);
     resolve.set("sizePx", frame.sizePx());
     if (!chosen_) {
-      inner_->product().bindTexture(0);
+      inner_->product().bindTexture(kSampleSpreadVisibilityUnit);
     } else {
       resolve.set("samples", settings_.samples);
       const auto* given = std::get_if<InterpolatedSamples>(&settings_.method);
@@ -141,17 +141,17 @@ class Multisample : public Technique {
       resolve.set("neighbours", interpolation.neighbours);
       resolve.set("tolerance", static_cast<float>(interpolation.tolerance));
       resolve.set("interpolate", given ? 1 : 0);
-      sampleDepths_->bindTexture(0);
-      depths_->bindTexture(1);
-      inner_->product().bindTexture(2);
+      sampleDepths_->bindTexture(kSampleResolveSampleDepthsUnit);
+      depths_->bindTexture(kSampleResolveDepthsUnit);
+      inner_->product().bindTexture(kSampleResolveVisibilityUnit);
     }
-    visibility_->bindImage(0, gl::Access::Write);
-    if (counts) counts->bindImage(1, gl::Access::Write);
+    visibility_->bindImage(kSampleResolveVisibilityImage, gl::Access::Write);
+    if (counts) counts->bindImage(kSampleResolveCountsImage, gl::Access::Write);
     resolve.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  /// Writes ids and places of the points that the inner technique is asked for.
+  /// Writes ids and positions of the points for the inner technique.
   void choose(frame::Frame& frame) {
     if (ids_) {
       const auto scope = frame.passes().open(kRaster);
@@ -165,11 +165,11 @@ class Multisample : public Technique {
       choose_->set(("samplePlaces[" + std::to_string(i) + "]").c_str(),
                    ids_ ? ids_->places()[static_cast<size_t>(i)] : glm::vec2(0.5F));
     if (ids_)
-      ids_->bindTexture(0);
+      ids_->bindTexture(kSampleIdsUnit);
     else
-      frame.get<frame::TriangleIds>().texture().bindTexture(0);
-    pointIds_->bindImage(0, gl::Access::Write);
-    places_->bindImage(1, gl::Access::Write);
+      frame.get<frame::TriangleIds>().texture().bindTexture(kSampleIdsUnit);
+    pointIds_->bindImage(kSamplePointIdsImage, gl::Access::Write);
+    places_->bindImage(kSamplePlacesImage, gl::Access::Write);
     if (chosen_) {
       const glm::dmat4& toCamera = frame.anchorToCamera();
       const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
@@ -177,9 +177,9 @@ class Multisample : public Technique {
       choose_->set("anchorToCamera", glm::mat4(toCamera));
       choose_->set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
       choose_->set("depthAtCentre", chosen_->depthAt == DepthAt::Centre ? 1 : 0);
-      depths_->bindImage(2, gl::Access::Write);
-      sampleDepths_->bindImage(3, gl::Access::Write);
-      frame.geometry().bindStorage(0);
+      depths_->bindImage(kSampleChosenDepthsImage, gl::Access::Write);
+      sampleDepths_->bindImage(kSampleDepthsImage, gl::Access::Write);
+      frame.geometry().bindStorage();
     }
     choose_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -197,7 +197,7 @@ class Multisample : public Technique {
 const RegisteredTechnique<Multisample> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
      .version = 1,
-     .summary = "Another technique's visibility at one sample a pixel, shared by the pixel's other samples",
+     .summary = "Another technique's visibility at one sample per pixel, shared by the pixel's other samples",
      .source = "Schwarz 2009, section 4.6 (SS-35)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},

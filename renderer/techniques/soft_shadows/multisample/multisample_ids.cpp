@@ -12,7 +12,7 @@
 namespace limen::techniques {
 namespace {
 
-/// Samples that a surface gets which is asked for with `samples`; drivers may give more.
+/// Samples that a surface requested with `samples` actually gets; drivers may give more.
 int samplesGiven(int samples) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_INTEGER_SAMPLES, &most);
@@ -31,8 +31,8 @@ void requireSamples(int samples) {
   std::string offered;
   for (const int count : {2, 4, 8})
     if (samplesGiven(count) == count) offered += (offered.empty() ? "" : ", ") + std::to_string(count);
-  throw Error("this driver has no surfaces with " + std::to_string(samples) + " samples a pixel", "samples",
-              "of 2, 4 and 8 it has " + (offered.empty() ? "none" : offered));
+  throw Error("this driver has no surfaces with " + std::to_string(samples) + " samples per pixel", "samples",
+              "of 2, 4 and 8 it supports " + (offered.empty() ? "none" : offered));
 }
 
 }  // namespace

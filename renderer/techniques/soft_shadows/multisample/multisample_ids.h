@@ -9,11 +9,11 @@
 
 namespace limen::techniques {
 
-/// Which triangle each of a pixel's samples sees, by the driver's rasteriser. As frame::TriangleIds with
-/// several samples a pixel.
+/// Which triangle each of a pixel's samples sees, by the driver's rasteriser. Like frame::TriangleIds with
+/// several samples per pixel.
 class MultisampleIds {
  public:
-  /// Throws Error unless the driver has surfaces of exactly so many samples.
+  /// Throws Error unless the driver has surfaces with exactly this many samples.
   MultisampleIds(frame::Frame& frame, int samples);
   ~MultisampleIds();
   MultisampleIds(const MultisampleIds&) = delete;

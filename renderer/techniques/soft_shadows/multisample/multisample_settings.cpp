@@ -7,13 +7,13 @@ const SettingsTable<ChosenSample>& ChosenSample::table() {
   using S = ChosenSample;
   static const SettingsTable<S> kTable = {
       Binding(&S::representative, "representative",
-              "Sample that the visibility is found for; all but the first are chosen by depth among those "
-              "that see a surface",
+              "Sample for which visibility is found; all rules except the first choose by depth among "
+              "samples that see a surface",
               "Schwarz 2009, section 4.6 (first; others suggested)")
           .formerly({"representative"}),
       Binding(
           &S::depthAt, "depth_at",
-          "Place whose depth a sample has: the pixel's centre, as where shading runs once a pixel, or its "
+          "Position whose depth a sample has: the pixel's centre, as if shading ran once per pixel, or its "
           "own",
           "Schwarz 2009, section 4.6, footnote 10 (centre)")
           .formerly({"depth_at"})};
@@ -24,13 +24,12 @@ const SettingsTable<InterpolatedSamples>& InterpolatedSamples::table() {
   using S = InterpolatedSamples;
   static const SettingsTable<S> kTable = {
       included(&S::chosen),
-      Binding(
-          &S::tolerance, "tolerance", Range{0, 1}, "",
-          "Difference in depth, as a share of the sample's, up to which samples are taken for one surface",
-          "Schwarz 2009, section 4.6 (value not given there)")
+      Binding(&S::tolerance, "tolerance", Range{0, 1}, "",
+              "Largest depth difference within a surface, as a share of the sample's depth",
+              "Schwarz 2009, section 4.6 (value not given there)")
           .formerly({"tolerance"}),
       Binding(&S::neighbours, "neighbours", oneOf({4, 8}), "px",
-              "Pixels around one that may lend their visibility", "Schwarz 2009, section 4.6 (4)")
+              "Neighbouring pixels that may lend their visibility", "Schwarz 2009, section 4.6 (4)")
           .formerly({"neighbours"})};
   return kTable;
 }
@@ -45,8 +44,8 @@ const SettingsTable<MultisampleSettings>& MultisampleSettings::table() {
   static const SettingsTable<S> kTable = {
       innerBinding(&S::inner, InnerKind::OrRayTraced),
       {&S::samples, "samples", oneOf({1, 2, 4, 8}), "",
-       "Samples a pixel; a driver need not have every number", "Schwarz 2009, section 4.6"},
-      {&S::method, "method", "Whose visibility samples get", "Schwarz 2009, section 4.6"}};
+       "Samples per pixel; drivers need not support every number", "Schwarz 2009, section 4.6"},
+      {&S::method, "method", "How samples get their visibility", "Schwarz 2009, section 4.6"}};
   return kTable;
 }
 

@@ -8,8 +8,8 @@
 
 namespace limen::techniques {
 
-/// Sample of a pixel that the visibility is found for; all but the first are chosen by depth among those that
-/// see a surface.
+/// Sample of a pixel for which visibility is found; all rules except the first choose by depth among samples
+/// that see a surface.
 enum class Representative { First, Nearest, Farthest, Median };
 constexpr EnumNames<Representative, 4> enumNames(Representative) {
   return {{{{Representative::First, "first"},
@@ -18,13 +18,13 @@ constexpr EnumNames<Representative, 4> enumNames(Representative) {
             {Representative::Median, "median"}}}};
 }
 
-/// Place whose depth a sample has.
+/// Position whose depth a sample has.
 enum class DepthAt { Centre, Sample };
 constexpr EnumNames<DepthAt, 2> enumNames(DepthAt) {
   return {{{{DepthAt::Centre, "centre"}, {DepthAt::Sample, "sample"}}}};
 }
 
-/// The sample that stands for its pixel.
+/// The sample that represents its pixel.
 struct ChosenSample {
   Representative representative = Representative::First;
   DepthAt depthAt = DepthAt::Centre;
@@ -33,7 +33,7 @@ struct ChosenSample {
 
 struct InterpolatedSamples {
   static constexpr const char *kKind = "interpolate",
-                              *kSummary = "samples take the visibility of what is closest in depth";
+                              *kSummary = "samples take the visibility that is closest in depth";
   ChosenSample chosen;
   double tolerance = 0.01;  ///< difference in depth, as a share of the sample's
   int neighbours = 4;
@@ -47,7 +47,7 @@ struct PixelForAll {
 };
 
 struct EverySample {
-  static constexpr const char *kKind = "per_sample", *kSummary = "each sample gets a visibility of its own";
+  static constexpr const char *kKind = "per_sample", *kSummary = "each sample gets its own visibility";
 };
 
 struct MultisampleSettings {
@@ -56,7 +56,7 @@ struct MultisampleSettings {
   std::variant<InterpolatedSamples, PixelForAll, EverySample> method;
   static const SettingsTable<MultisampleSettings>& table();
 
-  /// None where each sample gets its own.
+  /// None if each sample gets its own.
   std::optional<ChosenSample> chosen() const;
 };
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean visibility of a pixel's samples when only one of them was asked for. Schwarz 2009, section 4.6. Depths as
 // select.comp.glsl writes them. Samples that are no receivers count as lit, as they do in every visibility image.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2DArray sampleDepths;
-layout(binding = 1) uniform sampler2D depths;      // of the samples that the visibility was found for
-layout(binding = 2) uniform sampler2D visibility;  // for those
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSampleResolveSampleDepthsUnit) uniform sampler2DArray sampleDepths;
+layout(binding = kSampleResolveDepthsUnit) uniform sampler2D depths;      // of the samples that the visibility was found for
+layout(binding = kSampleResolveVisibilityUnit) uniform sampler2D visibility;  // for those
+layout(binding = kSampleResolveVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
 // Samples that are receivers; of them, those that took a neighbour's visibility, those that took another surface's or none,
 // and those on another surface than the pixel's.
-layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
+layout(binding = kSampleResolveCountsImage, rgba32ui) uniform writeonly uimage2D outCounts;
 #endif
 uniform ivec2 sizePx;
 uniform int samples, neighbours;

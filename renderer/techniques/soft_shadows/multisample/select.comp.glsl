@@ -3,19 +3,20 @@
 // A depth is written as it is for a receiver, negated for a surface that turns away from the light or lies behind it, and
 // as 0 for the background.
 // SINGLE: one sample a pixel, behind its centre.
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 #ifdef SINGLE
-layout(binding = 0) uniform usampler2D sampleIds;
+layout(binding = kSampleIdsUnit) uniform usampler2D sampleIds;
 #else
-layout(binding = 0) uniform usampler2DMS sampleIds;
+layout(binding = kSampleIdsUnit) uniform usampler2DMS sampleIds;
 #endif
-layout(binding = 0, r32ui) uniform writeonly uimage2D outIds;
-layout(binding = 1, rg32f) uniform writeonly image2D outPlaces;
-layout(binding = 2, r32f) uniform writeonly image2D outDepths;             // of the samples chosen
-layout(binding = 3, r32f) uniform writeonly image2DArray outSampleDepths;  // a layer a sample
+layout(binding = kSamplePointIdsImage, r32ui) uniform writeonly uimage2D outIds;
+layout(binding = kSamplePlacesImage, rg32f) uniform writeonly image2D outPlaces;
+layout(binding = kSampleChosenDepthsImage, r32f) uniform writeonly image2D outDepths;             // of the samples chosen
+layout(binding = kSampleDepthsImage, r32f) uniform writeonly image2DArray outSampleDepths;  // a layer a sample
 
 uniform ivec2 sizePx;
 uniform vec2 rayScale;

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All samples as pixels of one tall picture, sample k of every pixel in the k-th picture from the top; and back: their mean.
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 uniform ivec2 sizePx;
 #ifdef MEAN
-layout(binding = 0) uniform sampler2D visibility;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+layout(binding = kSampleSpreadVisibilityUnit) uniform sampler2D visibility;
+layout(binding = kSampleSpreadVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 #else
 #ifdef SINGLE
-layout(binding = 0) uniform usampler2D sampleIds;
+layout(binding = kSampleIdsUnit) uniform usampler2D sampleIds;
 #else
-layout(binding = 0) uniform usampler2DMS sampleIds;
+layout(binding = kSampleIdsUnit) uniform usampler2DMS sampleIds;
 #endif
-layout(binding = 0, r32ui) uniform writeonly uimage2D outIds;
-layout(binding = 1, rg32f) uniform writeonly image2D outPlaces;
+layout(binding = kSamplePointIdsImage, r32ui) uniform writeonly uimage2D outIds;
+layout(binding = kSamplePlacesImage, rg32f) uniform writeonly image2D outPlaces;
 uniform vec2 samplePlaces[SAMPLES];
 #endif
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reference for pictures with several samples a pixel: a technique's visibility on a grid of samples over
-// each pixel's square, averaged. Samples that are no receivers count as lit, as they do in every visibility
-// image.
+// Reference for pictures with several samples per pixel: a technique's visibility on a grid of samples over
+// each pixel's square, averaged. Samples that are not receivers count as lit, as in every visibility image.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -22,7 +22,7 @@ struct SupersampledSettings {
     using S = SupersampledSettings;
     static const SettingsTable<S> kTable = {
         innerBinding(&S::inner, InnerKind::OrRayTraced),
-        {&S::samples, "samples", {1, 16}, "", "Samples a pixel along each axis, box filter"}};
+        {&S::samples, "samples", {1, 16}, "", "Samples per pixel along each axis, box filter"}};
     return kTable;
   }
 };
@@ -59,8 +59,8 @@ class Supersampled : public Technique {
     const auto scope = frame.passes().open(kSupersampledPass);
     mean_->set("samples", samples_);
     mean_->set("sizePx", frame.sizePx());
-    inner_->product().bindTexture(0);
-    visibility_->bindImage(0, gl::Access::Write);
+    inner_->product().bindTexture(kBoxMeanSampledUnit);
+    visibility_->bindImage(kBoxMeanVisibilityImage, gl::Access::Write);
     mean_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

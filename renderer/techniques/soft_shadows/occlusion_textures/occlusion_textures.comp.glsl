@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
-#define SUMS_UNIT 2
+#define SUMS_UNIT kAveragesUnit
 #ifdef MIPS
-layout(binding = SUMS_UNIT) uniform sampler2DArray averages;
+layout(binding = kAveragesUnit) uniform sampler2DArray averages;
 #else
 #include "renderer/frame/summed_area_table.glsl"
 #endif

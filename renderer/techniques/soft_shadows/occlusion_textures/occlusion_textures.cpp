@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Occlusion textures (SS-08): the scene cut into slices parallel to the light, each flattened to a picture of
-// what it covers. Visibility is the product over the slices before the receiver of the part of the light's
-// cone that each leaves open, as if they blocked independently of each other. What blocks within the
-// receiver's own slice is missed. Source: Schwarz 2009, section 3.2.1 (after Eisemann and Décoret 2006 and
+// Occlusion textures (SS-08): the scene is cut into slices parallel to the light, each flattened to an image
+// of its coverage. Visibility is the product, over the slices in front of the receiver, of the part of the
+// light's cone that each leaves open, as if they blocked independently of each other. Occluders within the
+// receiver's own slice are missed. Source: Schwarz 2009, section 3.2.1 (after Eisemann and Décoret 2006 and
 // 2008; formula reconstructed). Here the slices are seen in perspective from the light's centre and made in
-// one pass, a bit of a texel each.
+// one pass, one bit of a texel each.
 #include "renderer/frame/occlusion_slices.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
@@ -27,9 +28,9 @@ struct OcclusionTexturesSettings {
          "",
          "Slices between the nearest and the farthest caster",
          "Schwarz 2009, section 3.2.1 (number not given there)"},
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
         {&S::prefilter, "prefilter",
-         "What averages are taken from: sums: summed-area table, any rectangle; mips: pyramid, squares of "
+         "Structure for averages: sums: summed-area table, any rectangle; mips: pyramid, squares of "
          "the window's area",
          "Schwarz 2009, section 3.2.1"}};
     return kTable;
@@ -66,7 +67,7 @@ class OcclusionTextures : public VisibilityTechnique {
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
     slices_ = &frame.get<frame::OcclusionSlices>(settings_);
-    slices_->bind(2);
+    slices_->bind(kAveragesUnit);
     return slices_->frustum();
   }
 

@@ -15,9 +15,9 @@ struct PcfSettings {
     using S = PcfSettings;
     static const SettingsTable<S> kTable = {
         included(&S::map),
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
-        {&S::filterRadius, "filter_radius", {0, 256}, "texel", "Half the side of the filter window"},
-        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps along a side of the window"}};
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
+        {&S::filterRadius, "filter_radius", {0, 256}, "texel", "Half-width of the filter window"},
+        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps per side of the window"}};
     return kTable;
   }
 };

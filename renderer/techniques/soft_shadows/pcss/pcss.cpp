@@ -17,14 +17,14 @@ struct PcssSettings {
     using S = PcssSettings;
     static const SettingsTable<S> kTable = {
         included(&S::map),
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
         {&S::searchScale,
          "search_scale",
          {0.01, 4},
          "",
          "Window of the blocker search as a share of the light's extents"},
-        {&S::searchTaps, "search_taps", {1, 32}, "", "Taps of the blocker search along a side"},
-        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps of the filter along a side"}};
+        {&S::searchTaps, "search_taps", {1, 32}, "", "Taps of the blocker search per side"},
+        {&S::filterTaps, "filter_taps", {1, 32}, "", "Taps of the filter per side"}};
     return kTable;
   }
 };

@@ -5,13 +5,13 @@
 // Layers behind the first, which is the finest level of `minimumMap`. One sampler each: llvmpipe reads arrays of samplers
 // wrongly where the index is computed.
 #if LAYERS > 1
-layout(binding = 4) uniform sampler2D secondLayer;
+layout(binding = kSecondLayerUnit) uniform sampler2D secondLayer;
 #endif
 #if LAYERS > 2
-layout(binding = 5) uniform sampler2D thirdLayer;
+layout(binding = kThirdLayerUnit) uniform sampler2D thirdLayer;
 #endif
 #if LAYERS > 3
-layout(binding = 6) uniform sampler2D fourthLayer;
+layout(binding = kFourthLayerUnit) uniform sampler2D fourthLayer;
 #endif
 
 uniform int levels, refinements, maxIterations;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Backprojection with depth peeling (SS-07): of the layers that a texel has, the farthest that is still
-// nearer to the light than the receiver becomes its micropatch, which closes leaks where a near blocker hides
-// the rest of the surface before the receiver. Source: Schwarz 2009, section 3.2.1 (after Bavoil et al.
-// 2008).
+// Backprojection with depth peeling (SS-07): of a texel's layers, the farthest that is still nearer to the
+// light than the receiver becomes its micropatch, which closes leaks where a near blocker hides the rest of
+// the surface in front of the receiver. Source: Schwarz 2009, section 3.2.1 (after Bavoil et al. 2008).
 //
-// Areas are summed, one micropatch a texel, however many layers there are; micropatches are not stretched to
-// their neighbours, so that the remedies can be compared.
+// Areas are summed, one micropatch per texel, however many layers there are; micropatches are not stretched
+// to their neighbours, so that the remedies can be compared.
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
+
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -21,12 +22,12 @@ struct PeeledSettings {
     using S = PeeledSettings;
     static const SettingsTable<S> kTable = {
         included(&S::map),
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
         {&S::layers,
          "layers",
          {1, 4},
          "",
-         "Surfaces behind one another that a texel knows",
+         "Number of surfaces behind one another stored per texel",
          "Schwarz 2009, section 3.2.1 (after Bavoil et al. 2008)"},
         {&S::peelBias,
          "peel_bias",
@@ -37,7 +38,7 @@ struct PeeledSettings {
          "refinements",
          {0, 3},
          "",
-         "Times that the search area is narrowed by its depth range",
+         "Number of times that the search area is narrowed by its depth range",
          "Schwarz 2009, section 4.1"}};
     return kTable;
   }
@@ -54,7 +55,7 @@ class Peeled : public VisibilityTechnique {
 
  protected:
   const frame::LightFrustum& bindMap(frame::Frame& frame) override {
-    constexpr uint32_t kSecondLayerUnit = 4;
+    static_assert(kThirdLayerUnit == kSecondLayerUnit + 1 && kFourthLayerUnit == kSecondLayerUnit + 2);
     // Before any is bound, since making the inputs binds textures too.
     for (int layer = 1; layer < settings_.layers; ++layer) frame.get<frame::ShadowMap>(layerMap(layer));
     frame.get<frame::MinMaxPyramid>(mapSettings());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-budget-benchmark: frames along a scene's camera path with a budget that is steered by the frame's
-// time: for each frame the time of the passes that are steered, that of the whole frame, the scale of the
-// budget and, with --errors, how far the visibility is from that of an unlimited budget. CSV on standard
-// output, a summary on lines that begin with #. GPU times, or wall times on a software renderer.
+// limen-budget-benchmark: frames along a scene's camera path with a budget controlled by the frame time: for
+// each frame the time of the controlled passes, that of the whole frame, the scale of the budget and, with
+// --errors, how far the visibility is from that of an unlimited budget. CSV on standard output, a summary on
+// lines that begin with #. GPU times, or wall times on a software renderer.
 #include <epoxy/gl.h>
 #include <fmt/core.h>
 
@@ -39,14 +39,13 @@ struct Options {
   bool errors = false;
 };
 
-/// What one frame gave.
+/// Results of one frame.
 struct Row {
   double timeS = 0.0, scale = 1.0, rmse = 0.0, largest = 0.0;
   double passesMs = 0.0, frameMs = 0.0;
 };
 
-/// The value that `text` is for one of the parameters at that path; the list of values refuses what fits
-/// none.
+/// `text` as a value of one of the parameters at that path; ParameterValues refuses what suits none.
 ParameterValue valueOf(const std::vector<Parameter>& declared, const std::string& path,
                        const std::string& text) {
   for (const DeclaredAt& at : flatten(declared)) {
@@ -63,7 +62,7 @@ ParameterValue valueOf(const std::vector<Parameter>& declared, const std::string
           return text;
       }
     } catch (const std::logic_error&) {
-      throw Error("'" + text + "' is no number", path, kUsage);
+      throw Error("'" + text + "' is not a number", path, kUsage);
     }
   }
   return text;
@@ -74,7 +73,7 @@ std::map<std::string, ParameterValue> parse(const std::vector<Parameter>& declar
   std::map<std::string, ParameterValue> out;
   for (const std::string& item : given) {
     const size_t at = item.find('=');
-    if (at == std::string::npos) throw Error("'" + item + "' gives no value", {}, kUsage);
+    if (at == std::string::npos) throw Error("'" + item + "' has no value", {}, kUsage);
     const std::string path = item.substr(0, at);
     out[path] = valueOf(declared, path, item.substr(at + 1));
   }
@@ -115,13 +114,13 @@ class Walk {
     search_ = dynamic_cast<techniques::SearchTechnique*>(technique_.get());
     if (!search_)
       throw Error("'" + options.technique + "' has no budget", "--technique",
-                  "name one that searches occluders");
+                  "name one that searches for occluders");
     technique_->prepare(frame_);
     if (options.errors) {
       reference_ = makeTechnique(withoutBudget(options.set));
       reference_->prepare(referenceFrame_);
     }
-    // Settles the first frame's budget, and wakes the GPU.
+    // Settles the first frame's budget and wakes the GPU.
     const auto start = HostClock::now();
     do {
       render(0.0);
@@ -169,7 +168,7 @@ class Walk {
     return info.make(values);
   }
 
-  /// The same search without a limit; levels are 0 then, whatever is said of them.
+  /// The same search without a limit; levels are then 0, whatever the settings say.
   static std::vector<std::string> withoutBudget(const std::vector<std::string>& set) {
     std::vector<std::string> out = {"budget=uniform", "budget.limit=0"};
     for (const std::string& item : set)
@@ -184,7 +183,7 @@ class Walk {
     frame_.begin();
     technique_->render(frame_);
     frame_.end();
-    // As behind a display: without it the host runs hundreds of frames ahead, and times come as late.
+    // As with a display: otherwise the host runs hundreds of frames ahead, and times arrive just as late.
     fences_.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
     if (fences_.size() <= options_.inFlight) return;
     constexpr GLuint64 kForever = ~GLuint64{0};
@@ -210,7 +209,7 @@ class Walk {
   frame::Frame frame_, referenceFrame_;
   Technique technique_, reference_;
   techniques::SearchTechnique* search_ = nullptr;
-  std::deque<GLsync> fences_;  // of frames that may still be under way
+  std::deque<GLsync> fences_;  // of frames that may still be in flight
 };
 
 void summarise(const std::vector<Row>& rows, double targetMs, int from) {
@@ -229,7 +228,7 @@ void summarise(const std::vector<Row>& rows, double targetMs, int from) {
   if (compared == 0) return;
   fmt::print(
       "# from frame {} on: mean {:.4g} ms of {:.4g} ms, {:.1f} % of frames within 10 %, worst {:.1f} %, "
-      "{} changes of side beyond 10 %\n",
+      "{} sign changes beyond 10 %\n",
       from, sum / compared, targetMs, 100.0 * within / compared, 100.0 * worst, reversals);
 }
 
@@ -237,20 +236,19 @@ void summarise(const std::vector<Row>& rows, double targetMs, int from) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app{"Frames along a camera path with a steered budget"};
+  CLI::App app{"Frames along a camera path with a controlled budget"};
   app.add_option("--scene", options.scene, "Scene with a camera path")->capture_default_str();
   app.add_option("--scene-set", options.sceneSet, "Parameter of the scene, name=value")
       ->capture_default_str();
-  app.add_option("--technique", options.technique, "Technique that searches occluders")
+  app.add_option("--technique", options.technique, "Technique that searches for occluders")
       ->capture_default_str();
   app.add_option("--set", options.set, "Parameter of the technique, name=value");
   app.add_option("--width", options.width)->capture_default_str();
   app.add_option("--height", options.height)->capture_default_str();
   app.add_option("--frames", options.frames)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--settled", options.settled, "Frame from which on the summary counts")
-      ->capture_default_str();
-  app.add_option("--step-s", options.stepS, "Time from frame to frame on the path")->capture_default_str();
-  app.add_option("--in-flight", options.inFlight, "Frames that the host may be ahead of the GPU")
+  app.add_option("--settled", options.settled, "First frame of the summary")->capture_default_str();
+  app.add_option("--step-s", options.stepS, "Time step between frames on the path")->capture_default_str();
+  app.add_option("--in-flight", options.inFlight, "Number of frames that the host may be ahead of the GPU")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--errors", options.errors, "Compare each frame with an unlimited budget");

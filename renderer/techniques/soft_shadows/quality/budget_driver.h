@@ -15,8 +15,8 @@
 
 namespace limen::techniques {
 
-/// Says how many micro-occluders each pixel may take: makes the budget map b(x, y) of Schwarz 2009,
-/// section 5.2.1. A technique owns one and asks it once a frame.
+/// Determines how many micro-occluders each pixel may use: makes the budget map b(x, y) of Schwarz 2009,
+/// section 5.2.1. A technique owns one and calls it once per frame.
 class BudgetDriver {
  public:
   virtual ~BudgetDriver() = default;
@@ -24,32 +24,32 @@ class BudgetDriver {
   /// Compiles and allocates, before the first frame; states bytes held.
   virtual void prepare(frame::Frame& frame) = 0;
 
-  /// R32F, the frame's size: micro-occluders that each pixel may take, >= 0, where 0 stands for no limit.
+  /// R32F, the frame's size: micro-occluders that each pixel may use, >= 0; 0 means no limit.
   /// Whole counts per axis follow from it, floor(sqrt b) and at least 1. Called outside of any pass, so that
   /// it opens its own, before those of the technique; has made the map visible to texture fetches when it
   /// returns.
   virtual const gl::Texture& make(frame::Frame& frame) = 0;
 
-  /// Called right before the technique's own passes, shadow maps and what is made of them being there. Calls
-  /// of begin() and finish() come in pairs, outside of any pass; not in frames that count their work.
+  /// Called right before the technique's own passes, once shadow maps and everything derived from them exist.
+  /// Calls of begin() and finish() come in pairs, outside of any pass; not in frames that count their work.
   virtual void begin() {}
-  /// Called once the frame's visibility is there, outside of any pass, for drivers that steer by what it
-  /// took. `work` is the list of processed pixels (split_search.h),
-  /// whose word 3 is their number; null in the single pass. Must not wait for the GPU.
+  /// Called once the frame's visibility is complete, outside of any pass, for drivers that react to its cost.
+  /// `work` is the list of processed pixels (split_search.h), whose word 3 is their number; null in the
+  /// single pass. Must not wait for the GPU.
   virtual void finish(frame::Frame& /*frame*/, const gl::Buffer* /*work*/) {}
 
-  /// Frames that are to run, each to its end, before the first that is shown or timed, for drivers that have
-  /// to find their budget first.
+  /// Frames to run to completion before the first one shown or timed, for drivers that have to find their
+  /// budget first.
   virtual int settleFrames() const { return 0; }
-  /// Facts of its own, after make(); may wait for the GPU.
+  /// The driver's own counters, after make(); may wait for the GPU.
   virtual std::vector<Counter> count() const { return {}; }
-  /// Named images that the map was made from, beside the map itself; valid after make().
+  /// Named images from which the map was made, besides the map itself; valid after make().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
 };
 
 /// The chosen driver; null for a uniform budget.
 std::unique_ptr<BudgetDriver> makeBudgetDriver(const BudgetSettings& settings);
-/// What drivers of any kind count.
+/// The counters of any driver.
 std::vector<Quantity> budgetQuantities();
 
 /// Sets the uniforms leastRoot and mostRoot.

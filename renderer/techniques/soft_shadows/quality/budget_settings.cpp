@@ -17,7 +17,7 @@ constexpr const char *kOpenContrast = "Schwarz 2009, section 5.2.3 (open there)"
 
 void checkRange(const BudgetRange& range, const char* least, const char* most) {
   if (range.least > range.most)
-    throw Error("'" + std::string(least) + "' is above '" + most + "', the most that a pixel may take", least,
+    throw Error("'" + std::string(least) + "' is above '" + most + "', the largest number per pixel", least,
                 "give it a smaller number, or '" + std::string(most) + "' a larger one");
 }
 
@@ -41,7 +41,7 @@ const SettingsTable<UniformBudget>& UniformBudget::table() {
        "limit",
        {0, 1 << 24},
        "",
-       "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
+       "Micro-occluders allowed per pixel; the square root is the number per axis; 0: no limit",
        "Schwarz 2009, sections 4.1 and 4.5"}};
   return kTable;
 }
@@ -49,9 +49,8 @@ const SettingsTable<UniformBudget>& UniformBudget::table() {
 const SettingsTable<RadialBudget>& RadialBudget::table() {
   using S = RadialBudget;
   static const SettingsTable<S> kTable = {
-      {&S::centre, "centre", kBudgets, "", "Micro-occluders allowed for a pixel in the centre",
-       kRadialSource},
-      Binding(&S::rim, "rim", kBudgets, "", "Micro-occluders allowed for a pixel at the rim", kRadialSource)
+      {&S::centre, "centre", kBudgets, "", "Micro-occluders allowed per pixel in the centre", kRadialSource},
+      Binding(&S::rim, "rim", kBudgets, "", "Micro-occluders allowed per pixel at the rim", kRadialSource)
           .formerly({"radial_budget"}),
       Binding(&S::centreX, "centre_x", Range{0.0, 1.0}, "", "Centre, as a share of the image's width")
           .formerly({"radial_centre_x"}),
@@ -59,7 +58,7 @@ const SettingsTable<RadialBudget>& RadialBudget::table() {
               "Centre, as a share of the image's height from its top")
           .formerly({"radial_centre_y"}),
       Binding(&S::inner, "inner", Range{0.0, 10.0}, "half width",
-              "Distance from the centre up to which the whole budget is allowed")
+              "Distance from the centre up to which the full budget is allowed")
           .formerly({"radial_inner"}),
       Binding(&S::outer, "outer", Range{0.001, 10.0}, "half width",
               "Distance from the centre at which the rim's budget is reached", kRadialSource)
@@ -75,19 +74,19 @@ void RadialBudget::check() const {
 const SettingsTable<MaskingBudget>& MaskingBudget::table() {
   using S = MaskingBudget;
   static const SettingsTable<S> kTable = {
-      {&S::plain, "plain", kBudgets, "", "Micro-occluders allowed for a pixel of a plain surface",
+      {&S::plain, "plain", kBudgets, "", "Micro-occluders allowed per pixel of a plain surface",
        "Schwarz 2009, figure 5.4"},
       Binding(&S::masked, "masked", kBudgets, "",
-              "Micro-occluders allowed for a pixel where texture masks most", "Schwarz 2009, figure 5.4")
+              "Micro-occluders allowed per pixel where texture masks most", "Schwarz 2009, figure 5.4")
           .formerly({"masking_budget"}),
       Binding(&S::radius, "radius", Range{1, 64}, "px",
-              "Reach of the square window in which contrast is measured", kOpenContrast)
+              "Radius of the square window in which contrast is measured", kOpenContrast)
           .formerly({"masking_radius"}),
       Binding(&S::lowContrast, "low_contrast", Range{0.0, 10.0}, "",
-              "RMS contrast up to which 'plain' is allowed", kOpenContrast)
+              "RMS contrast up to which 'plain' applies", kOpenContrast)
           .formerly({"masking_low_contrast"}),
       Binding(&S::highContrast, "high_contrast", Range{0.0, 10.0}, "",
-              "RMS contrast from which on 'masked' is allowed", kOpenContrast)
+              "RMS contrast from which 'masked' applies", kOpenContrast)
           .formerly({"masking_high_contrast"})};
   return kTable;
 }
@@ -105,13 +104,14 @@ const SettingsTable<PaintedBudget>& PaintedBudget::table() {
       Binding(&S::file, "file", FileIs::Required,
               "Image of weights: greys as stored, without a transfer curve")
           .formerly({"painted_file"}),
-      {&S::white, "white", kBudgets, "", "Micro-occluders allowed for a pixel where the image is white",
+      {&S::white, "white", kBudgets, "", "Micro-occluders allowed per pixel where the image is white",
        "Schwarz 2009, section 5.2.1"},
-      Binding(&S::black, "black", kBudgets, "",
-              "Micro-occluders allowed for a pixel where the image is black", "Schwarz 2009, section 5.2.1")
+      Binding(&S::black, "black", kBudgets, "", "Micro-occluders allowed per pixel where the image is black",
+              "Schwarz 2009, section 5.2.1")
           .formerly({"painted_budget"}),
       Binding(&S::fit, "fit",
-              "Image of other proportions than the frame: an error, stretched, or cut to cover the frame")
+              "If the image's aspect ratio differs from the frame's: an error, stretched, or cropped to "
+              "cover the frame")
           .formerly({"painted_fit"})};
   return kTable;
 }
@@ -121,27 +121,26 @@ void PaintedBudget::check() const { checkRange(range(), "black", "white"); }
 const SettingsTable<PerceptualBudget>& PerceptualBudget::table() {
   using S = PerceptualBudget;
   static const SettingsTable<S> kTable = {
-      {&S::most, "most", kBudgets, "", "Micro-occluders allowed for a pixel where errors are seen best",
+      {&S::most, "most", kBudgets, "", "Micro-occluders allowed per pixel where errors are most visible",
        kOpenError},
       Binding(&S::least, "least", kBudgets, "",
-              "Micro-occluders allowed for a pixel where errors are seen least", kOpenError)
+              "Micro-occluders allowed per pixel where errors are least visible", kOpenError)
           .formerly({"perceptual_budget"}),
       Binding(&S::error, "error", Range{0.0, 16.0}, "",
-              "Error of the visibility that one micro-occluder an axis makes (c); r of them make the r-th "
-              "part of it",
+              "Error of the visibility with one micro-occluder per axis (c); with r per axis it is c / r",
               kOpenError)
           .formerly({"perceptual_error"}),
       Binding(&S::thresholds, "thresholds", Range{0.01, 1000.0}, "threshold",
               "Multiple of the visible increment that errors may reach", kOpenError)
           .formerly({"perceptual_thresholds"}),
       Binding(&S::display, "display", Names{perception::displayPresets()},
-              "Display and viewing distance that the budget is for", "Schwarz 2009, section 10.4.1")
+              "Display and viewing distance to which the budget applies", "Schwarz 2009, section 10.4.1")
           .formerly({"perceptual_display"}),
       Binding(&S::ambient, "ambient", Range{0.0, 1.0}, "",
-              "Share of the albedo that is seen without the light, for the threshold map")
+              "Ambient share of the albedo, for the threshold map")
           .formerly({"perceptual_ambient"}),
       Binding(&S::diffuse, "diffuse", Range{0.0, 1.0}, "",
-              "Share of the albedo by the cosine to the light: what the visibility multiplies")
+              "Share of the albedo times the cosine towards the light: the part multiplied by the visibility")
           .formerly({"perceptual_diffuse"})};
   return kTable;
 }
@@ -150,7 +149,7 @@ void PerceptualBudget::check() const { checkRange(range(), "least", "most"); }
 
 const SettingsTable<ScaledBudget>& ScaledBudget::table() {
   static const SettingsTable<ScaledBudget> kTable = {
-      {&ScaledBudget::limit, "limit", kBudgets, "", "Micro-occluders allowed for a pixel at a scale of 1"}};
+      {&ScaledBudget::limit, "limit", kBudgets, "", "Micro-occluders allowed per pixel at a scale of 1"}};
   return kTable;
 }
 
@@ -158,30 +157,30 @@ const SettingsTable<FrameTimeBudget>& FrameTimeBudget::table() {
   using S = FrameTimeBudget;
   static const SettingsTable<S> kTable = {
       Binding(&S::targetMs, "target_ms", Range{1e-9, 1e9}, "ms",
-              "Time that the passes of the technique are to take, those that a budget changes", kOpenTime)
+              "Target time of the technique's passes that depend on the budget", kOpenTime)
           .formerly({"frame_time_ms"}),
       Binding(&S::least, "least", kBudgets, "",
-              "Micro-occluders allowed for a pixel at the least, however long a frame takes", kOpenTime)
+              "Smallest number of micro-occluders allowed per pixel, however long a frame takes", kOpenTime)
           .formerly({"frame_time_budget"}),
-      Binding(&S::base, "base", "What is scaled").shorthand("limit").formerly({"frame_time_base"}),
+      Binding(&S::base, "base", "Budget that is scaled").shorthand("limit").formerly({"frame_time_base"}),
       Binding(&S::gain, "gain", Range{0.01, 1.0}, "",
-              "Share of the change that a frame's time asks for that is followed", kOpenTime)
+              "Share applied of the change that a frame's time calls for", kOpenTime)
           .formerly({"frame_time_gain"}),
       Binding(&S::deadBand, "dead_band", Range{0.0, 1.0}, "",
-              "Error of the time, as a share of it, that is left alone", kOpenTime)
+              "Error of the time, relative to the target, that is tolerated", kOpenTime)
           .formerly({"frame_time_dead_band"}),
       Binding(&S::memory, "memory", Range{2, 4096}, "frames",
-              "Past frames that the fixed part of the cost is fitted to", kOpenTime)
+              "Past frames to which the fixed part of the cost is fitted", kOpenTime)
           .formerly({"frame_time_memory"}),
       Binding(&S::largestFactor, "largest_factor", Range{1.01, 1000.0}, "",
-              "Largest change of the scale that one frame can ask for", kOpenTime)
+              "Largest change of the scale that one frame can call for", kOpenTime)
           .formerly({"frame_time_largest_factor"}),
       Binding(&S::dither, "dither",
-              "Give pixels one of the two whole counts per axis around a scaled one, by share; otherwise all "
-              "the smaller one")
+              "Give pixels one of the two whole counts per axis around the scaled one, in proportion; "
+              "otherwise all get the smaller one")
           .formerly({"frame_time_dither"}),
       Binding(&S::settleFrames, "settle_frames", Range{0, 4096}, "frames",
-              "Frames that run before the first that is shown or timed, as part of the preparation")
+              "Frames that run before the first one shown or timed, as part of the preparation")
           .formerly({"frame_time_settle_frames"})};
   return kTable;
 }
@@ -193,7 +192,7 @@ BudgetRange FrameTimeBudget::range() const {
 void FrameTimeBudget::check() const {
   const BudgetRange between = range();
   if (between.least > between.most)
-    throw Error("'least' is above what the base allows at most", "least",
+    throw Error("'least' is above the largest number that the base allows", "least",
                 "give it a smaller number, or the base a larger one");
 }
 

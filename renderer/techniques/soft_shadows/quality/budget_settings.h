@@ -9,8 +9,8 @@
 
 namespace limen::techniques {
 
-/// The budgets between which a map lies, in micro-occluders for a pixel. Between them it is the root, a count
-/// of micro-occluders per axis, that follows what a driver measures: error and cost per axis go by it.
+/// The budgets between which a map varies, in micro-occluders per pixel. Between them the square root, the
+/// number of micro-occluders per axis, follows what a driver measures: error and cost per axis depend on it.
 struct BudgetRange {
   int64_t least = 25, most = 256;
   float leastRoot() const;
@@ -34,7 +34,7 @@ struct RadialBudget {
 };
 
 struct MaskingBudget {
-  static constexpr const char *kKind = "masking", *kSummary = "falling where the receivers' texture masks";
+  static constexpr const char *kKind = "masking", *kSummary = "reduced where the receivers' texture masks";
   int64_t plain = 256, masked = 25;
   int radius = 8;  ///< px
   double lowContrast = 0.05, highContrast = 0.2;
@@ -43,18 +43,18 @@ struct MaskingBudget {
   BudgetRange range() const { return {masked, plain}; }
 };
 
-/// What becomes of an image of other proportions than the frame's.
+/// How an image with another aspect ratio than the frame's is treated.
 enum class PaintedFit {
-  Refuse,   ///< an error, beyond what whole pixels explain
+  Refuse,   ///< an error, beyond rounding to whole pixels
   Stretch,  ///< each axis by its own factor
-  Cover     ///< one factor; what then lies beyond the frame is cut away evenly
+  Cover     ///< one factor; what then lies beyond the frame is cropped symmetrically
 };
 constexpr EnumNames<PaintedFit, 3> enumNames(PaintedFit) {
   return {{{{PaintedFit::Refuse, "refuse"}, {PaintedFit::Stretch, "stretch"}, {PaintedFit::Cover, "cover"}}}};
 }
 
 struct PaintedBudget {
-  static constexpr const char *kKind = "painted", *kSummary = "by an image of weights";
+  static constexpr const char *kKind = "painted", *kSummary = "from an image of weights";
   FilePath file;
   int64_t white = 256, black = 25;
   PaintedFit fit = PaintedFit::Refuse;
@@ -64,9 +64,9 @@ struct PaintedBudget {
 };
 
 struct PerceptualBudget {
-  static constexpr const char *kKind = "perceptual", *kSummary = "as much as keeps errors invisible";
+  static constexpr const char *kKind = "perceptual", *kSummary = "enough to keep errors invisible";
   int64_t most = 256, least = 25;
-  double error = 2.0;       ///< of the visibility that one micro-occluder an axis makes
+  double error = 2.0;       ///< of the visibility with one micro-occluder per axis
   double thresholds = 1.0;  ///< multiple of the visible increment
   std::string display = "schwarz_2009";
   double ambient = 0.2, diffuse = 0.8;  ///< shares of the albedo
@@ -75,7 +75,7 @@ struct PerceptualBudget {
   BudgetRange range() const { return {least, most}; }
 };
 
-/// A limit for all pixels that a frame's time scales.
+/// A limit for all pixels, scaled by the frame time.
 struct ScaledBudget {
   static constexpr const char *kKind = "uniform", *kSummary = "the same for all pixels";
   int64_t limit = 256;
@@ -85,7 +85,7 @@ struct ScaledBudget {
 struct FrameTimeBudget {
   using Base = std::variant<ScaledBudget, RadialBudget, MaskingBudget, PaintedBudget, PerceptualBudget>;
   static constexpr const char *kKind = "frame_time",
-                              *kSummary = "another budget, scaled to what a frame's time allows";
+                              *kSummary = "another budget, scaled to the available frame time";
   double targetMs = 2.0;
   int64_t least = 25;
   Base base;
@@ -96,16 +96,16 @@ struct FrameTimeBudget {
   int settleFrames = 32;
   static const SettingsTable<FrameTimeBudget>& table();
   void check() const;
-  /// `least`, and the most that the base allows.
+  /// `least`, and the largest number that the base allows.
   BudgetRange range() const;
 };
 
-/// Micro-occluders allowed for a pixel: the same for all, or an image made by a driver. Source: Schwarz 2009,
+/// Micro-occluders allowed per pixel: the same for all, or an image made by a driver. Source: Schwarz 2009,
 /// sections 4.1, 4.5 and 5.2.1.
 using BudgetSettings = std::variant<UniformBudget, RadialBudget, MaskingBudget, PaintedBudget,
                                     PerceptualBudget, FrameTimeBudget>;
 
-/// The most that any pixel may take; 0: no limit.
+/// The largest number that any pixel may use; 0: no limit.
 int64_t mostOf(const BudgetSettings& budget);
 
 }  // namespace limen::techniques

@@ -8,10 +8,10 @@
 
 namespace limen::techniques {
 
-/// Times a part of each frame for whoever steers by it, without waiting for the GPU: timestamps are read
-/// once they have arrived, frames later; a frame whose turn comes while all of them are still under way goes
-/// without. A software renderer's timestamps are wrong, so there it is wall time between two calls of
-/// glFinish, which does wait.
+/// Times a part of each frame for a controller, without waiting for the GPU: timestamps are read once they
+/// have arrived, frames later; a frame that starts while all of them are in flight is not timed. A software
+/// renderer's timestamps are wrong, so there it uses wall time between two calls of glFinish, which does
+/// wait.
 class FrameStopwatch {
  public:
   struct Sample {
@@ -23,11 +23,11 @@ class FrameStopwatch {
   FrameStopwatch(const FrameStopwatch&) = delete;
   FrameStopwatch& operator=(const FrameStopwatch&) = delete;
 
-  /// Begins a frame's part; one that was begun and not ended is forgotten. `tag` comes back with its time.
+  /// Begins a frame's part; one that was begun and not ended is dropped. `tag` is returned with its time.
   void start(double tag);
-  /// Without a start: nothing.
+  /// Does nothing without a start.
   void stop();
-  /// Times that have arrived since the last call, oldest first. Valid until the next one.
+  /// Times that have arrived since the last call, oldest first. Valid until the next call.
   const std::vector<Sample>& collect();
 
  private:

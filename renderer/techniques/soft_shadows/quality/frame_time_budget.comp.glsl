@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Budgets scaled by what the frame's time allows.
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/dither.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, r32f) uniform writeonly image2D outBudget;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kFrameTimeBudgetImage, r32f) uniform writeonly image2D outBudget;
 #ifdef BASE_MAP
-layout(binding = 0) uniform sampler2D baseMap;
+layout(binding = kFrameTimeBudgetBaseMapUnit) uniform sampler2D baseMap;
 #endif
 
 uniform ivec2 sizePx;

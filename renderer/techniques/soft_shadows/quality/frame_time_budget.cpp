@@ -11,6 +11,7 @@
 #include "renderer/techniques/soft_shadows/quality/masking_budget.h"
 #include "renderer/techniques/soft_shadows/quality/painted_budget.h"
 #include "renderer/techniques/soft_shadows/quality/perceptual_budget.h"
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/radial_budget.h"
 
 namespace limen::techniques {
@@ -69,8 +70,8 @@ class FrameTimeBudgetDriver : public BudgetDriver {
     program_->set("leastRoot", range_.leastRoot());
     program_->set("rootScale", static_cast<float>(std::sqrt(scale_)));
     program_->set("dithers", dithers_ ? 1 : 0);
-    if (base) base->bindTexture(0);
-    map_->bindImage(0, gl::Access::Write);
+    if (base) base->bindTexture(kFrameTimeBudgetBaseMapUnit);
+    map_->bindImage(kFrameTimeBudgetImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return *map_;
@@ -122,7 +123,7 @@ std::vector<Quantity> frameTimeQuantities() {
   return {
       {"budget_scale", "Scale of the budget", "", Direction::Neither},
       {"frame_time_error_share", "Error of the frame time", "", Direction::Neither},
-      {"frame_time_oscillations", "Changes of side of the frame time's error", "", Direction::LowerIsBetter}};
+      {"frame_time_oscillations", "Sign changes of the frame time's error", "", Direction::LowerIsBetter}};
 }
 
 }  // namespace limen::techniques

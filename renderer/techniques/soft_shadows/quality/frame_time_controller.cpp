@@ -11,7 +11,7 @@ namespace {
 /// Bound on the fixed part of the cost as a share of time and target; see the class.
 constexpr double kMostFixed = 0.4;
 /// Scales must spread by this share of their mean for a line through them: with times known to 5 % and 16
-/// samples its slope is then known to 12 %.
+/// samples, its slope is then known to 12 %.
 constexpr double kLeastSpread = 0.1;
 
 }  // namespace
@@ -32,7 +32,7 @@ void FrameTimeController::fit(double scale, double ms) {
   meanMs_ += (ms - meanMs_) / weight_;
   scaleSquares_ = keep * scaleSquares_ + away * (scale - meanScale_);
   products_ = keep * products_ + away * (ms - meanMs_);
-  // Else the last line stands: a scale that keeps still says nothing about a slope.
+  // Otherwise the last line remains valid: a constant scale says nothing about the slope.
   if (scaleSquares_ / weight_ >= kLeastSpread * kLeastSpread * meanScale_ * meanScale_ && products_ > 0.0)
     fixedMs_ = std::max(0.0, meanMs_ - products_ / scaleSquares_ * meanScale_);
 }
@@ -44,7 +44,7 @@ void FrameTimeController::observe(double scale, double ms) {
   const double fixed = std::min(fixedMs_, kMostFixed * std::min(ms, target));
   const double most = std::log(settings_.largestFactor), least = std::log(settings_.leastScale);
   const double step = std::clamp(std::log((target - fixed) / (ms - fixed)), -most, most);
-  // The first sample stands for the two that are not there.
+  // The first sample substitutes for the two missing ones.
   if (samples_ == 0) asked_.fill(std::log(scale) + step);
   asked_[static_cast<size_t>(samples_ % 3)] = std::log(scale) + step;
   ++samples_;
@@ -52,12 +52,12 @@ void FrameTimeController::observe(double scale, double ms) {
       std::max(std::min(asked_[0], asked_[1]), std::min(std::max(asked_[0], asked_[1]), asked_[2]));
   followed_ = std::clamp(followed_ + settings_.gain * (asked - followed_), least, 0.0);
 
-  // What a change of ln scale makes of the time, near the target.
+  // The effect of a change of ln scale on the time, near the target.
   const double sensitivity = (target - fixed) / target;
   if (std::abs(followed_ - held_) * sensitivity > settings_.deadBand) moving_ = true;
   if (moving_) {
     held_ = followed_;
-    // Beyond a bound, asked for is never met: the scale goes all the way there.
+    // Beyond a bound the target can never be met: the scale goes all the way to the bound.
     moving_ = std::abs(asked - followed_) * sensitivity > 0.5 * settings_.deadBand;
   }
 

@@ -3,9 +3,11 @@
 // formulas are reconstructed from there.
 // LEVELS: see LevelRule in level_settings.h; narrow_blend blends over `blendWidth` levels about the middle.
 // FILTERED_LEVEL: the real level follows from linearly filtered depths, after Guennebaud et al. 2007 (section 5.2).
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 uniform int budgetPerAxis;  // micro-occluders; 16384: no limit
 #ifdef BUDGET_MAP
-layout(binding = 12) uniform sampler2D budgetMap;  // micro-occluders, not their root; 0: no limit
+layout(binding = kBudgetMapUnit) uniform sampler2D budgetMap;  // micro-occluders, not their root; 0: no limit
 #endif
 uniform float blendWidth;
 

@@ -7,21 +7,21 @@
 namespace limen::techniques {
 
 /// How the level of a pixel's micro-occluders is chosen, smoothed and blended: Schwarz 2009, sections 5.2.1
-/// and 5.2.2, with what they advise against as controls.
+/// and 5.2.2, including what they advise against, as controls.
 class LevelOfQuality {
  public:
   LevelOfQuality(const LevelSettings& levels, const PassSettings& passes)
       : levels_(levels), passes_(passes) {}
 
-  /// Classify, smooth and gather in passes of their own.
+  /// Classify, smooth and gather in separate passes.
   bool splits() const { return std::holds_alternative<SplitPasses>(passes_); }
-  /// The list of pixels is put in the order of their loops' lengths.
+  /// The list of pixels is sorted by the length of their loops.
   bool orders() const;
-  /// The filter of real levels; null: they are not smoothed, or there are none.
+  /// The filter of real-valued levels; null: they are not smoothed, or there are none.
   const LevelFilter* smoothing() const;
   /// Pixels of one level may choose differently.
   bool dithers() const { return ruleOf(levels_) == LevelRule::Dither; }
-  /// Adds to `defines` what level_of_quality.glsl reads.
+  /// Adds the defines that level_of_quality.glsl reads.
   void define(gl::ShaderDefines& defines) const;
   /// Sets the uniforms of level_of_quality.glsl, `budgetPerAxis` and `fixedLevel` aside.
   void configure(const gl::Program& program) const;

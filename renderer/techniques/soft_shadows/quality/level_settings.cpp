@@ -9,8 +9,8 @@ constexpr double kCoarsest = 12.0;  // the only texel of the largest map
 template <class S>
 Binding<S> sourceBinding() {
   return Binding(&S::source, "source",
-                 "What the real level follows from: the narrowed search area, or depths of the pyramid that "
-                 "are filtered linearly",
+                 "Source of the real-valued level: the narrowed search area, or linearly filtered depths of "
+                 "the pyramid",
                  "Schwarz 2009, section 5.2 (filtered_depth: after Guennebaud 2007)")
       .formerly({"level_source"});
 }
@@ -45,21 +45,21 @@ const SettingsTable<DitheredLevels>& DitheredLevels::table() {
 const SettingsTable<FixedLevel>& FixedLevel::table() {
   static const SettingsTable<FixedLevel> kTable = {
       Binding(&FixedLevel::level, "level", Range{0.0, kCoarsest}, "",
-              "Level of the shadow map that all micro-occluders come from", "Schwarz 2009, section 4.5")
+              "Level of the shadow map used for all micro-occluders", "Schwarz 2009, section 4.5")
           .formerly({"fixed_level"})};
   return kTable;
 }
 
 const SettingsTable<LevelFilter>& LevelFilter::table() {
   static const SettingsTable<LevelFilter> kTable = {
-      Binding(&LevelFilter::radius, "radius", Range{1, 10}, "px", "Reach of the filter",
+      Binding(&LevelFilter::radius, "radius", Range{1, 10}, "px", "Radius of the filter",
               "Schwarz 2009, section 5.2.2 (support 11 x 11)")
           .formerly({"smoothing_radius"}),
-      Binding(&LevelFilter::sigma, "sigma", Range{0.1, 100.0}, "px", "Standard deviation of its weights",
-              "Schwarz 2009, section 5.2.1 (open there)")
+      Binding(&LevelFilter::sigma, "sigma", Range{0.1, 100.0}, "px",
+              "Standard deviation of the filter's weights", "Schwarz 2009, section 5.2.1 (open there)")
           .formerly({"smoothing_sigma"}),
       Binding(&LevelFilter::depthThreshold, "depth_threshold", Range{0.0, 1.0}, "",
-              "Step of depth from pixel to pixel at which it stops, as a share of the depth",
+              "Depth step between pixels at which the filter stops, as a share of the depth",
               "Schwarz 2009, section 5.2.1 (open there)")
           .formerly({"depth_threshold"})};
   return kTable;
@@ -72,8 +72,8 @@ const SettingsTable<SplitPasses>& SplitPasses::table() {
               "micro-occluders first",
               "Schwarz 2009, section 5.2.2 (coherence)")
           .formerly({"work_order"}),
-      {&SplitPasses::smoothing, "smoothing", "What smooths real levels, where two are blended or dithered",
-       "Schwarz 2009, section 5.2.2"}};
+      {&SplitPasses::smoothing, "smoothing",
+       "Smoothing of real-valued levels, if two are blended or dithered", "Schwarz 2009, section 5.2.2"}};
   return kTable;
 }
 

@@ -7,13 +7,13 @@
 
 namespace limen::techniques {
 
-/// What the real level of a pixel follows from.
+/// Source of a pixel's real-valued level.
 enum class LevelSource { SearchArea, FilteredDepth };
 constexpr EnumNames<LevelSource, 2> enumNames(LevelSource) {
   return {{{{LevelSource::SearchArea, "search_area"}, {LevelSource::FilteredDepth, "filtered_depth"}}}};
 }
 
-/// How a level is chosen, as level_of_quality.glsl has it.
+/// How a level is chosen, as in level_of_quality.glsl.
 enum class LevelRule { FinestWithin, CoarsestOver, Blend, NarrowBlend, Dither };
 constexpr EnumNames<LevelRule, 5> enumNames(LevelRule) {
   return {{{{LevelRule::FinestWithin, "finest_within"},
@@ -29,31 +29,32 @@ struct FinestWithin {
 };
 struct CoarsestOver {
   static constexpr const char *kKind = "coarsest_over",
-                              *kSummary = "the floor of the real level, which exceeds the budget";
+                              *kSummary = "the floor of the real-valued level, which exceeds the budget";
   static constexpr LevelRule kRule = LevelRule::CoarsestOver;
   LevelSource source = LevelSource::SearchArea;
   static const SettingsTable<CoarsestOver>& table();
 };
 struct BlendedLevels {
-  static constexpr const char *kKind = "blend", *kSummary = "both levels around the real one, blended";
+  static constexpr const char *kKind = "blend", *kSummary = "both levels around the real-valued one, blended";
   static constexpr LevelRule kRule = LevelRule::Blend;
   LevelSource source = LevelSource::SearchArea;
   static const SettingsTable<BlendedLevels>& table();
 };
 struct NarrowlyBlendedLevels {
-  static constexpr const char *kKind = "narrow_blend", *kSummary = "both, blended over a narrow zone alone";
+  static constexpr const char *kKind = "narrow_blend", *kSummary = "both, blended only over a narrow zone";
   static constexpr LevelRule kRule = LevelRule::NarrowBlend;
   LevelSource source = LevelSource::SearchArea;
   double width = 0.1;
   static const SettingsTable<NarrowlyBlendedLevels>& table();
 };
 struct DitheredLevels {
-  static constexpr const char *kKind = "dither", *kSummary = "one of the two around the real one, at random";
+  static constexpr const char *kKind = "dither",
+                              *kSummary = "one of the two around the real-valued one, at random";
   static constexpr LevelRule kRule = LevelRule::Dither;
   LevelSource source = LevelSource::SearchArea;
   static const SettingsTable<DitheredLevels>& table();
 };
-/// Levels that no budget chooses.
+/// Levels that do not depend on a budget.
 struct FixedLevel {
   static constexpr const char *kKind = "fixed", *kSummary = "the same for all pixels, whatever the budget";
   static constexpr LevelRule kRule = LevelRule::FinestWithin;
@@ -61,18 +62,18 @@ struct FixedLevel {
   static const SettingsTable<FixedLevel>& table();
 };
 
-/// Level of the pyramid that a pixel's micro-occluders come from. Source: Schwarz 2009, sections 4.5, 5.2.1
+/// Level of the pyramid used for a pixel's micro-occluders. Source: Schwarz 2009, sections 4.5, 5.2.1
 /// and 5.2.2 (formula reconstructed).
 using LevelSettings = std::variant<FinestWithin, CoarsestOver, BlendedLevels, NarrowlyBlendedLevels,
                                    DitheredLevels, FixedLevel>;
-/// Those of one whole level a pixel.
+/// Those with one integer level per pixel.
 using WholeLevelSettings = std::variant<FinestWithin, CoarsestOver, FixedLevel>;
 
 LevelSettings anyLevels(const WholeLevelSettings& levels);
 LevelRule ruleOf(const LevelSettings& levels);
 LevelSource sourceOf(const LevelSettings& levels);
 
-/// Order in which split passes go over pixels.
+/// Order in which split passes process pixels.
 enum class WorkOrder {
   Tiles,      ///< of the image
   LoopLength  ///< those with the longest loops over micro-occluders first
@@ -83,22 +84,21 @@ constexpr EnumNames<WorkOrder, 2> enumNames(WorkOrder) {
 
 struct LevelFilter {
   static constexpr const char *kKind = "filter", *kSummary = "a filter over neighbours of similar depth";
-  int radius = 5;  ///< px: half of the support, without its middle
+  int radius = 5;  ///< px: half of the support, excluding the centre
   double sigma = 3.0, depthThreshold = 0.02;
   static const SettingsTable<LevelFilter>& table();
 };
 struct NoSmoothing {
-  static constexpr const char *kKind = "none", *kSummary = "levels as they are chosen";
+  static constexpr const char *kKind = "none", *kSummary = "levels as chosen";
 };
 
 struct SinglePass {
   static constexpr const char *kKind = "single", *kSummary = "all work on a pixel in one pass";
 };
 struct SplitPasses {
-  static constexpr const char *kKind = "split",
-                              *kSummary =
-                                  "search, smoothing of levels and the loop over micro-occluders in "
-                                  "passes of their own";
+  static constexpr const char
+      *kKind = "split",
+      *kSummary = "search, smoothing of levels and the loop over micro-occluders in separate passes";
   WorkOrder order = WorkOrder::Tiles;
   std::variant<LevelFilter, NoSmoothing> smoothing;
   static const SettingsTable<SplitPasses>& table();
@@ -108,7 +108,7 @@ using PassSettings = std::variant<SinglePass, SplitPasses>;
 /// The bindings of `levels` and `passes`, the same for all techniques that have them.
 template <class S, class L>
 Binding<S> levelsBinding(L S::*member) {
-  return Binding(member, "levels", "Level of the shadow map that micro-occluders come from",
+  return Binding(member, "levels", "Level of the shadow map used for micro-occluders",
                  "Schwarz 2009, sections 4.5, 5.2.1 and 5.2.2 (formula reconstructed)")
       .formerly({"fixed_level"});
 }

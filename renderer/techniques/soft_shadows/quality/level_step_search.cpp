@@ -7,14 +7,12 @@
 #include <cmath>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
-/// Of level_steps.glsl.
-constexpr uint32_t kPositionUnit = 14, kNormalUnit = 15, kWorkImage = 1, kSearchImage = 2, kStepImage = 4;
-
-/// Processed pixels do not all stand for the same levels.
+/// Processed pixels do not all use the same levels.
 bool choicesDiffer(const PixelCounts& counted, const LevelOfQuality& quality) {
   std::optional<float> first;
   for (size_t i = 0; i < counted.work.size(); i += 4) {
@@ -38,11 +36,11 @@ std::optional<LevelSteps> findLevelSteps(frame::Frame& frame, const VisibilityPa
   const gl::Program& steps = pass.program(frame, false, {{"LEVEL_STEPS", "1"}});
   const auto from = [&](glm::ivec2 offset) {
     pass.bind(frame, steps, inputs, map, nullptr);
-    positions.texture().bindTexture(kPositionUnit);
-    normals.texture().bindTexture(kNormalUnit);
-    images.work.bindImage(kWorkImage, gl::Access::Read);
-    images.search.bindImage(kSearchImage, gl::Access::Read);
-    found.bindImage(kStepImage, gl::Access::Write);
+    positions.texture().bindTexture(kStepsPositionsUnit);
+    normals.texture().bindTexture(kStepsNormalsUnit);
+    images.work.bindImage(kStepsCountedWorkImage, gl::Access::Read);
+    images.search.bindImage(kStepsCountedSearchImage, gl::Access::Read);
+    found.bindImage(kStepsImage, gl::Access::Write);
     steps.set("offset", offset);
     steps.set("surfaceSlope", static_cast<float>(kSurfaceSlope));
     steps.dispatch(frame.sizePx());

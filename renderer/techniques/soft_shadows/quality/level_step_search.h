@@ -10,7 +10,7 @@
 namespace limen::techniques {
 
 /// Steps between the levels that pixels have chosen, found by the technique's own shader once a map's pixels
-/// are counted; none where all processed pixels stand for the same levels. Waits for the GPU.
+/// are counted; none if all processed pixels use the same levels. Waits for the GPU.
 std::optional<LevelSteps> findLevelSteps(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
                                          const frame::ShadowMapSettings& map, const LevelOfQuality& quality,
                                          const CountImages& images, const PixelCounts& counted);

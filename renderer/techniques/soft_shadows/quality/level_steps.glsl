@@ -2,11 +2,13 @@
 // What a change of level from a pixel to its neighbour does by itself: visibility of this pixel's own receiver and search
 // area at the level that the pixel at `offset` has chosen. Run once with the offset 0, then for the neighbours, each in a
 // dispatch of its own, so that none has more loop iterations than the technique itself. See level_steps.h.
-layout(binding = 1, rgba32ui) uniform readonly uimage2D countedWork;
-layout(binding = 2, rgba32ui) uniform readonly uimage2D countedSearch;
-layout(binding = 4, rg32f) uniform writeonly image2D outSteps;  // visibility, choice; -1: none, or no pair
-layout(binding = 14) uniform sampler2D positions;
-layout(binding = 15) uniform sampler2D normals;
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
+layout(binding = kStepsCountedWorkImage, rgba32ui) uniform readonly uimage2D countedWork;
+layout(binding = kStepsCountedSearchImage, rgba32ui) uniform readonly uimage2D countedSearch;
+layout(binding = kStepsImage, rg32f) uniform writeonly image2D outSteps;  // visibility, choice; -1: none, or no pair
+layout(binding = kStepsPositionsUnit) uniform sampler2D positions;
+layout(binding = kStepsNormalsUnit) uniform sampler2D normals;
 
 uniform ivec2 offset;
 uniform float surfaceSlope;

@@ -2,16 +2,17 @@
 // Budget by the RMS contrast around a pixel. ROWS: number, mean and sum of squared differences from it of each pixel's row of
 // the window; otherwise the columns of these, and the budget. Sums of squares less squared sums would leave only rounding
 // where the picture is plain.
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/luminance.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 uniform ivec2 sizePx;
 uniform int radius;
 
 #ifdef ROWS
-layout(binding = 0) uniform sampler2D picture;    // linear, 0..1
-layout(binding = 1) uniform sampler2D receivers;  // w < 0: none
-layout(binding = 0, rgba32f) uniform writeonly image2D outRows;
+layout(binding = kMaskingBudgetPictureUnit) uniform sampler2D picture;    // linear, 0..1
+layout(binding = kMaskingBudgetReceiversUnit) uniform sampler2D receivers;  // w < 0: none
+layout(binding = kMaskingBudgetRowsImage, rgba32f) uniform writeonly image2D outRows;
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -33,8 +34,8 @@ void main() {
   imageStore(outRows, pixel, vec4(count, mean, squares, 0.0));
 }
 #else
-layout(binding = 0) uniform sampler2D rows;
-layout(binding = 0, r32f) uniform writeonly image2D outBudget;
+layout(binding = kMaskingBudgetRowsUnit) uniform sampler2D rows;
+layout(binding = kMaskingBudgetImage, r32f) uniform writeonly image2D outBudget;
 uniform float lowContrast, highContrast;  // low < high
 uniform float leastRoot, mostRoot;
 

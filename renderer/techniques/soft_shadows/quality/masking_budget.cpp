@@ -7,6 +7,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -17,7 +18,7 @@ const char* const kMaskingPass = "soft_shadows/budget_map";
 class MaskingBudgetDriver : public BudgetDriver {
  public:
   explicit MaskingBudgetDriver(const MaskingBudget& settings) : settings_(settings) {
-    // Albedo by cosine: contrasts of the light's part alone, whatever the scene's brightness.
+    // Albedo times cosine: contrasts of the direct light only, whatever the scene's brightness.
     picture_.ambient = 0.0;
     picture_.diffuse = 1.0;
     picture_.background = 0.0;
@@ -37,9 +38,9 @@ class MaskingBudgetDriver : public BudgetDriver {
     const auto scope = frame.passes().open(kMaskingPass);
     rowsOf_->set("sizePx", frame.sizePx());
     rowsOf_->set("radius", settings_.radius);
-    picture.bindTexture(0);
-    receivers.bindTexture(1);
-    rows_->bindImage(0, gl::Access::Write);
+    picture.bindTexture(kMaskingBudgetPictureUnit);
+    receivers.bindTexture(kMaskingBudgetReceiversUnit);
+    rows_->bindImage(kMaskingBudgetRowsImage, gl::Access::Write);
     rowsOf_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     budgetOf_->set("sizePx", frame.sizePx());
@@ -47,8 +48,8 @@ class MaskingBudgetDriver : public BudgetDriver {
     budgetOf_->set("lowContrast", static_cast<float>(settings_.lowContrast));
     budgetOf_->set("highContrast", static_cast<float>(settings_.highContrast));
     setRoots(*budgetOf_, settings_.range());
-    rows_->bindTexture(0);
-    map_->bindImage(0, gl::Access::Write);
+    rows_->bindTexture(kMaskingBudgetRowsUnit);
+    map_->bindImage(kMaskingBudgetImage, gl::Access::Write);
     budgetOf_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return *map_;

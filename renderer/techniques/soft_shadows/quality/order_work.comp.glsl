@@ -2,25 +2,25 @@
 // Orders the list of pixels by the length of their loops over micro-occluders, the longest first, so that invocations that
 // wait for one another have about the same to do. Bins are half an octave wide. Without SCATTER: counts each bin's pixels;
 // with it: puts each pixel behind those of longer loops, within a bin in any order.
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/work_list.glsl"
 
-layout(local_size_x = 64) in;
-layout(binding = 13) uniform usampler2D searchAreas;
-layout(binding = 14) uniform sampler2D levelMap;
+layout(local_size_x = kWorkListGroup) in;
+layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
+layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
-const uint kBins = 64u;  // as many as a group has invocations
-layout(std430, binding = 5) restrict buffer Bins { uint binCounts[kBins], binFilled[kBins]; };
+layout(std430, binding = kOrderWorkBinsBuffer) restrict buffer Bins { uint binCounts[kWorkBins], binFilled[kWorkBins]; };
 #ifdef SCATTER
-layout(std430, binding = 6) restrict writeonly buffer OrderedList {
-  uint orderedGroupsPerRow, orderedGroupRows, orderedGroupLayers;
-  uint orderedCount;
+layout(std430, binding = kOrderWorkOrderedListBuffer) restrict writeonly buffer OrderedList {
+  WorkListHeader ordered;
   uint orderedPixels[];
 };
 #endif
 
-shared uint groupCounts[kBins];
+shared uint groupCounts[kWorkBins];
 #ifdef SCATTER
-shared uint groupStarts[kBins];
+shared uint groupStarts[kWorkBins];
 #endif
 
 float occludersAt(uvec4 area, int level) {
@@ -33,7 +33,7 @@ uint binOf(ivec2 pixel) {
   const float level = texelFetch(levelMap, pixel, 0).x;
   const int finer = int(level), coarser = int(ceil(level));
   const float occluders = occludersAt(area, finer) + (coarser > finer ? occludersAt(area, coarser) : 0.0);
-  return uint(clamp(2.0 * log2(occluders), 0.0, float(kBins - 1u)));
+  return uint(clamp(2.0 * log2(occluders), 0.0, float(kWorkBins - 1u)));
 }
 
 void main() {
@@ -53,16 +53,13 @@ void main() {
   const uint count = groupCounts[lane];
 #ifdef SCATTER
   uint start = 0u;
-  for (uint longer = lane + 1u; longer < kBins; ++longer) start += binCounts[longer];
+  for (uint longer = lane + 1u; longer < kWorkBins; ++longer) start += binCounts[longer];
   groupStarts[lane] = start + (count > 0u ? atomicAdd(binFilled[lane], count) : 0u);
   memoryBarrierShared();
   barrier();
   if (listed) orderedPixels[groupStarts[bin] + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
   if (gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u && lane == 0u) {
-    orderedGroupsPerRow = groupsPerRow;
-    orderedGroupRows = groupRows;
-    orderedGroupLayers = groupLayers;
-    orderedCount = listedCount;
+    ordered = work;
   }
 #else
   if (count > 0u) atomicAdd(binCounts[lane], count);

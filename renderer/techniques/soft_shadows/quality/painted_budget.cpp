@@ -23,7 +23,7 @@ std::vector<Taps> tapsOf(int from, int to, double scale, double offset) {
   const double reach = std::max(scale, 1.0);
   for (int i = 0; i < to; ++i) {
     Taps& taps = out[static_cast<size_t>(i)];
-    // Within the image, so that some texel always lies within reach.
+    // Within the image, so that some texel is always within reach.
     const double centre = std::clamp((i + 0.5) * scale + offset, 0.5, from - 0.5);
     taps.first = std::max(0, static_cast<int>(std::ceil(centre - reach - 0.5)));
     double sum = 0.0;
@@ -36,7 +36,7 @@ std::vector<Taps> tapsOf(int from, int to, double scale, double offset) {
   return out;
 }
 
-/// The mean of an RGB image's channels: whoever paints in grey has them equal.
+/// The mean of an RGB image's channels, which are equal for grey paint.
 Image greyOf(const ImageFile& file) {
   const Image& image = file.image;
   Image grey(image.width, image.height, 1);
@@ -46,7 +46,7 @@ Image greyOf(const ImageFile& file) {
       sum += image.data[i * static_cast<size_t>(image.channels) + static_cast<size_t>(c)];
     const float mean = sum / static_cast<float>(image.channels);
     if (!std::isfinite(mean))
-      throw Error("the painted weights hold values that are no numbers", file.path,
+      throw Error("the painted weights contain values that are not numbers", file.path,
                   "save them as greys from 0 to 1");
     grey.data[i] = std::clamp(mean, 0.0F, 1.0F);
   }
@@ -57,7 +57,7 @@ class PaintedBudgetDriver : public BudgetDriver {
  public:
   explicit PaintedBudgetDriver(const PaintedBudget& settings) : settings_(settings) {}
 
-  /// The map depends on nothing that a frame changes: it is made here.
+  /// The map does not depend on the frame, so it is made here.
   void prepare(frame::Frame& frame) override {
     Image weights;
     try {
@@ -87,13 +87,13 @@ class PaintedBudgetDriver : public BudgetDriver {
 
 Image paintedWeights(const Image& grey, glm::ivec2 sizePx, PaintedFit fit) {
   glm::dvec2 scale(double(grey.width) / sizePx.x, double(grey.height) / sizePx.y), offset(0.0);
-  // An image made for these proportions has sides of whole pixels: each may be off by half of one.
+  // An image made for this aspect ratio has integer sides: each may be off by half a pixel.
   const double across = double(grey.width) * sizePx.y, along = double(grey.height) * sizePx.x;
   if (fit == PaintedFit::Refuse && std::abs(across - along) > 0.5 * (sizePx.x + sizePx.y))
     throw Error("the painted image has " + std::to_string(grey.width) + " x " + std::to_string(grey.height) +
-                    " pixels, other proportions than the frame's " + std::to_string(sizePx.x) + " x " +
+                    " pixels, another aspect ratio than the frame's " + std::to_string(sizePx.x) + " x " +
                     std::to_string(sizePx.y),
-                {}, "give fit: stretch or cover, or paint it with the frame's proportions");
+                {}, "choose fit: stretch or cover, or paint it with the frame's aspect ratio");
   if (fit == PaintedFit::Cover) {
     const glm::dvec2 source(grey.width, grey.height);
     scale = glm::dvec2(std::min(scale.x, scale.y));

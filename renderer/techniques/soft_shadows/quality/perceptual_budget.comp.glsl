@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Budget at which the error of coarse micro-occluders stays at the threshold of visibility. See perceptual_budget.h.
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/luminance.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D thresholds;   // cd/m2
-layout(binding = 1) uniform sampler2D directLight;  // linear, relative to white
-layout(binding = 0, r32f) uniform writeonly image2D outBudget;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kPerceptualBudgetThresholdsUnit) uniform sampler2D thresholds;   // cd/m2
+layout(binding = kPerceptualBudgetDirectLightUnit) uniform sampler2D directLight;  // linear, relative to white
+layout(binding = kPerceptualBudgetImage, r32f) uniform writeonly image2D outBudget;
 
 uniform ivec2 sizePx;
 uniform float whiteCdM2;  // above black

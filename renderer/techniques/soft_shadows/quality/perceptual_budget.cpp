@@ -7,6 +7,7 @@
 
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -43,9 +44,9 @@ class PerceptualBudgetDriver : public BudgetDriver {
     program_->set("errorOfOne", static_cast<float>(settings_.error));
     program_->set("allowedThresholds", static_cast<float>(settings_.thresholds));
     setRoots(*program_, settings_.range());
-    thresholds.bindTexture(0);
-    direct.bindTexture(1);
-    map_->bindImage(0, gl::Access::Write);
+    thresholds.bindTexture(kPerceptualBudgetThresholdsUnit);
+    direct.bindTexture(kPerceptualBudgetDirectLightUnit);
+    map_->bindImage(kPerceptualBudgetImage, gl::Access::Write);
     program_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return *map_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Budget by the distance from a centre, in half widths of the image.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, r32f) uniform writeonly image2D outBudget;
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kRadialBudgetImage, r32f) uniform writeonly image2D outBudget;
 
 uniform ivec2 sizePx;
 uniform vec2 centre;                // share of the image

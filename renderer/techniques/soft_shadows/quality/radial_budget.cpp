@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -13,7 +15,7 @@ class RadialBudgetDriver : public BudgetDriver {
  public:
   explicit RadialBudgetDriver(const RadialBudget& settings) : settings_(settings) {}
 
-  /// The map depends on nothing that a frame changes: it is made here.
+  /// The map does not depend on the frame, so it is made here.
   void prepare(frame::Frame& frame) override {
     map_.emplace(gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld("soft_shadows/budget_map", map_->bytes());
@@ -25,7 +27,7 @@ class RadialBudgetDriver : public BudgetDriver {
     program.set("outerRadius", static_cast<float>(settings_.outer));
     program.set("innerRoot", static_cast<float>(std::sqrt(static_cast<double>(settings_.centre))));
     program.set("outerRoot", static_cast<float>(std::sqrt(static_cast<double>(settings_.rim))));
-    map_->bindImage(0, gl::Access::Write);
+    map_->bindImage(kRadialBudgetImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }

@@ -5,9 +5,9 @@
 
 namespace limen::techniques {
 
-/// Budget that goes from `centre` around a centre to `rim` at the rim, the same in every frame. Its
-/// root, which counts micro-occluders per axis, changes evenly with the distance. Source: Schwarz 2009,
-/// figure 5.5 d, which takes 12^2 in the centre and 5^2 at the left and right borders.
+/// Budget that falls from `centre` at a centre to `rim` at the rim, the same in every frame. Its square root,
+/// the number of micro-occluders per axis, is linear in the distance. Source: Schwarz 2009, figure 5.5 d,
+/// which uses 12^2 in the centre and 5^2 at the left and right borders.
 std::unique_ptr<BudgetDriver> makeBudgetDriver(const RadialBudget& settings);
 
 }  // namespace limen::techniques

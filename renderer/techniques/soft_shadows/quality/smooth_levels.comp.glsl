@@ -2,11 +2,13 @@
 // One axis of the separable filter that smooths the levels of processed pixels. From each pixel it walks both ways and
 // stops where the surface ends and where pixels need no processing; in between, weights are Gaussian. Schwarz 2009,
 // section 5.2.1, gives the stops and the support; weights and the test for the end of a surface are this bench's.
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/work_list.glsl"
 
-layout(local_size_x = 64) in;
-layout(binding = 14) uniform sampler2D levelMap;  // level (-1: not processed), camera depth
-layout(binding = 0, rg32f) uniform writeonly image2D outLevels;
+layout(local_size_x = kWorkListGroup) in;
+layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;  // level (-1: not processed), camera depth
+layout(binding = kSmoothLevelsImage, rg32f) uniform writeonly image2D outLevels;
 
 uniform ivec2 sizePx;
 uniform ivec2 axis;

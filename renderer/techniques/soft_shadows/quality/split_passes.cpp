@@ -2,11 +2,11 @@
 #include "renderer/techniques/soft_shadows/quality/split_passes.h"
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr uint32_t kCameraDepthUnit = 15;
 const char* const kSmoothShader = "renderer/techniques/soft_shadows/quality/smooth_levels.comp.glsl";
 const char* const kOrderShader = "renderer/techniques/soft_shadows/quality/order_work.comp.glsl";
 
@@ -45,7 +45,7 @@ void SplitRunner::makeInputs(frame::Frame& frame) const {
 }
 
 void SplitRunner::bindInputs(frame::Frame& frame) const {
-  if (smooths_) cameraDepth(frame).bindTexture(kCameraDepthUnit);
+  if (smooths_) cameraDepth(frame).bindTexture(kSplitCameraDepthUnit);
 }
 
 void SplitRunner::run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,

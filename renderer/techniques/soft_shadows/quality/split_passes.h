@@ -10,7 +10,7 @@
 
 namespace limen::techniques {
 
-/// A search in passes of its own: classify, smooth, order, gather. Source: Schwarz 2009, sections 4.1 and
+/// A search in separate passes: classify, smooth, order, gather. Source: Schwarz 2009, sections 4.1 and
 /// 5.2.1.
 class SplitRunner {
  public:

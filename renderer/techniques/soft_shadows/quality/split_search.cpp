@@ -5,14 +5,14 @@
 
 #include <vector>
 
+#include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
+
 namespace limen::techniques {
 namespace {
 
-constexpr uint32_t kAreaUnit = 13, kLevelUnit = 14, kAreaImage = 3, kLevelImage = 4, kHalfSmoothedImage = 5;
-constexpr uint32_t kBinsBinding = 5, kOrderedBinding = 6, kWorkBinding = 7;
-constexpr size_t kOrderBins = 64;  ///< as in order_work.comp.glsl
-/// Groups of 64 in a row of an indirect dispatch: a dimension has at most 65,535 of them, which this leaves
-/// to rows, and up to one row less one group finds nothing to do.
+/// Groups in a row of an indirect dispatch: a dimension has at most 65,535 of them, hence rows; up to one row
+/// minus one group is idle.
 constexpr uint32_t kGroupsPerRow = 64;
 
 gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::Format::R32F; }
@@ -22,11 +22,11 @@ gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::
 SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders)
     : areas_(gl::Format::RGBA16UI, frame.sizePx()),
       levels_(levelFormat(smooths), frame.sizePx()),
-      emptyHeader_(std::vector<uint32_t>{kGroupsPerRow, 0, 1, 0}),
-      work_(16 + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
+      emptyHeader_(std::vector{WorkListHeader{kGroupsPerRow, 0, 1, 0}}),
+      work_(int64_t{sizeof(WorkListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
   if (smooths) halfSmoothed_.emplace(levelFormat(smooths), frame.sizePx());
   if (orders) {
-    const std::vector<uint32_t> none(2 * kOrderBins, 0);
+    const std::vector<uint32_t> none(size_t{2} * kWorkBins, 0);
     order_.emplace(Order{gl::Buffer(work_.bytes(), nullptr), gl::Buffer(none), gl::Buffer(none)});
   }
 }
@@ -39,16 +39,16 @@ int64_t SplitSearch::bytes() const {
 
 void SplitSearch::bindForClassify() const {
   glCopyNamedBufferSubData(emptyHeader_.id(), work_.id(), 0, 0, emptyHeader_.bytes());
-  areas_.bindImage(kAreaImage, gl::Access::Write);
-  levels_.bindImage(kLevelImage, gl::Access::Write);
-  if (halfSmoothed_) halfSmoothed_->bindImage(kHalfSmoothedImage, gl::Access::Write);
-  work_.bindStorage(kWorkBinding);
+  areas_.bindImage(kSplitAreasImage, gl::Access::Write);
+  levels_.bindImage(kSplitLevelsImage, gl::Access::Write);
+  if (halfSmoothed_) halfSmoothed_->bindImage(kSplitHalfSmoothedImage, gl::Access::Write);
+  work_.bindStorage(kWorkListBuffer);
 }
 
 void SplitSearch::bindForGather() const {
-  areas_.bindTexture(kAreaUnit);
-  levels_.bindTexture(kLevelUnit);
-  (order_ ? order_->list : work_).bindStorage(kWorkBinding);
+  areas_.bindTexture(kSplitSearchAreasUnit);
+  levels_.bindTexture(kSplitLevelMapUnit);
+  (order_ ? order_->list : work_).bindStorage(kWorkListBuffer);
 }
 
 void SplitSearch::dispatchOverList(const gl::Program& program) const {
@@ -63,12 +63,12 @@ void SplitSearch::dispatch(const gl::Program& program, const gl::Buffer& list) c
 }
 
 void SplitSearch::smooth(const gl::Program& program) const {
-  work_.bindStorage(kWorkBinding);
+  work_.bindStorage(kWorkListBuffer);
   program.set("sizePx", levels_.sizePx());
   const auto along = [&](glm::ivec2 axis, const gl::Texture& from, const gl::Texture& to) {
     program.set("axis", axis);
-    from.bindTexture(kLevelUnit);
-    to.bindImage(0, gl::Access::Write);
+    from.bindTexture(kSplitLevelMapUnit);
+    to.bindImage(kSmoothLevelsImage, gl::Access::Write);
     dispatch(program, work_);
     makeVisible();
   };
@@ -78,11 +78,11 @@ void SplitSearch::smooth(const gl::Program& program) const {
 
 void SplitSearch::order(const gl::Program& count, const gl::Program& scatter) const {
   glCopyNamedBufferSubData(order_->emptyBins.id(), order_->bins.id(), 0, 0, order_->bins.bytes());
-  areas_.bindTexture(kAreaUnit);
-  levels_.bindTexture(kLevelUnit);
-  work_.bindStorage(kWorkBinding);
-  order_->list.bindStorage(kOrderedBinding);
-  order_->bins.bindStorage(kBinsBinding);
+  areas_.bindTexture(kSplitSearchAreasUnit);
+  levels_.bindTexture(kSplitLevelMapUnit);
+  work_.bindStorage(kWorkListBuffer);
+  order_->list.bindStorage(kOrderWorkOrderedListBuffer);
+  order_->bins.bindStorage(kOrderWorkBinsBuffer);
   for (const gl::Program* program : {&count, &scatter}) {
     dispatch(*program, work_);
     makeVisible();

@@ -2,16 +2,17 @@
 // The search in passes of its own. SPLIT_CLASSIFY: visibility of pixels that need no processing, and for the others search
 // area, level and a place in the list. SPLIT_GATHER: the loop over micro-occluders for each listed pixel, with no others
 // between them. Schwarz 2009, sections 4.1 and 5.2.1.
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/quality/work_list.glsl"
 
 #ifdef SPLIT_CLASSIFY
-layout(binding = 3, rgba16ui) uniform writeonly uimage2D outAreas;  // low, high
+layout(binding = kSplitAreasImage, rgba16ui) uniform writeonly uimage2D outAreas;  // low, high
 #ifdef SMOOTH
-layout(binding = 15) uniform sampler2D cameraDepth;
-layout(binding = 4, rg32f) uniform writeonly image2D outLevels;    // level (-1: not processed), camera depth
-layout(binding = 5, rg32f) uniform writeonly image2D outHalfSmoothed;
+layout(binding = kSplitCameraDepthUnit) uniform sampler2D cameraDepth;
+layout(binding = kSplitLevelsImage, rg32f) uniform writeonly image2D outLevels;    // level (-1: not processed), camera depth
+layout(binding = kSplitHalfSmoothedImage, rg32f) uniform writeonly image2D outHalfSmoothed;
 #else
-layout(binding = 4, r32f) uniform writeonly image2D outLevels;
+layout(binding = kSplitLevelsImage, r32f) uniform writeonly image2D outLevels;
 #endif
 
 shared uint processedLanes[2];
@@ -57,11 +58,11 @@ void main() {
   barrier();
   const uint before = uint(bitCount(processedLanes[0])), total = before + uint(bitCount(processedLanes[1]));
   if (lane == 0u && total > 0u) {
-    firstSlot = atomicAdd(listedCount, total);
-    const uint perRow = 64u * groupsPerRow;
+    firstSlot = atomicAdd(work.pixelCount, total);
+    const uint perRow = kWorkListGroup * work.groupsPerRow;
     // Whoever begins a row counts it.
     const uint rows = (firstSlot + total + perRow - 1u) / perRow;
-    if (rows > (firstSlot + perRow - 1u) / perRow) atomicMax(groupRows, rows);
+    if (rows > (firstSlot + perRow - 1u) / perRow) atomicMax(work.groupRows, rows);
   }
   memoryBarrierShared();
   barrier();
@@ -71,8 +72,8 @@ void main() {
   listedPixels[firstSlot + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
 }
 #else
-layout(binding = 13) uniform usampler2D searchAreas;
-layout(binding = 14) uniform sampler2D levelMap;
+layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
+layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
 void main() {
   ivec2 pixel;

@@ -10,7 +10,7 @@
 
 namespace limen::techniques {
 
-/// What stands between the passes of a split search: search areas, levels, and the list of pixels that need
+/// Data passed between the passes of a split search: search areas, levels, and the list of pixels that need
 /// processing, which the GPU fills and dispatches over without the host knowing its length.
 class SplitSearch {
  public:
@@ -21,21 +21,22 @@ class SplitSearch {
   void bindForClassify() const;
   /// For a pass over the list.
   void bindForGather() const;
-  /// Both axes in turn, in the list's pixels; `program` is smooth_levels.comp.glsl, otherwise configured.
+  /// Both axes in turn, for the list's pixels; `program` is smooth_levels.comp.glsl with its other uniforms
+  /// set.
   void smooth(const gl::Program& program) const;
-  /// Lets what follows go over the list in the order of the loops' lengths; the programs are both forms of
+  /// Makes the following passes process the list in order of loop length; the programs are the two forms of
   /// order_work.comp.glsl.
   void order(const gl::Program& count, const gl::Program& scatter) const;
-  /// Runs `program`, whose groups have 64 invocations, over the list that bindForGather() has bound.
+  /// Runs `program`, whose groups have 64 invocations, over the list bound by bindForGather().
   void dispatchOverList(const gl::Program& program) const;
-  /// Lets later passes see what the last one wrote.
+  /// Makes writes of the last pass visible to later ones.
   static void makeVisible();
 
   /// Words: groups of an indirect dispatch (3), number of pixels, then the pixels, x | y << 16.
   const gl::Buffer& work() const { return work_; }
-  /// RGBA16UI: first texel and the texel after the last one, of processed pixels alone.
+  /// RGBA16UI: first texel and one past the last texel, of processed pixels only.
   const gl::Texture& areas() const { return areas_; }
-  /// Level in the first channel, of processed pixels; -1 for others where levels are smoothed. R32F, or
+  /// Level in the first channel, of processed pixels; -1 for others if levels are smoothed. R32F, or
   /// RG32F with the camera's depth.
   const gl::Texture& levels() const { return levels_; }
   int64_t bytes() const;

@@ -8,8 +8,8 @@
 namespace limen::techniques {
 namespace {
 
-/// As shadow maps have it: nothing is looked at more than 75 degrees off the light's direction, or nearer
-/// than a thousandth of the farthest.
+/// As in shadow maps: nothing is considered more than 75 degrees off the light's direction, or nearer than a
+/// thousandth of the farthest.
 constexpr double kWidestTangent = 3.7320508075688772, kNearestShare = 1e-3;
 
 std::vector<scene::TriangleRange> rangesOf(const scene::Scene& scene, bool receiverOnly) {
@@ -84,8 +84,8 @@ void LightLayers::pass(frame::Frame& frame, const gl::Framebuffer& target, const
   if (faces == Faces::All) {
     glDisable(GL_CULL_FACE);
   } else {
-    // Light space looks along +z, which mirrors, and rows grow with y, which mirrors once more: triangles
-    // that turn counter-clockwise seen from outside do so in the picture where they face the light.
+    // Light space looks along +z, which mirrors, and rows grow with y, which mirrors again: triangles that
+    // are counter-clockwise seen from outside are so in the picture if they face the light.
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     glCullFace(faces == Faces::Towards ? GL_BACK : GL_FRONT);

@@ -7,13 +7,14 @@
 
 namespace limen::techniques {
 
-/// Depth images of a scene from the centre of its light, casters and receivers (Part::receiverOnly) apart, by
-/// the driver's rasteriser: near / z. Source: Schwarz 2009, section 3.2.1 (after Atty et al. 2006).
+/// Depth images of a scene from the centre of its light, separately for casters and receivers
+/// (Part::receiverOnly), by the driver's rasteriser: near / z. Source: Schwarz 2009, section 3.2.1 (after
+/// Atty et al. 2006).
 class LightLayers {
  public:
   enum class Faces {
     All,      ///< of casters
-    Towards,  ///< front faces as the light's centre sees them
+    Towards,  ///< front faces as seen from the light's centre
     Away      ///< back faces
   };
   /// `withSecond`: also the farthest surface of casters.

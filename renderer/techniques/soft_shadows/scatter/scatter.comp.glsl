@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scatters the texels of a map of casters: each adds the share of the light that it hides to every texel of the soft shadow
 // map whose receiver it can shadow. An invocation a caster texel.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D casters;
-layout(binding = 1) uniform sampler2D receivers;
-layout(binding = 0, r32ui) uniform uimage2D hidden;  // in parts of the light of 1 / kWhole
-layout(std430, binding = 0) buffer Costs {
-  uint cutShort;  // caster texels that a software renderer would not have let finish
-  uint casterTexels, splats;
-};
+#include "renderer/techniques/soft_shadows/scatter/scatter_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kScatterCastersUnit) uniform sampler2D casters;
+layout(binding = kScatterReceiversUnit) uniform sampler2D receivers;
+layout(binding = kScatterHiddenImage, r32ui) uniform uimage2D hidden;  // in parts of the light of 1 / kWhole
+layout(std430, binding = kScatterCostsBuffer) buffer Costs { ScatterCosts costs; };
 
 uniform int resolution, softResolution, maxIterations;
 uniform vec2 tangentLow, tangentSize, softLow, softSize, lightSize;
@@ -32,10 +31,10 @@ void main() {
   const ivec2 count = to - from + 1;
   if (any(lessThanEqual(count, ivec2(0)))) return;
 #ifdef COUNT
-  atomicAdd(casterTexels, 1u);
+  atomicAdd(costs.casterTexels, 1u);
 #endif
   if (float(count.x + 1) * float(count.y) > float(maxIterations)) {
-    atomicAdd(cutShort, 1u);
+    atomicAdd(costs.cutShort, 1u);
     return;
   }
   for (int y = from.y; y <= to.y; ++y)
@@ -53,7 +52,7 @@ void main() {
       if (share == 0u) continue;
       imageAtomicAdd(hidden, ivec2(x, y), share);
 #ifdef COUNT
-      atomicAdd(splats, 1u);
+      atomicAdd(costs.splats, 1u);
 #endif
     }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soft shadow maps by scattering (SS-06): a loop over the texels of a map of casters, each of which adds the
-// share of the light that it hides to the receivers in its reach, in a map of the receivers that is then
-// projected onto the scene. Casters receive nothing. Source: Schwarz 2009, section 3.2.1 (after Atty et al.
-// 2006).
+// share of the light that it hides to the receivers within its reach, in a map of the receivers that is then
+// projected onto the scene. Casters receive no shadows. Source: Schwarz 2009, section 3.2.1 (after Atty et
+// al. 2006).
 //
-// 'front_and_back' takes the larger of what nearest front faces and farthest back faces hide: the heuristic
-// that the thesis shows to be wrong (Fig. 4.3 d); 'nearest_and_farthest' the same for surfaces whichever way
-// they face, of which two flat blockers are a case (Fig. 4.3 e). Shares are added as whole numbers, so that
+// 'front_and_back' takes the larger of what the nearest front faces and the farthest back faces hide: the
+// heuristic that the thesis shows to be wrong (Fig. 4.3 d); 'nearest_and_farthest' does the same for surfaces
+// of either orientation, for example two flat blockers (Fig. 4.3 e). Shares are added as integers, so that
 // the sum does not depend on the order.
 #include <epoxy/gl.h>
 
@@ -18,6 +18,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/scatter/light_layers.h"
+#include "renderer/techniques/soft_shadows/scatter/scatter_bindings.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
 namespace limen::techniques {
@@ -59,7 +60,7 @@ struct ScatterSettings {
         {&S::softResolution, "soft_resolution", kSides, "texel", "Side of the soft shadow map"},
         {&S::layers, "layers",
          "Surfaces that scatter: the nearest; or the larger of what the nearest front and the farthest back "
-         "faces hide; or of the nearest and the farthest of any side",
+         "faces hide; or of the nearest and the farthest of either orientation",
          "Schwarz 2009, section 4.2.2 (Fig. 4.3)"},
         {&S::bias,
          "bias",
@@ -82,7 +83,7 @@ class Scatter : public Technique {
     lookup_ = &lookupProgram(frame, false);
     for (std::optional<gl::Texture>& each : hidden_)
       each.emplace(gl::Format::R32UI, glm::ivec2(settings_.softResolution));
-    costs_.emplace(3 * int64_t{sizeof(uint32_t)}, nullptr);
+    costs_.emplace(int64_t{sizeof(ScatterCosts)}, nullptr);
     receiverBits_.emplace(receiverBits(frame.scene()));
     triangleCount_ = static_cast<uint32_t>(frame.scene().mesh.triangles.size());
     visibility_.emplace(gl::Format::R32F, frame.sizePx());
@@ -101,7 +102,7 @@ class Scatter : public Technique {
         {"splats_per_caster_texel", "Splats per scattering texel", "1/texel", Direction::LowerIsBetter},
         {"splats_per_receiver", "Splats per receiver", "1/px", Direction::LowerIsBetter}};
     for (Quantity& share : pixelShares()) all.push_back(std::move(share));
-    all.push_back({"without_answer_share", "Share of pixels that the soft shadow map knows nothing of", "",
+    all.push_back({"without_answer_share", "Share of pixels not covered by the soft shadow map", "",
                    Direction::Neither});
     return all;
   }
@@ -112,16 +113,17 @@ class Scatter : public Technique {
     run(frame, scatterProgram(frame, true), lookupProgram(frame, true), &classes);
     frame.end();
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-    const std::vector<uint32_t> costs = costs_->read<uint32_t>();
+    const ScatterCosts costs = costs_->read<ScatterCosts>().front();
     std::array<double, ClassCount> pixels{};
     const std::vector<uint32_t> classOf = classes.readUint();
     for (const uint32_t each : classOf) pixels.at(each) += 1.0;
-    if (costs[0] > 0)
-      throw Error(std::to_string(costs[0]) +
-                      " caster texels need more loop iterations than this software renderer grants",
+    if (costs.cutShort > 0)
+      throw Error(std::to_string(costs.cutShort) +
+                      " caster texels need more loop iterations than this software renderer allows",
                   "soft_shadows/scatter", "lower 'soft_resolution', or run on a GPU");
     const auto all = static_cast<double>(classOf.size());
-    const double receivers = all - pixels[NotReceiver], casterTexels = costs[1], splats = costs[2];
+    const double receivers = all - pixels[NotReceiver], casterTexels = costs.casterTexels,
+                 splats = costs.splats;
     return {{"caster_texels", casterTexels},
             {"splats_per_caster_texel", casterTexels > 0.0 ? splats / casterTexels : 0.0},
             {"splats_per_receiver", receivers > 0.0 ? splats / receivers : 0.0},
@@ -153,9 +155,9 @@ class Scatter : public Technique {
   void splat(const gl::Program& program, const gl::Texture& casters, float nothing,
              const gl::Texture& hidden) const {
     program.set("nothing", nothing);
-    casters.bindTexture(0);
-    layers_->receivers().bindTexture(1);
-    hidden.bindImage(0, gl::Access::ReadWrite);
+    casters.bindTexture(kScatterCastersUnit);
+    layers_->receivers().bindTexture(kScatterReceiversUnit);
+    hidden.bindImage(kScatterHiddenImage, gl::Access::ReadWrite);
     program.dispatch(glm::ivec2(settings_.resolution));
   }
 
@@ -187,7 +189,7 @@ class Scatter : public Technique {
       scatter.set("receiverNear", static_cast<float>(onto.near));
       scatter.set("farthestReceiver", static_cast<float>(layers_->farthestReceiver()));
       scatter.set("bias", static_cast<float>(settings_.bias));
-      costs_->bindStorage(0);
+      costs_->bindStorage(kScatterCostsBuffer);
       splat(scatter, layers_->nearest(), 0.0F, *hidden_[0]);
       if (withSecond()) splat(scatter, layers_->farthest(), 1.0F, *hidden_[1]);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -198,15 +200,15 @@ class Scatter : public Technique {
     lookup.set("softLow", glm::vec2(onto.low));
     lookup.set("softSize", glm::vec2(onto.high - onto.low));
     lookup.set("triangleCount", triangleCount_);
-    receivers.bindTexture(0);
-    layers_->receivers().bindTexture(1);
-    ids.bindTexture(2);
-    hidden_[0]->bindTexture(3);
-    hidden_[1]->bindTexture(4);
-    costs_->bindStorage(0);
-    receiverBits_->bindStorage(1);
-    visibility_->bindImage(0, gl::Access::Write);
-    if (classes) classes->bindImage(1, gl::Access::Write);
+    receivers.bindTexture(kScatterLookupSeenPointsUnit);
+    layers_->receivers().bindTexture(kScatterLookupReceiversUnit);
+    ids.bindTexture(kScatterLookupIdsUnit);
+    hidden_[0]->bindTexture(kScatterLookupHiddenUnit);
+    hidden_[1]->bindTexture(kScatterLookupHiddenBySecondUnit);
+    costs_->bindStorage(kScatterCostsBuffer);
+    receiverBits_->bindStorage(kScatterLookupReceiverBitsBuffer);
+    visibility_->bindImage(kScatterLookupVisibilityImage, gl::Access::Write);
+    if (classes) classes->bindImage(kScatterLookupClassesImage, gl::Access::Write);
     lookup.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projects the soft shadow map onto the receivers that the camera sees.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D seenPoints;
-layout(binding = 1) uniform sampler2D receivers;
-layout(binding = 2) uniform usampler2D triangleIds;
-layout(binding = 3) uniform usampler2D hidden;
-layout(binding = 4) uniform usampler2D hiddenBySecond;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+#include "renderer/techniques/soft_shadows/scatter/scatter_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kScatterLookupSeenPointsUnit) uniform sampler2D seenPoints;
+layout(binding = kScatterLookupReceiversUnit) uniform sampler2D receivers;
+layout(binding = kScatterLookupIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kScatterLookupHiddenUnit) uniform usampler2D hidden;
+layout(binding = kScatterLookupHiddenBySecondUnit) uniform usampler2D hiddenBySecond;
+layout(binding = kScatterLookupVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 #ifdef COUNT
-layout(binding = 1, r32ui) uniform writeonly uimage2D outClasses;
+layout(binding = kScatterLookupClassesImage, r32ui) uniform writeonly uimage2D outClasses;
 #endif
-layout(std430, binding = 0) readonly buffer Costs { uint cutShort; };
-layout(std430, binding = 1) readonly buffer ReceiverBits { uint receiverBits[]; };  // a bit for each triangle
+layout(std430, binding = kScatterCostsBuffer) readonly buffer Costs { ScatterCosts costs; };
+layout(std430, binding = kScatterLookupReceiverBitsBuffer) readonly buffer ReceiverBits { uint receiverBits[]; };  // a bit for each triangle
 
 uniform ivec2 sizePx;
 uniform int softResolution;
 uniform vec2 softLow, softSize;
 uniform uint triangleCount;
 
-#include "renderer/techniques/soft_shadows/pixel_class.glsl"
+#include "renderer/techniques/soft_shadows/pixel_class.h"
 
 float visibilityAt(ivec2 texel) {
   uint most = texelFetch(hidden, texel, 0).x;
@@ -63,7 +65,7 @@ void main() {
         pixelClass = found == 1.0 ? kLit : found == 0.0 ? kUmbra : kProcessed;
       }
     }
-    if (cutShort > 0u) {
+    if (costs.cutShort > 0u) {
       pixelClass = kCutShort;
       visibility = uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
     }

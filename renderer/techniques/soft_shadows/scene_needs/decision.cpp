@@ -58,7 +58,7 @@ class Decider {
   const BitmaskSettings* masked() const { return std::get_if<BitmaskSettings>(&decision_.setting); }
   bool layered() const { return masked() && !std::holds_alternative<CentreMap>(masked()->maps); }
 
-  /// The present setting, changed; it is not a hard shadow.
+  /// The current setting, modified; it is not a hard shadow.
   template <class Change>
   ShadowSetting with(const Change& change) const {
     ShadowSetting out = decision_.setting;
@@ -111,10 +111,10 @@ class Decider {
     if (enough) take(fewer, std::move(probed));
   }
 
-  /// Areas add up and know neither layers nor lights of other shapes.
+  /// Areas are summed and support neither layers nor lights of other shapes.
   void dropMask() {
     if (layered() || !rectangular()) {
-      remark(rectangular() ? "bitmask: layers need it" : "bitmask: the light is no rectangle");
+      remark(rectangular() ? "bitmask: required by layers" : "bitmask: the light is not a rectangle");
       return;
     }
     const BackprojectionSettings area{.search = search()};
@@ -158,15 +158,15 @@ class Decider {
           100.0 * figures_[Coarse], 100.0 * limits_.coarseShare));
     }
     if (layered()) {
-      remark(fmt::format(
-          "one level a pixel, though {:.1f} % of neighbours differ in level: masks of several layers cannot "
-          "be blended",
-          100.0 * figures_[LevelChanges]));
+      remark(
+          fmt::format("one level per pixel, although {:.1f} % of neighbours differ in level: masks of "
+                      "several layers cannot be blended",
+                      100.0 * figures_[LevelChanges]));
       return;
     }
     const bool blends = figures_[LevelChanges] > limits_.blendShare;
     remark(fmt::format("{}: {:.1f} % of neighbours differ in level (limit {:.1f} %)",
-                       blends ? "levels smoothed and blended" : "one level a pixel",
+                       blends ? "levels smoothed and blended" : "one level per pixel",
                        100.0 * figures_[LevelChanges], 100.0 * limits_.blendShare));
     if (!blends) return;
     decision_.setting = with([](auto& settings) {
@@ -176,7 +176,7 @@ class Decider {
     current_ = probe_.run(decision_.setting);
   }
 
-  /// The small picture stands for the whole one by its number of pixels.
+  /// The small picture is extrapolated to the full one by the number of pixels.
   void chooseStructure() {
     ShadowSetting ysm = with([](auto& settings) { settings.search.structure = YLayers{}; });
     Probed probed = probe_.run(ysm);
@@ -216,7 +216,7 @@ const SettingsTable<NeedThresholds>& NeedThresholds::table() {
        "tolerance",
        {0.0, 1.0},
        "",
-       "Mean change of visibility where there is shadow, up to which a feature is left out"},
+       "Mean change of visibility in shadow up to which a feature is left out"},
       {&S::hardPenumbraTexels,
        "hard_penumbra",
        {0.0, 64.0},
@@ -227,17 +227,17 @@ const SettingsTable<NeedThresholds>& NeedThresholds::table() {
        "coarse_share",
        {0.0, 1.0},
        "",
-       "Share of pixels with coarse micro-occluders from which on these are microrects",
+       "Share of pixels with coarse micro-occluders from which microrects are used",
        "Schwarz 2009, section 4.4.4"},
       Binding(&S::blendShare, "blend_share", Range{0.0, 1.0}, "",
-              "Share of neighbours with different levels from which on levels are blended",
+              "Share of neighbours with different levels from which levels are blended",
               "Schwarz 2009, section 5.2.1")
           .formerly({"seam_share"}),
       {&S::buildWeight,
        "build_weight",
        {0.0, 1e6},
        "",
-       "Micro-occluders that must be saved for each texel of a Y shadow map",
+       "Micro-occluders that must be saved per texel of a Y shadow map",
        "Schwarz 2009, section 4.3.2"}};
   return kTable;
 }
@@ -249,7 +249,7 @@ const SettingsTable<CommonNeeds>& CommonNeeds::table() {
        "budget",
        {0, 1 << 24},
        "",
-       "Micro-occluders allowed for a pixel; its root counts per axis; 0: no limit",
+       "Micro-occluders allowed per pixel; the square root is the number per axis; 0: no limit",
        "Schwarz 2009, sections 4.1 and 4.5"}};
   return kTable;
 }

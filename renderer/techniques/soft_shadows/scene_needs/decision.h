@@ -8,19 +8,19 @@
 
 namespace limen::techniques {
 
-/// When something is worth having. Source of the rules: Schwarz 2009, sections 3.3, 4.2 to 4.7 and 5.1, as
+/// When a feature is worth its cost. Source of the rules: Schwarz 2009, sections 3.3, 4.2 to 4.7 and 5.1, as
 /// collected for this bench; the numbers are the bench's own.
 struct NeedThresholds {
-  /// Mean change of the visibility where there is shadow, up to which a feature is left out.
+  /// Mean change of visibility in shadow up to which a feature is left out.
   double tolerance = 1.0 / 256.0;
   double hardPenumbraTexels = 1.0;  ///< up to this widest penumbra a hard shadow is shown
-  double coarseShare = 0.25;        ///< of pixels with level 2 or coarser, from which on microrects are taken
-  double blendShare = 0.05;         ///< of neighbours with different levels, from which on levels are blended
-  double buildWeight = 1.0;         ///< micro-occluders whose cost that of one texel of a structure equals
+  double coarseShare = 0.25;        ///< of pixels with level 2 or coarser, from which microrects are used
+  double blendShare = 0.05;         ///< of neighbours with different levels, from which levels are blended
+  double buildWeight = 1.0;         ///< micro-occluders that cost as much as one texel of a structure
   static const SettingsTable<NeedThresholds>& table();
 };
 
-/// What a scene was found to need in its view, and why.
+/// What a scene's view was found to need, and why.
 struct Decision {
   ShadowSetting setting;
   std::vector<std::string> remarks;  ///< a sentence for each choice
@@ -30,16 +30,16 @@ struct Decision {
 /// The figures in Decision::evidence.
 std::vector<Quantity> evidenceQuantities();
 
-/// What all methods that a decision can fall on have in common.
+/// Settings common to all methods that can be chosen.
 struct CommonNeeds {
   MapSettings map;
-  int budget = 256;  ///< micro-occluders allowed for a pixel; 0: no limit
+  int budget = 256;  ///< micro-occluders allowed per pixel; 0: no limit
   static const SettingsTable<CommonNeeds>& table();
 };
 
-/// Starts from everything (bitmask with jittered samples over two peeled layers) and leaves out what hardly
-/// changes a small picture of the scene; then chooses the structure by counted work. `common` goes into every
-/// setting. Waits for the GPU.
+/// Starts from everything (bitmask with jittered samples over two peeled layers) and leaves out whatever
+/// hardly changes a small picture of the scene; then chooses the structure by counted work. `common` is part
+/// of every setting. Waits for the GPU.
 Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe, const CommonNeeds& common,
                      const NeedThresholds& thresholds);
 

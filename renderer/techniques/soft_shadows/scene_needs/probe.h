@@ -12,26 +12,26 @@
 
 namespace limen::techniques {
 
-/// A hard shadow, which has a map and nothing else to choose, or soft ones.
+/// A hard shadow, which has only a map to choose, or soft ones.
 using ShadowSetting = std::variant<MapSettings, BackprojectionSettings, BitmaskSettings>;
 /// Its technique's registered name.
 std::string techniqueOf(const ShadowSetting& setting);
 std::unique_ptr<Technique> makeTechnique(const ShadowSetting& setting);
-/// The technique, and "name=value" of all that differs from its defaults.
+/// The technique, and "name=value" of everything that differs from its defaults.
 std::string describe(const ShadowSetting& setting);
 
-/// What a setting made of a small picture of the scene.
+/// The result of a setting in a small picture of the scene.
 struct Probed {
   std::vector<float> visibility;
   PixelCounts counted;
-  double examined = 0.0;     ///< micro-occluders looked at, of all pixels
+  double examined = 0.0;     ///< micro-occluders examined, over all pixels
   double processed = 0.0;    ///< pixels
   double coarseShare = 0.0;  ///< of the processed pixels, those with micro-occluders of level 2 and coarser
   double levelChangeShare = 0.0;  ///< of neighbours that are both processed, those that differ in level
 };
 
-/// Renders settings in a small picture of a frame's view, apart from the frame: its passes and inputs are not
-/// touched.
+/// Renders settings in a small picture of a frame's view, independent of the frame: its passes and inputs are
+/// not touched.
 class ShadowProbe {
  public:
   /// The picture has 1/`divisor` of the frame's width and height, at least 1 px.

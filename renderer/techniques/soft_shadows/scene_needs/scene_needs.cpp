@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses among the soft-shadow methods what a scene is measured to need in its view (SS-45), and says why.
-// Source: Schwarz 2009, section 5.1.1 and the advice of chapters 3 to 5. The thesis names signs by which to
-// choose; here each is a comparison: what a feature changes in a small picture of the scene decides whether
-// it is there in the large one.
+// Chooses the soft-shadow method that measurements show a scene's view to need (SS-45), and says why. Source:
+// Schwarz 2009, section 5.1.1 and the advice of chapters 3 to 5. The thesis names criteria for the choice;
+// here each is a comparison: the effect of a feature in a small picture of the scene decides whether it is
+// used in the large one.
 #include <optional>
 
 #include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
@@ -42,7 +42,7 @@ class SceneNeeds : public Technique {
     all.insert(all.end(), decision_.remarks.begin(), decision_.remarks.end());
     return all;
   }
-  std::map<std::string, Image> pictures() const override { return chosen_->pictures(); }
+  std::map<std::string, PictureMaker> pictures() const override { return chosen_->pictures(); }
 
  private:
   SceneNeedsSettings settings_;
@@ -57,7 +57,7 @@ const SettingsTable<SceneNeedsSettings>& SceneNeedsSettings::table() {
        "probe_divisor",
        {1, 64},
        "",
-       "The picture that features are tried in has this part of the width and the height"},
+       "Factor by which width and height of the picture in which features are tried are smaller"},
       included(&SceneNeedsSettings::limits)};
   return kTable;
 }
@@ -72,7 +72,8 @@ std::vector<Quantity> sceneNeedsQuantities() {
 const RegisteredTechnique<SceneNeeds> kSceneNeedsRegistered{
     {.name = "soft_shadows/scene_needs",
      .version = 1,
-     .summary = "The cheapest soft shadows that a scene is measured to need, with the reasons on record",
+     .summary =
+         "The cheapest soft shadows that measurements show a scene to need, with the reasons on record",
      .source = "Schwarz 2009, section 5.1.1 (SS-45)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},

@@ -7,7 +7,7 @@
 namespace limen::techniques {
 
 std::vector<glm::vec4> gaussianTaps(int count, double sigma, int64_t seed) {
-  // The engine alone is the same everywhere; distributions are not.
+  // Only the engine is the same everywhere; distributions are not.
   std::mt19937_64 random(static_cast<uint64_t>(seed));
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const auto density = [&](glm::dvec2 at) {  // up to a factor; 1 in the middle
@@ -17,10 +17,10 @@ std::vector<glm::vec4> gaussianTaps(int count, double sigma, int64_t seed) {
   const double whole =
       std::pow(sigma * std::sqrt(6.283185307179586) * std::erf(0.5 / (sigma * std::sqrt(2.0))), 2);
   std::vector<glm::dvec2> places;
-  // Darts, thrown by the density; a dart falls away if it lands nearer to another than `reach` times the side
-  // of the square that a place of its density has to itself. Packed discs reach at most 1.07 of it.
+  // Darts thrown by the density; a dart is rejected if it lands nearer to another than `reach` times the side
+  // of the square available to a point at that density. Packed discs reach at most 1.07 of it.
   double reach = 1.0;
-  constexpr int kPatience = 64;  // darts in a row that may miss before the distance is given way
+  constexpr int kPatience = 64;  // consecutive rejected darts before the distance is reduced
   for (int misses = 0; static_cast<int>(places.size()) < count;) {
     const glm::dvec2 at(unit(), unit());
     if (unit() > density(at)) continue;

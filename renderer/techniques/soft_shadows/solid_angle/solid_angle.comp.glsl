@@ -6,7 +6,7 @@
 uniform int levels, refinements, taps, maxIterations;
 uniform float lightRadius;
 #if SAMPLING == SAMPLING_GAUSSIAN_POISSON
-layout(std430, binding = 0) readonly buffer Taps { vec4 placesAndShares[]; };
+layout(std430, binding = kSolidAngleTapsBuffer) readonly buffer Taps { vec4 placesAndShares[]; };
 #endif
 
 // 1 - cos a of a ball's half-angle a, given sin a; the solid angle is 2 pi times this. A point within the ball sees half

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soft shadows by cone culling (SS-07): a ball in place of the light, balls around the micropatches, of which
-// those within the cone to the light add their solid angles, relative to the light's. Source: Schwarz 2009,
+// Soft shadows by cone culling (SS-07): a ball replaces the light and balls replace the micropatches; those
+// within the cone to the light add their solid angles, relative to the light's. Source: Schwarz 2009,
 // section 3.2.1 (after Bavoil and Silva 2006); all formulas reconstructed.
 //
-// The thesis names regular and Gaussian Poisson subsampling of the search area. A tap stands here for the
-// part of the area that is nearest to it, so that its ball grows as taps become fewer.
+// The thesis names regular and Gaussian Poisson subsampling of the search area. Here a tap represents the
+// part of the area nearest to it, so that its ball grows as taps become fewer.
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <variant>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/techniques/soft_shadows/solid_angle/gaussian_taps.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -22,7 +23,7 @@ constexpr EnumNames<Ball, 2> enumNames(Ball) {
   return {{{{Ball::Bounding, "bounding"}, {Ball::EqualArea, "equal_area"}}}};
 }
 
-/// Which texels of the search area are read, as the shader names them.
+/// Which texels of the search area are read, with the shader's names.
 enum class Sampling { All, Regular, GaussianPoisson };
 constexpr EnumNames<Sampling, 3> enumNames(Sampling) {
   return {{{{Sampling::All, "all"},
@@ -30,7 +31,7 @@ constexpr EnumNames<Sampling, 3> enumNames(Sampling) {
             {Sampling::GaussianPoisson, "gaussian_poisson"}}}};
 }
 
-constexpr const char* kTapsText = "Root of the number of taps in the search area";
+constexpr const char* kTapsText = "Square root of the number of taps in the search area";
 
 struct AllTexels {
   static constexpr const char *kKind = limen::toText(Sampling::All),
@@ -50,7 +51,7 @@ struct RegularTaps {
 
 struct GaussianTaps {
   static constexpr const char *kKind = limen::toText(Sampling::GaussianPoisson),
-                              *kSummary = "texels at random places, denser towards the middle";
+                              *kSummary = "texels at random positions, denser towards the centre";
   int taps = 16;
   double sigma = 0.3;
   int64_t seed = 1;
@@ -59,9 +60,9 @@ struct GaussianTaps {
     static const SettingsTable<S> kTable = {
         {&S::taps, "taps", {1, 64}, "", kTapsText},
         Binding(&S::sigma, "sigma", Range{0.1, 10}, "",
-                "Standard deviation of the taps' places as a share of the search area's side")
+                "Standard deviation of tap positions as a share of the search area's side")
             .formerly({"sigma"}),
-        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Seed of the taps' places").formerly({"tap_seed"})};
+        Binding(&S::seed, "seed", Range{0, 1000000}, "", "Seed of the tap positions").formerly({"tap_seed"})};
     return kTable;
   }
 };
@@ -76,17 +77,17 @@ struct SolidAngleSettings {
     using S = SolidAngleSettings;
     static const SettingsTable<S> kTable = {
         included(&S::map),
-        Binding(&S::bias, "bias", "What keeps a surface from shadowing itself").shorthand("constant"),
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant"),
         {&S::refinements,
          "refinements",
          {0, 3},
          "",
-         "Times that the search area is narrowed by its depth range",
+         "Number of times that the search area is narrowed by its depth range",
          "Schwarz 2009, section 4.1"},
         Binding(&S::sampling, "sampling", "Texels of the search area that are read",
                 "Schwarz 2009, section 3.2.1")
             .shorthand("taps"),
-        {&S::ball, "ball", "Ball in place of a micropatch: around it, or with a disc of its area",
+        {&S::ball, "ball", "Ball that replaces a micropatch: around it, or with a disc of the same area",
          "Schwarz 2009, section 3.2.1 (bounding)"}};
     return kTable;
   }
@@ -114,7 +115,7 @@ class SolidAngle : public VisibilityTechnique {
 
   void prepare(frame::Frame& frame) override {
     VisibilityTechnique::prepare(frame);
-    // As much area as the light has.
+    // The same area as the light.
     lightRadius_ = std::sqrt(frame.scene().lights.at(0).area() * std::numbers::inv_pi);
     if (const auto* taps = std::get_if<GaussianTaps>(&settings_.sampling)) {
       tapBuffer_.emplace(gaussianTaps(taps->taps * taps->taps, taps->sigma, taps->seed));
@@ -137,7 +138,7 @@ class SolidAngle : public VisibilityTechnique {
       program.set("taps", regular->taps);
     if (const auto* random = std::get_if<GaussianTaps>(&settings_.sampling))
       program.set("taps", random->taps);
-    if (tapBuffer_) tapBuffer_->bindStorage(0);
+    if (tapBuffer_) tapBuffer_->bindStorage(kSolidAngleTapsBuffer);
   }
 
  private:

@@ -7,13 +7,14 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 #include "renderer/techniques/soft_shadows/sparse/sampling.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
 constexpr const char *kChoose = "sparse/choose", *kPull = "sparse/pull", *kPush = "sparse/push";
 constexpr const char* kSparseFolder = "renderer/techniques/soft_shadows/sparse/";
-constexpr int kTile = 8;  // pixels a side of a work group
+constexpr int kTile = 8;  // pixels per side of a work group
 
 const gl::Program& shader(gl::Context& context, const std::string& name,
                           const gl::ShaderDefines& defines = {}) {
@@ -22,7 +23,7 @@ const gl::Program& shader(gl::Context& context, const std::string& name,
 
 glm::ivec2 wholeTiles(glm::ivec2 sizePx) { return (sizePx + kTile - 1) / kTile * kTile; }
 
-/// Finest level of the pyramid: half the picture, rounded up so that every level is half of the one before.
+/// Finest level of the pyramid: half the picture, rounded up so that every level is half the previous one.
 glm::ivec2 pyramidBase(glm::ivec2 sizePx, int levels) {
   const int block = 1 << levels;
   return (sizePx + block - 1) / block * (block / 2);
@@ -36,7 +37,7 @@ class AdaptiveSampling : public SparseSampling {
         minSamples_(settings.minSamples),
         bias_(innerBias(inner)),
         coarsest_(settings.coarsestLevel),
-        // A level more than is skipped: squares without a sample find one in those around them.
+        // One level more than is skipped: squares without a sample find one in those around them.
         levels_(coarsest_ + 1),
         map_(innerMap(inner)),
         points_(frame, "sparse/inner", wholeTiles(frame.sizePx())),
@@ -80,13 +81,13 @@ class AdaptiveSampling : public SparseSampling {
     choose_.set("mapLevels", pyramid.levels());
     choose_.set("minSamples", static_cast<float>(minSamples_));
     choose_.set("coarsest", coarsest_);
-    picture.bind(0);
-    ids.bindTexture(3);
-    pyramid.minimum().bindTexture(4);
-    ids_.bindImage(0, gl::Access::Write);
-    places_.bindImage(1, gl::Access::Write);
-    slots_.bindImage(2, gl::Access::Write);
-    listed_.bindStorage(0);
+    picture.bind(kSparseReceiversUnit);
+    ids.bindTexture(kSparseChooseIdsUnit);
+    pyramid.minimum().bindTexture(kSparseChooseMinimumMapUnit);
+    ids_.bindImage(kSparseChooseIdsImage, gl::Access::Write);
+    places_.bindImage(kSparseChoosePlacesImage, gl::Access::Write);
+    slots_.bindImage(kSparseChooseSlotsImage, gl::Access::Write);
+    listed_.bindStorage(kSparseChooseCountsBuffer);
     choose_.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
@@ -100,13 +101,13 @@ class AdaptiveSampling : public SparseSampling {
     const auto scope = frame.passes().open(kPush);
     reconstruction_.configure(frame, program);
     program.set("pulledLevels", levels_);
-    picture.bind(0);
-    slots_.bindTexture(3);
-    sampled.bindTexture(4);
-    pulledPoints_.bindTexture(5);
-    pulledWeights_.bindTexture(6);
-    visibility.bindImage(0, gl::Access::Write);
-    if (classes) classes->bindImage(1, gl::Access::Write);
+    picture.bind(kSparseReceiversUnit);
+    slots_.bindTexture(kSparsePushSlotsUnit);
+    sampled.bindTexture(kSparsePushSampledVisibilityUnit);
+    pulledPoints_.bindTexture(kSparsePushPulledPointsUnit);
+    pulledWeights_.bindTexture(kSparsePushPulledWeightsUnit);
+    visibility.bindImage(kSparseReconstructVisibilityImage, gl::Access::Write);
+    if (classes) classes->bindImage(kSparseReconstructClassImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
@@ -123,17 +124,17 @@ class AdaptiveSampling : public SparseSampling {
       program.set("sizePx", sizePx);
       program.set("finerSizePx", level == 0 ? frame.sizePx() : 2 * sizePx);
       if (level == 0) {
-        slots_.bindTexture(0);
-        picture.depths->bindTexture(1);
-        sampled.bindTexture(2);
+        slots_.bindTexture(kSparsePullSlotsUnit);
+        picture.depths->bindTexture(kSparsePullDepthsUnit);
+        sampled.bindTexture(kSparsePullSampledVisibilityUnit);
       } else {
-        pulledPoints_.bindTexture(0);
-        pulledWeights_.bindTexture(1);
+        pulledPoints_.bindTexture(kSparsePullFinerPointsUnit);
+        pulledWeights_.bindTexture(kSparsePullFinerWeightsUnit);
         program.set("finerLevel", level - 1);
       }
-      picture.normals->bindTexture(3);
-      pulledPoints_.bindImage(0, gl::Access::Write, level);
-      pulledWeights_.bindImage(1, gl::Access::Write, level);
+      picture.normals->bindTexture(kSparsePullNormalsUnit);
+      pulledPoints_.bindImage(kSparsePullPointsImage, gl::Access::Write, level);
+      pulledWeights_.bindImage(kSparsePullWeightsImage, gl::Access::Write, level);
       program.dispatch(sizePx);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
@@ -157,8 +158,7 @@ const SettingsTable<AdaptiveSamplingSettings>& AdaptiveSamplingSettings::table()
   static const std::string kSource = "Schwarz 2009, section 5.1.3 (value not given there)";
   static const SettingsTable<S> kTable = {
       Binding(&S::minSamples, "min_samples", Range{1, 256}, "samples",
-              "Samples that a penumbra's width on the screen must hold before pixels are skipped (s_min)",
-              kSource)
+              "Samples that a penumbra's screen width must hold before pixels are skipped (s_min)", kSource)
           .formerly({"min_samples"}),
       Binding(&S::coarsestLevel, "coarsest_level", Range{0, 5}, "",
               "Samples are at most 2 to this power pixels apart", kSource)

@@ -4,20 +4,21 @@
 //
 // A penumbra between the nearest blocker z_b and the receiver z is w (z - z_b) / z_b wide. That, seen by the camera, is its
 // footprint; a pixel stands for the others of a square of 2^l pixels as long as `minSamples` squares fit the footprint.
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/frame/shadow_depth.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform sampler2D depths;
-layout(binding = 2) uniform sampler2D normals;
-layout(binding = 3) uniform usampler2D triangleIds;
-layout(binding = 4) uniform sampler2D minimumMap;
-layout(binding = 0, r32ui) uniform writeonly uimage2D outIds;
-layout(binding = 1, rg32f) uniform writeonly image2D outPlaces;
-layout(binding = 2, r32ui) uniform writeonly uimage2D outSlots;
-layout(std430, binding = 0) buffer Counts { uint listed; };
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSparseReceiversUnit) uniform sampler2D receivers;
+layout(binding = kSparseDepthsUnit) uniform sampler2D depths;
+layout(binding = kSparseNormalsUnit) uniform sampler2D normals;
+layout(binding = kSparseChooseIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kSparseChooseMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kSparseChooseIdsImage, r32ui) uniform writeonly uimage2D outIds;
+layout(binding = kSparseChoosePlacesImage, rg32f) uniform writeonly image2D outPlaces;
+layout(binding = kSparseChooseSlotsImage, r32ui) uniform writeonly uimage2D outSlots;
+layout(std430, binding = kSparseChooseCountsBuffer) buffer Counts { uint listed; };
 
 uniform ivec2 sizePx;
 uniform int tilesPerRow;  // of the list's frame
@@ -29,7 +30,6 @@ uniform int resolution, mapLevels;
 uniform float minSamples;
 uniform int coarsest;  // largest l
 
-const uint kSkipped = 0x80000000u;  // set in a slot: the pixel was not chosen, and the other bits hold its level
 const int kReadPerAxis = 4;  // texels of the pyramid that an area is looked up in, at most one more
 
 shared uint groupCount, groupFirst;
@@ -102,7 +102,7 @@ void main() {
   barrier();
   if (any(greaterThanEqual(pixel, sizePx))) return;
   if (!chosen) {
-    imageStore(outSlots, pixel, uvec4(kSkipped | uint(level)));
+    imageStore(outSlots, pixel, uvec4(kSkippedSlot | uint(level)));
     return;
   }
   const uint slot = groupFirst + place, tile = slot / 64u, within = slot % 64u;

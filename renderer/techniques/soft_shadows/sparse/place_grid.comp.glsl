@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Takes every `factor`-th pixel of each row and column of a picture, and its last ones, as what a smaller frame sees.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usampler2D triangleIds;
-layout(binding = 0, r32ui) uniform writeonly uimage2D outIds;
-layout(binding = 1, rg32f) uniform writeonly image2D outPlaces;
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kSparseGridIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kSparseGridIdsImage, r32ui) uniform writeonly uimage2D outIds;
+layout(binding = kSparseGridPlacesImage, rg32f) uniform writeonly image2D outPlaces;
 uniform ivec2 pictureSizePx, gridSizePx;
 uniform int factor;
 

@@ -2,26 +2,26 @@
 // Pull: one level of the pyramid from the next finer one. A texel keeps the mean visibility and place of those of its four
 // children that lie on one surface, that of the heaviest child, and the sum of their weights, at most 1.
 // FIRST: the children are pixels, and weigh 1 where they were chosen.
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 #ifdef FIRST
-layout(binding = 0) uniform usampler2D slots;
-layout(binding = 1) uniform sampler2D depths;
-layout(binding = 2) uniform sampler2D sampledVisibility;
+layout(binding = kSparsePullSlotsUnit) uniform usampler2D slots;
+layout(binding = kSparsePullDepthsUnit) uniform sampler2D depths;
+layout(binding = kSparsePullSampledVisibilityUnit) uniform sampler2D sampledVisibility;
 #else
-layout(binding = 0) uniform sampler2D finerPoints;   // camera-space place, visibility
-layout(binding = 1) uniform sampler2D finerWeights;
+layout(binding = kSparsePullFinerPointsUnit) uniform sampler2D finerPoints;   // camera-space place, visibility
+layout(binding = kSparsePullFinerWeightsUnit) uniform sampler2D finerWeights;
 uniform int finerLevel;
 #endif
-layout(binding = 3) uniform sampler2D normals;  // of the pixels
-layout(binding = 0, rgba32f) uniform writeonly image2D outPoints;
-layout(binding = 1, r32f) uniform writeonly image2D outWeights;
+layout(binding = kSparsePullNormalsUnit) uniform sampler2D normals;  // of the pixels
+layout(binding = kSparsePullPointsImage, rgba32f) uniform writeonly image2D outPoints;
+layout(binding = kSparsePullWeightsImage, r32f) uniform writeonly image2D outWeights;
 uniform ivec2 finerSizePx, sizePx, pictureSizePx;
 uniform vec2 rayScale;
 
-const uint kSkipped = 0x80000000u;  // as in choose.comp.glsl
 
 void readChild(ivec2 child, out vec4 point, out float weight) {
   point = vec4(0.0);
@@ -29,7 +29,7 @@ void readChild(ivec2 child, out vec4 point, out float weight) {
   if (any(greaterThanEqual(child, finerSizePx))) return;
 #ifdef FIRST
   const uint slot = texelFetch(slots, child, 0).x;
-  if ((slot & kSkipped) != 0u) return;
+  if ((slot & kSkippedSlot) != 0u) return;
   weight = 1.0;
   point = vec4(pixelRay(child, rayScale, pictureSizePx) * texelFetch(depths, child, 0).x,
                texelFetch(sampledVisibility, ivec2(slot & 0xffffu, slot >> 16), 0).x);

@@ -4,29 +4,29 @@
 // surface what it takes; Schwarz 2009, section 5.1.3, names the reconstruction without details. Weights are a tent as wide
 // as a texel's side about the place that the texel's samples have, not about the texel's middle: samples at regular
 // distances then interpolate linearly, wherever in their texels they lie.
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/techniques/soft_shadows/sparse/reconstructed_pixel.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(binding = 3) uniform usampler2D slots;
-layout(binding = 4) uniform sampler2D sampledVisibility;
-layout(binding = 5) uniform sampler2D pulledPoints;
-layout(binding = 6) uniform sampler2D pulledWeights;
+layout(binding = kSparsePushSlotsUnit) uniform usampler2D slots;
+layout(binding = kSparsePushSampledVisibilityUnit) uniform sampler2D sampledVisibility;
+layout(binding = kSparsePushPulledPointsUnit) uniform sampler2D pulledPoints;
+layout(binding = kSparsePushPulledWeightsUnit) uniform sampler2D pulledWeights;
 uniform int pulledLevels;
 
-const uint kSkipped = 0x80000000u;  // as in choose.comp.glsl
 const float kEnough = 0.999;
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   if (texelFetch(receivers, pixel, 0).w < 0.0) {
-    store(pixel, 1.0, kOther);
+    store(pixel, 1.0, kClassNoReceiver);
     return;
   }
   const uint slot = texelFetch(slots, pixel, 0).x;
-  if ((slot & kSkipped) == 0u) {
-    store(pixel, texelFetch(sampledVisibility, ivec2(slot & 0xffffu, slot >> 16), 0).x, kOwn);
+  if ((slot & kSkippedSlot) == 0u) {
+    store(pixel, texelFetch(sampledVisibility, ivec2(slot & 0xffffu, slot >> 16), 0).x, kClassOwnSample);
     return;
   }
   const vec3 point = pixelRay(pixel, rayScale, sizePx) * texelFetch(depths, pixel, 0).x;
@@ -34,7 +34,7 @@ void main() {
   const vec2 place = vec2(pixel) + 0.5;
   float visibility = 0.0, found = 0.0, nearest = 1e38, nearestVisibility = 1.0;
   // Texels of the pyramid's finest level are two pixels wide: the spacing of level 1. A pixel of level 0 is always chosen.
-  for (int level = max(int(slot & ~kSkipped) - 1, 0); level < pulledLevels && found < kEnough; ++level) {
+  for (int level = max(int(slot & ~kSkippedSlot) - 1, 0); level < pulledLevels && found < kEnough; ++level) {
     const ivec2 last = textureSize(pulledWeights, level) - 1, middle = pixel >> (level + 1);
     const float side = float(2 << level);
     float sum = 0.0, total = 0.0;
@@ -61,7 +61,7 @@ void main() {
     found += share * min(total, 1.0);
   }
   if (found > kLeastWeight)
-    store(pixel, clamp(visibility / found, 0.0, 1.0), kInterpolated);
+    store(pixel, clamp(visibility / found, 0.0, 1.0), kClassInterpolated);
   else
-    store(pixel, nearestVisibility, nearest < 1e38 ? kFallback : kAlone);
+    store(pixel, nearestVisibility, nearest < 1e38 ? kClassNearestInDepth : kClassNoSample);
 }

@@ -2,6 +2,7 @@
 #include "renderer/techniques/soft_shadows/sparse/reconstruction.h"
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 
@@ -13,6 +14,10 @@ SurfaceChannels SurfaceChannels::of(frame::Frame& frame) {
 }
 
 void SurfaceChannels::bind(uint32_t unit) const {
+  static_assert(kSparseDepthsUnit == kSparseReceiversUnit + 1 &&
+                kSparseNormalsUnit == kSparseReceiversUnit + 2);
+  static_assert(kSparseUpsampleGridDepthsUnit == kSparseUpsampleGridReceiversUnit + 1 &&
+                kSparseUpsampleGridNormalsUnit == kSparseUpsampleGridReceiversUnit + 2);
   receivers->bindTexture(unit);
   depths->bindTexture(unit + 1);
   normals->bindTexture(unit + 2);

@@ -6,12 +6,12 @@
 
 namespace limen::techniques {
 
-/// What upsampling and pull-push share: whose samples may stand for a point, and what to bind and set for it.
+/// What upsampling and pull-push share: which samples may represent a point, and what to bind and set for it.
 class Reconstruction {
  public:
   /// `depthTolerance`: distance from a point's tangent plane, as a share of its distance from the camera, at
-  /// which a sample no longer counts for it. `normalPower`: of the cosine between normals that weighs a
-  /// sample.
+  /// which a sample no longer counts for it. `normalPower`: power of the cosine between normals that weights
+  /// a sample.
   explicit Reconstruction(double depthTolerance, double normalPower = 0.0)
       : depthTolerance_(depthTolerance), normalPower_(normalPower) {}
 
@@ -22,7 +22,7 @@ class Reconstruction {
   double depthTolerance_, normalPower_;
 };
 
-/// Channels of a frame that tell what surface a pixel belongs to. Call of() outside of passes, and before
+/// Channels of a frame that identify a pixel's surface. Call of() outside of passes, and before
 /// anything is bound.
 struct SurfaceChannels {
   const gl::Texture *receivers, *depths, *normals;

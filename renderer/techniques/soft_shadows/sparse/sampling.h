@@ -5,10 +5,11 @@
 
 #include "experiments/base/chosen_entry.h"
 #include "renderer/techniques/soft_shadows/sparse/reconstruction.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 
-/// Which points a uniform grid of samples consists of.
+/// What a uniform grid of samples consists of.
 enum class GridPoints { Subset, Rendered };
 constexpr EnumNames<GridPoints, 2> enumNames(GridPoints) {
   return {{{{GridPoints::Subset, "subset"}, {GridPoints::Rendered, "rendered"}}}};
@@ -16,7 +17,7 @@ constexpr EnumNames<GridPoints, 2> enumNames(GridPoints) {
 
 struct UniformSamplingSettings {
   static constexpr const char *kKind = "uniform", *kSummary = "samples on a grid, then interpolation";
-  int factor = 2;  ///< pixels from sample to sample, along rows and along columns
+  int factor = 2;  ///< pixels between samples, along rows and columns
   GridPoints points = GridPoints::Subset;
   double normalPower = 4.0;
   static const SettingsTable<UniformSamplingSettings>& table();
@@ -24,19 +25,18 @@ struct UniformSamplingSettings {
 
 struct AdaptiveSamplingSettings {
   static constexpr const char *kKind = "adaptive",
-                              *kSummary =
-                                  "fewer samples the wider the penumbra is on the screen, then pull-push";
+                              *kSummary = "fewer samples the wider the penumbra on screen, then pull-push";
   double minSamples = 8.0;
   int coarsestLevel = 3;
   static const SettingsTable<AdaptiveSamplingSettings>& table();
 };
 
-/// How pixels share visibilities: which points the inner technique is asked for, and how every pixel's value
-/// comes from theirs.
+/// How pixels share visibilities: for which points the inner technique runs, and how every pixel's value is
+/// derived from theirs.
 class SparseSampling {
  public:
   virtual ~SparseSampling() = default;
-  /// The frame of the inner technique, each pixel of which is a chosen point, or sees nothing.
+  /// The frame of the inner technique, each pixel of which is a chosen point or empty.
   virtual frame::Frame& points() = 0;
   /// Chooses the points of a frame; points() has begun.
   virtual void choose(frame::Frame& frame) = 0;
@@ -46,22 +46,22 @@ class SparseSampling {
                            const gl::Texture* classes) = 0;
 };
 
-/// Where a pixel's visibility comes from, as in the shaders.
+/// Where a pixel's visibility comes from: see sparse_bindings.h.
 enum SampleClass : uint32_t {
-  NoReceiver = 0,
-  Interpolated = 1,
-  NearestInDepth = 2,  ///< no sample lies on its surface
-  NoSample = 3,        ///< no sample in reach: taken as lit
-  OwnSample = 4,       ///< it is a point that was asked for
-  SampleClassCount = 5
+  NoReceiver = kClassNoReceiver,
+  Interpolated = kClassInterpolated,
+  NearestInDepth = kClassNearestInDepth,
+  NoSample = kClassNoSample,
+  OwnSample = kClassOwnSample,
+  SampleClassCount = kSampleClassCount
 };
 
 /// Every factor-th pixel of rows and columns (of the picture itself, or of one rendered at lower resolution),
-/// then interpolation. `depthTolerance` as Reconstruction has it.
+/// then interpolation. `depthTolerance` as in Reconstruction.
 std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const UniformSamplingSettings& settings,
                                              double depthTolerance, const ChosenEntry& inner);
-/// The fewer pixels the wider a penumbra is on the screen, by the map and the bias of the inner technique,
-/// then pull-push.
+/// The fewer pixels the wider a penumbra on screen, with the map and bias of the inner technique, then
+/// pull-push.
 std::unique_ptr<SparseSampling> makeSampling(frame::Frame& frame, const AdaptiveSamplingSettings& settings,
                                              double depthTolerance, const ChosenEntry& inner);
 

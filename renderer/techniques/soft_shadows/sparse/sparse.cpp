@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility for some of the pixels, interpolated for the others (SS-39; Schwarz 2009, section 5.1.3):
-// uniformly at lower resolution (after DeCoro and Rusinkiewicz), or the sparser the wider the penumbra is on
-// the screen, with a pull-push reconstruction (after Guennebaud et al. 2007). Any technique of visibility may
-// do the work.
+// uniformly at lower resolution (after DeCoro and Rusinkiewicz), or the sparser the wider the penumbra on
+// screen, with a pull-push reconstruction (after Guennebaud et al. 2007). Any visibility technique can be
+// used.
 //
-// Departures and choices: the thesis gives no formulas for either. Here samples are weighed by their distance
-// from the pixel's tangent plane instead of by depth, so that tilted planes lose nothing; `min_samples`
-// stands for Guennebaud's s_min, counted in samples across a penumbra's footprint; where a pixel's square
-// reaches over an edge of its surface, the pixel is not skipped.
+// Departures and choices: the thesis gives no formulas for either. Here samples are weighted by their
+// distance from the pixel's tangent plane instead of by depth, so that tilted planes lose nothing;
+// `min_samples` is Guennebaud's s_min, counted in samples across a penumbra's footprint; a pixel whose square
+// extends over an edge of its surface is not skipped.
 #include <array>
 #include <optional>
 #include <variant>
@@ -91,7 +91,7 @@ class Sparse : public Technique {
         counterOf(innerCounters(), "micro_occluders_per_px"),
         {"micro_occluders_per_receiver", "Micro-occluders per receiver", "1/px", Direction::LowerIsBetter},
         {"fallback_share", "Share of receivers without a sample on their surface", "", Direction::Neither},
-        {"unreached_share", "Share of receivers without a sample in reach", "", Direction::Neither}};
+        {"unreached_share", "Share of receivers without a sample within reach", "", Direction::Neither}};
   }
 
  private:

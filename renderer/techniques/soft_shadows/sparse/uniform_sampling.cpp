@@ -6,6 +6,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/sparse/sampling.h"
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -39,9 +40,9 @@ class UniformSampling : public SparseSampling {
     place_->set("pictureSizePx", frame.sizePx());
     place_->set("gridSizePx", points_.sizePx());
     place_->set("factor", factor_);
-    ids.bindTexture(0);
-    ids_->bindImage(0, gl::Access::Write);
-    places_->bindImage(1, gl::Access::Write);
+    ids.bindTexture(kSparseGridIdsUnit);
+    ids_->bindImage(kSparseGridIdsImage, gl::Access::Write);
+    places_->bindImage(kSparseGridPlacesImage, gl::Access::Write);
     place_->dispatch(points_.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
@@ -59,18 +60,18 @@ class UniformSampling : public SparseSampling {
       program.set("placeStep", glm::vec2(static_cast<float>(factor_)));
       program.set("lastPlace", size - 0.5F);
     } else {
-      // Both pictures have the same vertical field of view, and square pixels about the same middle.
+      // Both pictures have the same vertical field of view and square pixels around the same centre.
       const float step = size.y / gridSize.y;
       program.set("firstPlace", 0.5F * size + (0.5F - 0.5F * gridSize) * step);
       program.set("placeStep", glm::vec2(step));
       program.set("lastPlace", glm::vec2(std::numeric_limits<float>::max()));
     }
     program.set("gridSizePx", points_.sizePx());
-    picture.bind(0);
-    grid.bind(3);
-    sampled.bindTexture(6);
-    visibility.bindImage(0, gl::Access::Write);
-    if (classes) classes->bindImage(1, gl::Access::Write);
+    picture.bind(kSparseReceiversUnit);
+    grid.bind(kSparseUpsampleGridReceiversUnit);
+    sampled.bindTexture(kSparseUpsampleGridVisibilityUnit);
+    visibility.bindImage(kSparseReconstructVisibilityImage, gl::Access::Write);
+    if (classes) classes->bindImage(kSparseReconstructClassImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
@@ -97,17 +98,15 @@ const SettingsTable<UniformSamplingSettings>& UniformSamplingSettings::table() {
   static const std::string kSection = "Schwarz 2009, section 5.1.3";
   static const SettingsTable<S> kTable = {
       Binding(&S::factor, "factor", oneOf({1, 2, 4, 8}), "px",
-              "Pixels from sample to sample, along rows and along columns",
-              kSection + " (value not given there)")
+              "Pixels between samples, along rows and columns", kSection + " (value not given there)")
           .formerly({"factor"}),
       Binding(&S::points, "points",
               "Samples are pixels of the picture, or of one rendered at lower resolution", kSection)
           .formerly({"points"}),
-      Binding(
-          &S::normalPower, "normal_power", Range{0, 64}, "",
-          "Power of the cosine between a point's normal and a sample's that weighs the sample; 0: normals "
-          "do not matter",
-          kSection + " (value not given there)")
+      Binding(&S::normalPower, "normal_power", Range{0, 64}, "",
+              "Power of the cosine between a point's normal and a sample's that weights the sample; 0: "
+              "normals do not matter",
+              kSection + " (value not given there)")
           .formerly({"normal_power"})};
   return kTable;
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility at every pixel from that on a coarser grid: bilinear weights times those of surface_weight.glsl. After DeCoro
 // and Rusinkiewicz, as Schwarz 2009, section 5.1.3, describes it ("utilizing normal and position information").
+#include "renderer/techniques/soft_shadows/sparse/sparse_bindings.h"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/techniques/soft_shadows/sparse/reconstructed_pixel.glsl"
 #include "renderer/techniques/soft_shadows/sparse/surface_weight.glsl"
 
-layout(binding = 3) uniform sampler2D gridReceivers;
-layout(binding = 4) uniform sampler2D gridDepths;
-layout(binding = 5) uniform sampler2D gridNormals;
-layout(binding = 6) uniform sampler2D gridVisibility;
+layout(binding = kSparseUpsampleGridReceiversUnit) uniform sampler2D gridReceivers;
+layout(binding = kSparseUpsampleGridDepthsUnit) uniform sampler2D gridDepths;
+layout(binding = kSparseUpsampleGridNormalsUnit) uniform sampler2D gridNormals;
+layout(binding = kSparseUpsampleGridVisibilityUnit) uniform sampler2D gridVisibility;
 uniform ivec2 gridSizePx;
 // Sample i lies at min(firstPlace + i * placeStep, lastPlace), in pixels from the picture's top left corner.
 uniform vec2 firstPlace, placeStep, lastPlace;
@@ -19,7 +20,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   if (texelFetch(receivers, pixel, 0).w < 0.0) {
-    store(pixel, 1.0, kOther);
+    store(pixel, 1.0, kClassNoReceiver);
     return;
   }
   const vec2 place = vec2(pixel) + 0.5;
@@ -38,7 +39,7 @@ void main() {
     const float near = depthWeight(planeDistance(point, normal, other)), visibility = texelFetch(gridVisibility, at, 0).x;
     if (bilinear == 1.0 && near > 0.0) {
       // The sample is this pixel's own: no weight may round it.
-      store(pixel, visibility, kOwn);
+      store(pixel, visibility, kClassOwnSample);
       return;
     }
     const float weight = bilinear * near * normalWeight(normal, cameraNormal(texelFetch(gridNormals, at, 0)));
@@ -47,7 +48,7 @@ void main() {
   }
   if (total > kLeastWeight) {
     // Weights may round to a mean just outside of what was averaged.
-    store(pixel, clamp(sum / total, 0.0, 1.0), kInterpolated);
+    store(pixel, clamp(sum / total, 0.0, 1.0), kClassInterpolated);
     return;
   }
   // The four are surrounded by twelve more: of all of them, the nearest in depth.
@@ -62,5 +63,5 @@ void main() {
         visibility = texelFetch(gridVisibility, at, 0).x;
       }
     }
-  store(pixel, visibility, nearest < 1e38 ? kFallback : kAlone);
+  store(pixel, visibility, nearest < 1e38 ? kClassNearestInDepth : kClassNoSample);
 }

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Light samples hidden by the triangles between each receiver and the light. Classes and counts as in shadow_lookup.glsl,
 // which is about shadow maps; there is none here.
+#include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask_bindings.h"
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bvh.glsl"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_mask.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D receivers;
-layout(binding = 1) uniform usampler2D triangleIds;
-layout(binding = 0, r32f) uniform writeonly image2D outVisibility;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kTriangleBitmaskReceiversUnit) uniform sampler2D receivers;
+layout(binding = kTriangleBitmaskIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kTriangleBitmaskVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 // Of the scene's triangles: unit normal and n . q on the plane; no normal where a triangle has no area. Worked out in double
 // precision: corners rounded to float would turn a sliver.
-layout(std430, binding = 2) readonly buffer Planes { vec4 planes[]; };
-layout(std430, binding = 3) readonly buffer LightShape { uint lightShape[MASK_WORDS]; };  // samples that lie on the light
+layout(std430, binding = kTriangleBitmaskPlanesBuffer) readonly buffer Planes { vec4 planes[]; };
+layout(std430, binding = kTriangleBitmaskLightShapeBuffer) readonly buffer LightShape { uint lightShape[MASK_WORDS]; };  // samples that lie on the light
 #ifdef COUNT
-layout(binding = 1, rgba32ui) uniform writeonly uimage2D outCounts;
-layout(std430, binding = 4) writeonly buffer Masks { uint outMasks[]; };
+layout(binding = kTriangleBitmaskCountsImage, rgba32ui) uniform writeonly uimage2D outCounts;
+layout(std430, binding = kTriangleBitmaskMasksBuffer) writeonly buffer Masks { uint outMasks[]; };
 #endif
 
 uniform ivec2 sizePx;
@@ -25,7 +26,7 @@ uniform float reach, planeTolerance, lightMargin;
 uniform int lightSamples, maxIterations;
 uniform uint triangleCount;
 
-#include "renderer/techniques/soft_shadows/pixel_class.glsl"
+#include "renderer/techniques/soft_shadows/pixel_class.h"
 uint nodeCount = 0u, testedCount = 0u, reachedCount = 0u;
 int iterations = 0;  // of all loops: llvmpipe leaves them silently once a shader has spent its share
 
@@ -45,7 +46,7 @@ bool gatherTriangles(vec3 p, uint own) {
     if (iterations >= maxIterations) return false;
     ++nodeCount;
     ++iterations;
-    const Node node = nodes[next];
+    const BvhNode node = nodes[next];
     if (!meetsPyramid(node, p, 0.5 * lightSize, planeTolerance)) {
       next = node.skip;
       continue;
@@ -53,7 +54,7 @@ bool gatherTriangles(vec3 p, uint own) {
     const uint first = node.leaf >> 3, last = first + (node.leaf & 7u);
     iterations += int(last - first) * (kSamplesAlong + 1);
     for (uint i = first; i < last; ++i) {
-      const Triangle t = triangles[i];
+      const BvhTriangle t = triangles[i];
       if (t.id == own) continue;
       ++testedCount;
       if (addTriangleToMask(t.a, t.b, t.c, p, lightSize, planeTolerance, lightMargin)) ++reachedCount;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accurate soft shadows by triangle bitmasks (SS-09), the upper end of quality that the thesis's outlook asks
-// for. The rasterising forms that it reviews (Eisemann and Décoret 2007, Sintorn et al. 2008) scatter each
-// triangle to the receivers in its influence region; here each receiver gathers through a hierarchy of the
-// triangles, which needs neither a planar receiver nor several passes.
+// Accurate soft shadows with triangle bitmasks (SS-09), the upper end of quality that the thesis's outlook
+// calls for. The rasterising forms that it reviews (Eisemann and Décoret 2007, Sintorn et al. 2008) scatter
+// each triangle to the receivers in its influence region; here each receiver gathers through a hierarchy of
+// the triangles, which needs neither a planar receiver nor several passes.
 //
-// What lies behind the receiver's own plane is hidden, and so is what lies behind a triangle: a triangle that
-// reaches behind the receiver or through the light's plane hides what its part between them hides.
+// Whatever lies behind the receiver's own plane is hidden, and so is whatever lies behind a triangle: a
+// triangle that extends behind the receiver or through the light's plane hides what its part between them
+// hides.
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask.h"
 
 #include <epoxy/gl.h>
@@ -19,6 +20,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
+#include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask_bindings.h"
 #include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bvh.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -29,14 +31,14 @@ constexpr const char *kTriangleShader =
                          "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask.comp.glsl",
                      *kTrianglePass = "soft_shadows/triangle_bitmask",
                      *kBvhPass = "soft_shadows/triangle_bvh";
-/// A plane this near to a point, in shares of the scene's reach, counts as going through it. Corners and
-/// point are rounded to 2^-25 of their coordinates on each axis, and the point is put onto its plane by a
-/// product of two such numbers: below 2^-22 together.
+/// A plane this near to a point, relative to the scene's reach, counts as passing through it. Corners and
+/// point are rounded to 2^-25 of their coordinates on each axis, and the point is projected onto its plane by
+/// a product of two such numbers: below 2^-22 together.
 constexpr float kPlaneTolerance = 0x1p-22F;
 /// As references::kLightMargin: what lies in the light's plane up to rounding hides nothing.
 constexpr float kLightMargin = 1e-6F;
 
-/// The scene's triangles in light space, in shares of the largest finite coordinate.
+/// The scene's triangles in light space, relative to the largest finite coordinate.
 struct LightSpaceTriangles {
   std::vector<Corners3> corners;
   std::vector<glm::vec4> planes;  ///< unit normal, and its product with a point of the plane; 0: no area
@@ -51,7 +53,7 @@ LightSpaceTriangles lightSpaceTriangles(frame::Frame& frame) {
   std::vector<glm::dvec3> places;
   places.reserve(scene.mesh.positions.size());
   for (const glm::dvec3& position : scene.mesh.positions) {
-    // From the float positions that everything else is drawn with.
+    // From the same float positions as everything else.
     places.emplace_back(toLight * glm::dvec4(glm::vec3(position - anchor), 1.0));
     for (int axis = 0; axis < 3; ++axis)
       if (std::isfinite(places.back()[axis])) out.reach = std::max(out.reach, std::abs(places.back()[axis]));
@@ -81,7 +83,7 @@ std::vector<Counter> summariseTriangles(const std::vector<uint32_t>& counts) {
   }
   if (pixels[CutShort] > 0.0)
     throw Error(shortestNumber(pixels[CutShort]) +
-                    " pixels need more loop iterations than this software renderer grants",
+                    " pixels need more loop iterations than this software renderer allows",
                 {}, "take a scene with fewer triangles, or run on a GPU");
   const double all = static_cast<double>(counts.size()) / 4.0, receivers = all - pixels[NotReceiver];
   const auto share = [&](double part) { return all > 0.0 ? part / all : 0.0; };
@@ -141,16 +143,16 @@ void TriangleBitmask::run(frame::Frame& frame, const gl::Program& program, const
   program.set("lightSamples", lightSamples_);
   program.set("triangleCount", triangleCount_);
   program.set("maxIterations", frame.context().device().software ? 60000 : 0x7fffffff);
-  receivers.bindTexture(0);
-  ids.bindTexture(1);
-  nodes_->bindStorage(0);
-  triangles_->bindStorage(1);
-  planes_->bindStorage(2);
-  lightShape_->bindStorage(3);
-  visibility_->bindImage(0, gl::Access::Write);
+  receivers.bindTexture(kTriangleBitmaskReceiversUnit);
+  ids.bindTexture(kTriangleBitmaskIdsUnit);
+  nodes_->bindStorage(kTriangleBitmaskNodesBuffer);
+  triangles_->bindStorage(kTriangleBitmaskTrianglesBuffer);
+  planes_->bindStorage(kTriangleBitmaskPlanesBuffer);
+  lightShape_->bindStorage(kTriangleBitmaskLightShapeBuffer);
+  visibility_->bindImage(kTriangleBitmaskVisibilityImage, gl::Access::Write);
   if (work) {
-    work->counts.bindImage(1, gl::Access::Write);
-    work->masks.bindStorage(4);
+    work->counts.bindImage(kTriangleBitmaskCountsImage, gl::Access::Write);
+    work->masks.bindStorage(kTriangleBitmaskMasksBuffer);
   }
   program.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -192,7 +194,7 @@ namespace {
 const RegisteredTechnique<TriangleBitmask> kTriangleBitmaskRegistered{
     {.name = "soft_shadows/triangle_bitmask",
      .version = 1,
-     .summary = "Light samples hidden by the scene's own triangles, through a hierarchy of them",
+     .summary = "Light samples hidden by the scene's own triangles, found through a hierarchy",
      .source = "Schwarz 2009, section 3.3 and outlook (SS-09)",
      .product = ProductKind::Visibility,
      .needs = {"area_light"},

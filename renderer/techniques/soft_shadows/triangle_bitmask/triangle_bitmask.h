@@ -15,8 +15,8 @@ struct TriangleBitmaskSettings {
 };
 
 /// Bit field of light samples, filled from the scene's own triangles: for each receiver point every triangle
-/// between it and the light hides the samples within its projection. Exact at the samples but for rounding.
-/// Source: Schwarz 2009, section 3.3 ("Backprojecting triangles") and the outlook.
+/// between it and the light hides the samples within its projection. Exact at the samples except for
+/// rounding. Source: Schwarz 2009, section 3.3 ("Backprojecting triangles") and the outlook.
 class TriangleBitmask : public Technique {
  public:
   using Settings = TriangleBitmaskSettings;
@@ -27,7 +27,7 @@ class TriangleBitmask : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override;
 
   /// Samples hidden at each pixel, row by row, after count(): bit b of a pixel's words is sample b of
-  /// lightSamples(). None where there is no receiver.
+  /// lightSamples(). None if there is no receiver.
   const std::vector<uint32_t>& masks() const { return masks_; }
 
   static std::vector<Quantity> counters();

@@ -9,7 +9,7 @@ namespace limen::techniques {
 namespace {
 
 constexpr int kSplitBins = 16;
-/// Halves of deeper nodes are split by number: coincident centres must not make a list of the tree.
+/// Deeper nodes are split in half by count: coincident centres must not degrade the tree to a list.
 constexpr int kDeepest = 48;
 
 struct Box3 {
@@ -37,7 +37,7 @@ class BvhBuilder {
 
   TriangleBvh build() && {
     if (order_.empty())
-      out_.nodes.push_back({glm::vec3(1.0F), 1, glm::vec3(-1.0F), 0});  // a box that nothing meets
+      out_.nodes.push_back({glm::vec3(1.0F), 1, glm::vec3(-1.0F), 0});  // a box that nothing intersects
     else
       node(0, order_.size(), 0);
     return std::move(out_);
@@ -93,7 +93,7 @@ class BvhBuilder {
     return static_cast<size_t>(middle - begin);
   }
 
-  /// The bin before which cutting makes the sum of areas times numbers least.
+  /// The bin before which a cut minimises the sum of areas times counts.
   template <class BinOf>
   int cheapestCut(size_t first, size_t end, const BinOf& binOf) const {
     std::array<Box3, kSplitBins> bins{};

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hierarchy of triangle_bvh.h. Lengths are shares of the scene's reach from the light, light space.
-struct Node {
-  vec3 low;
-  uint skip;
-  vec3 high;
-  uint leaf;
-};
-struct Triangle {
-  vec3 a;
-  uint id;
-  vec3 b;
-  uint padding0;
-  vec3 c;
-  uint padding1;
-};
-layout(std430, binding = 0) readonly buffer Nodes { Node nodes[]; };
-layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
+#include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask_bindings.h"
+
+layout(std430, binding = kTriangleBitmaskNodesBuffer) readonly buffer Nodes { BvhNode nodes[]; };
+layout(std430, binding = kTriangleBitmaskTrianglesBuffer) readonly buffer Triangles { BvhTriangle triangles[]; };
 
 // True if a box may meet the pyramid from p to the light, which stands between z = 0 and p.z: on each axis its two sides
 // are linear in z. `slack` covers rounding.
-bool meetsPyramid(Node node, vec3 p, vec2 halfLight, float slack) {
+bool meetsPyramid(BvhNode node, vec3 p, vec2 halfLight, float slack) {
   const float first = max(node.low.z - slack, 0.0), last = min(node.high.z + slack, p.z);
   if (first > last) return false;
   const vec2 shares = vec2(first, last) / p.z;

@@ -6,34 +6,22 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/techniques/soft_shadows/triangle_bitmask/triangle_bitmask_bindings.h"
+
 namespace limen::techniques {
 
 using Corners3 = std::array<glm::vec3, 3>;
 
 /// Bounding-volume hierarchy over triangles, as shaders walk it without a stack: nodes stand depth first, so
-/// that the next node is the first child, and `skip` leads past all that hangs below. Layouts are those of
-/// std430 (triangle_bvh.glsl).
+/// that the next node is the first child, and `skip` leads past all that hangs below.
 struct TriangleBvh {
-  struct Node {
-    glm::vec3 low;
-    uint32_t skip;  ///< next node where this box is of no interest
-    glm::vec3 high;
-    uint32_t leaf;  ///< first triangle * 8 + number of triangles (1 to kLeaf); 0: inner node
-  };
-  struct Triangle {
-    glm::vec3 a;
-    uint32_t id;  ///< as given to build
-    glm::vec3 b;
-    uint32_t padding0 = 0;
-    glm::vec3 c;
-    uint32_t padding1 = 0;
-  };
+  using Node = BvhNode;
+  using Triangle = BvhTriangle;
   static constexpr uint32_t kLeaf = 4;  ///< most triangles of a leaf
 
   std::vector<Node> nodes;          ///< at least one
   std::vector<Triangle> triangles;  ///< in the order of the leaves
 };
-static_assert(sizeof(TriangleBvh::Node) == 32 && sizeof(TriangleBvh::Triangle) == 48);
 
 /// Splits by the surface-area heuristic over bins of the boxes' centres. Triangles with a corner that is not
 /// finite are left out.

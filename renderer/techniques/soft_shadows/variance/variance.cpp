@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Variance shadow map (SS-03): the first two moments of depth, averaged over a window, bound the share of its
-// texels that lie beyond the receiver. Exact where a window holds two depths of which the receiver's is the
+// texels that lie beyond the receiver. Exact if a window holds two depths of which the receiver's is the
 // farther; an upper bound otherwise, so that light bleeds through where a second occluder lies below a first.
 // Source: Schwarz 2009, section 3.2.1 (after Donnelly and Lauritzen 2006; the formula is not given there).
 #include "renderer/techniques/soft_shadows/prefiltered_technique.h"
@@ -21,13 +21,13 @@ struct VarianceSettings {
          "min_variance",
          {1e-12, 0.01},
          "",
-         "Least variance of depth, with depths from 0 to 1 over the map's range",
+         "Smallest variance of depth, with depths from 0 to 1 over the map's range",
          "Schwarz 2009, section 3.2.1 (value not given there)"},
         {&S::bleedClamp,
          "bleed_clamp",
          {0, 0.99},
          "",
-         "Visibility that becomes 0, the rest being stretched to 0..1: less light bleeding, darker penumbrae",
+         "Visibility mapped to 0, the rest being rescaled to 0..1: less light bleeding, darker penumbrae",
          "Schwarz 2009, section 3.2.1 (reconstructed)"}};
     return kTable;
   }

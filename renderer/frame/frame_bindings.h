@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the shaders that prepare a frame are bound to. For C++ and GLSL.
+#pragma once
+
+#include "renderer/gl/shader_shared.h"
+
+#ifdef __cplusplus
+namespace limen::frame {
+#endif
+
+// Light-space z of the nearest surface where a shadow map sees nothing.
+const float kEmptyDepth = 1e30f;
+
+// Scene geometry (GpuScene).
+const uint kScenePositionsBuffer = 0u;
+const uint kSceneIndicesBuffer = 1u;
+const uint kSceneAlbedosBuffer = 2u;
+
+// Surfaces (SurfaceBuffers).
+struct SurfaceMaterial {  // std430
+  vec3 albedo;
+  uint surface;        // kSurface...
+  vec3 patternOrigin;  // relative to the anchor
+  float patternFrequency;
+  uint pattern;  // kPattern...
+  float patternContrast;
+  int patternOctaves;
+  uint patchIndex;
+};
+#ifdef __cplusplus
+static_assert(sizeof(SurfaceMaterial) == 48 && offsetof(SurfaceMaterial, surface) == 12 &&
+              offsetof(SurfaceMaterial, patternOrigin) == 16 && offsetof(SurfaceMaterial, pattern) == 32 &&
+              offsetof(SurfaceMaterial, patchIndex) == 44);
+#endif
+const uint kSurfaceMesh = 0u;
+const uint kSurfacePatch = 1u;
+const uint kSurfaceAperture = 2u;
+const uint kPatternNone = 0u;
+const uint kPatternChecker = 1u;
+const uint kPatternNoise = 2u;
+const uint kSurfaceNormalsBuffer = 3u;
+const uint kSurfaceAttributesBuffer = 4u;
+const uint kSurfaceTriangleMaterialsBuffer = 5u;
+const uint kSurfaceMaterialsBuffer = 6u;
+const uint kSurfacePatchesBuffer = 7u;
+
+// ComputeRaster.
+struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the band in its bounding box
+  uint queued;
+  uint padding[3];
+};
+#ifdef __cplusplus
+static_assert(sizeof(RasterQueueHeader) == 16);
+#endif
+const int kRasterGroup = 64;
+const uint kRasterDepthsBuffer = 4u;
+const uint kRasterIdsBuffer = 5u;
+const uint kRasterQueueBuffer = 3u;
+const uint kRasterPreviousDepthUnit = 0u;
+const uint kRasterRangesBuffer = 6u;
+const uint kRasterDepthImage = 0u;
+const uint kRasterIdsImage = 1u;
+
+// Depth peeling by the rasteriser.
+const uint kPeelPreviousDepthUnit = 0u;
+
+// Linear shadow map.
+const uint kLinearDepthSourceUnit = 0u;
+const uint kLinearDepthImage = 0u;
+
+// Minimum and maximum pyramid of a shadow map; three levels a dispatch.
+const uint kPyramidDepthMapUnit = 0u;
+const uint kPyramidBaseImage = 0u;
+const uint kPyramidMinimumMapUnit = 0u;
+const uint kPyramidMaximumMapUnit = 1u;
+const uint kPyramidMinimum1Image = 1u;
+const uint kPyramidMinimum2Image = 2u;
+const uint kPyramidMinimum3Image = 3u;
+const uint kPyramidMaximum1Image = 4u;
+const uint kPyramidMaximum2Image = 5u;
+const uint kPyramidMaximum3Image = 6u;
+
+// Multi-scale shadow map.
+const uint kMultiScaleMinimumMapUnit = 0u;
+const uint kMultiScaleMaximumMapUnit = 1u;
+const uint kMultiScaleLayersUnit = 0u;
+const uint kMultiScaleImage = 0u;
+
+// Microrectangles.
+const uint kMicrorectMinimumMapUnit = 0u;
+const uint kMicrorectDepthsUnit = 1u;
+const uint kMicrorectExtentsUnit = 2u;
+const uint kMicrorectMergedImage = 0u;
+const uint kMicrorectMergedUnit = 3u;
+const uint kMicrorectDepthsImage = 0u;
+const uint kMicrorectExtentsImage = 1u;
+
+// Biases of texels.
+const uint kSlopeBiasIdsUnit = 0u;
+const uint kSlopeBiasMinimumMapUnit = 1u;
+const uint kSlopeBiasImage = 0u;
+
+// Pyramid of biases.
+const uint kBiasPyramidMinimumMapUnit = 0u;
+const uint kBiasPyramidBiasesUnit = 1u;
+const uint kBiasPyramidImage = 0u;
+
+// Summed-area table: a group scans kSumsLines lines in tiles of kSumsTile.
+const int kSumsTile = 32;
+const int kSumsLines = 8;
+const uint kSumsImage = 0u;
+const uint kSumsMeansBuffer = 0u;
+const uint kSumsValuesImage = 0u;
+
+// Mip levels of layers.
+const uint kAverageBelowImage = 0u;
+const uint kAverageAboveImage = 1u;
+
+// Prefiltered map.
+const uint kPrefilteredDepthsUnit = 0u;
+const uint kPrefilteredImage = 0u;
+
+// Occlusion slices.
+const uint kSlicesBitsImage = 0u;
+const uint kSlicesBitsUnit = 0u;
+const uint kSlicesCoveredImage = 0u;
+
+// G-buffer.
+const uint kGBufferIdsUnit = 0u;
+const uint kGBufferOutImage = 0u;
+const uint kGBufferPlacesUnit = 1u;
+
+// Motion.
+const uint kMotionIdsUnit = 0u;
+const uint kMotionDisplacementImage = 0u;
+const uint kMotionPreviousDepthImage = 1u;
+
+// Receivers from another eye point.
+const uint kReceiversFromReceiversUnit = 0u;
+const uint kReceiversFromNormalsUnit = 1u;
+const uint kReceiversFromImage = 0u;
+
+// Shaded picture.
+const uint kShadedIdsUnit = 0u;
+const uint kShadedOutImage = 0u;
+const uint kShadedReceiversUnit = 1u;
+const uint kShadedShadowMapUnit = 2u;
+
+#ifdef __cplusplus
+}  // namespace limen::frame
+#endif
