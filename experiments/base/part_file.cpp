@@ -114,7 +114,10 @@ PartFile::PartFile(const std::string& target, Readers readers) : named_(target) 
   direct_ = isPassedOn(target);
   if (direct_) {
     target_ = part_ = target;
-    file_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    // Opened anew, a file behind standard output would be written from its beginning.
+    const int stream = target == "/dev/stdout" ? STDOUT_FILENO : target == "/dev/stderr" ? STDERR_FILENO : -1;
+    std::fflush(nullptr);
+    file_ = stream >= 0 ? ::fcntl(stream, F_DUPFD_CLOEXEC, 0) : ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail(errno);
     return;
   }
