@@ -13,6 +13,24 @@
 
 namespace limen {
 
+/// As long as it lives no file of this process may grow beyond `bytes`: to whoever writes it looks like a
+/// full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
 /// Runs `work` in a child none of whose files may grow beyond `bytes`: to whoever writes it looks like a full
 /// disk. The message of what it throws goes to `messageFile`. Exit status: 0, or 1 if it throws.
 inline int onFullDisk(rlim_t bytes, const std::string& messageFile, const std::function<void()>& work) {

@@ -119,7 +119,7 @@ Violations checkLicenceLines(const fs::path& root) {
 }
 
 Violations checkFileWriting(const fs::path& root) {
-  static const std::regex kWriter(R"(\b(ofstream|copy_file)\b|\bfopen\([^)]*"[wa])");
+  static const std::regex kWriter(R"(\b(ofstream|copy_file)\b|\bfopen\(.*"[wa])");
   Violations violations;
   for (const fs::path& file : sourcesUnder(root, false)) {
     std::ifstream in(file);
