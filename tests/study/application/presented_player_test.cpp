@@ -71,11 +71,12 @@ class PresentedPlayerTest : public testing::Test {
     return frontEnd.played;
   }
 
-  test::XServer server_;
+  static std::unique_ptr<test::XServer> server_;
   Protocol protocol_;
   std::unique_ptr<window::UiWindow> window_;
   Image picture_;
 };
+std::unique_ptr<test::XServer> PresentedPlayerTest::server_;
 
 TEST_F(PresentedPlayerTest, AStimulusLooksTheSameBesideASecondWindow) {
   const PlayResult alone = play();
