@@ -50,9 +50,15 @@ class OneTrial : public FrontEnd {
 
 class PresentedPlayerTest : public testing::Test {
  protected:
-  PresentedPlayerTest() : server_(1500, 800), protocol_(readProtocol("quick", catalogueFromRegistries())) {
-    setenv("DISPLAY", server_.display().c_str(), 1);
+  // One server for all tests: the window library stays with the first one that it meets.
+  static void SetUpTestSuite() {
+    server_ = std::make_unique<test::XServer>(1500, 800);
+    setenv("DISPLAY", server_->display().c_str(), 1);
     unsetenv("WAYLAND_DISPLAY");
+  }
+  static void TearDownTestSuite() { server_.reset(); }
+
+  PresentedPlayerTest() : protocol_(readProtocol("quick", catalogueFromRegistries())) {
     window::UiWindowOptions options;
     options.sizePx = {400, 300};
     window_ = std::make_unique<window::UiWindow>(options);
