@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/base/printable.h"
 #include "experiments/base/text.h"
 #include "experiments/measured_quantities.h"
 
@@ -66,7 +67,7 @@ class LinePrinter : public SweepObserver {
     print(fmt::format("[{:>{}}/{}] {}", seen_, fmt::formatted_size("{}", total_), total_, text));
   }
   void print(const std::string& line) {
-    std::fputs((line + "\n").c_str(), out_);
+    std::fputs((printable(line) + "\n").c_str(), out_);
     std::fflush(out_);
   }
 
@@ -90,7 +91,8 @@ class ProgressBar : public SweepObserver {
     draw();
   }
   void measuring(const PlannedRun& first, size_t batchSize) override {
-    current_ = describePlanned(first) + (batchSize > 1 ? fmt::format(" and {} more", batchSize - 1) : "");
+    current_ =
+        printable(describePlanned(first)) + (batchSize > 1 ? fmt::format(" and {} more", batchSize - 1) : "");
     draw();
   }
   void finished(const PlannedRun& run, const store::Run& row) override {
@@ -99,7 +101,7 @@ class ProgressBar : public SweepObserver {
     secondsMeasured_ = std::chrono::duration<double>(Clock::now() - start_).count();
     if (row.status == "failed") {
       ++failed_;
-      std::fputs(("\r\x1b[K" + describeFinished(run, row) + "\n").c_str(), terminal_);
+      std::fputs(("\r\x1b[K" + printable(describeFinished(run, row)) + "\n").c_str(), terminal_);
     }
     draw();
   }

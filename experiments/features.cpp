@@ -39,7 +39,8 @@ void readTexts(const YamlNode& node, const TextFields& keys, const std::vector<s
   }
   for (const auto& [key, value] : node.members)
     if (std::find(known.begin(), known.end(), key.text) == known.end())
-      problems.add(key.mark, "unknown key '" + key.text + "' of " + what, suggest(key.text, known));
+      problems.add(key.mark, "unknown key '" + key.text + "' of " + what,
+                   problems.crowded() ? "" : suggest(key.text, known));
 }
 
 std::vector<NotBuilt> readNotBuilt(const YamlNode& node, Problems& problems) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <future>
 #include <map>
+#include <new>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -14,6 +15,7 @@
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
 #include "experiments/measured_quantities.h"
+#include "experiments/plan.h"
 #include "experiments/product.h"
 #include "experiments/product_evaluation.h"
 #include "experiments/reference_cache.h"
@@ -169,6 +171,9 @@ class GlExecutor : public Executor {
     try {
       work();
       context_->checkDebugMessages();
+    } catch (const std::bad_alloc&) {
+      run.outcome.error = "not enough memory to measure " + describe(*run.plan);
+      context_->takeDebugMessages();
     } catch (const std::exception& error) {
       run.outcome.error = error.what();
       context_->takeDebugMessages();
@@ -303,7 +308,7 @@ class GlExecutor : public Executor {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
-    return references_.get(sha256(identity.dump()),
+    return references_.get(sha256(identity.dump()), on.sizePx.x, on.sizePx.y,
                            [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One invocation that waits for a number of ticks of its processor's clock.
+#extension GL_ARB_shader_clock : require
 #include "experiments/gpu_clock_bindings.h"
 
-#extension GL_ARB_shader_clock : require
 layout(local_size_x = 1) in;
 layout(std430, binding = kClockOutBuffer) buffer Out { uint elapsed; };
 uniform uint ticks;

@@ -13,7 +13,8 @@ size_t bytesOf(const Image& image) { return image.data.size() * sizeof(float); }
 
 }  // namespace
 
-std::shared_ptr<const Image> ReferenceCache::get(const std::string& key, const std::function<Image()>& make) {
+std::shared_ptr<const Image> ReferenceCache::get(const std::string& key, int width, int height,
+                                                 const std::function<Image()>& make) {
   const auto known =
       std::find_if(held_.begin(), held_.end(), [&](const Held& one) { return one.key == key; });
   if (known != held_.end()) {
@@ -22,12 +23,13 @@ std::shared_ptr<const Image> ReferenceCache::get(const std::string& key, const s
   }
   const std::string path = folder_ + "/" + key + ".exr";
   std::shared_ptr<const Image> image;
-  if (std::filesystem::exists(path)) {
+  if (std::error_code code; std::filesystem::exists(path, code)) {
     try {
       image = std::make_shared<const Image>(readImage(path));
     } catch (const Error&) {
       // A damaged file, for example from a full disk, is replaced.
     }
+    if (image && (image->width != width || image->height != height)) image.reset();
   }
   if (!image) {
     image = std::make_shared<const Image>(make());

@@ -17,9 +17,10 @@ class ReferenceCache {
   explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
       : folder_(std::move(folder)), bytesInMemory_(bytesInMemory) {}
 
-  /// The product named `key`, made by `make` if it is neither in memory nor on disk. Memory holds the most
-  /// recently used.
-  std::shared_ptr<const Image> get(const std::string& key, const std::function<Image()>& make);
+  /// The product named `key` of `width` x `height` pixels, made by `make` if neither memory nor disk has it,
+  /// or a file of another size. Memory holds those used last.
+  std::shared_ptr<const Image> get(const std::string& key, int width, int height,
+                                   const std::function<Image()>& make);
 
  private:
   struct Held {

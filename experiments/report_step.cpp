@@ -37,7 +37,10 @@ int call(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ReportResult makeReport(const std::string& store, const std::string& folder) {
+ReportResult makeReport(const std::string& storeName, const std::string& folderName) {
+  // "-o/store.sqlite" is a file, not an option.
+  const auto asFile = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
+  const std::string store = asFile(storeName), folder = asFile(folderName);
   std::error_code code;
   const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path() / "limen-report";
   if (code || !fs::exists(program)) return {"", "no report: limen-report is not built"};

@@ -30,6 +30,7 @@ class Runner {
   SweepTally run() {
     const std::vector<bool> mine = shardMask(plan_, options_.shardIndex, options_.shardCount);
     std::vector<std::vector<size_t>> groups;
+    std::vector<size_t> givenUp;
     for (const auto& [begin, end] : plan_.groups) {
       std::vector<size_t>& group = groups.emplace_back();
       for (size_t i = begin; i < end; ++i) {
@@ -37,11 +38,17 @@ class Runner {
         ++tally_.planned;
         if (results_.isDone(plan_.runs[i].key, device_))
           ++tally_.skipped;
+        else if (!options_.retryDied && results_.hasDiedTwice(plan_.runs[i].key, device_))
+          givenUp.push_back(i);
         else
           group.push_back(i);
       }
     }
     observer_.begin(tally_.planned, tally_.skipped);
+    for (const size_t index : givenUp) giveUp(index);
+    // A run that was stopped is not one that killed its process.
+    const AtForcedEnd giveBack(
+        [path = results_.path()] { store::Store(path, store::Access::ReadWrite).releaseClaims(); });
     try {
       std::erase_if(groups, [](const std::vector<size_t>& group) { return group.empty(); });
       for (size_t i = 0; i < groups.size(); ++i) {
@@ -86,6 +93,27 @@ class Runner {
     return row;
   }
 
+  /// Counts a run as failed that its process died of twice.
+  void giveUp(size_t index) {
+    const PlannedRun& planned = plan_.runs[index];
+    store::Run row = rowOf(planned);
+    row.status = "failed";
+    row.error = diedTwice(planned);
+    ++tally_.failed;
+    observer_.finished(planned, row);
+  }
+
+  static std::string diedTwice(const PlannedRun& planned) {
+    std::string files;
+    const nlohmann::json values = planned.parameters.value("scene", nlohmann::json::object());
+    for (const auto& [path, value] : values.items())
+      if (path == "file" || path.ends_with(".file"))
+        files += " of '" + (value.is_string() ? value.get<std::string>() : value.dump()) + "'";
+    return store::Store::diedTwice("it measured " + planned.technique.name + " in the scene '" +
+                                   planned.scene.name + "'" + files +
+                                   "; limen sweep --retry-died tries it again");
+  }
+
   store::Store::Claim claim(size_t index) { return results_.claim(rowOf(plan_.runs[index])); }
 
   void countElsewhere(size_t index) {
@@ -100,7 +128,18 @@ class Runner {
       const size_t index = group[position];
       switch (claim(index)) {
         case store::Store::Claim::Claimed:
-          batch.push_back(index);
+          if (const int deaths = results_.deaths(plan_.runs[index].key, device_); deaths == 0) {
+            batch.push_back(index);
+          } else if (deaths == 1 || options_.retryDied) {
+            // Alone, so that no run is blamed for another's death.
+            if (!batch.empty()) measure(std::exchange(batch, {}));
+            announced_.reset();
+            measure({index});
+          } else {
+            RunOutcome outcome;
+            outcome.error = diedTwice(plan_.runs[index]);
+            commit(plan_.runs[index], std::move(outcome));
+          }
           break;
         case store::Store::Claim::AlreadyDone:
           countElsewhere(index);

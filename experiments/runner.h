@@ -15,6 +15,7 @@ namespace limen::experiments {
 struct RunnerOptions {
   int shardIndex = 1, shardCount = 1;  ///< only runs of this shard; index from 1
   bool failFast = false;               ///< stop after the batch with the first failed run
+  bool retryDied = false;              ///< also runs whose process died twice
   double pollSeconds = 0.2;            ///< between checks of runs held by another sweep
 };
 
@@ -40,10 +41,12 @@ struct SweepTally {
   bool interrupted = false;
 };
 
-/// Measures what the store lacks for the executor's device. Every run is claimed first and committed as soon
-/// as it is finished; a batch is on disk before the next begins; unfinished claims are released, whatever
-/// happens. Runs held by another live process are left to it and awaited at the end. Throws Error if store or
-/// executor cannot continue.
+/// Measures what the store does not have yet for the executor's device. Every run is claimed before and
+/// committed as soon as it is finished; a batch is on the disk before the next begins; claims that are
+/// not finished are given back, whatever happens. Runs that another live process holds are left to it and
+/// waited for at the end. A run whose process died is tried once more, alone; after that it is failed, here
+/// and in later calls, so that a file that kills the program does not keep a sweep from its end. Throws Error
+/// if store or executor cannot go on.
 SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
                     const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
 

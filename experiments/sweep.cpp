@@ -11,7 +11,9 @@
 
 #include "experiments/base/environment.h"
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 #include "experiments/catalogue_text.h"
@@ -48,10 +50,10 @@ class Sweeper {
     int exitCode = kExitSuccess;
     for (const PlannedSweep& sweep : sweeps) {
       exitCode = std::max(exitCode, measure(sweep));
-      if (interruptSignal() != 0) return 128 + interruptSignal();
+      if (interruptSignal() != 0) break;
       if (options_.failFast && exitCode != kExitSuccess) break;
     }
-    return exitCode;
+    return exitCodeAfter(exitCode);
   }
 
  private:
@@ -179,7 +181,7 @@ class Sweeper {
 
   /// The input was valid, but device or store failed.
   static int reportFailure(const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", printable(error.what()).c_str());
     return kExitFailedRuns;
   }
 
@@ -188,7 +190,9 @@ class Sweeper {
     try {
       executor = &executorFor(sweep.store);
     } catch (const Error& error) {
-      return reportFailure(error);
+      // A machine without what every run needs.
+      reportFailure(error);
+      return kExitBadInput;
     }
     makeFolderOf(sweep.store);
     store::Store results(sweep.store, store::Access::ReadWrite);
@@ -197,7 +201,8 @@ class Sweeper {
     SweepTally tally;
     try {
       const auto observer = makeObserver();
-      const RunnerOptions runnerOptions{options_.shardIndex, options_.shardCount, options_.failFast};
+      const RunnerOptions runnerOptions{options_.shardIndex, options_.shardCount, options_.failFast,
+                                        options_.retryDied};
       tally = runSweep(sweep.plan, results, *executor, environmentFacts(command_, options_.root),
                        runnerOptions, *observer);
     } catch (const Error& error) {
@@ -269,11 +274,10 @@ int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
   try {
     return Sweeper(program, parsed.options, std::move(command)).run();
   } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return kExitBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", program.name.c_str(), error.what());
-    return kExitFailedRuns;
+    std::fprintf(stderr, "%s\n", printable(error.what()).c_str());
+    return exitCodeAfter(kExitBadInput);
+  } catch (...) {
+    return reportFailure(program.name);
   }
 }
 

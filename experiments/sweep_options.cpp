@@ -6,6 +6,7 @@
 
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/text.h"
 
 namespace limen::experiments {
@@ -52,6 +53,7 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   app.add_option("--shard", shard, "Only part i of n, split by run key; join the stores with merge")
       ->type_name("i/n");
   app.add_flag("--fail-fast", options.failFast, "Stop after the first failed run");
+  app.add_flag("--retry-died", options.retryDied, "Try runs again whose process died twice");
   app.add_flag("--dry-run", options.dryRun, "Print the plan and its size without running it");
   app.add_flag("--no-report", options.noReport, "Do not write an HTML report");
   app.add_flag("--json", options.json, "JSON lines on standard output");
@@ -79,18 +81,18 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   } catch (const CLI::ExtrasError& error) {
     const auto& rest = app.remaining(true);
     const std::string word = rest.empty() ? "" : rest.front();
-    std::fprintf(stderr, "%s: unknown argument '%s'; %s\n", program.c_str(), word.c_str(),
+    std::fprintf(stderr, "%s: unknown argument '%s'; %s\n", program.c_str(), printable(word).c_str(),
                  suggestOption(merge->parsed() ? *merge : app, word).c_str());
     parsed.exitCode = kExitBadInput;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), error.what());
+      std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), printable(error.what()).c_str());
       parsed.exitCode = kExitBadInput;
     } else {
       parsed.exitCode = app.exit(error);
     }
   } catch (const Error& error) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), printable(error.what()).c_str());
     parsed.exitCode = kExitBadInput;
   }
   return parsed;

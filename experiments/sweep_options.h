@@ -12,7 +12,7 @@ struct SweepOptions {
   std::vector<std::string> descriptors;
   std::string store;  ///< "" for results/<descriptor>.sqlite
   int shardIndex = 1, shardCount = 1;
-  bool dryRun = false, json = false, failFast = false, noReport = false, features = false;
+  bool dryRun = false, json = false, failFast = false, retryDied = false, noReport = false, features = false;
   std::optional<std::string> list;  ///< "" for everything
   std::string root;  ///< source tree with experiments/features.yaml and experiments/descriptors
 

@@ -2,25 +2,17 @@
 #include "analysis/answer_fits/fit_chart.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/output/chart_file.h"
+#include "experiments/base/gnuplot.h"
+
 namespace limen::analysis {
+
 namespace {
 
 constexpr int kCurveSteps = 200;
-
-/// 1, 2, 5, 10, ... where powers of ten alone would be one label or none.
-std::string logTics(double low, double high) {
-  if (high / low > 1000.0) return {};
-  std::string list;
-  for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0)
-    for (const double step : {1.0, 2.0, 5.0})
-      if (step * power >= low && step * power <= high)
-        list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", step * power);
-  return list.empty() ? std::string() : "set xtics (" + list + ")\n";
-}
 
 bool isBlank(const Block& block, const FitSettings& settings) {
   return block.level == kNoStimulus || (settings.logarithmic() && block.level == 0.0);
@@ -45,7 +37,7 @@ void setEdges(const FitAnswer& answer, FitChart& chart) {
     const double margin = low < high ? std::pow(high / low, 0.05) : 2.0;
     chart.low = low / margin;
     chart.high = high * margin;
-    chart.xTics = logTics(chart.low, chart.high);
+    chart.xTics = logarithmicTics(chart.low, chart.high);
   } else {
     const double margin = low < high ? 0.05 * (high - low) : std::max(1.0, std::abs(low));
     chart.low = low - margin;
@@ -74,7 +66,7 @@ FitSeries seriesOf(const FitAnswer& answer, size_t c, const FitChart& chart) {
   const double guess = fit.value(FitParameter::Guess), lapse = fit.value(FitParameter::Lapse);
   out.threshold = fit.value(FitParameter::Threshold);
   out.thresholdShare = guess + (1.0 - guess - lapse) * settings.thresholdLevel;
-  out.interval = {out.threshold, out.threshold, false, false};
+  out.interval = {{out.threshold, out.threshold}};
   if (answer.intervals) out.interval = answer.intervals->conditions[c][0].value_or(out.interval);
   return out;
 }
@@ -88,6 +80,47 @@ FitChart chartOf(const FitAnswer& answer) {
   setEdges(answer, out);
   for (size_t c = 0; c < answer.data.size(); ++c) out.series.push_back(seriesOf(answer, c, out));
   return out;
+}
+
+namespace {
+
+/// Three data blocks a condition: answers, curve, threshold.
+std::string dataOf(const FitChart& chart) {
+  std::string out;
+  for (const FitSeries& series : chart.series) {
+    out += "# level, share of correct answers, trials, kind of point: full, or open without a stimulus\n";
+    for (const FitPoint& point : series.points)
+      out += fmt::format("{} {} {} {}\n", point.level, point.share, point.trials, point.blank ? 6 : 7);
+    out += "\n\n# level, fitted\n";
+    for (const auto& [x, share] : series.curve) out += fmt::format("{} {}\n", x, share);
+    out += fmt::format("\n\n# threshold, its P, interval\n{} {} {} {}\n\n\n", series.threshold,
+                       series.thresholdShare, series.interval.low, series.interval.high);
+  }
+  return out;
+}
+
+}  // namespace
+
+void drawFit(const FitAnswer& answer, const std::string& path) {
+  const ChartFile file(path);
+  const FitChart chart = chartOf(answer);
+  std::string out = file.head() + "set key left " + (chart.falling ? "bottom" : "top") +
+                    " Left reverse noenhanced samplen 2\nset xlabel " +
+                    gnuplotQuoted(answer.level + (chart.blanks ? " (open points: no stimulus)" : "")) +
+                    " noenhanced\nset ylabel 'share of correct or positive answers' noenhanced\n"
+                    "set yrange [0:1.02]\n" +
+                    fmt::format("set xrange [{}:{}]\n", chart.low, chart.high) +
+                    (chart.logarithmic ? "set logscale x\n" + chart.xTics : "") + "plot ";
+  for (size_t c = 0; c < chart.series.size(); ++c) {
+    const std::string& name = chart.series[c].name;
+    out += fmt::format(
+        "{0}{1} index {2} using 1:2:4 with points pt variable ps 0.7 {5} notitle, {1} index {3} using 1:2 "
+        "with lines "
+        "lw 1.5 {5} {6}, {1} index {4} using 1:2:3:4 with xerrorbars pt 2 ps 0.7 {5} notitle",
+        c ? ", " : "", file.data(), 3 * c, 3 * c + 1, 3 * c + 2, seriesStyle(c),
+        name.empty() ? "notitle" : "title " + gnuplotQuoted(name));
+  }
+  file.draw(out + "\n", dataOf(chart));
 }
 
 }  // namespace limen::analysis

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <optional>
 
 #include "analysis/answer_tables/table.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/text.h"
@@ -30,11 +29,9 @@ void readFixed(const std::string& text, FitSettings& settings) {
   if (equals == std::string::npos) throw Error("'" + text + "' has no value", "--fix", "write lapse=0.01");
   const size_t parameter = parameterNamed(text.substr(0, equals), "--fix");
   const std::string digits = text.substr(equals + 1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+  settings.fixed[parameter] = finiteNumber(digits);
+  if (!settings.fixed[parameter])
     throw Error("'" + digits + "' is not a number", "--fix " + text.substr(0, equals));
-  settings.fixed[parameter] = value;
 }
 
 std::string choice(const std::string& text, const std::vector<std::string>& known,

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/answer_fits/fit_answer.h"
-#include "analysis/psychometric/coverage.h"
+#include "analysis/psychometric/intervals.h"
 #include "analysis/psychometric/objective.h"
 #include "experiments/base/build_facts.h"
 #include "experiments/base/text.h"
@@ -68,21 +68,13 @@ ResultTable parameterTable(const FitAnswer& answer) {
       interval("", answer.intervals ? fmt::format("{:.4g} %", 100.0 * answer.intervals->confidence) : "95 %");
   bounds.kind = Kind::Significant;
   bounds.digits = 7;
-  const auto open = [](bool FitInterval::*side) {
-    return [side](const ParameterRow& row) {
-      return row.interval ? ResultCell((*row.interval).*side) : ResultCell();
-    };
-  };
   return TableOf("parameters", "", rows)
       .add(ifAny(text("condition")), &ParameterRow::condition)
       .add(text("parameter"), &ParameterRow::name)
       .add(significant("estimate", "", 8), &ParameterRow::value)
-      .add(ifAny(bounds),
-           [](const ParameterRow& row) {
-             return row.interval ? ResultCell(Interval{row.interval->low, row.interval->high}) : ResultCell();
-           })
-      .add(ifAny(flag("low_open", "low at bound")), open(&FitInterval::lowOpen))
-      .add(ifAny(flag("high_open", "high at bound")), open(&FitInterval::highOpen))
+      .add(ifAny(bounds), &ParameterRow::interval)
+      .add(ifAny(flag("low_open", "low at bound")), at(&ParameterRow::interval, &FitInterval::lowOpen))
+      .add(ifAny(flag("high_open", "high at bound")), at(&ParameterRow::interval, &FitInterval::highOpen))
       .add(flag("fitted"), &ParameterRow::fitted)
       .add(ifAny(text("at_bound")),
            [](const ParameterRow& row) { return row.bound < 0   ? "low"
@@ -159,11 +151,11 @@ void addGoodness(const FitAnswer& answer, Section& out) {
                   fmt::format("goodness of fit: {} samples, seed {}", answer.samples, answer.seed), tests)
               .add(ifAny(text("condition")), &TestRow::condition)
               .add(text("statistic"), &TestRow::name)
-              .add(significant("value"), [](const TestRow& row) { return row.test.value; })
+              .add(significant("value"), at(&TestRow::test, &MonteCarloTest::value))
               .add(significant("limit_low", "95 % of samples from"),
                    [](const TestRow& row) { return row.upperOnly ? ResultCell() : ResultCell(row.test.low); })
-              .add(significant("limit_high", "to"), [](const TestRow& row) { return row.test.high; })
-              .add(probability(), [](const TestRow& row) { return row.test.p; }));
+              .add(significant("limit_high", "to"), at(&TestRow::test, &MonteCarloTest::high))
+              .add(probability(), at(&TestRow::test, &MonteCarloTest::p)));
   const auto without = [](double BlockInfluence::*member) {
     return [member](const BlockRow& row) {
       return row.influence.refused ? ResultCell() : ResultCell(row.influence.*member);
@@ -181,7 +173,7 @@ void addGoodness(const FitAnswer& answer, Section& out) {
           .add(number("deviance_residual", "residual"), &BlockRow::residual)
           .add(significant("threshold_without", "threshold", 6), without(&BlockInfluence::threshold))
           .add(significant("width_without", "width", 6), without(&BlockInfluence::width))
-          .add(flag("influential"), [](const BlockRow& row) { return row.influence.influential; }));
+          .add(flag("influential"), at(&BlockRow::influence, &BlockInfluence::influential)));
 }
 
 void addModels(const FitAnswer& answer, Section& out) {
@@ -192,14 +184,13 @@ void addModels(const FitAnswer& answer, Section& out) {
   std::vector<ModelRow> rows = {{answer.full ? "shared" : "all", &answer.fit}};
   if (answer.full) rows.push_back({"not shared", &*answer.full});
   const bool map = answer.fit.settings.method == FitMethod::MaximumPosterior;
-  const auto of = [](auto member) { return [member](const ModelRow& row) { return row.fit->*member; }; };
   out.add(TableOf("models", "", rows)
               .add(text("model"), &ModelRow::name)
-              .add(integer("parameters"), of(&Fit::freeParameters))
-              .add(significant("log_likelihood", "", 7), of(&Fit::logLikelihood))
-              .add(significant("deviance", "", 7), of(&Fit::deviance))
-              .add(significant("aic", "AIC", 7), of(&Fit::aic))
-              .add(significant("bic", "BIC", 7), of(&Fit::bic))
+              .add(integer("parameters"), at(&ModelRow::fit, &Fit::freeParameters))
+              .add(significant("log_likelihood", "", 7), at(&ModelRow::fit, &Fit::logLikelihood))
+              .add(significant("deviance", "", 7), at(&ModelRow::fit, &Fit::deviance))
+              .add(significant("aic", "AIC", 7), at(&ModelRow::fit, &Fit::aic))
+              .add(significant("bic", "BIC", 7), at(&ModelRow::fit, &Fit::bic))
               .add(ifAny(significant("log_posterior", "", 7)), [=](const ModelRow& row) {
                 return map ? ResultCell(row.fit->logPosterior()) : ResultCell();
               }));
@@ -253,8 +244,7 @@ std::vector<std::string> remarksOn(const FitAnswer& answer) {
     out.insert(out.end(), intervals.warnings.begin(), intervals.warnings.end());
   }
   for (const ConditionFit& fit : answer.fit.conditions)
-    for (const std::string& warning : fit.warnings)
-      out.push_back((fit.name.empty() ? "" : fit.name + ": ") + warning);
+    for (const std::string& warning : fit.warnings) out.push_back(fit.prefix() + warning);
   return out;
 }
 

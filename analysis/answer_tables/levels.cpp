@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/answer_tables/levels.h"
 
-#include <algorithm>
 #include <map>
 
-#include "analysis/answer_tables/table.h"
+#include "analysis/output/text_output.h"
 
 namespace limen::analysis {
 

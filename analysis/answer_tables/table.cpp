@@ -10,6 +10,7 @@
 
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 
@@ -86,19 +87,13 @@ class Records {
 
 }  // namespace
 
-std::optional<double> finiteNumber(const std::string& text) {
-  double value = 0.0;
-  const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
 Table Table::read(const std::string& path, char separator) {
-  if (!std::filesystem::exists(path)) throw Error("no such file", path);
-  if (std::filesystem::is_directory(path)) throw Error("is a folder, not a table", path);
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (!std::filesystem::exists(status)) throw Error(code ? code.message() : "no such file", path);
+  if (std::filesystem::is_directory(status)) throw Error("is a folder, not a table", path);
   protectInput(path);
-  return parse(readFileBytes(path), path, separator);
+  return namingFile(path, [&] { return parse(readFileBytes(path), path, separator); });
 }
 
 Table Table::parse(const std::string& bytes, const std::string& name, char separator) {

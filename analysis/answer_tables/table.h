@@ -2,14 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace limen::analysis {
-
-/// A finite number with a decimal point, whatever the locale; none for any other text.
-std::optional<double> finiteNumber(const std::string& text);
 
 /// A table of text with named columns, read from CSV (RFC 4180) or TSV. Numbers have a decimal point,
 /// whatever the locale. Whatever is wrong throws one Error with file, line and column.

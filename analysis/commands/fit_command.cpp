@@ -3,14 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "analysis/answer_fits/fit_options.h"
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/answer_fits/fit_options.h"
+#include "analysis/study/analyses.h"
 #include "analysis/study/fitted_parts.h"
-#include "analysis/study/head.h"
-#include "analysis/study/part_fits.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -112,7 +110,8 @@ void addFitCommand(CLI::App& app) {
                 "deviance and residuals against samples drawn from the fit; influence of each block");
   fit->add_option("--plot", call->plot, "draw into FILE.svg, .pdf or .png");
   fit->add_flag("--json", call->study.asJson, "One JSON object");
-  fit->add_option("--csv", call->study.csv, "Writes all tables of the result to this file")->type_name("FILE");
+  fit->add_option("--csv", call->study.csv, "Writes all tables of the result to this file")
+      ->type_name("FILE");
   fit->callback([call, fit] {
     call->study.choice.store = call->options.file;
     if (!isStudyStore(*fit, call->study, {"--k", "--n", "--outcome", "--order"}, {"--part", "--guess"}))

@@ -8,7 +8,8 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/study/head.h"
+#include "analysis/study/analyses.h"
+#include "analysis/study/predicted.h"
 #include "analysis/study/published_comparison.h"
 #include "experiments/base/error.h"
 
@@ -25,8 +26,7 @@ std::vector<std::string> observerKindsOf(const std::string& path, const StudyAns
   const store::SessionReader reader(path);
   for (const store::StudySession& session : reader.sessions()) {
     if (session.protocol != study.plan.hash) continue;
-    const nlohmann::json facts = reader.environment(session.environment).facts;
-    const nlohmann::json frontEnd = facts.value("front_end", nlohmann::json::object());
+    const nlohmann::json frontEnd = frontEndOf(reader.environment(session.environment));
     if (!frontEnd.value("simulated", false)) continue;
     kinds.insert(frontEnd.value("observer", nlohmann::json::object()).value("kind", "of unknown kind"));
   }
@@ -111,7 +111,8 @@ void addPublishedCommand(CLI::App& app) {
       ->required();
   addStudyChoice(*command, *options);
   command->add_flag("--json", options->asJson, "One JSON object");
-  command->add_option("--csv", options->csv, "Writes all tables of the result to this file")->type_name("FILE");
+  command->add_option("--csv", options->csv, "Writes all tables of the result to this file")
+      ->type_name("FILE");
   command->callback([options] { comparePublished(*options); });
 }
 

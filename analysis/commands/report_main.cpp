@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-report: report pages of sweeps. It links none of the fits and tests, so that a first sweep need not wait
-// for them to compile; pages of studies come from `limen analyse report`.
+// limen-report: report pages of sweeps. It links none of the fits and tests, so that a first sweep need not
+// wait for them to compile; pages of studies come from `limen analyse report`.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

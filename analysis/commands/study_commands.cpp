@@ -5,7 +5,8 @@
 
 #include "analysis/commands/commands.h"
 #include "analysis/commands/study_input.h"
-#include "analysis/study/head.h"
+#include "analysis/output/text_output.h"
+#include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/validation.h"
 #include "experiments/base/error.h"
@@ -21,11 +22,10 @@ struct ValidateOptions : StudyInput {
 
 /// A rate from 0 to below 1.
 double rateOf(const std::string& text, const std::string& option, const std::string& words) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= 0.0 && value < 1.0))
+  const std::optional<double> value = finiteNumber(text);
+  if (!value || !(*value >= 0.0 && *value < 1.0))
     throw Error("'" + text + "' is no rate", option, "give a number from 0 to below 1, or " + words);
-  return value;
+  return *value;
 }
 
 std::array<double, 3> edgesOf(const std::vector<double>& values, const std::array<double, 3>& otherwise,

@@ -6,9 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "analysis/answer_tables/source.h"
-#include "analysis/output/result_data.h"
-#include "analysis/output/result_text.h"
+#include "analysis/answer_tables/table_input.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 
@@ -23,6 +22,11 @@ const std::vector<std::string>& choiceOptions() {
 }
 
 }  // namespace
+
+CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+                     const std::string& meaning) {
+  return command.add_option(name, target, meaning)->delimiter(',')->allow_extra_args(false);
+}
 
 void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
@@ -67,17 +71,6 @@ void addAnswerColumns(CLI::App& command, AnswerColumns& columns) {
   command.add_option("--n", columns.trials, "CSV: column with the number of trials");
 }
 
-std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
-                                                const std::vector<store::StudyPrediction>& predictions) {
-  std::map<std::string, std::string> names;
-  const store::SessionReader reader(store);
-  for (const StudyAnswer& answer : study.answers)
-    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
-  for (const store::StudyPrediction& one : predictions)
-    if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
-  return names;
-}
-
 StudyChoice choiceOf(const StudyInput& input) {
   StudyChoice choice = input.choice;
   choice.exclusions = !input.noExclusions;
@@ -114,10 +107,7 @@ void print(const StudyInput& input, const Section& head, Result result) {
   own.tables.insert(own.tables.begin(), head.tables.begin(), head.tables.end());
   own.notes.insert(own.notes.begin(), head.notes.begin(), head.notes.end());
   if (!input.csv.empty()) writeFileBytes(input.csv, toCsv(result.sections));
-  const std::string out =
-      input.asJson ? toJson(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
-                   : toText(result);
-  std::fputs(out.c_str(), stdout);
+  std::fputs((input.asJson ? jsonLine(result) : toText(result)).c_str(), stdout);
 }
 
 }  // namespace limen::analysis

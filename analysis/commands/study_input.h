@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace limen::analysis {
 
@@ -24,6 +24,10 @@ struct StudyInput {
   bool noExclusions = false, asJson = false;
   std::string csv;
 };
+
+/// An option that takes A,B,... and no further argument.
+CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+                     const std::string& meaning);
 
 /// Adds --protocol, --observers, --no-exclusions, --unfinished: which sessions and answers count.
 void addStudyChoice(CLI::App& command, StudyInput& input);
@@ -37,9 +41,6 @@ void addTableInput(CLI::App& command, StudyInput& input);
 /// --outcome, --k, --n.
 void addAnswerColumns(CLI::App& command, AnswerColumns& columns);
 
-/// Names of displays by hash: those of the answers and those that were predicted for.
-std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
-                                                const std::vector<store::StudyPrediction>& predictions);
 StudyChoice choiceOf(const StudyInput& input);
 StudyAnswers readStudy(const StudyInput& input);
 

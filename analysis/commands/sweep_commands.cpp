@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen analyse switch-distances: what sweeps found.
+// limen analyse report: pages of the sweeps and of the studies in a store.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/commands/commands.h"
+#include "analysis/commands/study_input.h"
+#include "analysis/commands/sweep_reports.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
+#include "analysis/study_page/study_page.h"
 #include "analysis/sweep/switch_distances.h"
 #include "experiments/base/error.h"
 #include "experiments/base/staged_folder.h"
 
 namespace limen::analysis {
+
 namespace {
 
 void runSwitchDistances(const SwitchOptions& options, bool json) {
@@ -22,15 +29,16 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
   std::optional<StagedFolder> staged;
   if (!options.folder.empty()) staged.emplace(options.folder);
   for (const SwitchReport& report : reports) {
+    const Result result = resultOf(report);
     if (staged) {
       std::filesystem::path folder = staged->path();
       if (reports.size() > 1) folder /= slug(report.title);
       std::filesystem::create_directories(folder);
-      writeFileBytes((folder / "switch_distances.json").string(), toJson(report) + "\n");
-      writeFileBytes((folder / "switch_distances.csv").string(), toCsv(report));
-      drawSwitchChart(report, folder.string());
+      writeFileBytes((folder / "switch_distances.json").string(), jsonLine(result));
+      writeFileBytes((folder / "switch_distances.csv").string(), toCsv(result.head.table("curves")));
+      drawSwitchChart(report, (folder / "switch_distances.svg").string());
     }
-    std::printf("%s\n", (json ? toJson(report) : toText(report)).c_str());
+    std::fputs((json ? jsonLine(result) : toText(result)).c_str(), stdout);
   }
   if (staged) staged->putInPlace();
 }
@@ -63,6 +71,62 @@ void addSweepCommands(CLI::App& app) {
   distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
   distances->add_flag("--json", call->json, "print one JSON line for each experiment");
   distances->callback([call] { runSwitchDistances(call->options, call->json); });
+}
+
+namespace {
+
+struct ReportCall {
+  ReportOptions sweeps;
+  StudyInput study;
+  bool json = false;
+};
+
+void print(const StudyPageResult& result, bool json) {
+  Section facts;
+  facts.fact(text("title"), result.title);
+  facts.fact(text("protocol"), result.hash);
+  facts.fact(integer("observers"), result.observers);
+  facts.fact(integer("sessions"), result.sessions);
+  facts.fact(integer("answers"), result.answers);
+  facts.fact(integer("figures"), result.figures);
+  facts.fact(flag("simulated"), result.simulated);
+  printPage(result.page, std::move(facts), json);
+}
+
+/// What was asked for by an option, else what the store holds.
+void report(const CLI::App& command, ReportCall call) {
+  const std::string& path = call.sweeps.storePath;
+  const bool experiments = holdsExperiments(path);
+  const bool sessions = holdsSessions(path);
+  const bool study = choosesSessions(command), sweep = command.count("--experiment") > 0;
+  if (!experiments && !sessions && !study && !sweep)
+    throw Error("the store holds no experiment and no session", path, "run a sweep or a study into it first");
+  const bool writesSweeps = sweep || (experiments && !study);
+  const bool writesStudies = study || (sessions && !sweep);
+  call.sweeps.ownFolders = writesSweeps && writesStudies;
+  // The studies first: these put nothing in place before all is made.
+  if (writesStudies) {
+    const StudyPageOptions options{choiceOf(call.study), call.sweeps.folder, call.sweeps.ownFolders};
+    for (const StudyPageResult& result : writeStudyPages(options)) print(result, call.json);
+  }
+  if (writesSweeps)
+    for (const ReportResult& result : writeReports(call.sweeps)) printReport(result, call.json);
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app) {
+  const auto call = std::make_shared<ReportCall>();
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "HTML page, figures and CSV tables of a sweep (speed against error) or a study (as for a paper)");
+  addSweepReportOptions(*command, call->sweeps);
+  addStudyChoice(*command, call->study);
+  command->add_flag("--json", call->json, "print one JSON line for each page");
+  command->callback([call, command] {
+    call->study.choice.store = call->sweeps.storePath;
+    report(*command, *call);
+  });
 }
 
 }  // namespace limen::analysis

@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/output/result_renderers.h"
 #include "experiments/base/error.h"
 #include "experiments/store/sessions.h"
 
@@ -22,31 +24,33 @@ void addSweepReportOptions(CLI::App& command, ReportOptions& options) {
   command.add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
 }
 
-void printLine(const nlohmann::json& out) {
-  std::printf("%s\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+void printPage(const std::string& page, Section facts, bool json) {
+  facts.fact(text("event"), "report");
+  facts.fact(text("page"), page);
+  std::printf("%s\n",
+              json ? toJson(facts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str()
+                   : page.c_str());
 }
 
 void printReport(const ReportResult& result, bool json) {
-  if (!json) {
-    std::printf("%s\n", result.page.c_str());
-    return;
-  }
-  printLine({{"event", "report"},
-             {"page", result.page},
-             {"title", result.title},
-             {"experiment", result.hash},
-             {"runs", result.runs},
-             {"failed", result.failed},
-             {"missing", result.missing},
-             {"broken_expectations", result.brokenExpectations}});
+  Section facts;
+  facts.fact(text("title"), result.title);
+  facts.fact(text("experiment"), result.hash);
+  facts.fact(integer("runs"), result.runs);
+  facts.fact(integer("failed"), result.failed);
+  facts.fact(integer("missing"), result.missing);
+  facts.fact(integer("broken_expectations"), result.brokenExpectations);
+  printPage(result.page, std::move(facts), json);
 }
 
 bool holdsSessions(const std::string& store) {
+  std::unique_ptr<store::SessionReader> reader;
   try {
-    return !store::SessionReader(store).sessions().empty();
+    reader = std::make_unique<store::SessionReader>(store);
   } catch (const Error&) {
-    return false;
+    return false;  // of a schema without studies, or no store: the reader of experiments says which
   }
+  return !reader->sessions().empty();
 }
 
 bool holdsExperiments(const std::string& store) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "analysis/output/result.h"
 #include "analysis/sweep/report.h"
 
 namespace CLI {
@@ -15,9 +15,8 @@ namespace limen::analysis {
 /// STORE, -o, --experiment, --force: what limen-report and `limen analyse report` have in common.
 void addSweepReportOptions(CLI::App& command, ReportOptions& options);
 
-/// A JSON object on one line.
-void printLine(const nlohmann::json& out);
-/// One line each: the page's path, or JSON.
+/// One line for a page that was written: its path, or its facts as JSON.
+void printPage(const std::string& page, Section facts, bool json);
 void printReport(const ReportResult& result, bool json);
 
 /// Whether a store holds a session of any study; false for one whose schema has no sessions.

@@ -2,7 +2,6 @@
 #include "analysis/correlations/cluster_bootstrap.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 
 #include "analysis/statistics/summary.h"
@@ -52,6 +51,62 @@ std::string noteOnClusters(size_t count, const std::string& of) {
     return fmt::format("{} different {} are few: intervals of the bootstrap come out somewhat too narrow",
                        count, of);
   return {};
+}
+
+std::string levelText(double level) { return fmt::format("{:.4g} %", 100.0 * level); }
+
+void addBootstrapFacts(Section& out, const std::string& over, const BootstrapSetting& setting) {
+  out.fact(forData(number("level")), setting.level);
+  if (over.empty()) return;
+  out.fact(text("bootstrap_over"), over);
+  out.fact(integer("samples"), setting.samples);
+  out.fact(integer("seed"), setting.seed);
+}
+
+std::string bootstrapNote(const std::string& cluster) {
+  if (cluster.empty()) return {};
+  return "bootstrap: percentile intervals; rows that are alike in '" + cluster +
+         "' are drawn together. Where there are several such rows, these are the intervals to report: the "
+         "others, and p, are too sure";
+}
+
+std::optional<Interval> boundsOf(const std::optional<ResampledInterval>& bootstrap) {
+  return bootstrap ? bootstrap->interval : std::nullopt;
+}
+
+void addCalibration(Section& out, const Calibration& calibration, const std::string& x,
+                    const std::string& level) {
+  const std::vector<Calibration> whole = {calibration};
+  out.add(
+      TableOf(
+          "calibration",
+          "calibration of " + x +
+              ": Brier score = reliability - resolution + uncertainty + within bins (variance - covariance)",
+          whole)
+          .add(text("x"), [&](const Calibration&) { return x; })
+          .add(number("brier", "Brier", 4), &Calibration::brier)
+          .add(number("reliability", "", 4), &Calibration::reliability)
+          .add(number("resolution", "", 4), &Calibration::resolution)
+          .add(number("uncertainty", "", 4), &Calibration::uncertainty)
+          .add(number("within_variance", "", 4), &Calibration::withinVariance)
+          .add(number("within_covariance", "", 4), &Calibration::withinCovariance));
+  const auto ifShown = [](double CalibrationBin::*member) {
+    return [member](const CalibrationBin& bin) {
+      return bin.trials > 0 ? ResultCell(bin.*member) : ResultCell();
+    };
+  };
+  const Column predicted = interval("bin", "predicted", 2);
+  out.add(TableOf("bins", "what was observed where " + x + " was predicted", calibration.bins)
+              .add(forData(text("x")), [&](const CalibrationBin&) { return x; })
+              .add(predicted,
+                   [](const CalibrationBin& bin) {
+                     return Interval{bin.low, bin.high};
+                   })
+              .add(count("positives", "trials", "1 of"),
+                   countOf(&CalibrationBin::positives, &CalibrationBin::trials))
+              .add(number("mean_prediction", "mean"), ifShown(&CalibrationBin::meanPrediction))
+              .add(number("estimate", "observed"), ifShown(&CalibrationBin::observed))
+              .add(interval("", level + " (Wilson)"), &CalibrationBin::wilson));
 }
 
 }  // namespace limen::analysis

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/statistics/interval.h"
+#include "analysis/statistics/roc.h"
 
 namespace limen::analysis {
 
@@ -46,5 +48,19 @@ ResampledInterval percentileInterval(const std::vector<double>& values, const Bo
 
 /// What is to be said of a bootstrap over so many clusters; empty if they are enough.
 std::string noteOnClusters(size_t count, const std::string& of);
+
+std::string levelText(double level);  ///< "95 %"
+/// level, bootstrap_over, samples, seed; the last three only where rows were resampled.
+void addBootstrapFacts(Section& out, const std::string& over, const BootstrapSetting& setting);
+/// What is to be said of intervals of a bootstrap over clusters; "" for none.
+std::string bootstrapNote(const std::string& cluster);
+/// Interval of a bootstrap, if there is one.
+std::optional<Interval> boundsOf(const std::optional<ResampledInterval>& bootstrap);
+
+inline constexpr const char* kDashNote = "-: cannot be told, or of no width, which is no certainty";
+
+/// Tables "calibration", the terms of the Brier score, and "bins", of probabilities in column `x`.
+void addCalibration(Section& out, const Calibration& calibration, const std::string& x,
+                    const std::string& level);
 
 }  // namespace limen::analysis

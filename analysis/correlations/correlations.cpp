@@ -12,13 +12,13 @@ namespace limen::analysis {
 namespace {
 
 /// With two rows every coefficient is 1 or -1.
-constexpr size_t kLeastRows = 3;
+constexpr size_t kLeastOfPair = 3;
 const std::string kTauA = "kendall_tau_a", kTauC = "kendall_tau_c";
 
 /// Why a pair has no coefficients; empty if it has.
 std::string whyNone(const Relation& relation) {
-  if (relation.xs.size() < kLeastRows)
-    return fmt::format("{} of {} that are needed at least", relation.xs.size(), kLeastRows);
+  if (relation.xs.size() < kLeastOfPair)
+    return fmt::format("{} of {} that are needed at least", relation.xs.size(), kLeastOfPair);
   const auto constant = [](const std::vector<double>& values) {
     return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
   };
@@ -45,15 +45,9 @@ RelationCoefficient coefficientOf(const std::string& name, const std::optional<C
 /// that they have none.
 std::vector<std::optional<double>> valuesOf(const std::vector<double>& x, const std::vector<double>& y,
                                             bool clamp) {
-  const auto value = [](const auto& coefficient) {
-    return coefficient ? std::optional<double>(coefficient->value) : std::nullopt;
-  };
-  const auto of = [](const std::optional<Correlation>& correlation) {
-    return correlation ? std::optional<double>(correlation->coefficient.value) : std::nullopt;
-  };
   std::vector<std::optional<double>> out = {
-      {}, value(kendall(x, y).tauB), {}, of(spearman(x, y)), of(pearson(x, y))};
-  if (clamp) out.push_back(of(clampedPearson(x, y).correlation));
+      {}, valueOf(kendall(x, y).tauB), {}, valueOf(spearman(x, y)), valueOf(pearson(x, y))};
+  if (clamp) out.push_back(valueOf(clampedPearson(x, y).correlation));
   return out;
 }
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "analysis/answer_tables/answer_columns.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
@@ -22,13 +22,6 @@ double shareAt(const Table& table, size_t row, size_t column, const char* what) 
     throw Error("'" + table.text(row, column) + "' is no " + what, table.place(row, column),
                 "give fractions from 0 to 1, not per cent");
   return value;
-}
-
-int outcomeAt(const Table& table, size_t row, size_t column) {
-  const double value = table.number(row, column);
-  if (value != 0.0 && value != 1.0)
-    throw Error("'" + table.text(row, column) + "' is neither 0 nor 1", table.place(row, column));
-  return value == 1.0 ? 1 : 0;
 }
 
 std::vector<size_t> scoreColumns(const Table& table, const RelationColumns& columns) {
@@ -90,15 +83,13 @@ std::vector<RelationRows> readRelations(const Table& table, const RelationColumn
       group.x[i].push_back(columns.probabilities ? shareAt(table, row, x[i], "probability")
                                                  : table.number(row, x[i]));
     if (binary)
-      group.outcome.push_back(outcomeAt(table, row, y));
+      group.outcome.push_back(static_cast<int>(readBinary(table, row, y, "--y takes other numbers")));
     else
       group.y.push_back(columns.rates ? shareAt(table, row, y, "rate") : table.number(row, y));
     ++group.rows;
     if (!cluster) continue;
-    if (table.text(row, *cluster).empty())
-      throw Error("is empty", table.place(row, *cluster), "say which cluster the row belongs to");
     auto& numbers = known[groups.of[row]];
-    group.clusters.push_back(numbers.emplace(table.text(row, *cluster), numbers.size()).first->second);
+    group.clusters.push_back(numbers.emplace(readLabel(table, row, *cluster), numbers.size()).first->second);
     group.clusterCount = numbers.size();
   }
   return out;

@@ -28,17 +28,9 @@ ResultTable effectTable(const PartAnova& part) {
   std::vector<EffectRow> rows;
   for (size_t i = 0; part.result && i < part.result->effects.size(); ++i)
     rows.push_back({&part.result->effects[i], &part.published[i]});
-  const auto of = [](auto member) { return [member](const EffectRow& row) { return row.own->*member; }; };
-  const auto sphericity = [](auto member) {
-    return [member](const EffectRow& row) {
-      return row.own->sphericity ? ResultCell(row.own->sphericity.value().*member) : ResultCell();
-    };
-  };
-  const auto published = [](auto member) {
-    return [member](const EffectRow& row) {
-      return *row.published ? ResultCell(row.published->value().*member) : ResultCell();
-    };
-  };
+  const auto of = [](auto member) { return at(&EffectRow::own, member); };
+  const auto sphericity = [](auto member) { return at(&EffectRow::own, &AnovaEffect::sphericity, member); };
+  const auto published = [](auto member) { return at(&EffectRow::published, member); };
   TableOf out("effects", "", rows);
   out.add(text("effect"), of(&AnovaEffect::name))
       .add(number("f", "F"), of(&AnovaEffect::f))
@@ -131,9 +123,7 @@ void addPairs(const PartAnova& part, size_t f, Section& out) {
                    [&](const auto& test) { return df * (static_cast<double>(test.subjects) - 1.0); })
               .add(probability("p_f", "p (F)"), &FriedmanTest::fP)
               .add(number("kendall_w", "Kendall's W"), &FriedmanTest::kendallW));
-  const auto test = [](auto member) {
-    return [member](const RankComparison& pair) { return pair.test.*member; };
-  };
+  const auto test = [](auto member) { return at(&RankComparison::test, member); };
   out.add(TableOf("rank_pairs", "pairs of levels of " + factor.name + ", Wilcoxon's signed ranks",
                   comparison.rankPairs)
               .add(forData(text("factor")), [&](const auto&) { return factor.name; })

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/observer_statistics/anova_table.h"
+#include "analysis/observer_statistics/anova.h"
 
 #include <fmt/format.h>
 

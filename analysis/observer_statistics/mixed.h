@@ -60,4 +60,19 @@ MixedModel fitMixedModel(const MixedRows& rows, const MixedTerms& terms);
 /// One section with tables "columns", "fixed", "random" and "groups".
 Result resultOf(const MixedModel& model);
 
+/// Columns of a design matrix, without the intercept.
+struct MixedDesign {
+  std::vector<ModelColumn> sources;
+  std::vector<std::string> names;            ///< "x", "colour=red", "x:colour=red"
+  std::vector<std::vector<double>> columns;  ///< by name, then by row
+  size_t slope = 0;                          ///< index of names, if a slope was asked for
+};
+
+/// Errors as fitMixedModel().
+MixedDesign buildDesign(const MixedRows& rows, const MixedTerms& terms);
+
+/// Rows of a table; every column can be an effect. Throws Error with row and column as the readers of columns
+/// do, and for an empty group.
+MixedRows readMixedRows(const Table& table, const std::string& group, const AnswerColumns& columns);
+
 }  // namespace limen::analysis

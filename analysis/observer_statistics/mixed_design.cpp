@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/observer_statistics/mixed_design.h"
+#include "analysis/observer_statistics/mixed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "analysis/answer_tables/levels.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 

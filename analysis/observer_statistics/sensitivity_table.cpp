@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/observer_statistics/sensitivity_table.h"
+#include "analysis/observer_statistics/sensitivity.h"
 
 #include <charconv>
 #include <functional>

@@ -29,6 +29,9 @@ struct PanelGrid {
 };
 PanelGrid arrangePanels(size_t panels);
 
+/// Tics at 1, 2 and 5 times powers of ten as gnuplot's command, "" where powers of ten alone will do.
+std::string logarithmicTics(double low, double high);
+
 /// "lc rgb '#...' dt 1": told apart by colour first, then by dashes.
 std::string seriesStyle(size_t series);
 

@@ -65,6 +65,12 @@ Column number(const std::string& name, const std::string& title, int digits) {
 Column significant(const std::string& name, const std::string& title, int digits) {
   return column(name, title, Kind::Significant, digits);
 }
+Column rounded(const std::string& name, const std::string& title) {
+  return column(name, title, Kind::Rounded);
+}
+
+Column html(const std::string& title) { return forPeople(column("", title, Kind::Html)); }
+
 Column share(const std::string& name, const std::string& title) { return column(name, title, Kind::Share); }
 Column probability(const std::string& name, const std::string& title) {
   return column(name, title, Kind::Probability);

@@ -39,6 +39,8 @@ enum class Kind {
   Count,          ///< so many of so many: "3/8"
   Interval,       ///< "0.1 to 0.3"; "-" for one of no width, which comes of data without spread
   ShareInterval,  ///< the same in per cent
+  Rounded,        ///< number to four digits, whole ones in full
+  Html,           ///< for pages alone: a text that is HTML already
 };
 
 /// `number` of `of`.
@@ -94,7 +96,9 @@ struct Column {
   bool identifies = false;  ///< a fact that stands in each of a section's rows of CSV
   std::vector<ResultCell> cells;
 
-  bool isNumber() const { return kind != Kind::Text && kind != Kind::List && kind != Kind::Flag; }
+  bool isNumber() const {
+    return kind != Kind::Text && kind != Kind::List && kind != Kind::Flag && kind != Kind::Html;
+  }
   bool shownToPeople() const;
 };
 
@@ -105,6 +109,8 @@ Column flag(const std::string& name, const std::string& title = {});
 Column integer(const std::string& name, const std::string& title = {});
 Column number(const std::string& name, const std::string& title = {}, int digits = 3);
 Column significant(const std::string& name, const std::string& title = {}, int digits = 4);
+Column rounded(const std::string& name, const std::string& title = {});
+Column html(const std::string& title);
 Column share(const std::string& name, const std::string& title = {});
 Column probability(const std::string& name = "p", const std::string& title = {});
 Column count(const std::string& number, const std::string& of, const std::string& title = {});
@@ -116,6 +122,33 @@ Column forData(Column column);    ///< JSON and CSV only
 Column forPeople(Column column);  ///< text and HTML only
 Column ifAny(Column column);      ///< left out for people if it is empty
 Column key(Column column);        ///< says which section a row of CSV belongs to
+
+/// What members lead to one after the other, also through pointers and optionals: at(&Row::fit, &Fit::aic).
+/// None where one of those is empty.
+template <class Value>
+ResultCell reach(const Value& value) {
+  return ResultCell(value);
+}
+template <class Value, class Member, class... Rest>
+ResultCell reach(const Value& value, Member member, Rest... rest) {
+  if constexpr (requires { *value; })
+    return value ? reach(*value, member, rest...) : ResultCell();
+  else
+    return reach(std::invoke(member, value), rest...);
+}
+template <class... Members>
+auto at(Members... members) {
+  return [=](const auto& row) { return reach(row, members...); };
+}
+
+/// For columns made by count().
+template <class Number, class Of>
+auto countOf(Number number, Of of) {
+  return [=](const auto& row) {
+    return CountOf{static_cast<int64_t>(std::invoke(number, row)),
+                   static_cast<int64_t>(std::invoke(of, row))};
+  };
+}
 
 struct ResultTable {
   std::string name;   ///< in JSON and CSV: "effects"

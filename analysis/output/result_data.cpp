@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/output/result_data.h"
+#include "analysis/output/result_renderers.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -118,6 +117,10 @@ json toJson(const Result& result) {
   for (const Section& section : result.sections) out["sections"].push_back(toJson(section));
   for (const std::string& note : result.notes) out["notes"].push_back(note);
   return out;
+}
+
+std::string jsonLine(const Result& result) {
+  return toJson(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string toCsv(const std::vector<Section>& sections) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/output/result_text.h"
+#include "analysis/output/result_renderers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/output/text_table.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -26,6 +26,8 @@ std::string numberText(const Column& column, double value) {
       return pText(value);
     case Kind::ShareInterval:
       return fmt::format("{:.{}f}", 100.0 * value, column.digits);
+    case Kind::Rounded:
+      return formatNumber(value);
     default:
       return fixedText(value, column.digits);
   }

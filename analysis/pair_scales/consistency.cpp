@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/pair_scales/consistency.h"
+#include "analysis/pair_scales/pair_table.h"
 
 #include <fmt/format.h>
+
+#include <optional>
 
 #include <algorithm>
 #include <map>

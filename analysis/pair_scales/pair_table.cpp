@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/pair_scales/pair_table.h"
 
-#include <algorithm>
 #include <optional>
 
+#include "analysis/answer_tables/answer_columns.h"
 #include "analysis/correlations/relation_table.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
 
-size_t indexIn(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
-}
-
 std::optional<size_t> optionalColumn(const Table& table, const std::string& name, const std::string& option) {
   if (name.empty()) return {};
   return table.column(name, option);
-}
-
-const std::string& nameAt(const Table& table, size_t row, size_t column) {
-  const std::string& name = table.text(row, column);
-  if (name.empty()) throw Error("is empty", table.place(row, column), "write a name");
-  return name;
 }
 
 /// Which of both ways the columns are named.
@@ -71,21 +58,21 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
   }
   for (size_t row = 0; row < table.rows(); ++row) {
     PairGroup& group = out[groups.of[row]];
-    const std::string &a = nameAt(table, row, first), &b = nameAt(table, row, second);
+    const std::string &a = readLabel(table, row, first), &b = readLabel(table, row, second);
     if (a == b)
       throw Error("'" + a + "' is compared with itself", table.place(row, second), "leave the row out");
     const size_t itemA = group.item(a), itemB = group.item(b);
     PairJudgement one{itemA, itemB, 1, 0, 0};
     if (chosen) {
-      const std::string& choice = nameAt(table, row, *chosen);
+      const std::string& choice = readLabel(table, row, *chosen);
       if (choice != a && choice != b)
         throw Error("'" + choice + "' is neither '" + a + "' nor '" + b + "'", table.place(row, *chosen),
                     "write the chosen item's name; ties are not taken");
       if (choice == b) std::swap(one.winner, one.loser);
     }
     if (count) one.count = table.count(row, *count);
-    if (subject) one.subject = group.subject(nameAt(table, row, *subject));
-    if (round) one.round = indexIn(rounds[groups.of[row]], nameAt(table, row, *round));
+    if (subject) one.subject = group.subject(readLabel(table, row, *subject));
+    if (round) one.round = indexIn(rounds[groups.of[row]], readLabel(table, row, *round));
     group.judged += one.count;
     if (ordered && one.winner == itemA) group.firstChosen += one.count;
     group.judgements.push_back(one);

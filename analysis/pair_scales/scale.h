@@ -7,7 +7,6 @@
 
 #include "analysis/correlations/cluster_bootstrap.h"
 #include "analysis/output/result.h"
-#include "analysis/pair_scales/consistency.h"
 #include "analysis/pair_scales/pair_table.h"
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/statistics/pairwise_scaling.h"

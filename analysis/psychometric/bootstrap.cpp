@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <boost/math/special_functions/beta.hpp>
 #include <cassert>
 #include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "analysis/psychometric/likelihood.h"
 #include "analysis/psychometric/log_math.h"
@@ -44,8 +46,28 @@ AxisValues axisValues(const ConditionFit& fit, const SigmoidShape& shape) {
   return values;
 }
 
-/// Successes of a beta-binomial by its urn (Polya): each answer adds `r` to the weight of its kind.
-int64_t drawBetaBinomial(Random& random, int64_t n, double p, double r) {
+/// Share of a beta distribution with mean `p` and a + b = 1 / r, and what is left of 1.
+std::pair<double, double> drawShare(Random& random, double p, double q, double r) {
+  const double a = p / r, b = q / r;
+  if (!(a > 0.0) || !(b > 0.0)) return {p, q};
+  constexpr double kNormal = 1e6;  // from there on the distribution is normal to six digits
+  if (std::min(a, b) > kNormal) {
+    const double share = std::clamp(p + random.normal() * std::sqrt(p * q * r / (1.0 + r)), 0.0, 1.0);
+    return {share, 1.0 - share};
+  }
+  double left = 0.0;
+  const double share = boost::math::ibeta_inv(a, b, random.uniform(), &left);
+  return {share, left};
+}
+
+/// Successes of a beta-binomial: few trials by its urn (Polya), in which each answer adds `r` to the weight
+/// of its kind; many by its share, in a time that does not depend on their number.
+int64_t drawBetaBinomial(Random& random, int64_t n, double p, double q, double r) {
+  constexpr int64_t kUrn = 10'000;
+  if (n > kUrn) {
+    const auto [share, left] = drawShare(random, p, q, r);
+    return drawBinomial(random, n, share, left);
+  }
   int64_t successes = 0;
   for (int64_t i = 0; i < n; ++i) {
     const double weight = p + r * static_cast<double>(successes), all = 1.0 + r * static_cast<double>(i);
@@ -68,7 +90,7 @@ Condition drawn(const Condition& condition, const ConditionFit& fit, const Sigmo
       continue;
     }
     const Chance chance = chanceAt(shape, shape.onAxis(block.level), values);
-    block.correct = r > 0.0 ? drawBetaBinomial(random, block.trials, chance.p, r)
+    block.correct = r > 0.0 ? drawBetaBinomial(random, block.trials, chance.p, chance.q, r)
                             : drawBinomial(random, block.trials, chance.p, chance.q);
   }
   return sample;
@@ -99,6 +121,13 @@ Replicate replicateOf(const std::vector<Condition>& conditions, const Fit& fit,
 }  // namespace
 
 int64_t drawBinomial(Random& random, int64_t n, double p, double q) {
+  // The walk below takes as many steps as the SD is long; from a thousand millions of trials on nobody can
+  // tell the distribution from a normal one.
+  constexpr double kNormalVariance = 1e9;
+  if (const double variance = static_cast<double>(n) * p * q; variance > kNormalVariance)
+    return static_cast<int64_t>(
+        std::clamp(std::round(static_cast<double>(n) * p + random.normal() * std::sqrt(variance)), 0.0,
+                   std::nextafter(static_cast<double>(n), 0.0)));
   const double u = random.uniform();
   if (n == 0 || p <= 0.0) return 0;
   if (q <= 0.0) return n;
@@ -158,25 +187,29 @@ Residuals residualsOf(const Condition& condition, const ConditionFit& fit, const
 std::vector<Replicate> bootstrap(const std::vector<Condition>& conditions, const Fit& fit,
                                  const BootstrapOptions& options) {
   std::vector<Replicate> replicates(options.samples);
+  inThreads(options.samples, options.threads,
+            [&](size_t i) { replicates[i] = replicateOf(conditions, fit, options, i); });
+  return replicates;
+}
+
+void inThreads(size_t count, unsigned threads, const std::function<void(size_t)>& work) {
   std::atomic<size_t> next{0};
   std::exception_ptr failure;
   std::mutex mutex;
-  const auto work = [&] {
+  const auto take = [&] {
     try {
-      for (size_t i; (i = next++) < options.samples;)
-        replicates[i] = replicateOf(conditions, fit, options, i);
+      for (size_t i; (i = next++) < count;) work(i);
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);
       failure = std::current_exception();
-      next = options.samples;
+      next = count;
     }
   };
   std::vector<std::thread> others;
-  for (unsigned t = 1; t < options.threads; ++t) others.emplace_back(work);
-  work();
+  for (unsigned t = 1; t < threads; ++t) others.emplace_back(take);
+  take();
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
-  return replicates;
 }
 
 std::vector<double> sortedQuantity(const std::vector<Replicate>& replicates, size_t condition,

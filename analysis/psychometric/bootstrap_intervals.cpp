@@ -94,7 +94,7 @@ std::optional<FitInterval> slopeOfWidth(const ConditionFit& fit, const FitSettin
   const auto& width = intervals[indexOf(FitParameter::Width)];
   if (!width || settings.logarithmic()) return {};
   const double constant = fit.slope * fit.value(FitParameter::Width);
-  FitInterval out{constant / width->high, constant / width->low, width->highOpen, width->lowOpen};
+  FitInterval out{{constant / width->high, constant / width->low}, width->highOpen, width->lowOpen};
   if (settings.falling) {
     std::swap(out.low, out.high);
     std::swap(out.lowOpen, out.highOpen);
@@ -121,9 +121,8 @@ FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const 
         own.atBound[indexOf(FitParameter::Width)] != 0) {
       // Samples drawn from a step are steps again, all alike: they would make certain what nobody knows.
       intervals.warnings.push_back(
-          (own.name.empty() ? "" : own.name + ": ") +
-          std::string("no bootstrap intervals, as the fit is at a bound; 'profile' and "
-                      "'posterior' say what the answers leave open"));
+          own.prefix() + std::string("no bootstrap intervals, as the fit is at a bound; 'profile' and "
+                                     "'posterior' say what the answers leave open"));
       intervals.conditions.emplace_back();
       continue;
     }
@@ -149,10 +148,9 @@ FitIntervals bootstrapIntervals(const std::vector<Condition>& conditions, const 
       }
       const double from = sortedQuantile(sorted, low), to = sortedQuantile(sorted, high);
       if (from < to) {
-        found[i] = FitInterval{from, to, false, false};
+        found[i] = FitInterval{{from, to}};
       } else {
-        intervals.warnings.push_back((own.name.empty() ? "" : own.name + ": ") +
-                                     std::string("no interval where all samples agree: ") +
+        intervals.warnings.push_back(own.prefix() + std::string("no interval where all samples agree: ") +
                                      (i < kFitParameters ? fitParameterNames()[i] : "slope"));
       }
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/psychometric/coverage.h"
+#include "analysis/psychometric/intervals.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace limen::analysis {
 namespace {
@@ -18,74 +19,34 @@ namespace {
 /// width in 95 and 94 % of 2000 further experiments, on both sides alike; that it may rise to 0.45 in place
 /// of 0.1 changes nothing. What takes away is the lapse rate, whose estimate ends at 0 in two of five
 /// experiments.
+struct Held {
+  int held, experiments;  ///< 0 of a parameter that was not fitted
+};
 struct Measured {
   const char* task;
   IntervalMethod method;
   bool parametric;
-  FitParameter parameter;
-  int held, experiments;
+  std::array<Held, 4> parameters;  ///< threshold, width, guess and lapse rate
 };
 constexpr Measured kMeasured[] = {
-    {"2afc", IntervalMethod::Bootstrap, true, FitParameter::Threshold, 918, 998},
-    {"2afc", IntervalMethod::Bootstrap, true, FitParameter::Width, 877, 998},
-    {"2afc", IntervalMethod::Bootstrap, true, FitParameter::Lapse, 971, 992},
-    {"2afc", IntervalMethod::Bootstrap, false, FitParameter::Threshold, 944, 998},
-    {"2afc", IntervalMethod::Bootstrap, false, FitParameter::Width, 913, 998},
-    {"2afc", IntervalMethod::Bootstrap, false, FitParameter::Lapse, 783, 798},
-    {"2afc", IntervalMethod::Bca, true, FitParameter::Threshold, 890, 998},
-    {"2afc", IntervalMethod::Bca, true, FitParameter::Width, 903, 998},
-    {"2afc", IntervalMethod::Bca, true, FitParameter::Lapse, 917, 990},
-    {"2afc", IntervalMethod::Profile, true, FitParameter::Threshold, 936, 1000},
-    {"2afc", IntervalMethod::Profile, true, FitParameter::Width, 931, 1000},
-    {"2afc", IntervalMethod::Profile, true, FitParameter::Lapse, 975, 1000},
-    {"2afc", IntervalMethod::Laplace, true, FitParameter::Threshold, 907, 984},
-    {"2afc", IntervalMethod::Laplace, true, FitParameter::Width, 912, 978},
-    {"2afc", IntervalMethod::Laplace, true, FitParameter::Lapse, 421, 432},
-    {"2afc", IntervalMethod::Posterior, true, FitParameter::Threshold, 944, 1000},
-    {"2afc", IntervalMethod::Posterior, true, FitParameter::Width, 988, 1000},
-    {"2afc", IntervalMethod::Posterior, true, FitParameter::Lapse, 998, 1000},
-    {"yesno", IntervalMethod::Bootstrap, true, FitParameter::Threshold, 949, 999},
-    {"yesno", IntervalMethod::Bootstrap, true, FitParameter::Width, 845, 999},
-    {"yesno", IntervalMethod::Bootstrap, true, FitParameter::Guess, 947, 999},
-    {"yesno", IntervalMethod::Bootstrap, true, FitParameter::Lapse, 979, 990},
-    {"yesno", IntervalMethod::Bootstrap, false, FitParameter::Threshold, 956, 999},
-    {"yesno", IntervalMethod::Bootstrap, false, FitParameter::Width, 851, 999},
-    {"yesno", IntervalMethod::Bootstrap, false, FitParameter::Guess, 934, 994},
-    {"yesno", IntervalMethod::Bootstrap, false, FitParameter::Lapse, 801, 814},
-    {"yesno", IntervalMethod::Bca, true, FitParameter::Threshold, 883, 999},
-    {"yesno", IntervalMethod::Bca, true, FitParameter::Width, 864, 999},
-    {"yesno", IntervalMethod::Bca, true, FitParameter::Guess, 867, 999},
-    {"yesno", IntervalMethod::Bca, true, FitParameter::Lapse, 929, 989},
-    {"yesno", IntervalMethod::Profile, true, FitParameter::Threshold, 962, 1000},
-    {"yesno", IntervalMethod::Profile, true, FitParameter::Width, 944, 1000},
-    {"yesno", IntervalMethod::Profile, true, FitParameter::Guess, 951, 1000},
-    {"yesno", IntervalMethod::Profile, true, FitParameter::Lapse, 980, 1000},
-    {"yesno", IntervalMethod::Laplace, true, FitParameter::Threshold, 899, 996},
-    {"yesno", IntervalMethod::Laplace, true, FitParameter::Width, 921, 994},
-    {"yesno", IntervalMethod::Laplace, true, FitParameter::Guess, 546, 653},
-    {"yesno", IntervalMethod::Laplace, true, FitParameter::Lapse, 468, 468},
-    {"yesno", IntervalMethod::Posterior, true, FitParameter::Threshold, 985, 1000},
-    {"yesno", IntervalMethod::Posterior, true, FitParameter::Width, 984, 1000},
-    {"yesno", IntervalMethod::Posterior, true, FitParameter::Guess, 998, 1000},
-    {"yesno", IntervalMethod::Posterior, true, FitParameter::Lapse, 998, 1000},
-    {"mafc:4", IntervalMethod::Bootstrap, true, FitParameter::Threshold, 943, 1000},
-    {"mafc:4", IntervalMethod::Bootstrap, true, FitParameter::Width, 910, 1000},
-    {"mafc:4", IntervalMethod::Bootstrap, true, FitParameter::Lapse, 992, 999},
-    {"mafc:4", IntervalMethod::Bootstrap, false, FitParameter::Threshold, 947, 1000},
-    {"mafc:4", IntervalMethod::Bootstrap, false, FitParameter::Width, 921, 1000},
-    {"mafc:4", IntervalMethod::Bootstrap, false, FitParameter::Lapse, 781, 793},
-    {"mafc:4", IntervalMethod::Bca, true, FitParameter::Threshold, 920, 1000},
-    {"mafc:4", IntervalMethod::Bca, true, FitParameter::Width, 914, 1000},
-    {"mafc:4", IntervalMethod::Bca, true, FitParameter::Lapse, 952, 999},
-    {"mafc:4", IntervalMethod::Profile, true, FitParameter::Threshold, 943, 1000},
-    {"mafc:4", IntervalMethod::Profile, true, FitParameter::Width, 951, 1000},
-    {"mafc:4", IntervalMethod::Profile, true, FitParameter::Lapse, 981, 1000},
-    {"mafc:4", IntervalMethod::Laplace, true, FitParameter::Threshold, 934, 998},
-    {"mafc:4", IntervalMethod::Laplace, true, FitParameter::Width, 936, 998},
-    {"mafc:4", IntervalMethod::Laplace, true, FitParameter::Lapse, 436, 439},
-    {"mafc:4", IntervalMethod::Posterior, true, FitParameter::Threshold, 953, 1000},
-    {"mafc:4", IntervalMethod::Posterior, true, FitParameter::Width, 971, 1000},
-    {"mafc:4", IntervalMethod::Posterior, true, FitParameter::Lapse, 998, 1000},
+    {"2afc", IntervalMethod::Bootstrap, true, {{{918, 998}, {877, 998}, {0, 0}, {971, 992}}}},
+    {"2afc", IntervalMethod::Bootstrap, false, {{{944, 998}, {913, 998}, {0, 0}, {783, 798}}}},
+    {"2afc", IntervalMethod::Bca, true, {{{890, 998}, {903, 998}, {0, 0}, {917, 990}}}},
+    {"2afc", IntervalMethod::Profile, true, {{{936, 1000}, {931, 1000}, {0, 0}, {975, 1000}}}},
+    {"2afc", IntervalMethod::Laplace, true, {{{907, 984}, {912, 978}, {0, 0}, {421, 432}}}},
+    {"2afc", IntervalMethod::Posterior, true, {{{944, 1000}, {988, 1000}, {0, 0}, {998, 1000}}}},
+    {"yesno", IntervalMethod::Bootstrap, true, {{{949, 999}, {845, 999}, {947, 999}, {979, 990}}}},
+    {"yesno", IntervalMethod::Bootstrap, false, {{{956, 999}, {851, 999}, {934, 994}, {801, 814}}}},
+    {"yesno", IntervalMethod::Bca, true, {{{883, 999}, {864, 999}, {867, 999}, {929, 989}}}},
+    {"yesno", IntervalMethod::Profile, true, {{{962, 1000}, {944, 1000}, {951, 1000}, {980, 1000}}}},
+    {"yesno", IntervalMethod::Laplace, true, {{{899, 996}, {921, 994}, {546, 653}, {468, 468}}}},
+    {"yesno", IntervalMethod::Posterior, true, {{{985, 1000}, {984, 1000}, {998, 1000}, {998, 1000}}}},
+    {"mafc:4", IntervalMethod::Bootstrap, true, {{{943, 1000}, {910, 1000}, {0, 0}, {992, 999}}}},
+    {"mafc:4", IntervalMethod::Bootstrap, false, {{{947, 1000}, {921, 1000}, {0, 0}, {781, 793}}}},
+    {"mafc:4", IntervalMethod::Bca, true, {{{920, 1000}, {914, 1000}, {0, 0}, {952, 999}}}},
+    {"mafc:4", IntervalMethod::Profile, true, {{{943, 1000}, {951, 1000}, {0, 0}, {981, 1000}}}},
+    {"mafc:4", IntervalMethod::Laplace, true, {{{934, 998}, {936, 998}, {0, 0}, {436, 439}}}},
+    {"mafc:4", IntervalMethod::Posterior, true, {{{953, 1000}, {971, 1000}, {0, 0}, {998, 1000}}}},
 };
 
 }  // namespace
@@ -104,12 +65,16 @@ std::vector<std::string> coverageNotes(IntervalMethod method, bool parametric, c
   for (const Measured& row : kMeasured) {
     if (!isOf(row, name)) continue;
     known = true;
-    const double percent = 100.0 * row.held / row.experiments;
-    if (percent >= 93.0 && percent <= 97.0) continue;
-    notes.push_back(fmt::format(
-        "95 % intervals of the {} held the true value in {:.1f} % of {} simulated experiments (5 levels "
-        "x 40 trials, {}, rates fitted)",
-        fitParameterNames()[indexOf(row.parameter)], percent, row.experiments, name));
+    for (size_t i = 0; i < row.parameters.size(); ++i) {
+      const auto& [held, experiments] = row.parameters[i];
+      const double percent = 100.0 * held / std::max(1, experiments);
+      if (experiments == 0 || (percent >= 93.0 && percent <= 97.0)) continue;
+      notes.push_back(
+          fmt::format("95 % intervals of the {} held the true value in {:.1f} % of {} simulated experiments "
+                      "(5 levels x 40 "
+                      "trials, {}, rates fitted)",
+                      fitParameterNames()[i], percent, experiments, name));
+    }
   }
   if (!known) notes.push_back("how often these intervals hold the true value was not measured");
   if (method == IntervalMethod::Posterior)

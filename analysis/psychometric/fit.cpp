@@ -10,7 +10,6 @@
 
 #include "analysis/psychometric/objective.h"
 #include "analysis/psychometric/optimiser.h"
-#include "analysis/psychometric/starts.h"
 #include "analysis/statistics/distributions.h"
 #include "experiments/base/error.h"
 

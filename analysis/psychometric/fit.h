@@ -15,16 +15,18 @@ struct ConditionFit {
   std::array<double, kFitParameters> values{};  ///< in the order of FitParameter; threshold in units of x
   std::array<bool, kFitParameters> fitted{};    ///< varied by the fit, alone or together with others
   std::array<int, kFitParameters> atBound{};    ///< -1 at the lower bound of the fit, 1 at the upper
-  double slope = 0.0;                           ///< dF/dx at the threshold; negative where F falls
-  double deviance = 0.0;       ///< binomial: twice the log-likelihood missing to P = k/n in every block
-  double logLikelihood = 0.0;  ///< binomial coefficients included; beta-binomial where eta > 0
+  double slope = 0.0;                           ///< dF/dx at the threshold; negative if F falls
+  double deviance = 0.0;       ///< binomial: twice the log-likelihood difference to P = k/n in every block
+  double logLikelihood = 0.0;  ///< including binomial coefficients; beta-binomial if eta > 0
   double logPrior = 0.0;       ///< of its priors, shared ones too; 0 for MaximumLikelihood
   int64_t trials = 0;
   size_t blocks = 0;                  ///< those with trials
-  std::vector<std::string> warnings;  ///< what whoever reads the numbers has to know
+  std::vector<std::string> warnings;  ///< what readers of the numbers have to know
 
+  /// "NAME: ", before a warning; "" for one without a name.
+  std::string prefix() const { return name.empty() ? "" : name + ": "; }
   double value(FitParameter parameter) const { return values[indexOf(parameter)]; }
-  /// F; of -x or 1/x where it falls with x.
+  /// F; of -x or 1/x if it falls with x.
   psychometrics::Sigmoid sigmoid(const FitSettings& settings) const;
   double probability(const FitSettings& settings, double x) const;  ///< P; the guess rate at kNoStimulus
 };
@@ -42,7 +44,7 @@ struct Fit {
 };
 
 /// The optimum within the bounds: grid, several starts,
-/// BFGS, Newton. Throws Error as checkFit() does.
+/// BFGS, Newton. Throws Error like checkFit().
 Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings& settings,
                     const std::string& where = {});
 

@@ -13,14 +13,14 @@
 namespace limen::analysis {
 
 /// Level of trials that showed no stimulus (catch trials): F = 0 there, whatever threshold, width, axis and
-/// direction, so that P is the guess rate. Such blocks have no part in ranges of levels.
+/// direction, so that P is the guess rate. Such blocks are not part of ranges of levels.
 inline constexpr double kNoStimulus = -std::numeric_limits<double>::infinity();
 
 /// Answers to `trials` presentations of one stimulus level.
 struct Block {
   double level = 0.0;  ///< finite, or kNoStimulus; 0 on a logarithmic axis is no stimulus, too
   int64_t correct = 0, trials = 0;
-  double order = 0.0;  ///< when it was shown, in any unit; blocks of one time share it
+  double order = 0.0;  ///< when it was shown, in any unit; simultaneous blocks have the same value
 };
 
 /// Blocks that one psychometric function describes.
@@ -36,7 +36,7 @@ inline constexpr size_t kFitParameters = 5;
 const std::array<std::string, kFitParameters>& fitParameterNames();  ///< "threshold", ...
 inline size_t indexOf(FitParameter parameter) { return static_cast<size_t>(parameter); }
 
-/// What a guess is: a rate of its own (yes/no), 1/M of a forced choice, or as large as the lapse rate.
+/// The guess rate: a separate rate (yes/no), 1/M for forced choice, or equal to the lapse rate.
 struct FitTask {
   enum class Kind { YesNo, ForcedChoice, EqualAsymptotes };
   Kind kind = Kind::ForcedChoice;
@@ -62,13 +62,13 @@ struct FitSettings {
   double thresholdLevel = 0.5;  ///< the F that defines the threshold
   /// Parameters that are not fitted, and their values. A threshold is one of x, a width one of the axis.
   std::array<std::optional<double>, kFitParameters> fixed;
-  /// Parameters that all conditions have in common.
+  /// Parameters shared by all conditions.
   std::array<bool, kFitParameters> shared{};
   double lapseMost = 0.1;  ///< upper bound of a fitted lapse rate
   double guessMost = 0.5;  ///< upper bound of a fitted guess rate
   /// Fit eta: answers are beta-binomial with nu = 1/eta^2 - 1 in place of binomial (Schuett et al. 2016).
   bool overdispersion = false;
-  /// Levels between which the threshold is thought to lie, for bounds and priors; those of the data unless
+  /// Levels between which the threshold is expected to lie, for bounds and priors; those of the data unless
   /// set.
   std::optional<std::array<double, 2>> range;
 
@@ -79,8 +79,8 @@ struct FitSettings {
 };
 
 /// Throws Error for settings or data that have no fit: no trials, counts out of range, levels that are
-/// neither finite nor kNoStimulus, or have no place on a logarithmic axis, one level where threshold and
-/// width are both free, fixed values out of range. `where` names the data.
+/// neither finite nor kNoStimulus, or cannot be on a logarithmic axis, one level if threshold and width are
+/// both free, fixed values out of range. `where` names the data.
 void checkFit(const std::vector<Condition>& conditions, const FitSettings& settings,
               const std::string& where = {});
 

@@ -8,16 +8,17 @@
 
 namespace limen::analysis {
 
-/// A statistic of the data beside its distribution over data sets drawn from the fit and fitted again.
+/// A statistic of the data with its distribution over data sets drawn from the fit and refitted.
 struct MonteCarloTest {
   double value = 0.0;
-  double low = 0.0, high = 0.0;  ///< 95 % of the drawn ones lie between; a deviance has the upper one only
+  double low = 0.0,
+         high = 0.0;  ///< 95 % of the drawn ones lie between these; a deviance has only the upper one
   /// (1 + number as extreme) / (1 + number drawn): of a deviance at least as large, of a correlation at
   /// least as far from 0.
   double p = 1.0;
 };
 
-/// How far the fit goes without one block.
+/// How far the fit moves without one block.
 struct BlockInfluence {
   double level = 0.0;
   double threshold = 0.0, width = 0.0;  ///< estimates without the block

@@ -8,11 +8,11 @@
 
 namespace limen::analysis {
 
-/// Parameters of one condition in the order of FitParameter. The threshold stands on the axis: ln x where
-/// that is logarithmic.
+/// Parameters of one condition in the order of FitParameter. The threshold is on the axis: ln x if that is
+/// logarithmic.
 using AxisValues = std::array<double, kFitParameters>;
 
-/// What of a sigmoid does not change during a fit.
+/// The parts of a sigmoid that do not change during a fit.
 struct SigmoidShape {
   explicit SigmoidShape(const FitSettings& settings);
 
@@ -22,8 +22,7 @@ struct SigmoidShape {
   double zAtThreshold;  ///< standard form's argument there
   double zWidth;        ///< from F = 0.05 to 0.95
 
-  /// u = x or ln x, its negative where F falls, so that F always rises with u; -infinity where there is no
-  /// stimulus.
+  /// u = x or ln x, negated if F falls, so that F always rises with u; -infinity if there is no stimulus.
   double onAxis(double x) const;
   double offAxis(double u) const;
   /// The same for both ends of an interval, which a falling F turns round.
@@ -38,25 +37,24 @@ struct Chance {
 Chance chanceAt(const SigmoidShape& shape, double u, const AxisValues& values);
 inline double rho(double eta) { return eta * eta / (1.0 - eta * eta); }
 
-/// A condition's blocks made ready: levels on the axis, constants of the likelihood.
+/// A condition's blocks, preprocessed: levels on the axis, constants of the likelihood.
 struct PreparedBlocks {
   PreparedBlocks(const Condition& condition, const SigmoidShape& shape);
 
   std::vector<double> u;  ///< of each block with trials
   std::vector<int64_t> correct, trials;
   std::vector<double> order;
-  double logSaturated = 0.0;  ///< binomial log-likelihood where every P is k/n
+  double logSaturated = 0.0;  ///< binomial log-likelihood if every P is k/n
 };
 
-/// Sum over trials of (u - mean u)(answer - mean answer); blocks without a stimulus left out.
+/// Sum over trials of (u - mean u)(answer - mean answer); excluding blocks without a stimulus.
 double covariance(const PreparedBlocks& blocks);
 
 /// Half the binomial deviance of one block.
 double halfBlockDeviance(const Chance& chance, int64_t correct, int64_t trials);
 
-/// logSaturated minus the log-likelihood of `values`: half the deviance for a binomial (eta 0). Infinite
-/// where the data are impossible. With `gradient`, its derivatives are added there, in the order of
-/// FitParameter.
+/// logSaturated minus the log-likelihood of `values`: half the deviance for a binomial (eta 0). Infinite if
+/// the data are impossible. With `gradient`, its derivatives are added there, in the order of FitParameter.
 double negativeLogLikelihood(const SigmoidShape& shape, const PreparedBlocks& blocks,
                              const AxisValues& values, AxisValues* gradient);
 

@@ -51,8 +51,6 @@ double logAddExp(double a, double b) {
   return high + std::log1p(std::exp(low - high));
 }
 
-double logGamma(double x) { return boost::math::lgamma(x); }
-
 double halfDeviance(double x, double m, double logM) {
   if (x == 0.0) return m;
   if (std::abs(x - m) < 0.1 * (x + m)) {

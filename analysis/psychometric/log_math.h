@@ -5,24 +5,24 @@
 
 namespace limen::analysis {
 
-// Logarithms of chances, good to 1e-12 relative wherever the result is not 0, for counts to 1e6 and beyond.
+// Logarithms of probabilities, accurate to 1e-12 relative wherever the result is not 0, for counts to 1e6 and
+// beyond.
 
 double logAddExp(double a, double b);  ///< ln(exp(a) + exp(b)); either may be -infinity
-double logGamma(double x);             ///< ln Gamma(x), x > 0
 
-/// x ln(x/m) + m - x >= 0, half the deviance of a count x with mean m; without cancellation where x is near m
+/// x ln(x/m) + m - x >= 0, half the deviance of a count x with mean m; without cancellation if x is near m
 /// (Loader 2000, Fast and accurate computation of binomial probabilities). `logM` is ln m, which may be known
-/// where m has become 0.
+/// even if m has underflowed to 0.
 double halfDeviance(double x, double m, double logM);
 
 /// ln n! - ln of Stirling's formula sqrt(2 pi n) (n/e)^n, n >= 0.
 double stirlingError(double n);
 
-/// ln of the chance of k of n at probability k/n: the largest log-likelihood that a block can have.
+/// ln of the probability of k of n at probability k/n: the largest log-likelihood that a block can have.
 double logSaturatedChance(int64_t k, int64_t n);
 
-/// Sum over i < k of ln(p + i r), and its derivatives by p and r: what the Gamma functions of a beta-binomial
-/// with means p and overdispersion r amount to. Time does not grow with k.
+/// Sum over i < k of ln(p + i r), and its derivatives by p and r: the equivalent of the Gamma functions of a
+/// beta-binomial with mean p and overdispersion r. Time does not grow with k.
 struct RisingSum {
   double value = 0.0, byP = 0.0, byR = 0.0;
 };

@@ -106,10 +106,6 @@ AxisValues Objective::valuesOf(size_t condition, const double* x) const {
   return values;
 }
 
-double Objective::evaluateCondition(size_t condition, const double* x) const {
-  return negativeLogLikelihood(shape_, blocks_[condition], valuesOf(condition, x), nullptr);
-}
-
 double Objective::logPriorAt(const double* x) const {
   double sum = 0.0;
   for (size_t j = 0; j < free_.size(); ++j) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "analysis/psychometric/likelihood.h"
@@ -30,7 +29,6 @@ class Objective {
   const std::vector<FreeParameter>& free() const { return free_; }
   size_t conditions() const { return blocks_.size(); }
   const PreparedBlocks& blocks(size_t condition) const { return blocks_[condition]; }
-  PreparedBlocks& blocks(size_t condition) { return blocks_[condition]; }  ///< for the same levels anew
   const SigmoidShape& shape() const { return shape_; }
   const FitSettings& settings() const { return settings_; }
   const LevelSpread& spread(size_t condition) const { return spreads_[condition]; }
@@ -39,8 +37,6 @@ class Objective {
 
   /// Infinite where the data or the parameters are impossible. `gradient`: size() numbers, or null.
   double evaluate(const double* x, double* gradient) const;
-  /// The same but for one condition, without the priors.
-  double evaluateCondition(size_t condition, const double* x) const;
 
   AxisValues valuesOf(size_t condition, const double* x) const;
   /// ln of the priors' density at x, up to a constant.

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "analysis/psychometric/intervals.h"
-#include "analysis/psychometric/log_math.h"
 #include "analysis/psychometric/objective.h"
 #include "experiments/base/error.h"
 #include "perception/psychometrics/grid_posterior.h"
@@ -145,7 +144,7 @@ FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const 
       const GridPosterior posterior = posteriorOf(objective, spans);
       for (size_t d = 0; d < spans.size(); ++d) {
         const psychometrics::CredibleInterval own = posterior.equalTailed(d, confidence);
-        FitInterval interval{own.low, own.high, false, false};
+        FitInterval interval{{own.low, own.high}};
         if (spans[d].parameter == FitParameter::Threshold) {
           const auto [low, high] = objective.shape().offAxis(own.low, own.high);
           interval.low = low;

@@ -133,7 +133,7 @@ FitIntervals profileIntervals(const std::vector<Condition>& conditions, const Fi
       if (place < 0) continue;
       const Limit low = profileLimit(own.objective, own.x, static_cast<size_t>(place), -1, 0.5 * z * z);
       const Limit high = profileLimit(own.objective, own.x, static_cast<size_t>(place), 1, 0.5 * z * z);
-      found[i] = offScale(own.objective, parameter, {low.value, high.value, low.open, high.open});
+      found[i] = offScale(own.objective, parameter, {{low.value, high.value}, low.open, high.open});
     }
     tieGuess(fit.settings, found);
     found[kFitParameters] = slopeOfWidth(fit.conditions[c], fit.settings, found);
@@ -204,7 +204,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
       const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
       const double low = rate ? std::max(middle - half, 0.0) : middle - half;
       const double high = rate ? std::min(middle + half, free.high) : middle + half;
-      found[i] = offScale(own.objective, parameter, {low, high, false, false});
+      found[i] = offScale(own.objective, parameter, {{low, high}});
       // ln |slope| = constant - ln w, on a logarithmic axis - t as well, which u is the negative of if F
       // falls.
       if (parameter == FitParameter::Width) logSlope[k] = -1.0;
@@ -216,7 +216,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
     if (logSlope.any() && half < 7.0) {
       const double slope = fit.conditions[c].slope;
       const auto [low, high] = std::minmax({slope * std::exp(-half), slope * std::exp(half)});
-      found[kFitParameters] = FitInterval{low, high, false, false};
+      found[kFitParameters] = FitInterval{{low, high}};
     }
     tieGuess(fit.settings, found);
     intervals.conditions.push_back(found);

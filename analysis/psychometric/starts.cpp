@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/psychometric/starts.h"
+#include "analysis/psychometric/optimiser.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/statistics/detection_rates.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "analysis/statistics/detail/check.h"

@@ -25,20 +25,20 @@ Rate detectionRate(int64_t successes, int64_t trials, double level = 0.95);
 std::vector<Rate> detectionRates(const std::vector<int64_t>& successes, const std::vector<int64_t>& trials,
                                  double level = 0.95);
 
-/// (p + z^2/2n +- z sqrt(p(1-p)/n + z^2/4n^2)) / (1 + z^2/n); bounds are exactly 0 and 1 at no and at full
-/// success.
+/// (p + z^2/2n +- z sqrt(p(1-p)/n + z^2/4n^2)) / (1 + z^2/n); bounds are exactly 0 and 1 for no successes and
+/// for all.
 Interval wilsonInterval(int64_t successes, int64_t trials, double level = 0.95);
 /// Quantiles alpha/2 and 1 - alpha/2 of Beta(k, n-k+1) and Beta(k+1, n-k).
 Interval clopperPearsonInterval(int64_t successes, int64_t trials, double level = 0.95);
 
-/// Mean of one value a subject, such as each subject's detection rate. Trials of one subject are not
-/// independent, so that an interval over subjects is wider than one over the pooled trials, and the one to
+/// Mean of one value per subject, such as each subject's detection rate. Trials of one subject are not
+/// independent, so an interval over subjects is wider than one over the pooled trials, and is the one to
 /// report.
 struct MeanOverSubjects {
   size_t subjects = 0;
   double mean = 0.0;
-  /// With n - 1; none for one subject. The interval is mean +- t_(n-1) sd / sqrt(n) (Student 1908), not cut
-  /// to the range of a rate.
+  /// With n - 1; none for one subject. The interval is mean +- t_(n-1) sd / sqrt(n) (Student 1908), not
+  /// clipped to the range of a rate.
   std::optional<double> standardDeviation, standardError;
   std::optional<Interval> interval;
 };

@@ -3,9 +3,9 @@
 
 namespace limen::analysis {
 
-/// Distributions that tests and intervals share, by Boost.Math in extended precision, so that far tails keep
-/// a relative error below 1e-12 down to the smallest normal number. Lower and upper tails are separate
-/// functions: 1 - lower has lost the upper tail. Arguments out of range are a programmer's error, asserted
+/// Distributions used by tests and intervals, from Boost.Math in extended precision, so that far tails keep a
+/// relative error below 1e-12 down to the smallest normal number. Lower and upper tails are separate
+/// functions: 1 - lower would lose the upper tail. Arguments out of range are a programmer's error, asserted
 /// here; the statistics check what users give.
 
 double normalDensity(double z);
@@ -25,11 +25,11 @@ double fUpper(double f, double degrees1, double degrees2);  ///< P(F >= f); 0 fo
 double chiSquaredUpper(double x, double degrees);           ///< P(X >= x); 0 for infinite x
 
 double betaQuantile(double p, double a, double b);  ///< lower tail p
-/// P(X <= k) of a binomial with chance 1/2.
+/// P(X <= k) of a binomial with probability 1/2.
 double fairCoinLower(double k, double trials);
 
 /// Noncentrality with which F of these degrees is at most `f` with probability `p`, 0 if even the central F
-/// falls short of `p`. Throws std::runtime_error where its series is out of reach: degrees1 f > 1e8.
+/// falls short of `p`. Throws std::runtime_error if its series is out of reach: degrees1 f > 1e8.
 double noncentralityOfF(double f, double degrees1, double degrees2, double p);
 
 }  // namespace limen::analysis

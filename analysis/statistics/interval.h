@@ -3,7 +3,7 @@
 
 namespace limen::analysis {
 
-/// Bounds of a confidence interval; which level and which method it has, says whoever returns it.
+/// Bounds of a confidence interval; level and method are documented where it is returned.
 struct Interval {
   double low = 0.0, high = 0.0;
 };

@@ -19,7 +19,7 @@ enum class RandomEffects {
 /// Binomial answers of groups, such as subjects: ln(p / (1 - p)) = x beta + b_g (+ c_g x_slope), (b, c) ~
 /// N(0, Sigma).
 struct MixedLogisticData {
-  std::vector<int64_t> successes, trials;  ///< one entry a row; a single answer has one trial
+  std::vector<int64_t> successes, trials;  ///< one entry per row; a single answer has one trial
   std::vector<size_t> groups;              ///< of each row; any numbers
   std::vector<std::string> columns;        ///< names of the fixed effects; the intercept is a column of ones
   std::vector<double> design;              ///< rows x columns, by row
@@ -50,19 +50,19 @@ struct MixedLogistic {
   std::optional<double> slopeDeviation, correlation;
   double logLikelihood = 0.0;       ///< Laplace's approximation, binomial coefficients included
   double aic = 0.0;                 ///< 2 (fixed effects + entries of Sigma) - 2 logLikelihood
-  std::vector<GroupEffect> groups;  ///< by growing group
-  /// Sigma is on the edge of what is possible (a deviation of 0, a correlation of +-1): errors hold fixed
-  /// what is on the edge.
+  std::vector<GroupEffect> groups;  ///< by ascending group
+  /// Sigma is on the boundary (a deviation of 0, a correlation of +-1): errors treat boundary parameters as
+  /// fixed.
   bool singular = false;
-  std::string note;  ///< says so in words; empty otherwise
+  std::string note;  ///< a message to that effect; empty otherwise
 };
 
 /// Maximum of the likelihood by Laplace's approximation (Breslow and Clayton 1993; Bates, Maechler, Bolker
 /// and Walker 2015): penalised Newton steps within each group, BFGS with exact derivatives outside. Errors
 /// from the Hessian over fixed effects and Sigma. The approximation is poor, Sigma too small, with few yes/no
-/// answers a group. limen::Error (names the index) for lengths that do not fit, values that are not finite,
-/// counts out of order; for fewer than 2 groups, columns that depend on one another, answers that some
-/// combination of columns separates (estimates would be infinite), and if the optimiser finds no maximum.
+/// answers per group. limen::Error (names the index) for mismatched lengths, non-finite values, inconsistent
+/// counts; for fewer than 2 groups, columns that depend on one another, answers that some combination of
+/// columns separates (estimates would be infinite), and if the optimiser finds no maximum.
 MixedLogistic fitMixedLogistic(const MixedLogisticData& data, const MixedLogisticOptions& options = {});
 
 }  // namespace limen::analysis

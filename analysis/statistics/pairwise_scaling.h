@@ -22,7 +22,7 @@ enum class PairwiseModel {
   kBradleyTerry  ///< P(i over j) = 1 / (1 + exp(s_j - s_i)) (Bradley and Terry 1952), maximum likelihood
 };
 
-/// What to do where the data put an item infinitely far away: no chain of preferences leads from each item to
+/// What to do if the data put an item infinitely far away: no chain of preferences leads from each item to
 /// each other (Ford 1957); for least squares, any pair judged unanimously.
 enum class UnboundedScale {
   kRefuse,   ///< limen::Error that names items
@@ -38,7 +38,7 @@ struct PairwiseOptions {
   double level = 0.95;
   int resamples = 0;  ///< of the bootstrap; 0 for none
   uint64_t seed = 1;
-  std::vector<std::string> names;  ///< of the items, for messages; empty: their numbers from 0
+  std::vector<std::string> names;  ///< of the items, for messages; empty: their indices from 0
 };
 
 struct PairwiseScale {
@@ -47,26 +47,27 @@ struct PairwiseScale {
   std::vector<double> standardErrors;
   std::vector<double> covariance;   ///< items x items, rows; for errors of differences
   std::vector<Interval> intervals;  ///< value +- z error
-  /// Percentile intervals; each resample draws every pair's judgements anew from its observed proportion.
+  /// Percentile intervals; each resample redraws every pair's judgements from its observed proportion.
   /// Empty without resamples. Same seed, same bytes.
   std::vector<Interval> bootstrapIntervals;
-  /// What the intervals are quantiles of: for each resample the values of all items.
+  /// The samples behind the intervals: for each resample the values of all items.
   std::vector<std::vector<double>> bootstrapValues;
-  int penalisedResamples = 0;  ///< resamples that were unbounded, and penalised whatever `unbounded` says
+  int penalisedResamples = 0;  ///< resamples that were unbounded, and penalised regardless of `unbounded`
 
   double logLikelihood = 0.0;  ///< of the judgements in their order, without binomial coefficients or penalty
-  /// Against one free proportion a pair: likelihood ratio G^2 and Pearson's X^2, `df` = pairs judged - (items
+  /// Against one free proportion per pair: likelihood ratio G^2 and Pearson's X^2, `df` = pairs judged -
+  /// (items
   /// - 1). p values are chi-squared; none for df 0 or a penalised scale.
   double deviance = 0.0, pearson = 0.0;
   size_t pairsJudged = 0;
   size_t df = 0;
   std::optional<double> devianceP, pearsonP;
   bool penalised = false;
-  std::string note;  ///< says so in words; empty otherwise
+  std::string note;  ///< a message to that effect; empty otherwise
 };
 
 /// `wins` by row: wins[i * items + j] is how often item i was chosen over j. limen::Error for fewer than 2
-/// items, a size that does not fit, negative counts, counts on the diagonal (names the entry), a design that
+/// items, a mismatched size, negative counts, counts on the diagonal (names the entry), a design that
 /// falls into parts that were never compared with each other (names an item of each), and as `UnboundedScale`
 /// says. There are no ties.
 PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const PairwiseOptions& options = {});

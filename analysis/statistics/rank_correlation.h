@@ -79,21 +79,11 @@ struct ClampedPearson {
 ClampedPearson clampedPearson(const std::vector<double>& predictions, const std::vector<double>& rates,
                               double level = 0.95);
 
-// Parts of a coefficient that may be none.
 inline std::optional<double> valueOf(const std::optional<Coefficient>& coefficient) {
   return coefficient ? std::optional<double>(coefficient->value) : std::nullopt;
 }
-inline std::optional<Interval> intervalOf(const std::optional<Coefficient>& coefficient) {
-  return coefficient ? coefficient->interval : std::nullopt;
-}
 inline std::optional<double> valueOf(const std::optional<Correlation>& correlation) {
   return correlation ? std::optional<double>(correlation->coefficient.value) : std::nullopt;
-}
-inline std::optional<Interval> intervalOf(const std::optional<Correlation>& correlation) {
-  return correlation ? correlation->coefficient.interval : std::nullopt;
-}
-inline std::optional<double> pOf(const std::optional<Correlation>& correlation) {
-  return correlation ? correlation->p : std::nullopt;
 }
 
 }  // namespace limen::analysis

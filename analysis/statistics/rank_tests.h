@@ -8,8 +8,8 @@
 
 namespace limen::analysis {
 
-/// Friedman (1937): do k treatments, ranked by each of n subjects, differ? Values of a subject that agree but
-/// for rounding (some 1e-15 of their largest) are ties.
+/// Friedman (1937): do k treatments, ranked by each of n subjects, differ? Values of a subject that agree up
+/// to rounding (about 1e-15 of their largest) are ties.
 struct FriedmanTest {
   size_t subjects = 0, treatments = 0;
   std::vector<double> meanRanks;  ///< of each treatment; 1 is smallest
@@ -23,17 +23,17 @@ struct FriedmanTest {
 };
 
 /// `values` by subject, treatment varying fastest. limen::Error for fewer than 2 subjects or treatments, a
-/// length that does not fit, values that are not finite.
+/// mismatched length, non-finite values.
 FriedmanTest friedmanTest(const std::vector<double>& values, size_t subjects, size_t treatments);
 
-/// Wilcoxon (1945) signed ranks of paired differences first - second. Differences that agree but for rounding
-/// (some 1e-15 of the largest value) are ties; R would break those.
+/// Wilcoxon (1945) signed ranks of paired differences first - second. Differences that agree up to rounding
+/// (about 1e-15 of the largest value) are ties; R would break those.
 struct SignedRankTest {
   size_t pairs = 0;                                 ///< that differ
   size_t zeros = 0;                                 ///< dropped pairs
   double positiveRanks = 0.0, negativeRanks = 0.0;  ///< sums; V = W+ is the first
-  /// Two-sided. Exact without ties and zeros for up to 50 pairs; else normal, with tie and continuity
-  /// correction, as R does. 1 if no pair differs.
+  /// Two-sided. Exact without ties and zeros for up to 50 pairs; otherwise normal, with tie and continuity
+  /// correction, as in R. 1 if no pair differs.
   double p = 1.0;
   bool exact = false;
   double rankBiserial = 0.0;  ///< (W+ - W-) / (W+ + W-) (Kerby 2014); 0 if no pair differs

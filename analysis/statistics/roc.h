@@ -10,7 +10,7 @@
 
 namespace limen::analysis {
 
-/// How well a score, such as a predictor's rating, tells answers of yes (1) from no (0). All of this file
+/// How well a score, such as a predictor's rating, separates yes (1) from no (0). Everything in this file
 /// takes scores and outcomes of the same length; limen::Error names the index of a score that is not finite,
 /// of an outcome that is neither 0 nor 1, and refuses lists without any 0 or without any 1.
 
@@ -19,7 +19,7 @@ struct RocPoint {
   double falseAlarmRate = 0.0, hitRate = 0.0;
 };
 
-/// From (0, 0) to (1, 1), one point for each distinct score, by falling threshold.
+/// From (0, 0) to (1, 1), one point per distinct score, by descending threshold.
 std::vector<RocPoint> rocPoints(const std::vector<double>& scores, const std::vector<int>& outcomes);
 
 /// Area under it = P(score of a yes > score of a no) + P(equal) / 2.
@@ -29,7 +29,7 @@ struct RocArea {
   /// DeLong, DeLong and Clarke-Pearson (1988), by midranks (Sun and Xu 2014); none with fewer than 2 of
   /// either outcome.
   std::optional<double> variance;
-  /// Area +- z error, cut to 0 .. 1; of no width for variance 0, which is no certainty.
+  /// Area +- z error, clipped to 0 .. 1; zero width for variance 0, which does not mean certainty.
   std::optional<Interval> interval;
   /// On the scale ln(A / (1 - A)), better next to 1 (Pepe 2003); none for an area of 0 or 1.
   std::optional<Interval> logitInterval;
@@ -42,8 +42,8 @@ struct RocComparison {
   double difference = 0.0;           ///< of the areas, first minus second
   std::optional<double> covariance;  ///< of the areas; none as above
   std::optional<Interval> interval;  ///< of the difference
-  /// z = difference / error; none if the error vanishes or is unknown. p is 1 then if the areas are equal,
-  /// else none.
+  /// z = difference / error; none if the error vanishes or is unknown. p is then 1 if the areas are equal,
+  /// otherwise none.
   std::optional<double> z, p;
 };
 RocComparison compareRocAreas(const std::vector<double>& first, const std::vector<double>& second,
@@ -59,9 +59,9 @@ struct CalibrationBin {
 
 /// Do events predicted with probability q happen in a share q of cases?
 struct Calibration {
-  std::vector<CalibrationBin> bins;  ///< of equal width over 0 .. 1, empty ones too
+  std::vector<CalibrationBin> bins;  ///< of equal width over 0 .. 1, including empty ones
   double brier = 0.0;                ///< mean squared difference of prediction and outcome (Brier 1950)
-  /// Murphy (1973), over the bins, with the two terms that predictions differing within a bin need
+  /// Murphy (1973), over the bins, with the two terms needed if predictions differ within a bin
   /// (Stephenson, Coelho and Jolliffe 2008): brier = reliability - resolution + uncertainty + withinVariance
   /// - withinCovariance.
   double reliability = 0.0, resolution = 0.0, uncertainty = 0.0;

@@ -15,7 +15,7 @@ struct YesNoCounts {
 };
 
 enum class RateCorrection {
-  kNone,      ///< rates as they are; those of 0 and 1 are refused, d' would be infinite
+  kNone,      ///< rates as they are; 0 and 1 are refused, since d' would be infinite
   kLogLinear  ///< (k + 1/2) / (n + 1) for both rates, whatever they are (Hautus 1995)
 };
 
@@ -23,17 +23,17 @@ enum class RateCorrection {
 struct YesNoSensitivity {
   double hitRate = 0.0, falseAlarmRate = 0.0;  ///< after the correction
   double dPrime = 0.0;                         ///< z(H) - z(F)
-  double criterion = 0.0;                      ///< c = -(z(H) + z(F)) / 2; above 0 is reluctance to say yes
+  double criterion = 0.0;                      ///< c = -(z(H) + z(F)) / 2; above 0: reluctance to say yes
   double lnBeta = 0.0;                         ///< c d'
   double beta = 0.0;                           ///< likelihood ratio at the criterion
   double aPrime = 0.0;                         ///< see aPrime()
   /// Large-sample errors of Gourevitch and Galanter (1967): var z(p) = p (1 - p) / (n phi(z)^2), with the
-  /// corrected rates and the true n; ln beta and A' by the delta method. Rough below some 20 trials, or with
-  /// rates next to 0 or 1.
+  /// corrected rates and the true n; ln beta and A' by the delta method. Rough below about 20 trials, or with
+  /// rates close to 0 or 1.
   double dPrimeError = 0.0, criterionError = 0.0, lnBetaError = 0.0, aPrimeError = 0.0;
   Interval dPrimeInterval, criterionInterval, lnBetaInterval;  ///< estimate +- z error
   Interval betaInterval;                                       ///< e to the bounds of ln beta
-  Interval aPrimeInterval;                                     ///< estimate +- z error, cut to [0, 1]
+  Interval aPrimeInterval;                                     ///< estimate +- z error, clipped to [0, 1]
 };
 
 /// limen::Error for negative counts, more answers than trials, no trials, or a rate of 0 or 1 without
@@ -59,8 +59,8 @@ struct MAfcSensitivity {
   double proportionCorrect = 0.0;  ///< after the correction
   double dPrime = 0.0;
   double dPrimeError = 0.0;  ///< delta method: sqrt(p (1 - p) / n) / (dp/dd')
-  /// Of d', from Wilson's interval of the uncorrected proportion; a side where that reaches 0 or 1 is open:
-  /// none.
+  /// Of d', from Wilson's interval of the uncorrected proportion; a side where that reaches 0 or 1 is open
+  /// (none).
   std::optional<double> low, high;
 };
 

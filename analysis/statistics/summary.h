@@ -27,8 +27,8 @@ struct MedianInterval {
 
 /// 95 % percentile bootstrap interval of the median (Efron and Tibshirani 1993, chapter 13), 2000 resamples.
 /// `rounds` names the round of each value. With three or more rounds these are drawn as blocks: frames of one
-/// round share the clock and the temperature of the machine, so single frames would promise too much. Same
-/// seed, same bytes.
+/// round share the clock and the temperature of the machine, so single frames would give intervals that are
+/// too narrow. Same seed, same bytes.
 MedianInterval bootstrapMedian(const std::vector<double>& values, const std::vector<int>& rounds,
                                uint64_t seed = 1);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/study/anova.h"
+#include "analysis/study/analyses.h"
 
 #include <algorithm>
 #include <set>

@@ -6,18 +6,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
-
-size_t indexIn(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
-}
 
 std::string levelText(const nlohmann::json& level) {
   return level.is_string() ? level.get<std::string>() : level.dump();
@@ -40,12 +34,6 @@ StudyAnswer answerOf(const store::StudyTrial& trial, const StudyPart& part) {
   out.severity = trial.response->severity;
   out.reactionTimeS = trial.response->reactionTimeS;
   return out;
-}
-
-/// What the program that showed the stimuli said of itself.
-nlohmann::json frontEndOf(const store::SessionReader& reader, const store::StudySession& session) {
-  const nlohmann::json facts = reader.environment(session.environment).facts;
-  return facts.is_object() ? facts.value("front_end", nlohmann::json::object()) : nlohmann::json::object();
 }
 
 /// The protocol whose answers are meant. One that was changed between sessions has two hashes.
@@ -75,6 +63,16 @@ store::StudyProtocol chooseProtocol(const store::SessionReader& reader, const St
 }
 
 }  // namespace
+
+nlohmann::json frontEndOf(const store::Environment& environment) {
+  if (!environment.facts.is_object()) return nlohmann::json::object();
+  nlohmann::json out = environment.facts.value("front_end", nlohmann::json::object());
+  return out.is_object() ? out : nlohmann::json::object();
+}
+
+bool isSimulated(const store::Environment& environment) {
+  return frontEndOf(environment).value("simulated", false);
+}
 
 std::vector<size_t> levelsOf(const StudyPart& part, const std::map<std::string, std::string>& condition) {
   std::vector<size_t> out;
@@ -107,9 +105,9 @@ StudyAnswers readStudyAnswers(const StudyChoice& choice) {
   out.plan = readStudyPlan(protocol);
   for (const store::StudySession& session : reader.sessions()) {
     if (session.protocol != protocol.hash) continue;
-    const nlohmann::json frontEnd = frontEndOf(reader, session);
+    const nlohmann::json frontEnd = frontEndOf(reader.environment(session.environment));
     const bool simulated = frontEnd.value("simulated", false);
-    if (choice.observers == (simulated ? Observers::People : Observers::Simulated)) continue;
+    if (isOther(choice.observers, simulated)) continue;
     std::vector<StudyAnswer> own;
     for (const store::StudyTrial& trial : reader.trials(session.id)) {
       if (!trial.counts() || trial.practice) continue;

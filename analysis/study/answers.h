@@ -59,6 +59,10 @@ struct StudyAnswers {
   std::vector<LeftOut> leftOut;       ///< sessions that were not finished among them
 };
 
+/// What the program that showed a session's stimuli said of itself; {} if it said nothing.
+nlohmann::json frontEndOf(const store::Environment& environment);
+bool isSimulated(const store::Environment& environment);
+
 enum class Observers { Either, People, Simulated };
 
 struct StudyChoice {
@@ -79,6 +83,11 @@ struct StudyChoice {
 /// Throws Error: no store, no session, several protocols and none named, no such protocol, sessions of
 /// people and of simulated observers, no answer left.
 StudyAnswers readStudyAnswers(const StudyChoice& choice);
+
+/// Whether a session of such a kind of observer is left out.
+inline bool isOther(Observers wanted, bool simulated) {
+  return wanted == (simulated ? Observers::People : Observers::Simulated);
+}
 
 /// The second half of readStudyAnswers(), without the check that anything is left.
 void applyExclusions(StudyAnswers& study);

@@ -91,8 +91,7 @@ std::map<size_t, std::string> aboveLapseRate(const StudyAnswers& study, AppliedR
     if (count > kListed) untold.resize(kListed);
     applied.note = fmt::format(
         "answers of {} of {} observers do not tell whether their lapse rate is above (the rate that fits "
-        "best "
-        "in brackets): {}{}",
+        "best in brackets): {}{}",
         count, rates.observers.size(), join(untold), count > kListed ? ", ..." : "");
   }
   return out;

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <map>
 
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
@@ -16,17 +15,10 @@ namespace {
 
 constexpr const char* kObserver = "observer";
 
-std::optional<double> numberOf(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
-  return value;
-}
-
 bool isNumeric(const StudyFactor& factor) {
   return factor.levels.size() > 1 &&
          std::all_of(factor.levels.begin(), factor.levels.end(),
-                     [](const std::string& level) { return numberOf(level).has_value(); });
+                     [](const std::string& level) { return finiteNumber(level).has_value(); });
 }
 
 std::vector<std::string> namesOf(const std::vector<StudyFactor>& factors) {
@@ -108,7 +100,8 @@ double levelOf(const StudyAnswer& answer, const StudyPart& part, const std::stri
                 "part " + part.name);
   }
   const auto own = answer.condition.find(variable);
-  const std::optional<double> value = own == answer.condition.end() ? std::nullopt : numberOf(own->second);
+  const std::optional<double> value =
+      own == answer.condition.end() ? std::nullopt : finiteNumber(own->second);
   if (!value) throw Error("an answer has no number for '" + variable + "'", "part " + part.name);
   return *value;
 }

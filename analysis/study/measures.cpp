@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/study/measures.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/study/pairs.h"
-
 #include <algorithm>
 #include <map>
 
+#include "analysis/study/analyses.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
+
 namespace {
 
 const std::string kItems[] = {"item_a", "item_b"};
@@ -87,6 +87,27 @@ std::vector<PairGroup> readStudyPairs(const StudyAnswers& study, const std::vect
   if (groups.empty()) throw Error("no pair was judged", study.plan.name);
   std::vector<PairGroup> out;
   for (auto& [key, place] : groups) out.push_back(std::move(place.group));
+  return out;
+}
+
+std::vector<PartScale> studyScales(const StudyAnswers& study) {
+  std::vector<PartScale> out;
+  for (size_t i = 0; i < study.plan.parts.size(); ++i) {
+    if (study.plan.parts[i].task != "pairwise") continue;
+    StudyAnswers own = study;
+    own.answers.erase(std::remove_if(own.answers.begin(), own.answers.end(),
+                                     [&](const StudyAnswer& answer) { return answer.part != i; }),
+                      own.answers.end());
+    if (own.answers.empty()) continue;
+    PartScale one;
+    one.part = study.plan.parts[i].name;
+    try {
+      one.scale = scaleItems(readStudyPairs(own, {}), one.setting).groups.at(0);
+    } catch (const Error& error) {
+      one.note = error.message();
+    }
+    out.push_back(std::move(one));
+  }
   return out;
 }
 

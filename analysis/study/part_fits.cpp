@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/study/part_fits.h"
+#include "analysis/study/analyses.h"
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"

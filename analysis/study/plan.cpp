@@ -87,6 +87,10 @@ StudyPart partOf(const YamlNode& node, const std::string& name) {
 
 }  // namespace
 
+const StudyPart& StudyPlan::part(const std::string& wanted) const {
+  return *std::find_if(parts.begin(), parts.end(), [&](const StudyPart& one) { return one.name == wanted; });
+}
+
 size_t StudyPlan::partNamed(const std::string& part) {
   const auto found =
       std::find_if(parts.begin(), parts.end(), [&](const StudyPart& one) { return one.name == part; });

@@ -54,6 +54,8 @@ struct StudyPlan {
   std::vector<StudyPart> parts;
   std::vector<ExclusionRule> exclusions;
 
+  /// That there is.
+  const StudyPart& part(const std::string& name) const;
   /// Index of a part, which is added as one that asks for nothing known if the text does not have it.
   size_t partNamed(const std::string& name);
 };

@@ -2,13 +2,113 @@
 #include "analysis/study/predicted.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
+
+namespace {
+
+int levelOf(double value, const std::array<double, 3>& edges) {
+  return 1 + static_cast<int>(
+                 std::count_if(edges.begin(), edges.end(), [&](double edge) { return value >= edge; }));
+}
+
+void checkEdges(const std::array<double, 3>& edges, const std::string& option) {
+  const bool finite = std::all_of(edges.begin(), edges.end(), [](double e) { return std::isfinite(e); });
+  if (!finite || !(edges[0] < edges[1] && edges[1] < edges[2]))
+    throw Error("the edges do not grow", option, "give three growing numbers");
+}
+
+}  // namespace
+
+void checkScoreBins(const ScoreBins& bins) {
+  checkEdges(bins.coverage, "--coverage-edges");
+  checkEdges(bins.rating, "--rating-edges");
+  if (bins.coverage.front() < 0.0 || bins.coverage.back() > 1.0)
+    throw Error("coverage is a share from 0 to 1", "--coverage-edges", "write 0.05 for 5 %");
+  if (bins.topRegions == 0) throw Error("no region would be averaged", "--top-regions", "give 1 or more");
+}
+
+int coverageLevel(double coverage, const ScoreBins& bins) { return levelOf(coverage, bins.coverage); }
+int ratingLevel(double rating, const ScoreBins& bins) { return levelOf(rating, bins.rating); }
+
+int detectionScore(int ratingLevel, int coverageLevel) {
+  assert(ratingLevel >= 1 && ratingLevel <= 4 && coverageLevel >= 1 && coverageLevel <= 4);
+  // Rows: very low, low, high, very high; columns: tiny, small, large, huge.
+  constexpr int kTable[4][4] = {{1, 1, 2, 2}, {1, 2, 3, 3}, {2, 3, 4, 5}, {3, 3, 5, 5}};
+  return kTable[ratingLevel - 1][coverageLevel - 1];
+}
+
+double ratingScore(std::vector<double> ratings, double without, size_t top) {
+  if (ratings.empty()) return without;
+  std::sort(ratings.begin(), ratings.end(), std::greater<>());
+  const size_t count = std::min(top, ratings.size());
+  return std::accumulate(ratings.begin(), ratings.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
+         static_cast<double>(count);
+}
+
+const std::vector<PredictorName>& studyPredictors() {
+  static const std::vector<PredictorName> kNames = {
+      {"rating", "R of the region rated highest"},
+      {"detection_score", "Table 10.1 of rating score and coverage"},
+      {"rating_score", "mean R of the most highly rated regions"},
+      {"rating_level", "level of that mean; what the thesis correlates as its rating score"},
+      {"coverage_score", "level of the popping pixels' share of the object"},
+      {"detection_probability", "of the rating, by the link that the prediction was made with"},
+      {"largest_jnd", "largest visible difference"},
+      {"coverage", "popping pixels' share of the window"},
+      {"coverage_of_object", "popping pixels' share of the object"},
+      {"region_count", "number of popping regions"},
+      {"max_de94", "largest CIE94 difference of the frames"},
+      {"mean_de94", "mean CIE94 difference of the frames"},
+      {"flip", "mean FLIP of the frames"},
+      {"one_minus_ssim", "1 - SSIM of the frames"},
+      {"rmse", "RMS difference of light"},
+      {"rmse_coded", "RMS difference of pixel values"}};
+  return kNames;
+}
+
+std::map<std::string, double> predictorValues(const nlohmann::json& figures, const ScoreBins& bins) {
+  std::map<std::string, double> out;
+  const auto number = [&](const char* name) { return figures.contains(name) && figures[name].is_number(); };
+  for (const PredictorName& predictor : studyPredictors())
+    if (number(predictor.name.c_str())) out[predictor.name] = figures[predictor.name].get<double>();
+  if (number("ssim")) out["one_minus_ssim"] = 1.0 - figures["ssim"].get<double>();
+  if (number("rating") && figures.contains("regions")) {
+    std::vector<double> ratings;
+    for (const nlohmann::json& region : figures["regions"])
+      ratings.push_back(region.at("rating").get<double>());
+    out["region_count"] = static_cast<double>(ratings.size());
+    out["rating_score"] = ratingScore(ratings, out["rating"], bins.topRegions);
+    const int rating = ratingLevel(out["rating_score"], bins);
+    out["rating_level"] = rating;
+    if (number("coverage_of_object")) {
+      const int coverage = coverageLevel(out["coverage_of_object"], bins);
+      out["coverage_score"] = coverage;
+      out["detection_score"] = detectionScore(rating, coverage);
+    }
+  }
+  return out;
+}
+
+std::map<std::string, std::string> displayNames(const std::string& store, const StudyAnswers& study,
+                                                const std::vector<store::StudyPrediction>& predictions) {
+  std::map<std::string, std::string> names;
+  const store::SessionReader reader(store);
+  for (const StudyAnswer& answer : study.answers)
+    if (!names.count(answer.displayHash)) names[answer.displayHash] = reader.display(answer.displayHash).name;
+  for (const store::StudyPrediction& one : predictions)
+    if (!names.count(one.displayHash)) names[one.displayHash] = reader.display(one.displayHash).name;
+  return names;
+}
 
 std::string wantedDisplay(const std::string& used, const std::map<std::string, std::string>& names,
                           const PredictionChoice& choice) {

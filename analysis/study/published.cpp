@@ -35,8 +35,7 @@ const std::vector<PublishedScenariosOf>& publishedScenarios() {
        "static",
        {0.75, 0.0833, 2.20, 0.24, "coverage at least large, rating at least high", 3, 3,
         "an SD of 8.33 % comes of dividing by n, and of no eight rates of twelve observers by n - 1: SDs "
-        "over "
-        "scenarios are taken by n",
+        "over scenarios are taken by n",
         kSecond}}};
   return kAll;
 }

@@ -2,13 +2,13 @@
 #include "analysis/study/published_comparison.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 
-#include "analysis/output/text_table.h"
+#include "analysis/output/text_output.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
+
 namespace {
 
 std::string shareText(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
@@ -178,10 +178,8 @@ class Comparer {
           for (const Agreement& agreement : one.severity ? part.severity : part.agreements)
             if (agreement.set == one.set && agreement.predictor == one.predictor) own = &agreement;
     std::optional<double> tauC, r;
-    if (own && own->kendall.tauC) tauC = own->kendall.tauC->value;
-    if (own && !one.agreement.clamped && own->pearson) r = own->pearson->coefficient.value;
-    if (own && one.agreement.clamped && own->clamped.correlation)
-      r = own->clamped.correlation->coefficient.value;
+    if (own) tauC = valueOf(own->kendall.tauC);
+    if (own) r = valueOf(one.agreement.clamped ? own->clamped.correlation : own->pearson);
     std::string note;
     if (!findings_.validation)
       note = "ours: " + findings_.whyNotValidated;
@@ -207,8 +205,7 @@ class Comparer {
     if (std::find(kinds.begin(), kinds.end(), "model") != kinds.end())
       out_.notes.push_back(
           "observers of kind 'model' answer by the predictor's own rating: how well that and what is made of "
-          "it "
-          "agree with their answers is circular");
+          "it agree with their answers is circular");
   }
 
   const StudyFindings& findings_;
@@ -219,5 +216,52 @@ class Comparer {
 }  // namespace
 
 PublishedComparison comparePublished(const StudyFindings& findings) { return Comparer(findings).compare(); }
+
+namespace {
+
+struct ValueRow {
+  const ComparedStatistic* statistic;
+  const ComparedValue* value;
+};
+
+}  // namespace
+
+Result resultOf(const std::vector<PublishedComparison>& comparisons) {
+  Result out;
+  out.command = "published";
+  for (const PublishedComparison& one : comparisons) {
+    Section own;
+    own.title = fmt::format("{}: what was published, and {} observers here ({})", one.protocol, one.observers,
+                            one.data);
+    own.fact(key(text("protocol")), one.protocol);
+    own.fact(forData(integer("observers")), one.observers);
+    own.fact(forData(flag("simulated")), one.simulated);
+    own.fact(key(text("data")), one.data);
+    std::vector<ValueRow> rows;
+    for (const ComparedStatistic& statistic : one.statistics)
+      for (const ComparedValue& value : statistic.values) rows.push_back({&statistic, &value});
+    const auto of = [](auto member) { return at(&ValueRow::statistic, member); };
+    const auto value = [](auto member) { return at(&ValueRow::value, member); };
+    own.add(TableOf("statistics", "", rows)
+                .add(text("part"), of(&ComparedStatistic::part))
+                .add(text("statistic"), of(&ComparedStatistic::statistic))
+                .add(text("quantity"), value(&ComparedValue::quantity))
+                .add(text("published"), value(&ComparedValue::published))
+                .add(forData(number("published_estimate")), value(&ComparedValue::printed))
+                .add(text("estimate_text", "ours"), value(&ComparedValue::oursText))
+                .add(forData(number("estimate")), value(&ComparedValue::ours))
+                .add(forData(number("difference")),
+                     [](const ValueRow& row) -> ResultCell {
+                       if (!row.value->ours || !row.value->printed) return {};
+                       return *row.value->ours - *row.value->printed;
+                     })
+                .add(ifAny(text("note")), of(&ComparedStatistic::note))
+                .add(forData(text("source")), of(&ComparedStatistic::source)));
+    if (!one.statistics.empty()) own.notes.push_back("published: " + one.statistics.front().source);
+    own.notes.insert(own.notes.end(), one.notes.begin(), one.notes.end());
+    out.sections.push_back(std::move(own));
+  }
+  return out;
+}
 
 }  // namespace limen::analysis

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/output/result.h"
-#include "analysis/study/anova.h"
+#include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
 #include "analysis/study/validation.h"
 

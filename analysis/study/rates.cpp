@@ -2,10 +2,63 @@
 #include "analysis/study/rates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
+#include "analysis/study/link.h"
+
 namespace limen::analysis {
+
+namespace {
+
+struct ScenarioAnswers {
+  ObserverCounts observers;
+  std::vector<double> severities;
+};
+
+Spread spreadOf(const std::vector<double>& values) {
+  Spread out;
+  out.scenarios = values.size();
+  const auto n = static_cast<double>(values.size());
+  out.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - out.mean) * (value - out.mean);
+  out.sdOfN = std::sqrt(squares / n);
+  if (values.size() > 1) out.sd = std::sqrt(squares / (n - 1.0));
+  return out;
+}
+
+}  // namespace
+
+void addScenarioSpreads(const StudyAnswers& study, size_t part, StudyRates& out) {
+  using ConditionKey = std::map<std::string, std::string>;
+  std::map<std::string, std::map<ConditionKey, ScenarioAnswers>> kinds;
+  for (const StudyAnswer& answer : study.answers) {
+    if (answer.part != part || !answer.change) continue;
+    ScenarioAnswers& scenario = kinds[answer.presentation][answer.condition];
+    scenario.observers[answer.observer].yes += answer.outcome == 1 ? 1 : 0;
+    ++scenario.observers[answer.observer].trials;
+    if (answer.outcome == 1 && answer.severity) scenario.severities.push_back(*answer.severity);
+  }
+  for (const auto& [presentation, scenarios] : kinds) {
+    std::vector<double> rates, severities;
+    for (const auto& [condition, scenario] : scenarios) {
+      rates.push_back(meanRate(scenario.observers));
+      if (!scenario.severities.empty()) severities.push_back(spreadOf(scenario.severities).mean);
+    }
+    ScenarioSpread one;
+    one.part = study.plan.parts[part].name;
+    one.presentation = kinds.size() > 1 ? presentation : "all";
+    one.of = study.plan.parts[part].asksYesNo() ? "yes" : "right";
+    one.rate = spreadOf(rates);
+    if (!severities.empty()) one.severity = spreadOf(severities);
+    one.published = publishedScenario(study.plan.name, one.part, presentation);
+    out.scenarios.push_back(std::move(one));
+  }
+}
+
 namespace {
 
 struct Count {

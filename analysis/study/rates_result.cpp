@@ -5,15 +5,7 @@ namespace limen::analysis {
 namespace {
 
 std::string scopeText(RateScope scope) {
-  switch (scope) {
-    case RateScope::Part:
-      return "part";
-    case RateScope::Level:
-      return "level";
-    case RateScope::Condition:
-      break;
-  }
-  return "condition";
+  return scope == RateScope::Part ? "part" : scope == RateScope::Level ? "level" : "condition";
 }
 
 std::string ofText(const RateRow& row) {
@@ -29,14 +21,9 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
       rows.push_back(row);
       for (const auto& [factor, level] : row.condition) factors[factor] = true;
     }
-  const auto of = [](auto member) {
-    return [member](const RateRow& row) { return row.overObservers.*member; };
-  };
-  const auto published = [](auto member) {
-    return [member](const RateRow& row) {
-      return row.published ? ResultCell((*row.published).*member) : ResultCell();
-    };
-  };
+  const auto of = [](auto member) { return at(&RateRow::overObservers, member); };
+  const auto pooled = [](auto member) { return at(&RateRow::pooled, member); };
+  const auto published = [](auto member) { return at(&RateRow::published, member); };
   TableOf out("rates", "", rows);
   out.add(forData(text("scope")), [](const RateRow& row) { return scopeText(row.scope); })
       .add(text("condition"), &RateRow::text);
@@ -53,13 +40,10 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
       .add(share("sd"), of(&MeanOverSubjects::standardDeviation))
       .add(shareInterval("", "95 % over observers"), of(&MeanOverSubjects::interval))
       .add(count("positive", "trials", "pooled"),
-           [](const RateRow& row) {
-             return CountOf{row.pooled.successes, row.pooled.trials};
-           })
-      .add(forData(share("pooled_rate")), [](const RateRow& row) { return row.pooled.rate; })
-      .add(shareInterval("wilson", "95 % (Wilson)"), [](const RateRow& row) { return row.pooled.wilson; })
-      .add(forData(shareInterval("clopper_pearson")),
-           [](const RateRow& row) { return row.pooled.clopperPearson; })
+           [](const RateRow& row) { return countOf(&Rate::successes, &Rate::trials)(row.pooled); })
+      .add(forData(share("pooled_rate")), pooled(&Rate::rate))
+      .add(shareInterval("wilson", "95 % (Wilson)"), pooled(&Rate::wilson))
+      .add(forData(shareInterval("clopper_pearson")), pooled(&Rate::clopperPearson))
       .add(ifAny(share("published", "published mean")), published(&PublishedRate::mean))
       .add(ifAny(share("published_sd", "published sd")), published(&PublishedRate::sd))
       .add(forData(text("published_source")), published(&PublishedRate::source));
@@ -77,16 +61,14 @@ ResultTable observerTable(const StudyRates& rates, const std::string& part) {
     rows.push_back({&one, true, one.change});
     if (one.catches) rows.push_back({&one, false, *one.catches});
   }
-  const auto of = [](auto member) { return [member](const Row& row) { return row.rate.*member; }; };
+  const auto of = [](auto member) { return at(&Row::rate, member); };
   return TableOf("by_observer", "of each observer", rows)
-      .add(text("observer"), [](const Row& row) { return row.own->observer; })
+      .add(text("observer"), at(&Row::own, &ObserverRate::observer))
       .add(forData(flag("change")), &Row::change)
       .add(forPeople(text("", "trials")), [](const Row& row) { return row.change ? "change" : "no change"; })
-      .add(text("rate_of"), [](const Row& row) { return row.own->of; })
+      .add(text("rate_of"), at(&Row::own, &ObserverRate::of))
       .add(count("positive", "trials", "answers"),
-           [](const Row& row) {
-             return CountOf{row.rate.successes, row.rate.trials};
-           })
+           [](const Row& row) { return countOf(&Rate::successes, &Rate::trials)(row.rate); })
       .add(share("estimate", "rate"), of(&Rate::rate))
       .add(shareInterval("wilson", "95 % (Wilson)"), of(&Rate::wilson))
       .add(forData(shareInterval("clopper_pearson")), of(&Rate::clopperPearson));
@@ -96,7 +78,7 @@ ResultTable scenarioTable(const StudyRates& rates, const std::string& part) {
   struct Row {
     const ScenarioSpread* own;
     std::string quantity;
-    Spread spread;
+    std::optional<Spread> spread;
     std::optional<double> published, publishedSd;
   };
   std::vector<Row> rows;
@@ -109,23 +91,15 @@ ResultTable scenarioTable(const StudyRates& rates, const std::string& part) {
     rows.push_back({&one, "rate", one.rate, printed(&PublishedScenarios::meanRate),
                     printed(&PublishedScenarios::sdRate)});
     if (one.severity || known)
-      rows.push_back({&one, "severity", one.severity.value_or(Spread{}),
-                      printed(&PublishedScenarios::meanSeverity), printed(&PublishedScenarios::sdSeverity)});
+      rows.push_back({&one, "severity", one.severity, printed(&PublishedScenarios::meanSeverity),
+                      printed(&PublishedScenarios::sdSeverity)});
   }
-  const auto of = [](auto member) {
-    return [member](const Row& row) {
-      return row.quantity == "rate" || row.own->severity ? ResultCell(row.spread.*member) : ResultCell();
-    };
-  };
-  const auto known = [](auto member) {
-    return [member](const Row& row) {
-      return row.own->published ? ResultCell((*row.own->published).*member) : ResultCell();
-    };
-  };
+  const auto of = [](auto member) { return at(&Row::spread, member); };
+  const auto known = [](auto member) { return at(&Row::own, &ScenarioSpread::published, member); };
   return TableOf("over_scenarios", "over scenarios with a change: means, and sd by their number", rows)
-      .add(text("presentation", "stimuli"), [](const Row& row) { return row.own->presentation; })
+      .add(text("presentation", "stimuli"), at(&Row::own, &ScenarioSpread::presentation))
       .add(text("quantity"), &Row::quantity)
-      .add(forData(text("rate_of")), [](const Row& row) { return row.own->of; })
+      .add(forData(text("rate_of")), at(&Row::own, &ScenarioSpread::of))
       .add(integer("scenarios"), of(&Spread::scenarios))
       .add(number("estimate", "mean", 4), of(&Spread::mean))
       .add(number("sd_of_n", "sd", 4), of(&Spread::sdOfN))
@@ -156,8 +130,7 @@ Result resultOf(const StudyRates& rates) {
   out.notes = rates.notes;
   out.notes.push_back(
       "over observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials of "
-      "one "
-      "observer are not independent: their interval is too narrow");
+      "one observer are not independent: their interval is too narrow");
   return out;
 }
 

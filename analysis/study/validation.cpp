@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/study/validation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -44,10 +39,7 @@ std::vector<Scenario> scenariosOf(const StudyAnswers& study, size_t part, const 
   }
   std::vector<Scenario> out;
   for (auto& [key, sums] : all) {
-    double rates = 0.0;
-    for (const auto& [observer, count] : sums.scenario.observers)
-      rates += static_cast<double>(count.yes) / static_cast<double>(count.trials);
-    sums.scenario.rate = rounded(rates / static_cast<double>(sums.scenario.observers.size()));
+    sums.scenario.rate = rounded(meanRate(sums.scenario.observers));
     if (sums.severities > 0)
       sums.scenario.meanSeverity = rounded(sums.severity / static_cast<double>(sums.severities));
     sums.scenario.predictors = chosen.values.at(key.second);
@@ -68,41 +60,26 @@ bool isIn(const Scenario& scenario, const std::string& set) {
   return set == "all" || set == "both" || set == scenario.presentation;
 }
 
-void compareRates(PartValidation& out, const std::string& protocol) {
-  for (const std::string& set : setsOf(out.scenarios))
-    for (const PredictorName& predictor : studyPredictors()) {
-      std::vector<double> predictions, rates;
-      for (const Scenario& scenario : out.scenarios) {
-        const auto value = scenario.predictors.find(predictor.name);
-        if (!isIn(scenario, set) || value == scenario.predictors.end()) continue;
-        predictions.push_back(value->second);
-        rates.push_back(scenario.rate);
-      }
-      if (predictions.size() < 2) continue;
-      out.agreements.push_back({set, predictor.name, predictions.size(), kendall(predictions, rates),
-                                pearson(predictions, rates), clampedPearson(predictions, rates),
-                                publishedAgreement(protocol, out.part, set, predictor.name, false)});
-    }
-}
-
-void compareSeverities(PartValidation& out, const std::string& protocol) {
-  for (const std::string& set : setsOf(out.scenarios))
-    for (const std::string predictor : {"rating_score", "rating_level"}) {
-      std::vector<double> predictions, severities;
-      for (const Scenario& scenario : out.scenarios) {
+/// Predictors of the scenarios beside what `of` says of their answers; scenarios without one of both are left
+/// out.
+template <class Of>
+void compareWith(std::vector<Agreement>& out, const PartValidation& part, const std::string& protocol,
+                 const std::vector<std::string>& predictors, bool severity, Of of) {
+  for (const std::string& set : setsOf(part.scenarios))
+    for (const std::string& predictor : predictors) {
+      std::vector<double> predictions, answers;
+      for (const Scenario& scenario : part.scenarios) {
         const auto value = scenario.predictors.find(predictor);
-        if (!isIn(scenario, set) || value == scenario.predictors.end() || !scenario.meanSeverity) continue;
+        const std::optional<double> answer = of(scenario);
+        if (!isIn(scenario, set) || value == scenario.predictors.end() || !answer) continue;
         predictions.push_back(value->second);
-        severities.push_back(*scenario.meanSeverity);
+        answers.push_back(*answer);
       }
       if (predictions.size() < 2) continue;
-      out.severity.push_back({set,
-                              predictor,
-                              predictions.size(),
-                              kendall(predictions, severities),
-                              pearson(predictions, severities),
-                              {},
-                              publishedAgreement(protocol, out.part, set, predictor, true)});
+      out.push_back({set, predictor, predictions.size(), kendall(predictions, answers),
+                     pearson(predictions, answers),
+                     severity ? ClampedPearson{} : clampedPearson(predictions, answers),
+                     publishedAgreement(protocol, part.part, set, predictor, severity)});
     }
 }
 
@@ -198,8 +175,12 @@ StudyValidation validateStudy(const StudyAnswers& study,
         ++catches[answer.observer].trials;
         catches[answer.observer].yes += answer.outcome == 1 ? 1 : 0;
       }
-    compareRates(one, study.plan.name);
-    compareSeverities(one, study.plan.name);
+    std::vector<std::string> predictors;
+    for (const PredictorName& predictor : studyPredictors()) predictors.push_back(predictor.name);
+    compareWith(one.agreements, one, study.plan.name, predictors, false,
+                [](const Scenario& scenario) { return std::optional<double>(scenario.rate); });
+    compareWith(one.severity, one, study.plan.name, {"rating_score", "rating_level"}, true,
+                [](const Scenario& scenario) { return scenario.meanSeverity; });
     if (!setting.onlyAgreements) {
       compareTrials(one);
       fitLinks(one, catches, setting, study.observers.size());

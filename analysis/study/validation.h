@@ -10,10 +10,9 @@
 #include "analysis/statistics/rank_correlation.h"
 #include "analysis/statistics/roc.h"
 #include "analysis/study/answers.h"
-#include "analysis/study/link_report.h"
+#include "analysis/study/link.h"
 #include "analysis/study/predicted.h"
 #include "analysis/study/published.h"
-#include "analysis/study/scores.h"
 #include "experiments/store/predictions.h"
 
 namespace limen::analysis {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "analysis/correlations/bootstrap_facts.h"
-#include "analysis/correlations/calibration_result.h"
+#include "analysis/correlations/cluster_bootstrap.h"
 #include "analysis/study/validation.h"
 
 namespace limen::analysis {
@@ -14,10 +13,7 @@ ResultTable scenarioTable(const PartValidation& part) {
       .add(text("presentation"), &Scenario::presentation)
       .add(text("stimulus_hash"), &Scenario::stimulusHash)
       .add(text("display_hash"), &Scenario::displayHash)
-      .add(count("yes", "trials"),
-           [](const Scenario& one) {
-             return CountOf{one.yes, one.trials};
-           })
+      .add(count("yes", "trials"), countOf(&Scenario::yes, &Scenario::trials))
       .add(share("rate"), &Scenario::rate)
       .add(number("mean_severity"), &Scenario::meanSeverity);
   for (const PredictorName& predictor : studyPredictors())
@@ -31,42 +27,35 @@ ResultTable scenarioTable(const PartValidation& part) {
 }
 
 ResultTable agreementTable(const std::vector<Agreement>& agreements, bool severity) {
-  const auto kendall = [](auto of) { return [of](const Agreement& one) { return of(one.kendall); }; };
-  const auto pearson = [](auto of) { return [of](const Agreement& one) { return of(one.pearson); }; };
-  const auto clamped = [](auto of) {
-    return [of](const Agreement& one) { return of(one.clamped.correlation); };
-  };
-  const auto value = [](const auto& coefficient) { return valueOf(coefficient); };
-  const auto bounds = [](const auto& coefficient) { return intervalOf(coefficient); };
-  const auto p = [](const auto& correlation) { return pOf(correlation); };
-  const auto published = [](auto member) {
-    return [member](const Agreement& one) {
-      return one.published ? ResultCell((*one.published).*member) : ResultCell();
-    };
-  };
+  const auto kendall = [](auto... of) { return at(&Agreement::kendall, of...); };
+  const auto pearson = [](auto... of) { return at(&Agreement::pearson, of...); };
+  const auto clamped = [](auto... of) { return at(&Agreement::clamped, of...); };
+  const auto coefficient = &Correlation::coefficient;
+  const auto correlation = &ClampedPearson::correlation;
+  const auto published = [](auto member) { return at(&Agreement::published, member); };
   TableOf out("agreement", severity ? "with mean severity of what was noticed" : "with detection rates",
               agreements);
   out.add(forData(text("with")), [=](const Agreement&) { return severity ? "severity" : "rate"; })
       .add(text("predictor"), &Agreement::predictor)
       .add(text("set", "scenarios"), &Agreement::set)
       .add(integer("n"), &Agreement::scenarios)
-      .add(number("tau_c", "τ_c"), kendall([](const Kendall& one) { return valueOf(one.tauC); }))
-      .add(interval("tau_c"), kendall([](const Kendall& one) { return intervalOf(one.tauC); }))
-      .add(forData(number("tau_b")), kendall([](const Kendall& one) { return valueOf(one.tauB); }))
-      .add(probability("p_tau", "p"), kendall([](const Kendall& one) { return one.p; }))
+      .add(number("tau_c", "τ_c"), kendall(&Kendall::tauC, &Coefficient::value))
+      .add(interval("tau_c"), kendall(&Kendall::tauC, &Coefficient::interval))
+      .add(forData(number("tau_b")), kendall(&Kendall::tauB, &Coefficient::value))
+      .add(probability("p_tau", "p"), kendall(&Kendall::p))
       .add(forData(integer("concordant_minus_discordant")),
            kendall([](const Kendall& one) { return one.concordant - one.discordant; }))
       .add(forData(integer("m")),
            kendall([](const Kendall& one) { return std::min(one.distinctX, one.distinctY); }))
-      .add(number("r"), pearson(value))
-      .add(interval("r"), pearson(bounds))
-      .add(probability("p_r", "p"), pearson(p));
+      .add(number("r"), pearson(coefficient, &Coefficient::value))
+      .add(interval("r"), pearson(coefficient, &Coefficient::interval))
+      .add(probability("p_r", "p"), pearson(&Correlation::p));
   if (!severity)
-    out.add(number("r_clamped", "r clamped"), clamped(value))
-        .add(forData(interval("r_clamped")), clamped(bounds))
-        .add(forData(probability("p_r_clamped")), clamped(p))
-        .add(integer("clamped"), [](const Agreement& one) { return one.clamped.clamped; })
-        .add(significant("clamp", "at", 3), [](const Agreement& one) { return one.clamped.clamp; });
+    out.add(number("r_clamped", "r clamped"), clamped(correlation, coefficient, &Coefficient::value))
+        .add(forData(interval("r_clamped")), clamped(correlation, coefficient, &Coefficient::interval))
+        .add(forData(probability("p_r_clamped")), clamped(correlation, &Correlation::p))
+        .add(integer("clamped"), clamped(&ClampedPearson::clamped))
+        .add(significant("clamp", "at", 3), clamped(&ClampedPearson::clamp));
   return out.add(ifAny(number("published_tau_c", "published τ_c")), published(&PublishedAgreement::tauC))
       .add(ifAny(number("published_r", "published r")), published(&PublishedAgreement::r))
       .add(ifAny(flag("published_r_clamped", "clamped")), published(&PublishedAgreement::clamped))
@@ -74,15 +63,11 @@ ResultTable agreementTable(const std::vector<Agreement>& agreements, bool severi
 }
 
 ResultTable areaTable(const PartValidation& part) {
-  const auto against = [](auto member) {
-    return [member](const TrialArea& one) {
-      return one.againstRating ? ResultCell((*one.againstRating).*member) : ResultCell();
-    };
-  };
+  const auto against = [](auto member) { return at(&TrialArea::againstRating, member); };
   return TableOf("areas", "area under the ROC curve of single trials with a change", part.areas)
       .add(text("predictor"), &TrialArea::predictor)
-      .add(number("estimate", "area"), [](const TrialArea& one) { return one.area.area; })
-      .add(interval(), [](const TrialArea& one) { return one.area.interval; })
+      .add(number("estimate", "area"), at(&TrialArea::area, &RocArea::area))
+      .add(interval(), at(&TrialArea::area, &RocArea::interval))
       .add(number("minus_rating", "minus rating"), against(&RocComparison::difference))
       .add(interval("minus_rating"), against(&RocComparison::interval))
       .add(forData(number("z")), against(&RocComparison::z))
@@ -131,8 +116,8 @@ ResultTable errorTable(const LinkReport& link) {
   add("leave_one_out", "fitted, each scenario left out once", link.refitError, bounds.refitError);
   add("as_predicted", "as predicted", link.asPredicted, bounds.asPredicted);
   add("constant", "mean rate of the other scenarios", link.constant, bounds.constant);
-  const auto of = [](auto member) { return [member](const ErrorRow& row) { return row.error.*member; }; };
-  const auto range = [](auto member) { return [member](const ErrorRow& row) { return row.bounds.*member; }; };
+  const auto of = [](auto member) { return at(&ErrorRow::error, member); };
+  const auto range = [](auto member) { return at(&ErrorRow::bounds, member); };
   return TableOf("link_errors", "errors of predicted probabilities, and of rates over scenarios", rows)
       .add(forData(text("prediction")), &ErrorRow::name)
       .add(forPeople(text("", "prediction")), &ErrorRow::title)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/study_page/figure.h"
+#include "analysis/study_page/page_writer.h"
 
 #include <fmt/format.h>
 
@@ -25,11 +25,10 @@ constexpr double kCmPerPx = 8.8 / 460.0;
 std::string scriptOf(const Figure& figure) {
   const std::string& name = figure.name;
   std::string out = fmt::format(
-      "# Draws {0}.svg and {0}.pdf from {0}.dat: gnuplot {0}.gp\nreset\n"
-      "set terminal svg name '{0}' size {1},{2} dynamic font 'system-ui, sans-serif,13' noenhanced\n"
-      "set output '{0}.svg'\nset encoding utf8\nset border 3\nset tics nomirror out scale 0.5\n"
-      "set grid ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset errorbars 0\n"
-      "set key below height 1 Left reverse samplen 2.5 maxcols 2\n",
+      "# Draws {0}.svg and {0}.pdf from {0}.dat: gnuplot {0}.gp\nreset\nset terminal svg name '{0}' size "
+      "{1},{2} dynamic font 'system-ui, sans-serif,13' noenhanced\nset output '{0}.svg'\nset encoding "
+      "utf8\nset border 3\nset tics nomirror out scale 0.5\nset grid ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset "
+      "errorbars 0\nset key below height 1 Left reverse samplen 2.5 maxcols 2\n",
       name, figure.widthPx, figure.heightPx);
   if (!figure.key) out += "set key off\n";
   out += "set xlabel " + gnuplotQuoted(figure.xTitle) + " offset 0,0.5\nset ylabel " +
@@ -68,7 +67,7 @@ std::string namedTics(const std::string& axis, const std::vector<std::pair<doubl
                       bool turned) {
   std::string out;
   for (const auto& [place, label] : labels)
-    out += (out.empty() ? "" : ", ") + gnuplotQuoted(label) + " " + shortestNumber(place);
+    out += (out.empty() ? "" : ", ") + gnuplotTick(label) + " " + shortestNumber(place);
   return "set " + axis + "tics (" + out + ")" + (turned ? " rotate by 45 right" : "") + "\n";
 }
 

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
-#include "analysis/output/result_text.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 
 namespace limen::analysis {
@@ -13,20 +11,6 @@ namespace {
 
 /// Stands where a figure comes. escapeHtml() lets no such letter through, so that no title can forge it.
 constexpr char kMark = '\x01';
-
-/// A cell as typographers want it: a true minus, a dash for what is not there, a sign for what has no bound.
-std::string cellHtml(const std::string& text) {
-  if (text == "-" || text.empty()) return text.empty() ? "" : "–";
-  if (text == "inf") return "∞";
-  if (text == "-inf") return "−∞";
-  std::string out = escapeHtml(text);
-  for (size_t at = 0; at + 1 < out.size(); ++at) {
-    const bool opens = at == 0 || out[at - 1] == ' ';
-    if (out[at] == '-' && opens && std::isdigit(static_cast<unsigned char>(out[at + 1])))
-      out.replace(at, 1, "−");
-  }
-  return out;
-}
 
 std::string link(const std::string& path, const std::string& text) {
   return "<a href=\"" + escapeHtml(path) + "\">" + escapeHtml(text) + "</a>";
@@ -59,10 +43,6 @@ void PageWriter::list(const std::vector<std::string>& items) {
 void PageWriter::table(const ResultTable& table, const std::string& words, const std::string& file,
                        size_t openRows) {
   if (table.rows() == 0) return;
-  std::vector<const Column*> columns;
-  for (const Column& column : table.columns)
-    if (column.shownToPeople()) columns.push_back(&column);
-  const auto look = [](const Column& column) { return std::string(column.isNumber() ? " class=\"num\"" : ""); };
   const bool folded = table.rows() > openRows;
   const std::string id = fmt::format("table-{}", ++tables_);
   const std::string caption = fmt::format("<b>Table {}.</b> ", tables_) + escapeHtml(words) +
@@ -70,22 +50,11 @@ void PageWriter::table(const ResultTable& table, const std::string& words, const
   // Beside the table and not in it: a caption in it would be scrolled away with a wide one.
   html_ += folded ? "<details><summary class=\"caption\" id=\"" + id + "\">" + caption + "</summary>\n"
                   : "<p class=\"caption\" id=\"" + id + "\">" + caption + "</p>\n";
-  html_ += "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"" + id +
-           "\"><table aria-labelledby=\"" + id + "\"><thead><tr>";
-  for (const Column* column : columns)
-    html_ += "<th scope=\"col\"" + look(*column) + ">" + escapeHtml(column->title) + "</th>";
-  html_ += "</tr></thead>\n<tbody>\n";
-  for (size_t row = 0; row < table.rows(); ++row) {
-    html_ += "<tr>";
-    for (const Column* column : columns) {
-      const std::string cell = cellText(*column, column->cells[row]);
-      html_ += column == columns.front()
-                   ? "<th scope=\"row\"" + look(*column) + ">" + breakable(cell) + "</th>"
-                   : "<td" + look(*column) + ">" + cellHtml(cell) + "</td>";
-    }
-    html_ += "</tr>\n";
-  }
-  html_ += "</tbody></table></div>\n";
+  HtmlOptions options;
+  options.attributes = " aria-labelledby=\"" + id + "\"";
+  options.box = "<div class=\"scroll\" tabindex=\"0\" role=\"region\"" + options.attributes + ">";
+  options.rowHeads = true;
+  html_ += toHtml(table, options);
   if (folded) html_ += "</details>\n";
 }
 

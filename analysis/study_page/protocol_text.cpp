@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/study_page/protocol_text.h"
+#include "analysis/study_page/session_facts.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -39,10 +39,8 @@ PartText partOf(const YamlNode& node, const std::string& name) {
       out.severityQuestion = textAt(*scale, "question");
       out.severityLabels = textsOf(scale->find("labels"));
     }
-    if (const YamlNode* scale = task->find("confidence")) {
-      out.confidenceQuestion = textAt(*scale, "question");
+    if (const YamlNode* scale = task->find("confidence"))
       out.confidenceLabels = textsOf(scale->find("labels"));
-    }
   }
   out.order = orderOf(node.find("order"), "shuffle");
   if (const YamlNode* blocks = node.find("blocks")) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/output/result_data.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
 
@@ -17,13 +17,14 @@ void addPart(const PartAnova& part, const Section& section, PageWriter& out) {
   std::vector<std::string> factors;
   for (const NamedFactor& factor : part.factors)
     factors.push_back(fmt::format("{} ({} levels)", factor.name, factor.levels.size()));
-  out.table(section.table("effects"),
-            fmt::format("Repeated-measures analysis of variance of part {}: {}, of {}, factors {}. p without "
-                        "correction, and with Greenhouse and Geisser's (GG) and Huynh and Feldt's (HF) correction "
-                        "for effects of more than one degree of freedom, W being Mauchly's; partial η² with its "
-                        "95 % interval.",
-                        part.part, part.measure, counted(part.result->subjects, "observer"), listed(factors)),
-            "tables/anova.csv");
+  out.table(
+      section.table("effects"),
+      fmt::format("Repeated-measures analysis of variance of part {}: {}, of {}, factors {}. p without "
+                  "correction, and with Greenhouse and Geisser's (GG) and Huynh and Feldt's (HF) correction "
+                  "for effects of more than one degree of freedom, W being Mauchly's; partial η² with its "
+                  "95 % interval.",
+                  part.part, part.measure, counted(part.result->subjects, "observer"), listed(factors)),
+      "tables/anova.csv");
   out.list(section.notes);
   size_t factor = 0;
   for (const ResultTable& table : section.tables) {
@@ -31,11 +32,13 @@ void addPart(const PartAnova& part, const Section& section, PageWriter& out) {
     const std::string& name = part.factors[factor++].name;
     // One pair says what the analysis of variance said.
     if (table.rows() < 2) continue;
-    out.table(table,
-              "Pairs of levels of " + name + " in part " + part.part +
-                  ", other factors averaged: paired t tests over observers, p with Holm's correction over the pairs "
-                  "of this factor. Differences are first minus second, with 95 % intervals that are not corrected.",
-              "tables/anova.csv", kOpenPairs);
+    out.table(
+        table,
+        "Pairs of levels of " + name + " in part " + part.part +
+            ", other factors averaged: paired t tests over observers, p with Holm's correction over the "
+            "pairs "
+            "of this factor. Differences are first minus second, with 95 % intervals that are not corrected.",
+        "tables/anova.csv", kOpenPairs);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/output/result_data.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/gnuplot.h"

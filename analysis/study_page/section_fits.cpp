@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/answer_fits/fit_chart.h"
-#include "analysis/output/result_data.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/build_facts.h"
@@ -127,8 +127,7 @@ std::string fitMethods(const StudyPage& page) {
     out += fmt::format(
         "Psychometric functions P = guess + (1 - guess - lapse) F of {}{} ({} F, {} on a {} axis; {}) were "
         "fitted by {} with Limen {} to answers pooled over observers; thresholds are at F = {}, widths from "
-        "0.05 to 0.95, 95 % "
-        "intervals are those of the profile likelihood. ",
+        "0.05 to 0.95, 95 % intervals are those of the profile likelihood. ",
         part.answer->level, page.fits.size() > 1 ? ", part " + part.part : "", sigmoidText(settings),
         settings.falling ? "falling" : "rising", settings.logarithmic() ? "logarithmic" : "linear",
         ratesText(settings),
@@ -148,9 +147,7 @@ void addFits(const StudyPage& page, PageWriter& out) {
       out.paragraph("Part " + part.part + " was not fitted: " + part.note + ".");
       continue;
     }
-    const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
-                                  [&](const StudyPart& one) { return one.name == part.part; });
-    addFitFigure(page, *own, *part.answer, out);
+    addFitFigure(page, page.study.plan.part(part.part), *part.answer, out);
     sections.push_back(sectionOf(*part.answer));
     addTables(*part.answer, sections.back(), out);
   }

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "analysis/correlations/bootstrap_facts.h"
-#include "analysis/output/result_data.h"
+#include "analysis/correlations/cluster_bootstrap.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
-#include "analysis/output/text_table.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/build_facts.h"
 #include "experiments/base/text.h"
@@ -114,19 +112,18 @@ void addScales(const StudyPage& page, PageWriter& out) {
     sections.push_back(sectionOf(*part.scale, part.setting));
     sections.back().fact(key(text("part")), part.part);
     out.table(sections.back().table("items"),
-              fmt::format("Items of part {}: values on Bradley and Terry's scale, which sum to 0; 1 apart, {} prefer "
-                          "the upper. Intervals: value ± z standard errors, and of the bootstrap.",
-                          part.part, percentText(predictPreference(part.setting.model, 1.0))),
+              fmt::format(
+                  "Items of part {}: values on Bradley and Terry's scale, which sum to 0; 1 apart, {} prefer "
+                  "the upper. Intervals: value ± z standard errors, and of the bootstrap.",
+                  part.part, percentText(predictPreference(part.setting.model, 1.0))),
               kScaleFile);
     out.table(sections.back().table("steps"),
               "Neighbours on the scale of part " + part.part +
                   ": differences with 95 % intervals from standard errors, p of no difference.",
               kScaleFile);
-    out.table(sections.back().table("consistency"), "Circular triads of each observer of part " + part.part + ".",
-              kScaleFile);
-    const auto own = std::find_if(page.study.plan.parts.begin(), page.study.plan.parts.end(),
-                                  [&](const StudyPart& one) { return one.name == part.part; });
-    out.list(remarksOnScale(*own, *part.scale));
+    out.table(sections.back().table("consistency"),
+              "Circular triads of each observer of part " + part.part + ".", kScaleFile);
+    out.list(remarksOnScale(page.study.plan.part(part.part), *part.scale));
   }
   if (!sections.empty()) out.file(kScaleFile, toCsv(sections), "scale values of items compared in pairs");
   out.closeSection();

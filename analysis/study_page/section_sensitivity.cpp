@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/output/result_data.h"
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
 #include "experiments/base/text.h"
@@ -127,7 +127,8 @@ void addSensitivity(const StudyPage& page, PageWriter& out) {
       "Equal-variance Gaussian model; rates are corrected by (k + 1/2) of (n + 1). Taken over all answers "
       "together d′ "
       "comes out too small where observers differ: the mean over observers is the one to report.");
-  out.file(kSensitivityFile, toCsv(resultOf(page.sensitivity).sections), "sensitivity and criterion of each observer");
+  out.file(kSensitivityFile, toCsv(resultOf(page.sensitivity).sections),
+           "sensitivity and criterion of each observer");
   out.closeSection();
 }
 

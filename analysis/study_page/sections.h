@@ -2,17 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "analysis/study/anova.h"
-#include "analysis/study/part_fits.h"
-#include "analysis/study/part_scales.h"
+#include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
-#include "analysis/study/sensitivity.h"
 #include "analysis/study/validation.h"
 #include "analysis/study_page/page_writer.h"
-#include "analysis/study_page/protocol_text.h"
 #include "analysis/study_page/session_facts.h"
 #include "experiments/store/predictions.h"
 
@@ -65,5 +62,16 @@ std::string scaleMethods(const StudyPage& page);
 std::string listed(const std::vector<std::string>& items);
 /// A rule of a protocol in words: "said yes in more than 25 % of the trials without a change".
 std::string ruleText(const std::string& rule, double limit);
+
+// What the methods say of the sessions, in English for a paper. Every number comes from the store; what that
+// does not have is said not to have been recorded.
+std::string participantsText(const StudyPage& page);
+std::string apparatusText(const StudyPage& page);
+/// Stimuli, task, order and numbers of trials of one part.
+std::string procedureText(const StudyPart& part, const PartText* text, const PartFacts& facts);
+/// "Trials came in an order shuffled for each session", by a kind of order of protocols.
+std::string orderText(const std::string& kind, const std::string& what);
+
+std::vector<std::string> listOf(const std::set<std::string>& set);
 
 }  // namespace limen::analysis

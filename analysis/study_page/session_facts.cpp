@@ -5,30 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
+#include "analysis/output/text_output.h"
 #include "experiments/base/yaml_tree.h"
 #include "experiments/store/sessions.h"
 
 namespace limen::analysis {
 namespace {
 
-std::optional<double> parsedNumber(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
-  return value;
-}
-
 std::optional<double> numberAt(const YamlNode& node, const char* key) {
   const YamlNode* found = node.find(key);
-  return found ? parsedNumber(found->text) : std::nullopt;
+  return found ? finiteNumber(found->text) : std::nullopt;
 }
 
 std::optional<double> itemAt(const YamlNode& node, const char* key, size_t index) {
   const YamlNode* found = node.find(key);
-  return found && index < found->items.size() ? parsedNumber(found->items[index].text) : std::nullopt;
+  return found && index < found->items.size() ? finiteNumber(found->items[index].text) : std::nullopt;
 }
 
 DisplayFacts displayOf(const store::StudyDisplay& display) {
@@ -60,12 +53,9 @@ void add(std::set<std::string>& set, const std::string& text) {
 }
 
 void addEnvironment(SessionFacts& out, const store::Environment& environment, bool simulated) {
-  const nlohmann::json& facts = environment.facts;
-  const nlohmann::json shown =
-      facts.is_object() ? facts.value("front_end", nlohmann::json::object()) : nlohmann::json::object();
-  if (!facts.is_object() || !shown.is_object()) return;
-  add(out.systems, textIn(facts, "os"));
-  add(out.frontEnds, textIn(shown, "front_end"));
+  const nlohmann::json shown = frontEndOf(environment);
+  if (!environment.facts.is_object()) return;
+  add(out.systems, textIn(environment.facts, "os"));
   if (simulated) {
     if (const auto observer = shown.find("observer"); observer != shown.end() && observer->is_object())
       add(out.observerKinds, textIn(*observer, "kind"));
@@ -128,7 +118,6 @@ void finishParts(SessionFacts& out, const std::map<std::string, std::map<std::st
 
 void addForm(SessionFacts& out, const nlohmann::json& form) {
   if (!form.is_object() || form.empty()) return;
-  ++out.forms;
   for (const auto& [field, choice] : form.items())
     if (choice.is_string()) ++out.form[field][choice.get<std::string>()];
 }
@@ -152,11 +141,8 @@ SessionFacts readSessionFacts(const StudyChoice& choice, const std::string& hash
   for (const store::StudySession& session : reader.sessions()) {
     if (session.protocol != hash) continue;
     const store::Environment environment = reader.environment(session.environment);
-    const nlohmann::json frontEnd = environment.facts.is_object()
-                                        ? environment.facts.value("front_end", nlohmann::json::object())
-                                        : nlohmann::json::object();
-    const bool simulated = frontEnd.is_object() && frontEnd.value("simulated", false);
-    if (choice.observers == (simulated ? Observers::People : Observers::Simulated)) continue;
+    const bool simulated = isSimulated(environment);
+    if (isOther(choice.observers, simulated)) continue;
     const store::StudyDisplay display = reader.display(session.display);
     SessionRow row{session.participant,
                    session.name,
@@ -182,7 +168,6 @@ SessionFacts readSessionFacts(const StudyChoice& choice, const std::string& hash
         out.parts[trial.part].severityAlways = true;
     }
     if (row.used) {
-      ++out.usedSessions;
       if (participants.insert(session.participant).second) addForm(out, session.form);
       if (displays.insert(session.display).second) out.displays.push_back(displayOf(display));
       addEnvironment(out, environment, simulated);

@@ -10,8 +10,41 @@
 #include <vector>
 
 #include "analysis/study/answers.h"
+#include "experiments/store/sessions.h"
 
 namespace limen::analysis {
+
+/// What a paper says of a part of a protocol. "" and 0: the protocol says nothing of it.
+struct PartText {
+  std::string name, question;
+  std::vector<std::string> answers;
+  std::string severityQuestion;
+  std::vector<std::string> severityLabels, confidenceLabels;
+  std::string order;                ///< of trials: a kind; "shuffle" if left out, as protocols mean it
+  std::string blockBy, blockOrder;  ///< factor, and a kind or the levels in their order; "fixed" if left out
+  int breakEveryTrials = 0;
+  bool practiceFeedback = false;
+  std::string procedure;  ///< type of the procedure that chose the stimuli
+};
+
+struct FormText {
+  std::string name, label;
+  std::vector<std::string> choices;
+};
+
+/// Source, question and procedure of a protocol, from the text that is stored with its sessions.
+struct ProtocolText {
+  std::string question, source, partOrder;
+  std::string background;  ///< of the window, linear light
+  std::vector<PartText> parts;
+  std::vector<FormText> form;
+
+  const PartText* part(const std::string& name) const;
+};
+
+/// Only what is named here is read: the protocol was checked when its sessions were run. Throws Error on text
+/// that is no YAML.
+ProtocolText readProtocolText(const store::StudyProtocol& protocol);
 
 /// A display as it was stored; what its profile lacks is missing.
 struct DisplayFacts {
@@ -52,12 +85,12 @@ struct SessionRow {
 /// Of the sessions that a page is about: with what, when and by whom they were run.
 struct SessionFacts {
   std::vector<DisplayFacts> displays;
-  std::set<std::string> renderers, openGl, systems, frontEnds, programVersions, doubts;
+  std::set<std::string> renderers, openGl, systems, programVersions, doubts;
   std::set<std::string> observerKinds;  ///< of simulated observers
-  size_t softwareRenderer = 0, usedSessions = 0;
+  size_t softwareRenderer = 0;
   std::string firstDay, lastDay;  ///< "2026-01-31"; no time of day. "" for simulated observers
   std::map<std::string, std::map<std::string, size_t>> form;  ///< field -> choice -> participants
-  size_t participants = 0, forms = 0;                         ///< who filled in one
+  size_t participants = 0;
   std::map<std::string, PartFacts> parts;
   std::vector<SessionRow> sessions;
 };

@@ -10,7 +10,6 @@
 #include "analysis/study_page/sections.h"
 #include "experiments/base/error.h"
 #include "experiments/base/staged_folder.h"
-#include "experiments/base/text.h"
 
 namespace limen::embedded {
 extern const char* const kStudyPageCss;
@@ -26,17 +25,9 @@ std::vector<std::string> chosenProtocols(const StudyChoice& choice) {
   const store::SessionReader reader(choice.store);
   std::vector<std::string> all, finished;
   for (const store::StudySession& session : reader.sessions()) {
-    const auto note = [&](std::vector<std::string>& list) {
-      if (std::find(list.begin(), list.end(), session.protocol) == list.end())
-        list.push_back(session.protocol);
-    };
-    note(all);
-    const nlohmann::json facts = reader.environment(session.environment).facts;
-    const nlohmann::json frontEnd =
-        facts.is_object() ? facts.value("front_end", nlohmann::json::object()) : nlohmann::json::object();
-    const bool simulated = frontEnd.is_object() && frontEnd.value("simulated", false);
-    if (choice.observers == (simulated ? Observers::People : Observers::Simulated)) continue;
-    if (session.state == "finished" || choice.unfinished) note(finished);
+    indexIn(all, session.protocol);
+    if (isOther(choice.observers, isSimulated(reader.environment(session.environment)))) continue;
+    if (session.state == "finished" || choice.unfinished) indexIn(finished, session.protocol);
   }
   // Where there is nothing to choose, or nothing that counts, the reader of answers has the word.
   if (!choice.protocol.empty() || all.size() < 2 || finished.empty()) return {choice.protocol};
@@ -52,17 +43,11 @@ void readValidation(StudyPage& page, const StudyChoice& choice) {
             [&](const StudyAnswer& answer) { return answer.stimulusHash == one.stimulusHash; });
       });
   if (!any) return;
-  const store::SessionReader reader(choice.store);
-  std::map<std::string, std::string> names;
-  const auto name = [&](const std::string& hash) {
-    if (!names.count(hash)) names[hash] = reader.display(hash).name;
-  };
-  for (const StudyAnswer& answer : page.study.answers) name(answer.displayHash);
-  for (const store::StudyPrediction& one : predictions) name(one.displayHash);
   // The page shows no interval of the link, whose bootstrap takes half a minute.
   page.validationSetting.samples = 0;
   try {
-    page.validation = validateStudy(page.study, predictions, names, page.validationSetting);
+    page.validation = validateStudy(
+        page.study, predictions, displayNames(choice.store, page.study, predictions), page.validationSetting);
   } catch (const Error& error) {
     page.validationNote = error.what();
   }

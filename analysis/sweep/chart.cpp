@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 #include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
@@ -41,8 +40,8 @@ size_t colourOf(size_t series) { return series % kMarkerShapes; }
 std::string ticksScript(const char* axisName, const ChartAxis& axis) {
   std::string out;
   const auto add = [&](const std::string& label, double value, int level) {
-    out += fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotQuoted(label), shortestNumber(value),
-                       level);
+    out +=
+        fmt::format("{}{} {} {}", out.empty() ? "" : ", ", gnuplotTick(label), shortestNumber(value), level);
   };
   for (const auto& [label, value] : axis.ticks) add(label, value, 0);
   for (const double value : axis.minorTicks) add("", value, 1);
@@ -50,37 +49,22 @@ std::string ticksScript(const char* axisName, const ChartAxis& axis) {
 }
 
 std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, size_t seriesCount) {
-  std::string out = "# Draws " + chart.name + ".svg from " + chart.name +
-                    ".dat. For a paper: gnuplot -e pdf=1 " + chart.name +
-                    ".gp\n"
-                    "reset\n"
-                    "if (exists('pdf')) {\n"
-                    "  set terminal pdfcairo size 12cm,8cm font 'sans,10'\n"
-                    "  set output '" +
-                    chart.name +
-                    ".pdf'\n"
-                    "  set title " +
-                    gnuplotQuoted(chart.title) +
-                    " noenhanced\n"
-                    "} else {\n"
-                    "  set terminal svg name '" +
-                    chart.name +
-                    "' size 640,430 dynamic font 'system-ui, sans-serif,13' noenhanced\n"
-                    "  set output '" +
-                    chart.name +
-                    ".svg'\n"
-                    "}\n"
-                    "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics "
-                    "nomirror out\nset errorbars 0\n"
-                    "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
-  out += "set xlabel " + gnuplotQuoted(chart.xTitle) + " noenhanced\nset ylabel " +
-         gnuplotQuoted(chart.yTitle) + " noenhanced\n";
-  if (x.logarithmic) out += "set logscale x\n";
-  if (y.logarithmic) out += "set logscale y\n";
-  out += fmt::format("set xrange [{}:{}]\n", shortestNumber(x.low), shortestNumber(x.high));
   const bool reversed = chart.yUpsideDown;
-  out += fmt::format("set yrange [{}:{}]\n", shortestNumber(reversed ? y.high : y.low),
-                     shortestNumber(reversed ? y.low : y.high));
+  std::string out = fmt::format(
+      "# Draws {0}.svg from {0}.dat. For a paper: gnuplot -e pdf=1 {0}.gp\nreset\nif (exists('pdf')) {{\n"
+      "  set terminal pdfcairo size 12cm,8cm font 'sans,10'\n  set output '{0}.pdf'\n  set title {1} "
+      "noenhanced\n"
+      "}} else {{\n"
+      "  set terminal svg name '{0}' size 640,430 dynamic font 'system-ui, sans-serif,13' noenhanced\n"
+      "  set output '{0}.svg'\n}}\n"
+      "set encoding utf8\nset datafile separator ' '\nset key off\nset border 3\nset tics nomirror out\n"
+      "set errorbars 0\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n"
+      "set xlabel {2} noenhanced\nset ylabel {3} noenhanced\n{4}{5}set xrange [{6}:{7}]\nset yrange "
+      "[{8}:{9}]\n",
+      chart.name, gnuplotQuoted(chart.title), gnuplotQuoted(chart.xTitle), gnuplotQuoted(chart.yTitle),
+      x.logarithmic ? "set logscale x\n" : "", y.logarithmic ? "set logscale y\n" : "", shortestNumber(x.low),
+      shortestNumber(x.high), shortestNumber(reversed ? y.high : y.low),
+      shortestNumber(reversed ? y.low : y.high));
   out += ticksScript("x", x) + ticksScript("y", y);
   // Data set 0 is the front (with its ends at the border), then comes one for each series: x, y, low, high.
   std::string plots = "'" + chart.name + ".dat' index 0 using 1:2 with steps lw 2 lc rgb '#777777'";
@@ -169,9 +153,8 @@ std::string decorate(const ChartMark& mark, const std::string& use, std::vector<
   }
   return fmt::format(
       "<g class=\"mark s{}{}\" data-series=\"{}\" data-run=\"{}\" data-label=\"{}\" data-x=\"{}\" "
-      "data-y=\"{}\" "
-      "data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}<circle class=\"hit\" cx=\"{:.2f}\" "
-      "cy=\"{:.2f}\" r=\"11\"/>{}</g>",
+      "data-y=\"{}\" data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}<circle class=\"hit\" "
+      "cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"11\"/>{}</g>",
       colourOf(mark.series), mark.onFront ? " front" : "", mark.series, escapeHtml(mark.key),
       escapeHtml(mark.label), shortestNumber(mark.x), shortestNumber(mark.y), escapeHtml(mark.hover),
       escapeHtml(spoken), use, place.x, place.y, number);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/sweep/experiments.h"
+#include "analysis/sweep/report.h"
 
 #include <fmt/format.h>
 

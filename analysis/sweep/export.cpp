@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/sweep/export.h"
+#include "analysis/sweep/report.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -47,9 +46,7 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
   Row measurements;
   for (const store::Run* run : runs) {
     for (const auto& [path, value] : flatParameters(*run)) parameters.insert(path);
-    for (const store::Measurement& m : run->measurements)
-      if (std::find(measurements.begin(), measurements.end(), m.name) == measurements.end())
-        measurements.push_back(m.name);
+    for (const store::Measurement& m : run->measurements) indexIn(measurements, m.name);
   }
   const Row times = {"n_frames",     "frame_median_ms", "frame_low95_ms", "frame_high95_ms",
                      "frame_p95_ms", "frame_min_ms",    "frame_mean_ms",  "frame_sd_ms"};
@@ -66,11 +63,7 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
       const auto found = values.find(path);
       row.push_back(found == values.end() ? "" : found->second);
     }
-    for (const std::string& name : measurements) {
-      const auto found = std::find_if(run.measurements.begin(), run.measurements.end(),
-                                      [&](const store::Measurement& m) { return m.name == name; });
-      row.push_back(found == run.measurements.end() ? "" : number(found->value));
-    }
+    for (const std::string& name : measurements) row.push_back(number(measurementOf(run, name)));
     if (index < sweep.cells.size() && sweep.cells[index].frame) {
       const Summary& s = *sweep.cells[index].frame;
       const MedianInterval& i = *sweep.cells[index].interval;
@@ -116,21 +109,11 @@ void exportTables(const Sweep& sweep, const std::string& folder) {
       frameTimes.push_back({run->key, run->device, std::to_string(t.frame), std::to_string(t.round), t.pass,
                             std::to_string(t.nanoseconds)});
   }
-  for (const Cell& cell : sweep.cells) {
-    std::vector<store::Pass> all = cell.run.passes;
-    for (const PassTime& time : cell.passes)  // a pass that held nothing of its own
-      if (std::none_of(all.begin(), all.end(), [&](const store::Pass& p) { return p.name == time.pass; }))
-        all.push_back({time.pass, 0});
-    for (const store::Pass& pass : all) {
-      const auto time = std::find_if(cell.passes.begin(), cell.passes.end(),
-                                     [&](const PassTime& t) { return t.pass == pass.name; });
-      const bool timed = time != cell.passes.end();
-      passes.push_back(
-          joined(identity(cell.run),
-                 {pass.name, std::to_string(pass.bytesHeld), timed ? number(time->ms.median) : "",
-                  timed ? number(time->ms.p95) : "", timed ? std::to_string(time->ms.n) : ""}));
-    }
-  }
+  for (const Cell& cell : sweep.cells)
+    for (const PassRow& row : passRows(cell))
+      passes.push_back(joined(identity(cell.run),
+                              {row.pass, std::to_string(row.bytesHeld), row.ms ? number(row.ms->median) : "",
+                               row.ms ? number(row.ms->p95) : "", row.ms ? std::to_string(row.ms->n) : ""}));
   write(folder, "measurements.csv", joined(kIdentity, {"name", "kind", "value", "unit"}), measurements);
   write(folder, "frame_times.csv", {"key", "device", "frame", "round", "pass", "nanoseconds"}, frameTimes);
   write(folder, "passes.csv", joined(kIdentity, {"pass", "bytes_held", "median_ms", "p95_ms", "n_frames"}),

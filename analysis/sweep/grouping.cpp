@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/sweep/grouping.h"
 
-#include <algorithm>
 #include <set>
 
 #include "experiments/base/text.h"
@@ -52,6 +51,12 @@ std::optional<std::string> findParameter(const store::Run& run, const std::strin
   const std::map<std::string, std::string> all = flatParameters(run);
   for (const char* group : {"technique.", "scene.", "image."})
     if (const auto found = all.find(group + path); found != all.end()) return found->second;
+  return std::nullopt;
+}
+
+std::optional<double> measurementOf(const store::Run& run, const std::string& name) {
+  for (const store::Measurement& measurement : run.measurements)
+    if (measurement.name == name) return measurement.value;
   return std::nullopt;
 }
 

@@ -18,6 +18,9 @@ std::map<std::string, std::string> flatParameters(const store::Run& run);
 /// The value of a parameter by its path alone, looked for in technique, scene and image.
 std::optional<std::string> findParameter(const store::Run& run, const std::string& path);
 
+/// The value of a measurement by its name; none if the run does not have it.
+std::optional<double> measurementOf(const store::Run& run, const std::string& name);
+
 /// Knows which parameters vary: among the runs of one technique, of one scene, and of the image. One that
 /// only some of the runs have varies too.
 class Grouping {

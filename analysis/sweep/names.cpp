@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/sweep/names.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 

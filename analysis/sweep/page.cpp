@@ -38,9 +38,7 @@ std::string renderHead(const Sweep& sweep) {
     if (!value.empty()) out += "<div><dt>" + name + "</dt><dd>" + escapeHtml(value) + "</dd></div>";
   };
   std::vector<std::string> devices;
-  for (const store::Environment& environment : sweep.environments)
-    if (std::find(devices.begin(), devices.end(), environment.device) == devices.end())
-      devices.push_back(environment.device);
+  for (const store::Environment& environment : sweep.environments) indexIn(devices, environment.device);
   fact("Runs", fmt::format("{} of {} done", counted(sweep.cells.size(), "run"), sweep.planned));
   fact("Compared", fmt::format("{} × {}", countedGroups(sweep, sweep.series.size(), sweep.seriesName),
                                countedGroups(sweep, sweep.panels.size(), sweep.panelName)));
@@ -62,15 +60,12 @@ std::string renderHowToRead(const Sweep& sweep, bool footUsed) {
   std::string out = "<section id=\"reading\"><h2>How the numbers were made</h2>\n<ul class=\"prose\">";
   out +=
       "<li>A <b>Pareto front</b> is the list of settings that nothing else beats: whatever is faster has a "
-      "larger "
-      "error, whatever has a smaller error is slower.</li>";
+      "larger error, whatever has a smaller error is slower.</li>";
   if (byRounds || byFrames)
     out += fmt::format(
         "<li>Times are medians over the frames of a run. Bars and brackets are 95 % percentile bootstrap "
-        "intervals of "
-        "that median (2000 resamples, fixed seed), {}. Two settings whose intervals overlap are not told "
-        "apart by "
-        "this sweep.</li>",
+        "intervals of that median (2000 resamples, fixed seed), {}. Two settings whose intervals overlap are "
+        "not told apart by this sweep.</li>",
         byRounds && byFrames ? "resampled by whole rounds where a run has three or more, else by frames"
         : byRounds ? "resampled by whole rounds, since frames of one round share the machine's state"
                    : "resampled by frames, since the runs have fewer than three rounds");
@@ -79,13 +74,12 @@ std::string renderHowToRead(const Sweep& sweep, bool footUsed) {
         "<li>A mark at the tick <b>0</b> (or <b>∞</b>) has exactly that value, which the axis cannot show to "
         "scale.</li>";
   out +=
-      "<li>p95 is the 95th percentile of the frame times, by linear interpolation.</li>"
-      "<li>Every number at full precision: <a href=\"runs.csv\">runs.csv</a>, "
-      "<a href=\"measurements.csv\">measurements.csv</a>, <a href=\"frame_times.csv\">frame_times.csv</a>, "
-      "<a href=\"passes.csv\">passes.csv</a>; what their names mean: <a "
-      "href=\"quantities.csv\">quantities.csv</a>, <a href=\"parameters.csv\">parameters.csv</a>; gnuplot "
-      "scripts in <a href=\"charts/\">charts/</a>.</li>"
-      "</ul></section>\n";
+      "<li>p95 is the 95th percentile of the frame times, by linear interpolation.</li><li>Every number at "
+      "full precision: <a href=\"runs.csv\">runs.csv</a>, <a href=\"measurements.csv\">measurements.csv</a>, "
+      "<a href=\"frame_times.csv\">frame_times.csv</a>, <a href=\"passes.csv\">passes.csv</a>; what their "
+      "names mean: <a href=\"quantities.csv\">quantities.csv</a>, <a "
+      "href=\"parameters.csv\">parameters.csv</a>; gnuplot scripts in <a "
+      "href=\"charts/\">charts/</a>.</li></ul></section>\n";
   return out;
 }
 
@@ -97,9 +91,12 @@ std::string withUnit(double value, const Axis& axis) {
 
 std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval) {
   std::string out = withUnit(cell.x.value_or(0.0), sweep.x);
-  if (withInterval && cell.interval)
-    out += fmt::format(" [{}–{}]", formatNumber(cell.interval->low), formatNumber(cell.interval->high));
+  if (withInterval && cell.interval) out += " " + bracketed(*cell.interval);
   return out;
+}
+
+std::string bracketed(const MedianInterval& interval) {
+  return "[" + formatNumber(interval.low) + "–" + formatNumber(interval.high) + "]";
 }
 
 std::string renderCellName(const Sweep& sweep, const Cell& cell) {

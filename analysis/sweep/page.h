@@ -38,6 +38,8 @@ std::string renderEnvironment(const Sweep& sweep);
 std::string renderCellName(const Sweep& sweep, const Cell& cell);
 /// "1.23 ms", with the interval if there is one, as plain text.
 std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval);
+/// "[1.2–1.4]"
+std::string bracketed(const MedianInterval& interval);
 /// Number with the axis' unit.
 std::string withUnit(double value, const Axis& axis);
 

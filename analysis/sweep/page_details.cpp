@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/page.h"
@@ -61,26 +62,6 @@ std::string renderBar(const Cell& cell, const std::vector<std::string>& names) {
   return out + "</div>";
 }
 
-std::string renderPassRows(const Sweep& sweep, const Cell& cell) {
-  std::vector<store::Pass> all = cell.run.passes;
-  for (const PassTime& time : cell.passes)
-    if (std::none_of(all.begin(), all.end(), [&](const store::Pass& p) { return p.name == time.pass; }))
-      all.push_back({time.pass, 0});
-  std::string out;
-  for (const store::Pass& pass : all) {
-    const auto time = std::find_if(cell.passes.begin(), cell.passes.end(),
-                                   [&](const PassTime& t) { return t.pass == pass.name; });
-    const bool timed = time != cell.passes.end();
-    out += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
-        "class=\"num\">{}</td></tr>\n",
-        renderCellName(sweep, cell), escapeHtml(pass.name), timed ? formatNumber(time->ms.median) : "",
-        timed ? formatNumber(time->ms.p95) : "",
-        formatNumber(static_cast<double>(pass.bytesHeld) / kBytesPerMiB));
-  }
-  return out;
-}
-
 std::string renderPicture(const Picture& picture, const PictureRow& row, const std::string& alt,
                           std::set<std::string>& embedded) {
   // A picture that several rows share (the reference) is embedded once and drawn again from there.
@@ -92,8 +73,7 @@ std::string renderPicture(const Picture& picture, const PictureRow& row, const s
                                   : fmt::format("<use href=\"#{}\"/>", picture.id);
   return fmt::format(
       "<figure><div class=\"lens\"><svg {} role=\"img\" "
-      "aria-label=\"{}\">{}</svg></div><figcaption>{}</figcaption>"
-      "</figure>\n",
+      "aria-label=\"{}\">{}</svg></div><figcaption>{}</figcaption></figure>\n",
       box, escapeHtml(alt), content, escapeHtml(picture.caption));
 }
 
@@ -102,18 +82,16 @@ std::string renderPicture(const Picture& picture, const PictureRow& row, const s
 std::string renderPasses(const Sweep& sweep) {
   std::vector<std::string> names;
   for (const Cell& cell : sweep.cells)
-    for (const PassTime& pass : cell.passes)
-      if (std::find(names.begin(), names.end(), pass.pass) == names.end()) names.push_back(pass.pass);
-  std::string body, rows;
+    for (const PassTime& pass : cell.passes) indexIn(names, pass.pass);
+  std::string body;
+  std::vector<PassRow> rows;
   for (const Panel& panel : sweep.panels) {
     const std::vector<size_t> shown = worthShowing(sweep, panel);
     if (shown.empty()) continue;
     body += "<article class=\"panel\"><h3>" + escapeHtml(panel.title) + "</h3>\n<div class=\"bars-list\">";
-    rows += "<tr class=\"group\"><th colspan=\"5\" scope=\"rowgroup\">" + escapeHtml(panel.title) +
-            "</th></tr>\n";
     for (const size_t index : shown) {
       const Cell& cell = sweep.cells[index];
-      rows += renderPassRows(sweep, cell);
+      for (PassRow& row : passRows(cell)) rows.push_back(std::move(row));
       if (cell.passes.empty()) continue;
       body += fmt::format("<div class=\"bar-row\"><div>{}</div>{}<div class=\"total\">{} ms</div></div>\n",
                           renderCellName(sweep, cell), renderBar(cell, names), formatNumber(timeOf(cell)));
@@ -121,20 +99,23 @@ std::string renderPasses(const Sweep& sweep) {
     body += "</div></article>\n";
   }
   if (rows.empty()) return "";
+  TableOf table("passes", "", rows);
+  if (sweep.panels.size() > 1)
+    table.add(html(sweep.names.heading(sweep.panelName)),
+              [&](const PassRow& row) { return escapeHtml(sweep.panels[row.cell->panel].title); });
+  table.add(html("setting"), [&](const PassRow& row) { return renderCellName(sweep, *row.cell); })
+      .add(text("pass"), &PassRow::pass)
+      .add(rounded("median_ms", "median (ms)"), at(&PassRow::ms, &Summary::median))
+      .add(rounded("p95_ms", "p95 (ms)"), at(&PassRow::ms, &Summary::p95))
+      .add(rounded("held", "held (MiB)"),
+           [](const PassRow& row) { return static_cast<double>(row.bytesHeld) / kBytesPerMiB; });
   return "<section id=\"passes\"><h2>Where the time goes</h2>\n<p>Share of each pass in the time of a frame "
-         "(medians), "
-         "for the most exact setting of each series on the Pareto front, or of all if none is there. Point "
-         "at a piece for "
-         "its value. All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n<div class=\"panels\">\n" +
-         body +
-         "</div>\n<details><summary>As a table, with the memory that passes hold</summary><div "
-         "class=\"scroll\"><table>"
-         "<thead><tr><th scope=\"col\">setting</th><th scope=\"col\">pass</th><th scope=\"col\" "
-         "class=\"num\">median "
-         "(ms)</th><th scope=\"col\" class=\"num\">p95 (ms)</th><th scope=\"col\" class=\"num\">held "
-         "(MiB)</th></tr>"
-         "</thead>\n<tbody>\n" +
-         rows + "</tbody></table></div></details></section>\n";
+         "(medians), for the most exact setting of each series on the Pareto front, or of all if none is "
+         "there. "
+         "Point at a piece for its value. All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n"
+         "<div class=\"panels\">\n" +
+         body + "</div>\n<details><summary>As a table, with the memory that passes hold</summary>" +
+         toHtml(table) + "</details></section>\n";
 }
 
 std::string renderPictures(const Sweep& sweep, const Pictures& pictures) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/page.h"
@@ -120,24 +121,23 @@ std::string renderSentence(const Sweep& sweep, const Panel& panel) {
 }
 
 std::string renderFront(const Sweep& sweep, const Panel& panel) {
-  std::string out = fmt::format(
-      "<details{}><summary>Pareto front: {}, from fast to exact</summary><table class=\"front\"><thead><tr>"
-      "<th scope=\"col\"><abbr title=\"number in the chart\">#</abbr></th><th scope=\"col\">setting</th>"
-      "<th scope=\"col\" class=\"num\">{}</th><th scope=\"col\" class=\"num\">{}</th></tr></thead>\n<tbody>",
-      panel.front.size() <= kOpenFront ? " open" : "", counted(panel.front.size(), "setting"),
-      escapeHtml(sweep.x.label()), escapeHtml(sweep.y.label()));
-  for (const size_t index : panel.front) {
-    const Cell& cell = sweep.cells[index];
-    std::string interval;
-    if (cell.interval)
-      interval = fmt::format(" <span class=\"interval\">[{}–{}]</span>", formatNumber(cell.interval->low),
-                             formatNumber(cell.interval->high));
-    out +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td class=\"num\">{}{}</td><td class=\"num\">{}</td></tr>\n",
-                    cell.frontNumber, renderCellName(sweep, cell), formatNumber(*cell.x), interval,
-                    formatNumber(*cell.y));
-  }
-  return out + "</tbody></table></details>\n";
+  HtmlOptions options;
+  options.attributes = " class=\"front\"";
+  const auto of = [&](size_t index) -> const Cell& { return sweep.cells[index]; };
+  const auto interval = [&](size_t index) {
+    return of(index).interval ? "<span class=\"interval\">" + bracketed(*of(index).interval) + "</span>" : "";
+  };
+  return fmt::format("<details{}><summary>Pareto front: {}, from fast to exact</summary>",
+                     panel.front.size() <= kOpenFront ? " open" : "",
+                     counted(panel.front.size(), "setting")) +
+         toHtml(TableOf("front", "", panel.front)
+                    .add(integer("front_number", "#"), [&](size_t index) { return of(index).frontNumber; })
+                    .add(html("setting"), [&](size_t index) { return renderCellName(sweep, of(index)); })
+                    .add(rounded("x", sweep.x.label()), [&](size_t index) { return of(index).x; })
+                    .add(ifAny(html("95 %")), interval)
+                    .add(rounded("y", sweep.y.label()), [&](size_t index) { return of(index).y; }),
+                options) +
+         "</details>\n";
 }
 
 }  // namespace
@@ -162,8 +162,7 @@ std::string renderNotices(const Sweep& sweep) {
   if (sweep.software)
     notice("warn",
            "<b>These times were made by a software renderer on a CPU.</b> They compare techniques on this "
-           "CPU only and "
-           "say nothing about a GPU. Errors and counters do not depend on that.");
+           "CPU only and say nothing about a GPU. Errors and counters do not depend on that.");
   if (!sweep.y.direction)
     notice("warn", "<b>The store does not say whether less or more of “" + escapeHtml(sweep.y.title) +
                        "” is better.</b> Less is taken to be: fronts and verdicts depend on that.");
@@ -173,8 +172,7 @@ std::string renderNotices(const Sweep& sweep) {
   if (sweep.severalDevices)
     notice("warn",
            "<b>The runs come from several devices.</b> Each device has its own panels, since times of two "
-           "machines "
-           "cannot be compared.");
+           "machines cannot be compared.");
   return out;
 }
 
@@ -204,10 +202,8 @@ std::string renderLegend(const Sweep& sweep) {
 std::string renderSpeed(const Sweep& sweep, const PageCharts& charts) {
   std::string out = fmt::format(
       "<section id=\"speed\"><h2>Speed against error</h2>\n<p>Left is faster, down is more exact. The grey "
-      "step is the "
-      "Pareto front; its settings are numbered and listed below each chart. {}Point at a mark for its "
-      "values; press a "
-      "name to hide or show it in all charts.</p>\n",
+      "step is the Pareto front; its settings are numbered and listed below each chart. {}Point at a mark "
+      "for its values; press a name to hide or show it in all charts.</p>\n",
       sweep.x.pass.empty() ? "" : "Bars are 95 % intervals of the median time. ");
   out += renderLegend(sweep) + "<div class=\"panels\">\n";
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
@@ -224,8 +220,7 @@ std::string renderCounter(const Sweep& sweep, const PageCharts& charts) {
   if (!sweep.counter) return "";
   std::string out = fmt::format(
       "<section id=\"counter\"><h2>Error against {}</h2>\n<p>A cost that does not depend on the machine. "
-      "Only runs that "
-      "count it are drawn; the grey step is the front among them.</p>\n",
+      "Only runs that count it are drawn; the grey step is the front among them.</p>\n",
       escapeHtml(sweep.counter->label()));
   out += renderLegend(sweep) + "<div class=\"panels\">\n";
   for (size_t index = 0; index < sweep.panels.size(); ++index) {

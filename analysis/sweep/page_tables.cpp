@@ -2,11 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <set>
 
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/grouping.h"
@@ -16,40 +13,23 @@
 namespace limen::analysis {
 namespace {
 
-struct Column {
-  std::string name;   ///< as in the CSV tables; "" if it is not there
-  std::string title;  ///< with the unit
-  bool numeric = false;
-  std::function<std::optional<double>(const Cell&)> number;  ///< numeric columns
-  std::function<std::string(const Cell&)> html;              ///< the others
-};
-
-// As JavaScript's Number() reads it.
-std::string numberForScript(double value) {
-  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
-  return shortestNumber(value);
-}
-
-std::optional<double> toNumber(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return text.empty() || *end != '\0' ? std::nullopt : std::optional(value);
-}
-
-Column parameterColumn(const Sweep& sweep, const Axis& parameter) {
+void addParameter(TableOf<Cell>& table, const Sweep& sweep, const Axis& parameter) {
   const auto value = [name = parameter.name](const Cell& cell) {
     const auto found = cell.varying.find(name);
     return found == cell.varying.end() ? std::string() : found->second;
   };
   const bool numeric = std::all_of(sweep.cells.begin(), sweep.cells.end(), [&](const Cell& cell) {
-    return value(cell).empty() || toNumber(value(cell));
+    return value(cell).empty() || finiteNumber(value(cell));
   });
-  return {parameter.name, parameter.label(), numeric,
-          [value](const Cell& cell) { return toNumber(value(cell)); },
-          [value](const Cell& cell) { return escapeHtml(value(cell)); }};
+  if (numeric)
+    table.add(rounded(parameter.name, parameter.label()),
+              [&](const Cell& cell) { return finiteNumber(value(cell)); });
+  else
+    table.add(text(parameter.name, parameter.label()), value);
 }
 
-std::vector<Column> measurementColumns(const Sweep& sweep) {
+/// Times first, then errors, counters and the rest.
+void addMeasurements(TableOf<Cell>& table, const Sweep& sweep) {
   std::vector<const store::QuantityRow*> seen;
   for (const Cell& cell : sweep.cells)
     for (const store::Measurement& m : cell.run.measurements)
@@ -60,192 +40,144 @@ std::vector<Column> measurementColumns(const Sweep& sweep) {
     return row->kind == "time" ? 0 : row->kind == "error" ? 1 : row->kind == "counter" ? 2 : 3;
   };
   std::stable_sort(seen.begin(), seen.end(), [&](auto* a, auto* b) { return rank(a) < rank(b); });
-  std::vector<Column> out;
   for (const store::QuantityRow* row : seen) {
     const bool bytes = row->unit == "byte";
-    const double scale = bytes ? 1.0 / kBytesPerMiB : 1.0;
-    out.push_back(
-        {row->name,
-         titleWithUnit(sweep.names.axis(row->name, sweep.software).title, bytes ? "MiB" : row->unit),
-         true,
-         [name = row->name, scale](const Cell& cell) -> std::optional<double> {
-           for (const store::Measurement& m : cell.run.measurements)
-             if (m.name == name && m.value) return *m.value * scale;
-           return std::nullopt;
-         },
-         {}});
+    const std::string title = sweep.names.axis(row->name, sweep.software).title;
+    table.add(rounded(row->name, titleWithUnit(title, bytes ? "MiB" : row->unit)), [&](const Cell& cell) {
+      const std::optional<double> value = measurementOf(cell.run, row->name);
+      return value ? ResultCell(*value * (bytes ? 1.0 / kBytesPerMiB : 1.0)) : ResultCell();
+    });
   }
-  return out;
 }
 
-std::vector<Column> columnsOf(const Sweep& sweep) {
-  std::vector<Column> columns;
+ResultTable runTable(const Sweep& sweep) {
+  TableOf table("runs", "", sweep.cells);
   if (sweep.panels.size() > 1)
-    columns.push_back({"", sweep.names.heading(sweep.panelName), false, {}, [&](const Cell& cell) {
-                         return escapeHtml(sweep.panels[cell.panel].title);
-                       }});
-  columns.push_back({"technique", "Technique", false, {}, [&](const Cell& cell) {
-                       return markerSvg(cell.series) +
-                              breakable(cell.run.technique.substr(sweep.seriesPrefix.size()));
-                     }});
-  for (const Axis& parameter : sweep.varyingColumns) columns.push_back(parameterColumn(sweep, parameter));
-  const bool framed =
-      std::any_of(sweep.cells.begin(), sweep.cells.end(), [](const Cell& c) { return c.frame.has_value(); });
-  if (framed) {
-    const auto frame = [](double Summary::*member) {
-      return [member](const Cell& cell) -> std::optional<double> {
-        return cell.frame ? std::optional((*cell.frame).*member) : std::nullopt;
-      };
-    };
-    const auto bound = [](double MedianInterval::*member) {
-      return [member](const Cell& cell) -> std::optional<double> {
-        return cell.interval ? std::optional((*cell.interval).*member) : std::nullopt;
-      };
-    };
-    columns.push_back({"frame_median_ms", "Median (ms)", true, frame(&Summary::median), {}});
-    columns.push_back({"frame_low95_ms", "95 % low (ms)", true, bound(&MedianInterval::low), {}});
-    columns.push_back({"frame_high95_ms", "95 % high (ms)", true, bound(&MedianInterval::high), {}});
-    columns.push_back({"frame_p95_ms", "95th percentile (ms)", true, frame(&Summary::p95), {}});
-    columns.push_back({"n_frames",
-                       "Frames",
-                       true,
-                       [](const Cell& cell) -> std::optional<double> {
-                         return cell.frame ? std::optional(static_cast<double>(cell.frame->n)) : std::nullopt;
-                       },
-                       {}});
-  }
-  for (Column& column : measurementColumns(sweep)) columns.push_back(std::move(column));
-  columns.push_back({"",
-                     "Front",
-                     true,
-                     [](const Cell& cell) -> std::optional<double> {
-                       return cell.frontNumber > 0 ? std::optional<double>(cell.frontNumber) : std::nullopt;
-                     },
-                     {}});
-  return columns;
+    table.add(html(sweep.names.heading(sweep.panelName)),
+              [&](const Cell& cell) { return escapeHtml(sweep.panels[cell.panel].title); });
+  Column technique = html("Technique");
+  technique.name = "technique";
+  table.add(technique, [&](const Cell& cell) {
+    return markerSvg(cell.series) + breakable(cell.run.technique.substr(sweep.seriesPrefix.size()));
+  });
+  for (const Axis& parameter : sweep.varyingColumns) addParameter(table, sweep, parameter);
+  table.add(ifAny(rounded("frame_median_ms", "Median (ms)")), at(&Cell::frame, &Summary::median))
+      .add(ifAny(rounded("frame_low95_ms", "95 % low (ms)")), at(&Cell::interval, &MedianInterval::low))
+      .add(ifAny(rounded("frame_high95_ms", "95 % high (ms)")), at(&Cell::interval, &MedianInterval::high))
+      .add(ifAny(rounded("frame_p95_ms", "95th percentile (ms)")), at(&Cell::frame, &Summary::p95))
+      .add(ifAny(rounded("n_frames", "Frames")), at(&Cell::frame, &Summary::n));
+  addMeasurements(table, sweep);
+  return table.add(rounded("", "Front"), [](const Cell& cell) {
+    return cell.frontNumber > 0 ? ResultCell(cell.frontNumber) : ResultCell();
+  });
 }
 
-void flattenFacts(const nlohmann::json& value, const std::string& path,
-                  std::vector<std::pair<std::string, std::string>>& out) {
-  if (value.is_object()) {
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+void flattenFacts(const nlohmann::json& value, const std::string& path, Facts& out) {
+  if (value.is_object())
     for (const auto& [key, child] : value.items())
       flattenFacts(child, path.empty() ? key : path + " · " + key, out);
-  } else {
+  else
     out.emplace_back(path, value.is_string() ? value.get<std::string>() : value.dump());
-  }
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "<section id=\"" + id + "\"><h2>" + title + "</h2>\n" + body + "</section>\n";
 }
 
 }  // namespace
 
 std::string renderRunTable(const Sweep& sweep) {
+  HtmlOptions options;
+  options.attributes = " class=\"sortable\"";
+  options.box = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All runs\">";
+  options.caption =
+      counted(sweep.cells.size(), "finished run") +
+      "; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “Front”: place on the "
+      "Pareto front of its panel.";
+  options.sortable = true;
+  options.ofRow = [&](size_t row) {
+    return fmt::format(" data-run=\"{}\" data-series=\"{}\"", escapeHtml(sweep.cells[row].run.key),
+                       sweep.cells[row].series);
+  };
   if (sweep.cells.empty()) return "";
-  const std::vector<Column> columns = columnsOf(sweep);
-  std::string out = fmt::format(
-      "<section id=\"runs\"><h2>All runs</h2>\n<p>Press a heading to sort by it, again to turn the "
-      "order.</p>\n"
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All runs\"><table "
-      "class=\"sortable\">"
-      "<caption>{}; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “Front”: place on "
-      "the Pareto "
-      "front of its panel.</caption>\n<thead><tr>",
-      counted(sweep.cells.size(), "finished run"));
-  for (const Column& column : columns)
-    out += fmt::format("<th scope=\"col\"{}{}><button type=\"button\">{}</button></th>",
-                       column.numeric ? " class=\"num\"" : "",
-                       column.name.empty() ? "" : " title=\"" + escapeHtml(column.name) + "\"",
-                       escapeHtml(column.title));
-  out += "</tr></thead>\n<tbody>\n";
-  for (const Cell& cell : sweep.cells) {
-    out += fmt::format("<tr data-run=\"{}\" data-series=\"{}\">", escapeHtml(cell.run.key), cell.series);
-    for (const Column& column : columns) {
-      if (!column.numeric) {
-        out += "<td>" + column.html(cell) + "</td>";
-      } else if (const std::optional<double> value = column.number(cell)) {
-        out += fmt::format("<td class=\"num\" data-v=\"{}\">{}</td>", numberForScript(*value),
-                           formatNumber(*value));
-      } else {
-        out += "<td class=\"num\"></td>";
-      }
-    }
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table></div></section>\n";
+  return section(
+      "runs", "All runs",
+      "<p>Press a heading to sort by it, again to turn the order.</p>\n" + toHtml(runTable(sweep), options));
 }
 
 std::string renderRemarks(const Sweep& sweep) {
-  std::string rows;
-  for (const Cell& cell : sweep.cells) {
-    const auto remarks = cell.run.sceneFacts.find("remarks");
-    if (remarks == cell.run.sceneFacts.end()) continue;
-    rows += "<tr><td>" + renderCellName(sweep, cell) + "</td><td>" +
-            escapeHtml(sweep.panels[cell.panel].title) + "</td><td><ul>";
-    for (const nlohmann::json& remark : *remarks)
-      rows += "<li>" + escapeHtml(remark.get<std::string>()) + "</li>";
-    rows += "</ul></td></tr>\n";
-  }
-  if (rows.empty()) return "";
-  return "<section id=\"remarks\"><h2>What techniques chose by themselves</h2>\n<div "
-         "class=\"scroll\"><table><thead>"
-         "<tr><th scope=\"col\">run</th><th scope=\"col\">in</th><th scope=\"col\">chosen, and "
-         "why</th></tr></thead>\n"
-         "<tbody>\n" +
-         rows + "</tbody></table></div></section>\n";
+  std::vector<const Cell*> cells;
+  for (const Cell& cell : sweep.cells)
+    if (cell.run.sceneFacts.contains("remarks")) cells.push_back(&cell);
+  return section(
+      "remarks", "What techniques chose by themselves",
+      toHtml(TableOf("remarks", "", cells)
+                 .add(html("run"), [&](const Cell* cell) { return renderCellName(sweep, *cell); })
+                 .add(text("in"), [&](const Cell* cell) { return sweep.panels[cell->panel].title; })
+                 .add(html("chosen, and why"), [](const Cell* cell) {
+                   std::string out = "<ul>";
+                   for (const nlohmann::json& remark : cell->run.sceneFacts.at("remarks"))
+                     out += "<li>" + escapeHtml(remark.get<std::string>()) + "</li>";
+                   return out + "</ul>";
+                 })));
 }
 
 std::string renderProblems(const Sweep& sweep) {
-  if (sweep.isComplete()) return "";
-  std::string out =
-      "<section id=\"problems\"><h2>What is not there</h2>\n<div class=\"scroll\"><table>"
-      "<thead><tr><th scope=\"col\">run</th><th scope=\"col\">scene</th><th scope=\"col\">technique</th>"
-      "<th scope=\"col\">what happened</th></tr></thead>\n<tbody>\n";
-  const auto row = [&](const std::string& key, const std::string& scene, const std::string& technique,
-                       const std::string& label, const std::string& what) {
-    out += fmt::format("<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                       escapeHtml(key.substr(0, 12)), escapeHtml(scene),
-                       escapeHtml(label.empty() ? technique : technique + ", " + label), what);
+  struct Problem {
+    std::string key, scene, technique, label, what;
   };
+  std::vector<Problem> problems;
   for (const store::Run& run : sweep.failed)
-    row(run.key, run.scene, run.technique, run.label, "failed: " + escapeHtml(run.error));
+    problems.push_back({run.key, run.scene, run.technique, run.label, "failed: " + run.error});
   for (const store::PlanEntry& entry : sweep.missing)
-    row(entry.key, entry.scene, entry.technique, entry.label, "not run, or not finished");
-  return out + "</tbody></table></div></section>\n";
+    problems.push_back({entry.key, entry.scene, entry.technique, entry.label, "not run, or not finished"});
+  const auto technique = [](const Problem& one) {
+    return one.label.empty() ? one.technique : one.technique + ", " + one.label;
+  };
+  return section("problems", "What is not there",
+                 toHtml(TableOf("problems", "", problems)
+                            .add(html("run"),
+                                 [](const Problem& one) {
+                                   return "<code>" + escapeHtml(one.key.substr(0, 12)) + "</code>";
+                                 })
+                            .add(text("scene"), &Problem::scene)
+                            .add(text("technique"), technique)
+                            .add(text("what", "what happened"), &Problem::what)));
 }
 
 std::string renderExpectations(const Sweep& sweep) {
-  if (sweep.expectations.empty()) return "";
-  std::string out =
-      "<section id=\"expectations\"><h2>Expectations</h2>\n<div class=\"scroll\"><table><thead><tr>"
-      "<th scope=\"col\">as stated</th><th scope=\"col\">result</th><th scope=\"col\">detail</th></tr>"
-      "</thead>\n<tbody>\n";
-  for (const store::Expectation& e : sweep.expectations)
-    out += fmt::format("<tr><td><code>{}</code></td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
-                       escapeHtml(e.text), e.held ? "held" : "broken", e.held ? "✓ held" : "✗ broken",
-                       escapeHtml(e.detail));
-  return out + "</tbody></table></div></section>\n";
+  const auto stated = [](const store::Expectation& e) { return "<code>" + escapeHtml(e.text) + "</code>"; };
+  const auto result = [](const store::Expectation& e) {
+    return e.held ? "<span class=\"held\">✓ held</span>" : "<span class=\"broken\">✗ broken</span>";
+  };
+  return section("expectations", "Expectations",
+                 toHtml(TableOf("expectations", "", sweep.expectations)
+                            .add(html("as stated"), stated)
+                            .add(html("result"), result)
+                            .add(text("detail"), &store::Expectation::detail)));
 }
 
 std::string renderEnvironment(const Sweep& sweep) {
   if (sweep.environments.empty()) return "";
-  std::string out = "<section id=\"environment\"><h2>Measured with</h2>\n";
+  std::string out;
   for (const store::Environment& environment : sweep.environments) {
-    if (environment.facts.contains("command")) {
-      const nlohmann::json& command = environment.facts["command"];
-      out += "<p>Command</p><pre><code>" +
-             escapeHtml(command.is_string() ? command.get<std::string>() : command.dump()) +
-             "</code></pre>\n";
-    }
-    out += "<div class=\"scroll\"><table class=\"pairs\"><tbody>\n";
-    std::vector<std::pair<std::string, std::string>> facts{
-        {"device", environment.device}, {"software renderer", environment.software ? "yes" : "no"}};
+    Facts facts{{"device", environment.device}, {"software renderer", environment.software ? "yes" : "no"}};
     flattenFacts(environment.facts, "", facts);
+    std::string command, rows;
     for (const auto& [name, value] : facts)
-      if (name != "command")
-        out += "<tr><th scope=\"row\">" + escapeHtml(name) + "</th><td>" + escapeHtml(value) + "</td></tr>\n";
-    out += "</tbody></table></div>\n";
+      if (name == "command")
+        command = "<p>Command</p><pre><code>" + escapeHtml(value) + "</code></pre>\n";
+      else
+        rows +=
+            "<tr><th scope=\"row\">" + escapeHtml(name) + "</th><td>" + escapeHtml(value) + "</td></tr>\n";
+    out += command + "<div class=\"scroll\"><table class=\"pairs\"><tbody>\n" + rows +
+           "</tbody></table></div>\n";
   }
-  out += "<details><summary>Descriptor</summary><pre><code>" + escapeHtml(sweep.experiment.descriptor) +
-         "</code></pre></details>\n";
-  return out + "</section>\n";
+  return section("environment", "Measured with",
+                 out + "<details><summary>Descriptor</summary><pre><code>" +
+                     escapeHtml(sweep.experiment.descriptor) + "</code></pre></details>\n");
 }
 
 }  // namespace limen::analysis

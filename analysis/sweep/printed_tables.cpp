@@ -22,11 +22,7 @@ constexpr double kEqualBand = 0.05;
 /// What the row compares: a measurement, or the summed medians of passes. None if the run has it not.
 std::optional<double> valueOf(const Cell& cell, const std::string& measure,
                               const std::vector<std::string>& passes) {
-  if (passes.empty()) {
-    for (const store::Measurement& m : cell.run.measurements)
-      if (m.name == measure) return m.value;
-    return std::nullopt;
-  }
+  if (passes.empty()) return measurementOf(cell.run, measure);
   double sum = 0.0;
   bool any = false;
   for (const PassTime& time : cell.passes)
@@ -49,7 +45,7 @@ std::set<int> ways(const Values& all) {
   return out;
 }
 
-Verdict judge(const Values& printed, const Values& ours) {
+Verdict evaluate(const Values& printed, const Values& ours) {
   const std::set<int> theirs = ways(printed), own = ways(ours);
   if (theirs.empty() || own.empty()) return Verdict::None;
   const auto shared = std::count_if(own.begin(), own.end(), [&](int way) { return theirs.count(way) > 0; });
@@ -80,9 +76,7 @@ PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohman
     for (const Cell& cell : sweep.cells)
       if (keys.count(cell.run.key)) {
         cells.push_back(&cell);
-        const std::string column = ownColumn(sweep, grouping, cell);
-        if (std::find(out.ownColumns.begin(), out.ownColumns.end(), column) == out.ownColumns.end())
-          out.ownColumns.push_back(column);
+        indexIn(out.ownColumns, ownColumn(sweep, grouping, cell));
       }
     cellsOfRows.push_back(std::move(cells));
   }
@@ -94,12 +88,9 @@ PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohman
     for (const nlohmann::json& value : from.at("values"))
       row.printed.push_back(value.is_null() ? std::nullopt : std::optional(value.get<double>()));
     row.ours.resize(out.ownColumns.size());
-    for (const Cell* cell : cellsOfRows[i]) {
-      const auto place =
-          std::find(out.ownColumns.begin(), out.ownColumns.end(), ownColumn(sweep, grouping, *cell));
-      row.ours[static_cast<size_t>(place - out.ownColumns.begin())] =
+    for (const Cell* cell : cellsOfRows[i])
+      row.ours[indexIn(out.ownColumns, ownColumn(sweep, grouping, *cell))] =
           valueOf(*cell, measure, from.at("passes").get<std::vector<std::string>>());
-    }
     out.rows.push_back(std::move(row));
   }
   for (PrintedTable::Row& row : out.rows) {
@@ -108,7 +99,7 @@ PrintedTable compare(const Sweep& sweep, const Grouping& grouping, const nlohman
     if (row.base.empty() || base == out.rows.end() || &*base == &row) continue;
     row.printedRatios = ratios(row.printed, base->printed);
     row.ourRatios = ratios(row.ours, base->ours);
-    row.verdict = judge(row.printedRatios, row.ourRatios);
+    row.verdict = evaluate(row.printedRatios, row.ourRatios);
   }
   return out;
 }
@@ -180,10 +171,8 @@ std::string renderPrinted(const std::vector<PrintedTable>& tables) {
   if (tables.empty()) return "";
   std::string out =
       "<section id=\"published\"><h2>Beside printed numbers</h2>\n<p>Other machines and other scenes: values "
-      "are "
-      "not to be equal. Ratios to the base row (×) say whether a setting gains or loses; those within 5 % of "
-      "1 "
-      "count as neither. Also in <a href=\"published.csv\">published.csv</a>.</p>\n";
+      "are not to be equal. Ratios to the base row (×) say whether a setting gains or loses; those within 5 "
+      "% of 1 count as neither. Also in <a href=\"published.csv\">published.csv</a>.</p>\n";
   for (const PrintedTable& table : tables) out += tableHtml(table);
   return out + "</section>\n";
 }

@@ -3,19 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
-#include "analysis/sweep/experiments.h"
-#include "analysis/sweep/export.h"
 #include "analysis/sweep/page.h"
 #include "analysis/sweep/trade_off.h"
 #include "experiments/base/error.h"
 #include "experiments/base/staged_folder.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -44,8 +40,7 @@ std::string hoverText(const Sweep& sweep, const Cell& cell, const Axis& x, doubl
     if (const auto found = cell.varying.find(column.name); found != cell.varying.end())
       out += "\n" + column.label() + ": " + found->second;
   out += "\n" + x.label() + ": " + formatNumber(value);
-  if (&x == &sweep.x && cell.interval)
-    out += fmt::format(" [{}–{}]", formatNumber(cell.interval->low), formatNumber(cell.interval->high));
+  if (&x == &sweep.x && cell.interval) out += " " + bracketed(*cell.interval);
   out += "\n" + sweep.y.label() + ": " + formatNumber(*cell.y);
   if (cell.frontNumber > 0) out += fmt::format("\nno. {} on the Pareto front", cell.frontNumber);
   return out;

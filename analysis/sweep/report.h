@@ -4,9 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "analysis/sweep/sweep.h"
 #include "experiments/store/store.h"
 
 namespace limen::analysis {
+
+/// Digits of a hash that are enough to name an experiment.
+inline constexpr size_t kShortHash = 8;
+
+/// The experiments of a store that `wanted` means: a title, a hash or its first kShortHash digits or more;
+/// "": all. Throws Error: the store is empty, nothing is called so (with the nearest title), or several are.
+std::vector<store::Experiment> chooseExperiments(const store::Store& store, const std::string& wanted);
 
 struct ReportOptions {
   std::string storePath, folder;
@@ -25,5 +33,11 @@ struct ReportResult {
 /// into a folder of its own below. Throws Error if the store cannot be read, the experiment is unknown, or
 /// (without `force`) cells of a plan are missing or failed; nothing is written then.
 std::vector<ReportResult> writeReports(const ReportOptions& options);
+
+/// Writes runs.csv (one row a run: parameters and measurements), measurements.csv (long form),
+/// frame_times.csv and passes.csv into `folder`, and beside them what their names mean: quantities.csv and
+/// parameters.csv. Full precision; an absent value is an empty field. Failed
+/// runs are in runs.csv.
+void exportTables(const Sweep& sweep, const std::string& folder);
 
 }  // namespace limen::analysis

@@ -2,10 +2,9 @@
 #include "analysis/sweep/sweep.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
 #include "analysis/sweep/trade_off.h"
 
@@ -18,10 +17,7 @@ std::optional<double> measured(const store::Run& run, const std::string& name) {
   for (const store::Measurement& measurement : run.measurements)
     if (measurement.name == name) return measurement.value;
   const std::optional<std::string> parameter = findParameter(run, name);
-  if (!parameter) return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(parameter->c_str(), &end);
-  return *end == '\0' && !parameter->empty() ? std::optional(value) : std::nullopt;
+  return parameter ? finiteNumber(*parameter) : std::nullopt;
 }
 
 // The counter that most runs have and that differs among them.
@@ -64,13 +60,6 @@ void addTimes(Cell& cell, const std::string& framePass) {
   if (frames == ms.end()) return;
   cell.frame = summarise(frames->second);
   cell.interval = bootstrapMedian(frames->second, rounds);
-}
-
-size_t indexOf(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
 }
 
 void findFronts(Sweep& sweep) {
@@ -137,6 +126,18 @@ std::string Sweep::label(const Cell& cell) const {
   return settings.empty() ? out : out + ", " + settings;
 }
 
+std::vector<PassRow> passRows(const Cell& cell) {
+  std::vector<PassRow> out;
+  for (const store::Pass& pass : cell.run.passes) out.push_back({&cell, pass.name, pass.bytesHeld, {}});
+  for (const PassTime& time : cell.passes) {
+    auto row =
+        std::find_if(out.begin(), out.end(), [&](const PassRow& one) { return one.pass == time.pass; });
+    if (row == out.end()) row = out.insert(out.end(), {&cell, time.pass, 0, {}});
+    row->ms = time.ms;
+  }
+  return out;
+}
+
 Sweep loadSweep(const store::Store& store, const store::Experiment& experiment) {
   Sweep sweep;
   sweep.experiment = experiment;
@@ -175,11 +176,11 @@ Sweep loadSweep(const store::Store& store, const store::Experiment& experiment) 
     cell.y = measured(cell.run, sweep.y.name);
     if (sweep.counter) cell.counter = measured(cell.run, sweep.counter->name);
     cell.varying = grouping.varying(cell.run);
-    cell.series = indexOf(sweep.series, grouping.group(cell.run, sweep.seriesName));
+    cell.series = indexIn(sweep.series, grouping.group(cell.run, sweep.seriesName));
     // Times of two machines are not compared, so each device has its panels.
     std::string panel = grouping.group(cell.run, sweep.panelName);
     if (sweep.severalDevices) panel += " — " + cell.run.device;
-    cell.panel = indexOf(panels, panel);
+    cell.panel = indexIn(panels, panel);
     if (cell.panel == sweep.panels.size()) sweep.panels.push_back({panel, {}, {}});
     sweep.panels[cell.panel].cells.push_back(index);
   }

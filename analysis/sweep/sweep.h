@@ -62,6 +62,16 @@ struct Sweep {
   std::string label(const Cell& cell) const;
 };
 
+/// A pass of a run: what it held, and its times where it was timed.
+struct PassRow {
+  const Cell* cell;
+  std::string pass;
+  int64_t bytesHeld = 0;
+  std::optional<Summary> ms;
+};
+/// Those that the run names, then those that were timed alone, which held nothing of their own.
+std::vector<PassRow> passRows(const Cell& cell);
+
 /// Reads an experiment from a store and computes statistics and Pareto fronts.
 Sweep loadSweep(const store::Store& store, const store::Experiment& experiment);
 

@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/sweep/experiments.h"
+#include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
+#include "analysis/sweep/report.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -27,22 +24,15 @@ bool isNamed(const std::string& path, const std::vector<std::string>& names) {
          std::find(names.begin(), names.end(), path) != names.end();
 }
 
-std::optional<double> measured(const store::Run& run, const std::string& name) {
-  for (const store::Measurement& measurement : run.measurements)
-    if (measurement.name == name) return measurement.value;
-  return {};
-}
-
 double distanceOf(const store::Run& run, const SwitchOptions& options) {
   const std::optional<std::string> text = findParameter(run, options.distance);
   if (!text)
     throw Error("the runs of '" + run.technique + "' have no parameter '" + options.distance + "'",
                 "--distance", "name the parameter that is the distance");
-  char* end = nullptr;
-  const double value = std::strtod(text->c_str(), &end);
-  if (*end != '\0' || !(value > 0.0) || !std::isfinite(value))
+  const std::optional<double> value = finiteNumber(*text);
+  if (!value || !(*value > 0.0))
     throw Error("the distance of a run is '" + *text + "', not a number above 0", options.storePath);
-  return value;
+  return *value;
 }
 
 /// Runs of one switch under one condition: view -> distance -> probability.
@@ -57,7 +47,7 @@ std::vector<Group> groupRuns(const std::vector<store::Run>& runs, const SwitchOp
   std::vector<std::string> order;
   for (const store::Run& run : runs) {
     if (run.status != "done") continue;
-    const std::optional<double> value = measured(run, options.measurement);
+    const std::optional<double> value = measurementOf(run, options.measurement);
     if (!value)
       throw Error("a run of '" + run.technique + "' (" + run.label + ") has no '" + options.measurement + "'",
                   options.storePath,

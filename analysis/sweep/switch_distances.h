@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/result.h"
 #include "analysis/sweep/crossing.h"
 #include "experiments/store/store.h"
 
@@ -48,12 +49,10 @@ struct SwitchReport {
 /// distance that others have, the sweep is not complete (without `force`).
 std::vector<SwitchReport> findSwitchDistances(const SwitchOptions& options);
 
-/// One JSON object, one CSV table, and a chart (SVG and its gnuplot script) of each report.
-std::string toJson(const SwitchReport& report);
-std::string toCsv(const SwitchReport& report);
-/// Returns the SVG's path.
-std::string drawSwitchChart(const SwitchReport& report, const std::string& folder);
-/// The table as a terminal shows it.
-std::string toText(const SwitchReport& report);
+/// Tables "switches" and "curves".
+Result resultOf(const SwitchReport& report);
+/// Draws into FILE.svg, .pdf or .png, with the gnuplot script and data beside it, and returns the path.
+/// Throws Error.
+std::string drawSwitchChart(const SwitchReport& report, const std::string& path);
 
 }  // namespace limen::analysis

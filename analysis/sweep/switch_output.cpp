@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <set>
 
+#include "analysis/output/chart_file.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/switch_distances.h"
 #include "experiments/base/gnuplot.h"
@@ -17,24 +16,24 @@ namespace {
 
 using Place = Crossing::Place;
 
-nlohmann::json distanceJson(const std::optional<Crossing>& crossing) {
-  if (!crossing || crossing->place != Place::Within) return nullptr;
-  return crossing->x;
+std::optional<double> within(const std::optional<Crossing>& crossing) {
+  return crossing && crossing->place == Place::Within ? std::optional(crossing->x) : std::nullopt;
 }
 
 /// How an estimate lies to the measured distances, as a word.
-const char* boundWord(const Crossing& crossing) {
-  return crossing.place == Place::AtOrBelowFirst ? "at_or_below_nearest"
-         : crossing.place == Place::BeyondLast   ? "beyond_farthest"
-                                                 : "within";
+const char* boundWord(const std::optional<Crossing>& crossing) {
+  if (!crossing) return "none";
+  return crossing->place == Place::AtOrBelowFirst ? "at_or_below_nearest"
+         : crossing->place == Place::BeyondLast   ? "beyond_farthest"
+                                                  : "within";
 }
 
 std::string distanceText(const std::optional<Crossing>& crossing) {
   if (!crossing) return "-";
-  const std::string sign = crossing->place == Place::AtOrBelowFirst ? "<= "
-                           : crossing->place == Place::BeyondLast   ? "> "
-                                                                    : "";
-  return sign + formatNumber(crossing->x);
+  return (crossing->place == Place::AtOrBelowFirst ? "<= "
+          : crossing->place == Place::BeyondLast   ? "> "
+                                                   : "") +
+         formatNumber(crossing->x);
 }
 
 std::string nameOf(const SwitchDistance& one) {
@@ -61,183 +60,156 @@ std::string seenText(const SwitchReport& report) {
   return join(parts);
 }
 
-/// 1, 2 and 5 times powers of ten within a range, as gnuplot takes tics.
-std::string logarithmicTics(double low, double high) {
-  std::vector<std::string> out;
-  for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, decade) <= high; ++decade)
-    for (const double step : {1.0, 2.0, 5.0})
-      if (const double tic = step * std::pow(10.0, decade); tic >= low && tic <= high)
-        out.push_back(shortestNumber(tic));
-  return "(" + join(out) + ")";
+/// One distance of one switch: over the views.
+struct CurvePoint {
+  const SwitchDistance* own;
+  double distance, mean, fit, lowest, highest;
+};
+
+std::vector<CurvePoint> curveOf(const SwitchDistance& one) {
+  std::vector<CurvePoint> out;
+  std::vector<double> means;
+  for (size_t i = 0; i < one.distances.size(); ++i) {
+    CurvePoint point{&one, one.distances[i], 0.0, 0.0, INFINITY, -INFINITY};
+    for (const std::vector<double>& view : one.views) {
+      point.mean += view[i] / static_cast<double>(one.views.size());
+      point.lowest = std::min(point.lowest, view[i]);
+      point.highest = std::max(point.highest, view[i]);
+    }
+    means.push_back(point.mean);
+    out.push_back(point);
+  }
+  const std::vector<double> fit = fitNonIncreasing(means);
+  for (size_t i = 0; i < fit.size(); ++i) out[i].fit = fit[i];
+  return out;
 }
 
-// With more curves the views' ranges hide them; the table has them all the same.
-// Colours: distinct on white and for colour-blind readers (Okabe and Ito 2008, without yellow); then dashes
-// tell.
-constexpr size_t kMostWithBars = 8;
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                    "#56b4e9", "#e69f00", "#000000"};
-
-std::vector<double> meanOf(const SwitchDistance& one) {
-  std::vector<double> out(one.distances.size(), 0.0);
-  for (const std::vector<double>& view : one.views)
-    for (size_t i = 0; i < out.size(); ++i) out[i] += view[i] / static_cast<double>(one.views.size());
-  return out;
+ResultTable switchTable(const SwitchReport& report) {
+  const auto crossing = [](auto make, auto member) {
+    return [=](const SwitchDistance& one) { return make(one.estimate.*member); };
+  };
+  TableOf out("switches", "", report.switches);
+  out.add(forPeople(text("", "switch")), nameOf)
+      .add(forData(text("technique")), &SwitchDistance::technique)
+      .add(forData(text("scene")), &SwitchDistance::scene);
+  std::set<std::string> names;
+  for (const SwitchDistance& one : report.switches)
+    for (const auto& [name, value] : one.condition) names.insert(name);
+  for (const std::string& name : names)
+    out.add(forData(text(name)), [name](const SwitchDistance& one) {
+      const auto found = one.condition.find(name);
+      return found == one.condition.end() ? ResultCell() : ResultCell(found->second);
+    });
+  const auto add = [&](const std::string& name, const std::string& title, auto member) {
+    out.add(forData(number(name)), crossing(within, member))
+        .add(forData(text((name == "estimate" ? "" : name + "_") + "bound")), crossing(boundWord, member));
+    if (!title.empty()) out.add(forPeople(text("", title)), crossing(distanceText, member));
+  };
+  add("estimate", "distance", &CrossingEstimate::ofMean);
+  add("low", "", &CrossingEstimate::low);
+  add("high", "", &CrossingEstimate::high);
+  out.add(forPeople(text("", fmt::format("{:g} % interval", 100.0 * report.confidence))),
+          [](const SwitchDistance& one) {
+            const CrossingEstimate& own = one.estimate;
+            return own.low ? distanceText(own.low) + " to " + distanceText(own.high) : "one view: none";
+          });
+  add("every_view", "every view", &CrossingEstimate::farthest);
+  return out.add(integer("views"), [](const SwitchDistance& one) { return one.views.size(); });
 }
 
 }  // namespace
 
-std::string toJson(const SwitchReport& report) {
-  nlohmann::json out = {{"event", "switch_distances"},
-                        {"title", report.title},
-                        {"experiment", report.hash},
-                        {"probability", report.probability},
-                        {"confidence", report.confidence},
-                        {"runs_left_out", report.leftOut},
-                        {"seen", report.seen},
-                        {"switches", nlohmann::json::array()}};
-  for (const SwitchDistance& one : report.switches) {
-    nlohmann::json curve = nlohmann::json::array();
-    const std::vector<double> mean = meanOf(one), fit = fitNonIncreasing(mean);
-    for (size_t i = 0; i < mean.size(); ++i)
-      curve.push_back({{"distance", one.distances[i]}, {"probability", mean[i]}, {"fit", fit[i]}});
-    const CrossingEstimate& estimate = one.estimate;
-    out["switches"].push_back({{"technique", one.technique},
-                               {"scene", one.scene},
-                               {"condition", one.condition},
-                               {"distance", distanceJson(estimate.ofMean)},
-                               {"bound", boundWord(estimate.ofMean)},
-                               {"low", distanceJson(estimate.low)},
-                               {"low_bound", estimate.low ? boundWord(*estimate.low) : "none"},
-                               {"high", distanceJson(estimate.high)},
-                               {"high_bound", estimate.high ? boundWord(*estimate.high) : "none"},
-                               {"every_view", distanceJson(estimate.farthest)},
-                               {"every_view_bound", boundWord(estimate.farthest)},
-                               {"views", one.views.size()},
-                               {"curve", std::move(curve)}});
-  }
-  return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::string toCsv(const SwitchReport& report) {
-  std::string out = csvLine({"technique", "scene", "condition", "views", "distance", "probability_mean",
-                             "probability_fit", "probability_lowest", "probability_highest"});
-  for (const SwitchDistance& one : report.switches) {
-    const std::vector<double> mean = meanOf(one), fit = fitNonIncreasing(mean);
-    for (size_t i = 0; i < mean.size(); ++i) {
-      double low = 1e300, high = -1e300;
-      for (const std::vector<double>& view : one.views) {
-        low = std::min(low, view[i]);
-        high = std::max(high, view[i]);
-      }
-      out += csvLine({one.technique, one.scene, nameOf(one), std::to_string(one.views.size()),
-                      shortestNumber(one.distances[i]), shortestNumber(mean[i]), shortestNumber(fit[i]),
-                      shortestNumber(low), shortestNumber(high)});
-    }
-  }
-  return out;
-}
-
-std::string toText(const SwitchReport& report) {
-  std::string out =
-      fmt::format("{}\nnearest distance at which a switch is seen with a probability of {} at most\n",
-                  report.title, shortestNumber(report.probability));
-  if (const std::string seen = seenText(report); !seen.empty()) out += seen + "\n";
-  size_t width = 6;
-  for (const SwitchDistance& one : report.switches) width = std::max(width, nameOf(one).size());
-  out += fmt::format("  {:<{}}  {:>10}  {:>22}  {:>10}  {}\n", "switch", width, "distance",
-                     fmt::format("{:g} % interval", 100.0 * report.confidence), "every view", "views");
-  for (const SwitchDistance& one : report.switches) {
-    const CrossingEstimate& estimate = one.estimate;
-    const std::string interval =
-        estimate.low ? distanceText(estimate.low) + " to " + distanceText(estimate.high) : "one view: none";
-    out += fmt::format("  {:<{}}  {:>10}  {:>22}  {:>10}  {:>5}\n", nameOf(one), width,
-                       distanceText(estimate.ofMean), interval, distanceText(estimate.farthest),
-                       one.views.size());
-  }
-  out += "  distance: of the mean over views; every view: none is seen more often from there on\n";
+Result resultOf(const SwitchReport& report) {
+  Result out;
+  out.command = "switch-distances";
+  Section& head = out.head;
+  head.title = report.title + "\nnearest distance at which a switch is seen with a probability of " +
+               shortestNumber(report.probability) + " at most";
+  if (const std::string seen = seenText(report); !seen.empty()) head.title += "\n" + seen;
+  head.fact(forData(text("title")), report.title);
+  head.fact(forData(text("experiment")), report.hash);
+  head.fact(forData(number("probability")), report.probability);
+  head.fact(forData(number("level")), report.confidence);
+  head.fact(forData(integer("runs_left_out")), report.leftOut);
+  for (const auto& [name, value] : report.seen) head.fact(forData(text(name)), value);
+  head.add(switchTable(report));
+  std::vector<CurvePoint> points;
+  for (const SwitchDistance& one : report.switches)
+    for (const CurvePoint& point : curveOf(one)) points.push_back(point);
+  head.add(
+      TableOf("curves", "", points)
+          .add(forData(text("technique")), at(&CurvePoint::own, &SwitchDistance::technique))
+          .add(forData(text("scene")), at(&CurvePoint::own, &SwitchDistance::scene))
+          .add(forData(text("condition")), [](const CurvePoint& point) { return nameOf(*point.own); })
+          .add(forData(integer("views")), [](const CurvePoint& point) { return point.own->views.size(); })
+          .add(forData(number("distance")), &CurvePoint::distance)
+          .add(forData(number("probability_mean")), &CurvePoint::mean)
+          .add(forData(number("probability_fit")), &CurvePoint::fit)
+          .add(forData(number("probability_lowest")), &CurvePoint::lowest)
+          .add(forData(number("probability_highest")), &CurvePoint::highest));
+  head.notes.push_back("distance: of the mean over views; every view: none is seen more often from there on");
   if (report.leftOut > 0)
-    out += fmt::format("  {} planned runs are missing or failed and were left out\n", report.leftOut);
+    head.notes.push_back(
+        fmt::format("{} planned runs are missing or failed and were left out", report.leftOut));
   return out;
 }
 
-std::string drawSwitchChart(const SwitchReport& report, const std::string& folder) {
-  const std::string name = "switch_distances";
-  const std::filesystem::path base = std::filesystem::path(folder) / name;
-  // Data sets: for each switch the curve of all views together with the views' range, then its crossing. The
-  // bars are set a little apart so that those of one distance do not hide one another.
-  std::string data, plots;
-  size_t index = 0;
-  double nearest = 1e300, farthest = 0.0;
+std::string drawSwitchChart(const SwitchReport& report, const std::string& path) {
+  constexpr size_t kMostWithBars = 8;  // with more curves the views' ranges hide them; the table has them
+  const ChartFile file(path);
+  double nearest = INFINITY, farthest = 0.0;
   size_t longest = 0;
   for (const SwitchDistance& one : report.switches) {
     nearest = std::min(nearest, one.distances.front());
     farthest = std::max(farthest, one.distances.back());
     longest = std::max(longest, nameOf(one).size());
   }
-  const double low = nearest / 1.15, high = farthest * 1.15;
-  const bool bars = report.switches.size() <= kMostWithBars;
-  const double apart = std::pow(high / low, 0.004);
-  for (const SwitchDistance& one : report.switches) {
-    const std::vector<double> mean = meanOf(one);
-    const double aside =
-        std::pow(apart, static_cast<double>(index) - 0.5 * static_cast<double>(report.switches.size() - 1));
+  const size_t count = report.switches.size();
+  const double low = nearest / 1.15, high = farthest * 1.15, apart = std::pow(high / low, 0.004);
+  const bool bars = count <= kMostWithBars;
+  // Data sets: for each switch the curve of all views together with the views' range, then its crossing. The
+  // bars are set a little apart so that those of one distance do not hide one another.
+  std::string data, plots;
+  for (size_t index = 0; index < count; ++index) {
+    const SwitchDistance& one = report.switches[index];
     data += "# " + nameOf(one) + ": distance, mean, lowest and highest probability\n";
-    for (size_t i = 0; i < mean.size(); ++i) {
-      double least = mean[i], most = mean[i];
-      for (const std::vector<double>& view : one.views) {
-        least = std::min(least, view[i]);
-        most = std::max(most, view[i]);
-      }
-      data += fmt::format("{} {} {} {}\n", shortestNumber(one.distances[i]), shortestNumber(mean[i]),
-                          shortestNumber(least), shortestNumber(most));
-    }
+    for (const CurvePoint& point : curveOf(one))
+      data += fmt::format("{} {} {} {}\n", point.distance, point.mean, point.lowest, point.highest);
     const CrossingEstimate& estimate = one.estimate;
-    const double from = estimate.low ? estimate.low->x : estimate.ofMean.x;
-    const double to = estimate.high ? estimate.high->x : estimate.ofMean.x;
     data += fmt::format(
         "\n\n# where it comes down to the probability: distance, probability, low, high\n{} {} {} {}\n\n\n",
         estimate.ofMean.place == Place::Within ? shortestNumber(estimate.ofMean.x) : "NaN",
-        shortestNumber(report.probability), shortestNumber(from), shortestNumber(to));
+        report.probability, estimate.low.value_or(estimate.ofMean).x,
+        estimate.high.value_or(estimate.ofMean).x);
+    const std::string look = seriesStyle(index), next = plots.empty() ? "" : ", \\\n  ";
     if (bars)
-      plots += fmt::format(
-          "{0}'{1}.dat' index {2} using ($1*{3}):2:3:4 with yerrorbars lc rgb '{4}' ps 0 lw 1 notitle",
-          plots.empty() ? "" : ", \\\n  ", name, 2 * index, shortestNumber(aside),
-          kColours[index % std::size(kColours)]);
+      plots += fmt::format("{}{} index {} using ($1*{}):2:3:4 with yerrorbars {} ps 0 lw 1 notitle, ", next,
+                           file.data(), 2 * index,
+                           std::pow(apart, static_cast<double>(index) - 0.5 * static_cast<double>(count - 1)),
+                           look);
     plots += fmt::format(
-        "{0}'{1}.dat' index {2} using 1:2 with linespoints lc rgb '{3}' dt {7} pt {6} ps 0.6 lw 2 title {4}, "
-        "\\\n"
-        "  '' index {5} using 1:2:3:4 with xerrorbars lc rgb '{3}' pt 7 ps 1.1 lw 2.5 notitle",
-        plots.empty() ? "" : ", \\\n  ", name, 2 * index, kColours[index % std::size(kColours)],
-        gnuplotQuoted(nameOf(one)), 2 * index + 1, 4 + index % 10, 1 + index / std::size(kColours));
-    ++index;
+        "{}{} index {} using 1:2 with linespoints {} pt {} ps 0.6 lw 2 title {}, {} index {} using 1:2:3:4 "
+        "with "
+        "xerrorbars {} pt 7 ps 1.1 lw 2.5 notitle",
+        bars ? "" : next, file.data(), 2 * index, look, 4 + index % 10, gnuplotQuoted(nameOf(one)),
+        file.data(), 2 * index + 1, look);
   }
-  const size_t columns = std::clamp<size_t>(84 / (longest + 8), 1, 4),
-               rows = (report.switches.size() + columns - 1) / columns;
+  const size_t columns = std::clamp<size_t>(84 / (longest + 8), 1, 4), rows = (count + columns - 1) / columns;
   const std::string seen = seenText(report);
-  writeFileBytes(base.string() + ".dat", data);
-  writeFileBytes(
-      base.string() + ".gp",
-      fmt::format(
-          "# Draws {0}.svg from {0}.dat. For a paper: gnuplot -e pdf=1 {0}.gp\nreset\n"
-          "if (exists('pdf')) {{\n  set terminal pdfcairo size 14cm,{4}cm font 'sans,10'\n"
-          "  set output '{0}.pdf'\n}} else {{\n"
-          "  set terminal svg size 760,{5} dynamic font 'DejaVu Sans,13' background '#ffffff' noenhanced\n"
-          "  set output '{0}.svg'\n}}\n"
-          "set encoding utf8\nset border 3\nset tics nomirror out\nset logscale x\n"
-          "set xrange [{6}:{7}]\nset xtics {8}\nset mxtics 1\nset rmargin 4\n"
-          "set key outside below noenhanced maxcols {9} samplen 3\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
-          "set bars 0.5\nset title {1} noenhanced\nset xlabel {10} noenhanced\n"
-          "set ylabel {11}\nset yrange [0:1]\n"
-          "set arrow from graph 0, first {2} to graph 1, first {2} nohead dt 2 lc rgb '#777777'\n"
-          "plot {3}\n",
-          name, gnuplotQuoted(report.title), shortestNumber(report.probability), plots,
-          shortestNumber(8.5 + 0.5 * static_cast<double>(rows)), 440 + 20 * rows, shortestNumber(low),
-          shortestNumber(high), logarithmicTics(low, high), columns,
-          gnuplotQuoted(report.distanceLabel + (seen.empty() ? "" : ", " + seen)),
-          gnuplotQuoted(report.probabilityLabel + (bars ? "; bars: range over views" : ""))));
-  runGnuplot(folder, name + ".gp", {name + ".svg"});
-  return base.string() + ".svg";
+  file.draw(
+      file.head(1.2, 1.2 + 0.05 * static_cast<double>(rows)) +
+          fmt::format(
+              "set logscale x\nset xrange [{}:{}]\n{}set mxtics 1\nset rmargin 4\n"
+              "set key outside below noenhanced maxcols {} samplen 3\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\n"
+              "set bars 0.5\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {}\n"
+              "set yrange [0:1]\nset arrow from graph 0, first {} to graph 1, first {} nohead dt 2 lc rgb "
+              "'#777777'\nplot {}\n",
+              low, high, logarithmicTics(low, high), columns, gnuplotQuoted(report.title),
+              gnuplotQuoted(report.distanceLabel + (seen.empty() ? "" : ", " + seen)),
+              gnuplotQuoted(report.probabilityLabel + (bars ? "; bars: range over views" : "")),
+              report.probability, report.probability, plots),
+      data);
+  return path;
 }
 
 }  // namespace limen::analysis

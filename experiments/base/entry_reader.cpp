@@ -131,6 +131,7 @@ void EntryReader::readMap(const YamlNode& map, const Level& level, std::vector<A
 
 void EntryReader::refuseKey(const YamlNode& key, const Level& level) {
   const std::string what = fmt::format("{} has no parameter '{}'", level.what, key.text);
+  if (reader_.problems().crowded()) return reader_.problems().add(key.mark, what);
   std::vector<std::string> here, present;
   for (const DeclaredAt& at : flatten(*root_)) {
     const std::vector<std::string>& former = at.parameter->formerNames;

@@ -12,19 +12,34 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/input_files.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/replace_file.h"
 #include "experiments/base/staged_folder.h"
 
 namespace limen {
 
-// Inside single quotes gnuplot takes everything literally except the quote itself.
+// Inside single quotes gnuplot takes everything as it is but the quote itself, which is doubled. One at the
+// very beginning it takes for an empty string all the same; that one stands in double quotes, before the
+// rest.
 std::string gnuplotQuoted(const std::string& text) {
+  if (!text.empty() && text.front() == '\'') return "\"'\"." + gnuplotQuoted(text.substr(1));
   std::string out = "'";
   for (const char c : text) {
     if (c == '\'') out += '\'';
     out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return out + "'";
+}
+
+std::string gnuplotTick(const std::string& label) {
+  std::string out;
+  for (const char c : label) out += c == '%' ? std::string("%%") : std::string(1, c);
+  return gnuplotQuoted(out);
+}
+
+std::string gnuplotFile(const std::string& name) {
+  requirePlainName(name);
+  return gnuplotQuoted("./" + name);
 }
 
 std::string gnuplotTerminal(const std::string& extension, double width, double height) {

@@ -7,8 +7,14 @@
 
 namespace limen {
 
-/// A text as a single-quoted gnuplot string; control characters become blanks.
+/// A text as an expression of gnuplot's that is this text, whatever it holds; control characters become
+/// blanks. All text in scripts goes through this or the two below.
 std::string gnuplotQuoted(const std::string& text);
+/// The same as the label of a tick, in which gnuplot looks for formats of numbers.
+std::string gnuplotTick(const std::string& label);
+/// The name of a file in the script's folder, for reading or writing: gnuplot takes names that begin with <
+/// or | as commands. Throws Error as requirePlainName().
+std::string gnuplotFile(const std::string& name);
 
 /// Okabe and Ito's colours, distinguishable with any colour vision; further series differ in their dashes.
 inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",

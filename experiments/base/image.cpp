@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/image_codec/functions.h"
 #include "experiments/base/image_file.h"
 #include "experiments/base/input_files.h"
@@ -23,9 +24,19 @@ void write(const std::string& path, const std::string& bytes) {
   replaceFile(path, bytes);
 }
 
+ImageLimits& limits() {
+  static ImageLimits now;
+  return now;
+}
+
 }  // namespace
 
-Image readImage(const std::string& path) { return codec::functions().read(path); }
+const ImageLimits& imageLimits() { return limits(); }
+void setImageLimits(const ImageLimits& wanted) { limits() = wanted; }
+
+Image readImage(const std::string& path) {
+  return namingFile(path, [&] { return codec::functions().read(path, limits()); });
+}
 void writeExr(const std::string& path, const Image& image, const std::string& description) {
   write(path, codec::functions().exr(image, description));
 }
@@ -34,7 +45,7 @@ void writePng(const std::string& path, const Image& image, const std::string& de
 }
 ImageFile readImageFile(const std::string& path) {
   protectInput(path);
-  return codec::functions().readFile(path);
+  return namingFile(path, [&] { return codec::functions().readFile(path, limits()); });
 }
 
 std::string ImageFile::kind() const {

@@ -23,7 +23,18 @@ struct Image {
   }
 };
 
-/// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error.
+/// How large an image may be that is read. A header of a few bytes can state any size.
+struct ImageLimits {
+  double megapixels = 256.0;       ///< of data and display window each; four channels to a pixel
+  double pixelsPerByte = 16384.0;  ///< of the file: more than any compression makes of an empty picture
+  double alwaysMegapixels = 1.0;   ///< whatever the file's size
+};
+const ImageLimits& imageLimits();
+/// For all images from now on; before any is read.
+void setImageLimits(const ImageLimits& limits);
+
+/// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error naming the
+/// file: no regular file, not an image, incomplete, beyond imageLimits(), too little memory.
 Image readImage(const std::string& path);
 /// EXR, 32-bit float, lossless. Encoded in memory and written as PartFile does. `description` goes into the
 /// file, for those who find it without its context. Throws Error.

@@ -11,9 +11,7 @@ namespace limen {
 
 void Problems::add(Mark mark, const std::string& what, const std::string& hint) {
   std::string text = Error(what, location(file_, mark), hint).what();
-  const bool said =
-      std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) { return line.text == text; });
-  if (!said) lines_.push_back({mark, std::move(text)});
+  if (said_.insert(text).second) lines_.push_back({mark, std::move(text)});
 }
 
 void Problems::throwIfAny() const {

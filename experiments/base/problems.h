@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/base/yaml_tree.h"
@@ -15,6 +16,8 @@ class Problems {
 
   /// Repeats of a problem at the same place are dropped.
   void add(Mark mark, const std::string& what, const std::string& hint = {});
+  /// So many that hints to more of them help nobody, and finding them would take long.
+  bool crowded() const { return lines_.size() >= 1000; }
   bool empty() const { return lines_.empty(); }
   size_t size() const { return lines_.size(); }
   const std::string& file() const { return file_; }
@@ -30,6 +33,7 @@ class Problems {
   };
   std::string file_;
   std::vector<Line> lines_;
+  std::unordered_set<std::string> said_;
 };
 
 }  // namespace limen

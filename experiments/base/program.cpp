@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 
@@ -28,7 +31,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::string& program = app.get_name();
   const std::vector<std::string> rest = app.remaining(true);
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || rest.empty()) {
-    std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), error.what());
+    std::fprintf(stderr, "%s: %s; see --help\n", program.c_str(), printable(error.what()).c_str());
     return;
   }
   std::string hint = "quote a pattern to keep the shell from expanding it";
@@ -38,8 +41,8 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     hint = suggest(rest.front(), known);
   }
-  std::fprintf(stderr, "%s: unknown argument '%s'; %s\n", program.c_str(), rest.front().c_str(),
-               hint.c_str());
+  std::fprintf(stderr, "%s: unknown argument '%s'; %s\n", program.c_str(), printable(rest.front()).c_str(),
+               printable(hint).c_str());
 }
 
 int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
@@ -49,7 +52,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
   for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && !commands.empty() &&
       std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    std::fprintf(stderr, "%s: no command '%s'; %s\n", program.c_str(), argv[1],
+    std::fprintf(stderr, "%s: no command '%s'; %s\n", program.c_str(), printable(argv[1]).c_str(),
                  suggest(argv[1], commands).c_str());
     return kExitBadInput;
   }
@@ -59,14 +62,10 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
     if (error.get_exit_code() == 0) return app.exit(error);
     explain(app, error);
     return kExitBadInput;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
-    return kExitBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
-    return kExitFailedRuns;
+  } catch (...) {
+    return reportFailure(program);
   }
-  return exitCode;
+  return exitCodeAfter(exitCode);
 }
 
 }  // namespace

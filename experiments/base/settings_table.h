@@ -28,7 +28,7 @@
 ///           {&PcfSettings::filterRadius, "filter_radius", {1, 64}, "px", "Half-width of the window",
 ///           "Schwarz 2009, 3.4"},
 ///           {&PcfSettings::raster, "raster", "How the map is rasterised"},
-///           {&PcfSettings::budget, "budget", "Micro-occluders allowed for a pixel"}};
+///           {&PcfSettings::budget, "budget", "Micro-occluders allowed per pixel"}};
 ///       return kTable;
 ///     }
 ///

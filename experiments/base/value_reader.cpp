@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "experiments/base/error.h"
-#include "experiments/base/hash.h"
+#include "experiments/base/file_references.h"
 #include "experiments/base/text.h"
 
 namespace limen {
@@ -95,7 +95,7 @@ std::optional<std::string> FileFinder::find(const std::string& named, Mark mark,
     const std::string path = fs::weakly_canonical(candidate, code).string();
     if (!hashes_.count(path)) {
       try {
-        hashes_[path] = sha256File(path);
+        hashes_[path] = sha256WithReferences(path);
       } catch (const Error& error) {
         problems.add(mark, "file '" + named + "' cannot be read", "check its permissions");
         return {};

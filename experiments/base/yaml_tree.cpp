@@ -24,6 +24,7 @@ constexpr size_t kMaxDepth = 16;       // a descriptor needs six
 constexpr size_t kMaxBytes = 4 << 20;  // a descriptor is written by hand
 constexpr size_t kMaxBracketDepth =
     64;  // keeps the scanner, which works ahead of the depth check, from quadratic time
+constexpr size_t kMaxCommentBrackets = 4096;  // the same, for what is taken for a comment
 
 Mark toMark(const YAML::Mark& mark) { return mark.is_null() ? Mark{} : Mark{mark.line + 1, mark.column + 1}; }
 
@@ -181,7 +182,8 @@ size_t utf8Length(std::string_view text, size_t at) {
 void checkBytes(const std::string& text, const std::string& file) {
   Mark mark;
   bool indentation = true;
-  size_t depth = 0;
+  bool comment = false;
+  size_t depth = 0, inComments = 0;
   for (size_t at = 0; at < text.size();) {
     const size_t length = utf8Length(text, at);
     const auto byte = static_cast<unsigned char>(text[at]);
@@ -193,9 +195,13 @@ void checkBytes(const std::string& text, const std::string& file) {
                   "descriptors are text; is this a binary file?");
     if (byte == '\t' && indentation)
       throw Error("a tab as indentation", location(file, mark), "indent with spaces");
-    if (byte == '[' || byte == '{') ++depth;
-    if ((byte == ']' || byte == '}') && depth > 0) --depth;
-    if (depth > kMaxBracketDepth)
+    const bool spaced = at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t' || text[at - 1] == '\n';
+    comment = (comment || (byte == '#' && spaced)) && byte != '\n';
+    // "[0, 1)" in comments opens nothing; what looks like a comment may be the inside of a text, though.
+    size_t& open = comment ? inComments : depth;
+    if (byte == '[' || byte == '{') ++open;
+    if ((byte == ']' || byte == '}') && open > 0) --open;
+    if (depth > kMaxBracketDepth || inComments > kMaxCommentBrackets)
       throw Error(fmt::format("more than {} open brackets", kMaxBracketDepth), location(file, mark),
                   "close them; no part of a descriptor is that deep");
     if (byte != ' ' && byte != '\t') indentation = false;

@@ -3,6 +3,9 @@
 
 #include <sqlite3.h>
 
+#include <limits>
+#include <new>
+
 #include "experiments/base/error.h"
 
 namespace limen::store {
@@ -55,12 +58,59 @@ bool Statement::step() {
 }
 
 bool Statement::isNull(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
-int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_, column); }
-double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
+
+Error Statement::damaged(int column, const std::string& what) const {
+  const auto nameOr = [](const char* name, const char* otherwise) {
+    return std::string(name != nullptr ? name : otherwise);
+  };
+  const std::string file = nameOr(sqlite3_db_filename(database_, "main"), "");
+  const std::string table = nameOr(sqlite3_column_table_name(statement_, column), "");
+  const std::string name = nameOr(sqlite3_column_origin_name(statement_, column),
+                                  nameOr(sqlite3_column_name(statement_, column), "?").c_str());
+  // The first column of every list is what tells its rows apart.
+  const unsigned char* first = sqlite3_column_text(statement_, 0);
+  const std::string key = nameOr(reinterpret_cast<const char*>(first), "NULL");
+  constexpr size_t kShown = 40;
+  return Error("the store is damaged: " + (table.empty() ? "" : "table " + table + ", ") + "column " + name +
+                   ", row with " + nameOr(sqlite3_column_name(statement_, 0), "?") + " " +
+                   key.substr(0, kShown) + ": " + what,
+               file, "put back a copy, or save what is left with 'sqlite3 FILE .recover'");
+}
+
+int64_t Statement::integer(int column) const {
+  if (sqlite3_column_type(statement_, column) != SQLITE_INTEGER) throw damaged(column, "is not an integer");
+  return sqlite3_column_int64(statement_, column);
+}
+
+int Statement::number(int column) const {
+  const int64_t value = integer(column);
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    throw damaged(column, std::to_string(value) + " is out of range");
+  return static_cast<int>(value);
+}
+
+int Statement::countingNumber(int column) const {
+  const int value = number(column);
+  if (value < 0) throw damaged(column, std::to_string(value) + " is out of range");
+  return value;
+}
+
+bool Statement::truth(int column) const {
+  const int64_t value = integer(column);
+  if (value != 0 && value != 1) throw damaged(column, std::to_string(value) + " is neither 0 nor 1");
+  return value == 1;
+}
+
+double Statement::real(int column) const {
+  const int type = sqlite3_column_type(statement_, column);
+  if (type != SQLITE_FLOAT && type != SQLITE_INTEGER) throw damaged(column, "is not a number");
+  return sqlite3_column_double(statement_, column);
+}
 
 std::string Statement::text(int column) const {
+  if (sqlite3_column_type(statement_, column) != SQLITE_TEXT) throw damaged(column, "is not text");
   const unsigned char* text = sqlite3_column_text(statement_, column);
-  if (text == nullptr) return {};
+  if (text == nullptr) throw std::bad_alloc();
   return {reinterpret_cast<const char*>(text), static_cast<size_t>(sqlite3_column_bytes(statement_, column))};
 }
 

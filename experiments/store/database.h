@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "experiments/base/error.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -38,9 +40,16 @@ class Statement {
   }
 
   bool isNull(int column) const;
+  /// Values of the present row. A store may come from anybody or a failing disk: whatever is of another type,
+  /// or absent, throws damaged().
   int64_t integer(int column) const;
+  int number(int column) const;          ///< that fits an int
+  int countingNumber(int column) const;  ///< from 0
+  bool truth(int column) const;          ///< 0 or 1
   double real(int column) const;
   std::string text(int column) const;
+  /// The error for a value that cannot be: names file, table, column and row.
+  Error damaged(int column, const std::string& what) const;
 
  private:
   void reset();

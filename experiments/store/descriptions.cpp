@@ -64,7 +64,7 @@ Descriptions readDescriptions(sqlite3* database, int64_t experiment) {
   parameter.bind(experiment);
   while (parameter.step())
     out.parameters.push_back({parameter.text(0), parameter.text(1), parameter.text(2),
-                              parseJson(parameter.text(3)), parameter.text(4), parameter.text(5),
+                              parseJson(parameter, 3, JsonIs::Object), parameter.text(4), parameter.text(5),
                               parameter.text(6), parameter.text(7), parameter.text(8), parameter.text(9)});
   return out;
 }

@@ -13,6 +13,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/input_files.h"
+#include "experiments/base/printable.h"
 #include "experiments/store/database.h"
 
 namespace limen::embedded {
@@ -72,6 +73,9 @@ void requireStore(sqlite3* database, const std::string& path) {
     throw Error("is an SQLite file but not a result store", path,
                 "give a store that Limen wrote, or a new name");
   const int64_t version = pragma(database, "PRAGMA user_version");
+  if (version < 0)
+    throw Error("the store is damaged: user_version is " + std::to_string(version), path,
+                "put back a copy, or save what is left with 'sqlite3 FILE .recover'");
   if (version > kSchemaVersion)
     throw Error("the store has schema version " + std::to_string(version) + ", this program knows " +
                     std::to_string(kSchemaVersion),
@@ -137,7 +141,8 @@ void prepareFolder(const std::string& path) {
 
 bool isUnwritten(const std::string& path) {
   std::error_code error;
-  if (!fs::exists(path, error) || fs::is_directory(path, error)) return !fs::exists(path, error);
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::is_regular_file(status)) return status.type() == fs::file_type::not_found;
   Closer closer;
   const std::string name = readOnlyUri(path);
   if (sqlite3_open_v2(name.c_str(), &closer.database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
@@ -152,8 +157,18 @@ bool isUnwritten(const std::string& path) {
 }
 
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Contents contents) {
-  if (fs::is_directory(path)) throw Error("is a folder, not a result store", path, "name a file in it");
-  if (readOnly && !fs::exists(path))
+  // SQLite keeps a database of this name in memory, and drops it at the end.
+  if (path.empty() || path == ":memory:")
+    throw Error("'" + path + "' is not a file", "store", "name a file; what is measured would be lost");
+  requirePlainName(path);
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (code && status.type() != fs::file_type::not_found)
+    throw Error("the store cannot be opened: " + code.message(), path, "check the path");
+  if (fs::is_directory(status)) throw Error("is a folder, not a result store", path, "name a file in it");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Error("is not a file but a pipe or a device", path, "name a file");
+  if (readOnly && !fs::exists(status))
     throw Error("no such result store", path, "check the path; limen sweep and limen study create stores");
   if (!readOnly) prepareFolder(path);
   protectInput(path);

@@ -57,9 +57,9 @@ std::vector<StudyPrediction> readPredictions(const std::string& path) {
                 "program_version, created, figures FROM prediction ORDER BY id");
   std::vector<StudyPrediction> out;
   while (row.step())
-    out.push_back({row.integer(0), row.text(1), row.text(2), static_cast<int>(row.integer(3)),
-                   static_cast<int>(row.integer(4)), row.text(5), parseJson(row.text(6)), row.text(7),
-                   row.text(8), parseJson(row.text(9))});
+    out.push_back({row.integer(0), row.text(1), row.text(2), row.countingNumber(3), row.countingNumber(4),
+                   row.text(5), parseJson(row, 6, JsonIs::Object), row.text(7), row.text(8),
+                   parseJson(row, 9, JsonIs::Object)});
   return out;
 }
 

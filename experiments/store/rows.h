@@ -11,11 +11,16 @@ namespace limen::store {
 void writeDetails(sqlite3* database, int64_t id, const Run& run);
 /// The row `id` without its details. It exists.
 Run readRunById(sqlite3* database, int64_t id);
+/// Of a row of device, software and facts.
+Environment readEnvironment(const Statement& row);
 /// Fills measurements, passes, artefacts and (on request) frame times of `runs`, which have their ids.
 void readDetails(sqlite3* database, std::vector<Run>& runs, bool withFrameTimes);
 
-/// Throws Error if the text is not JSON.
-nlohmann::json parseJson(const std::string& text);
+/// What a column that holds JSON must be.
+enum class JsonIs { Any, Object, Array };
+/// Throws Error (Statement::damaged) if the text is not JSON, another kind of JSON, or nested so deeply that
+/// whoever walks it runs out of stack.
+nlohmann::json parseJson(const Statement& row, int column, JsonIs is = JsonIs::Any);
 
 /// Replaces what the store says about an experiment's names. Inside a transaction.
 void writeDescriptions(sqlite3* database, int64_t experiment, const Descriptions& descriptions);

@@ -107,7 +107,7 @@ SessionLog::~SessionLog() { sqlite3_close(database_); }
 int SessionLog::participantNumber(const std::string& code, const std::string& createdUtc) {
   Transaction transaction(database_, Mode::Write);
   Statement find(database_, "SELECT number FROM participant WHERE code = ?");
-  if (find.bind(code).step()) return static_cast<int>(find.integer(0));
+  if (find.bind(code).step()) return find.countingNumber(0);
   Statement last(database_, "SELECT coalesce(max(number), -1) + 1 FROM participant");
   last.step();
   const int64_t number = last.integer(0);
@@ -186,7 +186,8 @@ bool SessionLog::claim(int64_t session) {
                  "ORDER BY number DESC LIMIT 1))) * 86400.0 FROM session s WHERE id = ?");
   if (!find.bind(session).step()) throw Error("no session " + std::to_string(session), path_);
   const std::string owner = find.text(0);
-  if (!owner.empty() && owner != self && !isOwnerDead(owner).value_or(find.real(1) > kStaleSeconds))
+  if (!owner.empty() && owner != self &&
+      !isOwnerDead(owner).value_or(find.isNull(1) || find.real(1) > kStaleSeconds))
     return false;
   execute(database_, "UPDATE session SET owner = ? WHERE id = ?", self, session);
   transaction.commit();

@@ -170,6 +170,8 @@ class SessionReader {
   SessionReader(const SessionReader&) = delete;
   SessionReader& operator=(const SessionReader&) = delete;
 
+  const std::string& path() const { return path_; }
+
   /// In order of their start.
   std::vector<StudySession> sessions() const;
   /// Every presentation, in order, with its response; frame logs on request.

@@ -23,7 +23,10 @@ std::string dump(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Commits within its lifetime survive the death of the process but not a power cut, and do not wait for the
+constexpr const char* kDied = "a process died while it held this run";
+constexpr const char* kDiedTwice = "its process died twice while ";
+
+/// Commits within its life survive the death of the process but not a power cut, and do not wait for the
 /// disk, which takes milliseconds each time.
 class WithoutSync {
  public:
@@ -100,15 +103,18 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
   const WithoutSync withoutSync(database_);
   const std::string self = processIdentity();
   Transaction transaction(database_, Mode::Write);
-  Statement find(database_,
-                 "SELECT id, status, owner, (julianday('now') - julianday(started)) * 86400.0 FROM run "
-                 "WHERE key = ? AND device = ?");
+  Statement find(
+      database_,
+      "SELECT id, status, owner, (julianday('now') - julianday(started)) * 86400.0, error FROM run "
+      "WHERE key = ? AND device = ?");
+  std::string error;  // of a row that is 'running': how many held it before
   if (find.bind(run.key, run.device).step()) {
     const std::string status = find.text(1), owner = find.text(2);
     if (status == "done") return Claim::AlreadyDone;
     if (status == "running" && owner != self) {
-      const bool dead = isOwnerDead(owner).value_or(find.real(3) > staleSeconds);
+      const bool dead = isOwnerDead(owner).value_or(find.isNull(3) || find.real(3) > staleSeconds);
       if (!dead) return Claim::HeldByOther;
+      error = find.text(4).empty() ? kDied : kDiedTwice;
     }
     // What a failed run left behind is deleted with its row.
     execute(database_, "DELETE FROM run WHERE id = ?", find.integer(0));
@@ -116,12 +122,27 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
   execute(database_,
           "INSERT INTO run (key, device, status, technique, scene, label, parameters, scene_facts, "
           "environment, owner, "
-          "started) VALUES (?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?)",
+          "started, error) VALUES (?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?, ?)",
           run.key, run.device, run.technique, run.scene, run.label, dump(run.parameters),
-          dump(run.sceneFacts), orNull(run.environment), self, utcNow());
+          dump(run.sceneFacts), orNull(run.environment), self, utcNow(), error);
   transaction.commit();
   return Claim::Claimed;
 }
+
+int Store::deaths(const std::string& key, const std::string& device) const {
+  Statement find(database_,
+                 "SELECT error FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
+  if (!find.bind(key, device, processIdentity()).step()) return 0;
+  const std::string error = find.text(0);
+  return error.empty() ? 0 : error == kDied ? 1 : 2;
+}
+
+bool Store::hasDiedTwice(const std::string& key, const std::string& device) const {
+  Statement find(database_, "SELECT error FROM run WHERE key = ? AND device = ? AND status = 'failed'");
+  return find.bind(key, device).step() && find.text(0).starts_with(kDiedTwice);
+}
+
+std::string Store::diedTwice(const std::string& what) { return kDiedTwice + what; }
 
 void Store::finish(const Run& run) {
   assert(run.status == "done" || run.status == "failed");

@@ -101,6 +101,13 @@ class Store {
   /// a failed one or one whose owner is dead (same host and no such process, or older than `staleSeconds` on
   /// another host).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
+  /// How many processes died while they held a run that this process holds now. One that was stopped by a
+  /// signal or an error has given it back.
+  int deaths(const std::string& key, const std::string& device) const;
+  /// Whether a run failed with diedTwice().
+  bool hasDiedTwice(const std::string& key, const std::string& device) const;
+  /// Error of a run that is given up, `what` being what it was about.
+  static std::string diedTwice(const std::string& what);
   /// Ends a claimed run in one transaction: status, error, measurements, frame times, passes, artefacts.
   /// From then on it survives the death of this process, and after sync() also a power cut.
   void finish(const Run& run);

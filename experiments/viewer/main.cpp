@@ -9,6 +9,7 @@
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/program.h"
 #include "experiments/base/text.h"
 #include "experiments/viewer/export_descriptor.h"
@@ -202,7 +203,7 @@ int view(const ViewOptions& options) {
   std::string wrong = shown.error;
   for (const Rendered& one : shown.rendered) wrong += one.error + one.failure;
   if (wrong.empty()) return 0;
-  std::fprintf(stderr, "limen-view: %s\n", wrong.c_str());
+  std::fprintf(stderr, "limen-view: %s\n", printable(wrong).c_str());
   return 1;
 }
 
@@ -239,13 +240,7 @@ int viewMain(int argc, char** argv) {
   app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.callback([&] {
-    try {
-      exitCode = view(options);
-    } catch (const Interrupted&) {
-      exitCode = 128 + interruptSignal();
-    }
-  });
+  app.callback([&] { exitCode = view(options); });
   return runProgram(app, argc, argv, exitCode);
 }
 

@@ -69,7 +69,8 @@ class ViewsReader {
   void checkKeys(const YamlNode& map, const std::string& what, const std::vector<std::string>& known) {
     for (const auto& [key, value] : map.members)
       if (std::find(known.begin(), known.end(), key.text) == known.end())
-        problems_.add(key.mark, "unknown key '" + key.text + "' of " + what, suggest(key.text, known));
+        problems_.add(key.mark, "unknown key '" + key.text + "' of " + what,
+                      problems_.crowded() ? "" : suggest(key.text, known));
   }
 
   void readView(const YamlNode& item, std::vector<SavedView>& out) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/viewed_scene.h"
 
+#include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "renderer/scene/placement.h"
 
 namespace limen::viewer {
@@ -13,6 +15,15 @@ ParameterValues stillValues(const experiments::Configuration& scene) {
   return {scene::SceneRegistry::instance().get(scene.name).allParameters(), still};
 }
 
+/// The renderer's thread takes errors alone; the signal itself ends the program.
+scene::Scene built(const experiments::Configuration& scene) {
+  try {
+    return scene::buildScene(scene.name, stillValues(scene));
+  } catch (const Interrupted&) {
+    throw Error("stopped by a signal");
+  }
+}
+
 }  // namespace
 
 std::string ViewedScene::keyOf(const experiments::Configuration& scene) {
@@ -23,7 +34,7 @@ bool ViewedScene::show(const experiments::Configuration& scene) {
   const bool build = needsBuilding(scene);
   if (build) {
     onGpu_.reset();
-    onGpu_ = std::make_unique<frame::SceneOnGpu>(scene::buildScene(scene.name, stillValues(scene)));
+    onGpu_ = std::make_unique<frame::SceneOnGpu>(built(scene));
     built_ = onGpu_->scene.camera;
     key_ = keyOf(scene);
   }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/text.h"
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
@@ -121,7 +122,9 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
     report.frame = frame;
     report.inputs = {{"image", &test}, {"reference", &reference}};
     std::vector<MetricMap> maps;
-    report.figures = metrics.run(test, reference, options.mapFolder.empty() ? nullptr : &maps);
+    report.figures = namingFile(frame.label(), [&] {
+      return metrics.run(test, reference, options.mapFolder.empty() ? nullptr : &maps);
+    });
     report.extra = metrics.facts();
     if (selected.jnd) {
       PoppingInput pair;

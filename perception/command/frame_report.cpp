@@ -5,6 +5,7 @@
 
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/text.h"
 
 namespace limen::perception {
@@ -102,7 +103,8 @@ void ReportPrinter::add(const FrameReport& report) {
   warnings_ += warnings.size();
   const std::string prefix = frames_ > 1 ? report.frame.label() + ": " : "";
   for (const std::string& warning : warnings)
-    std::fprintf(stderr, "limen-perceive: %swarning: %s\n", prefix.c_str(), warning.c_str());
+    std::fprintf(stderr, "limen-perceive: %swarning: %s\n", printable(prefix).c_str(),
+                 printable(warning).c_str());
   for (const std::string& words : exceeded(report.figures, limits_)) exceeded_.push_back(prefix + words);
   summary_.add(report.figures, report.frame.label());
 
@@ -133,7 +135,8 @@ int ReportPrinter::finish() {
     if (!worst.empty())
       std::printf("worst frame by %s: %s\n", header_.primaryFigures.front().c_str(), worst.c_str());
   }
-  for (const std::string& words : exceeded_) std::fprintf(stderr, "limen-perceive: %s\n", words.c_str());
+  for (const std::string& words : exceeded_)
+    std::fprintf(stderr, "limen-perceive: %s\n", printable(words).c_str());
   return exceeded_.empty() ? kExitSuccess : kExitFailedRuns;
 }
 

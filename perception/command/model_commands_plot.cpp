@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
+#include "experiments/base/printable.h"
 #include "experiments/base/text.h"
 #include "perception/command/model_commands.h"
 
@@ -17,7 +18,7 @@ std::string script(const Plot& plot, const fs::path& file) {
   const std::string stem = file.stem().string();
   std::string out = "# Draws " + file.filename().string() + " from " + stem + ".dat.\nreset\nset terminal " +
                     gnuplotTerminal(file.extension().string()) + "\nset output " +
-                    gnuplotQuoted(file.filename().string()) +
+                    gnuplotFile(file.filename().string()) +
                     "\nset encoding utf8\nset border 3\nset tics nomirror out\nset logscale xy\n"
                     "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n";
   out += plot.curves.size() > 1 ? "set key outside right top Left reverse noenhanced samplen 2\n"
@@ -29,9 +30,8 @@ std::string script(const Plot& plot, const fs::path& file) {
     curves += fmt::format(
         "{0}{1} index {2} using 1:2 with lines lw 2.5 dt {3} lc rgb '{4}' title {5}"
         ", \\\n  '' index {2} using 1:3 with lines lw 1 dt {3} lc rgb '{4}' notitle",
-        i == 0 ? "" : ", \\\n  ", i == 0 ? gnuplotQuoted(stem + ".dat") : "''", i,
-        1 + i / kChartColours.size(), kChartColours[i % kChartColours.size()],
-        gnuplotQuoted(plot.curves[i].name));
+        i == 0 ? "" : ", \\\n  ", i == 0 ? gnuplotFile(stem + ".dat") : "''", i, 1 + i / kChartColours.size(),
+        kChartColours[i % kChartColours.size()], gnuplotQuoted(plot.curves[i].name));
   return out + "plot " + curves + "\n";
 }
 
@@ -68,6 +68,7 @@ void drawPlot(const Plot& plot, const std::string& file) {
   if (extension != ".svg" && extension != ".png" && extension != ".pdf")
     throw Error("'" + file + "' is neither SVG, PNG nor PDF", "--plot",
                 "let the name end in .svg, .png or .pdf");
+  requirePlainName(file, "--plot");
   drawPicture(file, script(plot, path), data(plot));
 }
 

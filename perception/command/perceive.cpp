@@ -3,6 +3,7 @@
 
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
+#include "experiments/base/image.h"
 #include "experiments/base/program.h"
 #include "perception/command/commands.h"
 
@@ -14,6 +15,19 @@ int perceiveMain(int argc, char** argv) {
   app.set_version_flag("--version", versionText("limen-perceive"));
   app.require_subcommand(1);
   int exitCode = kExitSuccess;
+  ImageLimits limits = imageLimits();
+  // Before the command, or among its own options.
+  app.fallthrough();
+  app.add_option_function<double>(
+         "--max-megapixels",
+         [limits](double megapixels) mutable {
+           limits.megapixels = limits.alwaysMegapixels = megapixels;
+           setImageLimits(limits);
+         },
+         "Read images of up to so many megapixels, however few bytes they have (default: 256, and few for a "
+         "small file)")
+      ->check(CLI::Range(0.0, 1e5))
+      ->trigger_on_parse();
   addModelCommands(app, exitCode);
   addImageCommands(app, exitCode, {argv, argv + argc});
   return runProgram(app, argc, argv, exitCode);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/text.h"
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
@@ -192,7 +193,8 @@ int pop(const PopOptions& options, const std::vector<std::string>& words) {
   header.primaryFigures = {"rating", "region_count", "largest_jnd", "max_de94"};
   header.json = options.json;
   ReportPrinter printer(header, frames.size(), limits);
-  for (const FrameSet& frame : frames) predict(call, frame, outputs, printer);
+  for (const FrameSet& frame : frames)
+    namingFile(frame.label(), [&] { predict(call, frame, outputs, printer); });
   return printer.finish();
 }
 

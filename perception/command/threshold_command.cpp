@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/text.h"
 #include "perception/command/frame_report.h"
 #include "perception/command/image_commands.h"
@@ -97,8 +98,9 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
   double scale = options.scaleCdM2;
   for (const FrameSet& frame : frames) {
     const InputImage image = readInput(frame.paths.front(), display, input);
-    const ThresholdMap map =
-        computeThresholdMap(luminancePlane(image.shown(), display), display.pixelsPerDegree(), settings);
+    const ThresholdMap map = namingFile(frame.label(), [&] {
+      return computeThresholdMap(luminancePlane(image.shown(), display), display.pixelsPerDegree(), settings);
+    });
     FrameReport report;
     report.frame = frame;
     report.inputs = {{"image", &image}};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -94,6 +95,15 @@ std::unique_ptr<Context> tryDisplay(EGLDisplay display, const std::string& platf
   }
 }
 
+/// libepoxy ends the process where it finds no library.
+void requireEgl() {
+  static void* const library = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr)
+    throw Error("libEGL.so.1 cannot be loaded", {},
+                "install a GPU driver with EGL, or the packages libegl1 and libgl1-mesa-dri for a software "
+                "renderer");
+}
+
 std::optional<int> forcedDevice() {
   const char* text = std::getenv("LIMEN_EGL_DEVICE");
   if (!text || !*text) return {};
@@ -115,6 +125,7 @@ std::unique_ptr<Context> createHeadlessContext() {
   const std::scoped_lock lock(guard);
   candidateLines().clear();
   const std::optional<int> forced = forcedDevice();
+  requireEgl();
   std::unique_ptr<Context> best;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {

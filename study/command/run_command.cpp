@@ -138,7 +138,10 @@ void runStudy(const RunOptions& options, Run& run) {
   const SessionRequest request = requestOf(options, protocol);
   const bool fullScreen = options.window.empty();
 
-  installInterruptHandlers();
+  // A session that is stopped is stored as paused, which takes as long as a frame may take to come to the
+  // screen.
+  constexpr double kGraceS = 3.0;
+  installInterruptHandlers(kGraceS);
   const std::unique_ptr<window::UiWindow> window = openWindow(options, protocol.title);
   std::unique_ptr<ExperimenterWindow> experimenter;
   if (options.experimenter)

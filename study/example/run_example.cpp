@@ -61,7 +61,11 @@ class ExampleRun {
   }
 
  private:
-  std::string file(const std::string& name) const { return (fs::path(request_.folder) / name).string(); }
+  std::string file(const std::string& name) const {
+    // Programs that are given the name must not take it for an option.
+    const std::string path = (fs::path(request_.folder) / name).string();
+    return path.starts_with("-") ? "./" + path : path;
+  }
   std::string storeOf(const ExampleStudy& study) const { return file(study.name + ".sqlite"); }
   /// Of one build: other builds may predict differently.
   std::string cacheOf(const ExampleStudy& study) const {

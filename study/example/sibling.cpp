@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +16,7 @@
 #include <system_error>
 
 #include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/base/part_file.h"
 
 namespace limen::study {
@@ -21,10 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string readAll(int file) {
+/// What the child says until its end. Asked to stop, this process asks the child to.
+std::string readAll(int file, pid_t child) {
   std::string out;
   std::array<char, 4096> buffer{};
+  constexpr int kLookMs = 50;
   while (true) {
+    if (interruptSignal() != 0) kill(child, SIGTERM);
+    pollfd readable{file, POLLIN, 0};
+    if (poll(&readable, 1, kLookMs) == 0) continue;
     const ssize_t got = read(file, buffer.data(), buffer.size());
     if (got > 0) out.append(buffer.data(), static_cast<size_t>(got));
     if (got == 0 || (got < 0 && errno != EINTR)) return out;
@@ -70,13 +78,14 @@ SiblingEnd runSibling(const std::vector<std::string>& words, const std::string& 
     close(ends[0]);
     return {127, std::system_category().message(failed)};
   }
-  end.message = lastLine(readAll(ends[0]));
+  end.message = lastLine(readAll(ends[0], child));
   close(ends[0]);
   int status = 0;
   pid_t waited = 0;
   do waited = waitpid(child, &status, 0);
   while (waited < 0 && errno == EINTR);
   end.status = waited != child ? 127 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  throwIfInterrupted();
   if (part && end.status == 0) part->putInPlace();
   return end;
 }

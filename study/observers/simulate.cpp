@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "experiments/base/error.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/store/sessions.h"
 #include "perception/psychometrics/random.h"
 #include "study/observers/simulated_front_end.h"
@@ -58,15 +59,17 @@ void checkSame(const Protocol& protocol, const SimulationRequest& request, const
     throw Error("participant " + session.participant + " used another protocol", request.store, hint);
   const nlohmann::json facts = reader.environment(session.environment).facts;
   const nlohmann::json frontEnd = facts.value("front_end", nlohmann::json::object());
+  const nlohmann::json observer = frontEnd.value("observer", nlohmann::json());
   if (!frontEnd.value("simulated", false))
     throw Error("participant " + session.participant + " is not a simulated one", request.store, hint);
   if (session.seed != sessionSeed(request.seed, session.participant))
     throw Error("participant " + session.participant + " was simulated with another --seed", request.store,
                 hint);
-  if (frontEnd["observer"] != toJson(request.observer) || frontEnd["invalid_rate"] != request.invalidRate)
-    throw Error("participant " + session.participant +
-                    " was simulated as another observer: " + frontEnd["observer"].dump(),
-                request.store, hint);
+  if (observer != toJson(request.observer) ||
+      frontEnd.value("invalid_rate", nlohmann::json()) != request.invalidRate)
+    throw Error(
+        "participant " + session.participant + " was simulated as another observer: " + observer.dump(),
+        request.store, hint);
 }
 
 // Makes sessions begin in the order of their participants, so that each gets its own number.
@@ -126,6 +129,9 @@ class Simulator {
     for (int i = next_++; i < request_.observers && !stopped_; i = next_++) {
       try {
         runOne(i);
+      } catch (const Interrupted&) {
+        stopped_ = true;
+        turns_.stop();
       } catch (...) {
         const std::scoped_lock lock(guard_);
         if (!failure_) failure_ = std::current_exception();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "study/session/rows.h"
 
@@ -100,7 +101,8 @@ struct Derived {
       frameDigests.emplace_back();
     }
     if (entry.ended) {
-      // Only the most recently started trial can end.
+      // Only the trial that began last can end.
+      if (trials.empty()) throw Error("event " + std::to_string(entry.event.number) + " ends no trial");
       store::StudyTrial& trial = trials.back();
       trial.valid = entry.ended->valid;
       trial.reason = entry.ended->reason;
@@ -138,9 +140,11 @@ Verification verifySession(const store::SessionReader& reader, const store::Stud
   Session replayed(protocol, session.seed, session.participantNumber);
   Derived expected;
   for (const store::StudyEvent& row : reader.events(session.id)) {
-    const Event event = eventOf(row);
-    expected.take(entryOf(replayed, event));
-    replayed.apply(event);
+    atEvent(row, reader.path(), [&] {
+      const Event event = eventOf(row);
+      expected.take(entryOf(replayed, event));
+      replayed.apply(event);
+    });
     ++verification.events;
   }
   verification.state = replayed.state();

@@ -3,12 +3,15 @@
 
 #include <fmt/core.h>
 
+#include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 
 namespace limen::study {
 namespace {
 
 store::StudyTrial trialRow(const Session& session, const Event& event) {
+  // In a damaged log an event may stand anywhere.
+  if (!session.step().trial) throw Error("the store is damaged: the event begins no trial that is due");
   const Trial& due = *session.step().trial;
   store::StudyTrial row;
   row.number = due.number;
@@ -83,6 +86,19 @@ std::vector<store::StudyBlock> blocksOf(const Session& session) {
                     session.protocol().parts[static_cast<size_t>(block.part)].name, block.name,
                     block.practice, static_cast<int>(block.trials.size())});
   return rows;
+}
+
+void atEvent(const store::StudyEvent& row, const std::string& store, const std::function<void()>& work) {
+  const std::string place = "table event, number " + std::to_string(row.number) + ": ";
+  try {
+    work();
+  } catch (const Error& error) {
+    if (!error.where().empty()) throw;
+    throw Error(place + error.message(), store, error.hint());
+  } catch (const nlohmann::json::exception&) {
+    throw Error(place + "the store is damaged: the event lacks what it must say", store,
+                "put back a copy, or save what is left with 'sqlite3 FILE .recover'");
+  }
 }
 
 Event eventOf(const store::StudyEvent& row) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "experiments/store/sessions.h"
@@ -20,5 +22,7 @@ std::vector<store::StudyFrame> framesOf(const std::vector<ShownFrame>& frames);
 /// {"count", "sha256"} of a frame log: part of its event, so that the event log authenticates it.
 nlohmann::json frameDigest(const std::vector<store::StudyFrame>& frames);
 Event eventOf(const store::StudyEvent& row);
+/// Runs `work` on an event of a store; what it finds wrong is said with file, table and row.
+void atEvent(const store::StudyEvent& row, const std::string& store, const std::function<void()>& work);
 
 }  // namespace limen::study

@@ -168,7 +168,8 @@ double ageS(const Job& job, const std::string& last) {
 std::optional<LastInstant> sameBoot(const std::vector<store::StudyEvent>& events, const std::string& boot) {
   std::string last;
   for (const store::StudyEvent& event : events)
-    if (event.data.contains("boot")) last = event.data["boot"].get<std::string>();
+    if (const auto boots = event.data.find("boot"); boots != event.data.end() && boots->is_string())
+      last = boots->get<std::string>();
   if (last.empty() || last != boot) return std::nullopt;
   return LastInstant{events.back().utc, events.back().monotonicNs};
 }
@@ -193,7 +194,7 @@ SessionEnd runAgain(const Job& job, const store::StudySession& row) {
   Session session(job.protocol, row.seed, row.participantNumber);
   int invalid = 0;
   for (const store::StudyEvent& event : events) {
-    session.apply(eventOf(event));
+    atEvent(event, job.log.path(), [&] { session.apply(eventOf(event)); });
     invalid += event.kind == toText(EventKind::TrialInvalid) ? 1 : 0;
   }
   std::vector<store::StudyEntry> pending;

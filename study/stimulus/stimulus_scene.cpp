@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/base/error.h"
-#include "experiments/base/hash.h"
+#include "experiments/base/file_references.h"
 
 namespace limen::study {
 
 void checkFiles(const NamedEntry& entry, const std::string& where) {
   for (const auto& [path, hash] : entry.fileHashes) {
     const ParameterValue* file = entry.values.find(path);
-    if (file && sha256File(std::get<std::string>(*file)) != hash)
+    if (file && sha256WithReferences(std::get<std::string>(*file)) != hash)
       throw Error("'" + limen::toText(*file) + "' has changed since the stimulus was made", where,
                   "restore the file, or read the protocol again");
   }

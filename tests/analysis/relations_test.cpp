@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/correlations/cluster_bootstrap.h"
-#include "analysis/pair_scales/consistency.h"
+#include "analysis/pair_scales/pair_table.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "analysis/output/result_renderers.h"
 #include "experiments/base/error.h"
 #include "tests/analysis/synthetic_store.h"
 
@@ -72,15 +73,15 @@ TEST(SwitchDistances, JsonAndChartHoldTheEstimates) {
   options.storePath = folder.path("s.sqlite");
   options.probability = 0.999;  // level 1 is below that at 3 already, and at 1 it is 1
   const SwitchReport report = findSwitchDistances(options).at(0);
-  const nlohmann::json json = nlohmann::json::parse(toJson(report));
-  EXPECT_EQ(json.at("switches").at(1).at("condition").at("to_level"), "2");
+  const nlohmann::json json = toJson(resultOf(report));
+  EXPECT_EQ(json.at("switches").at(1).at("to_level"), "2");
   EXPECT_EQ(json.at("switches").at(1).at("bound"), "within");
-  EXPECT_TRUE(json.at("switches").at(0).at("curve").is_array());
-  const std::string svg = drawSwitchChart(report, folder.path());
+  EXPECT_TRUE(json.at("curves").is_array());
+  const std::string svg = drawSwitchChart(report, folder.path("s.svg"));
   std::ifstream in(svg);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   EXPECT_THAT(text, HasSubstr("to_level=2"));
-  EXPECT_THAT(toText(report), HasSubstr("to_level=1"));
+  EXPECT_THAT(toText(resultOf(report)), HasSubstr("to_level=1"));
 }
 
 TEST(SwitchDistances, AreNamedByTheirLevelsAndSayInWhichWindowTheyHold) {
@@ -90,13 +91,13 @@ TEST(SwitchDistances, AreNamedByTheirLevelsAndSayInWhichWindowTheyHold) {
   options.storePath = folder.path("s.sqlite");
   SwitchReport report = findSwitchDistances(options).at(0);
   EXPECT_EQ(report.seen.at("width"), "64");
-  EXPECT_THAT(toText(report), testing::Not(HasSubstr("window"))) << "the height is not known";
+  EXPECT_THAT(toText(resultOf(report)), testing::Not(HasSubstr("window"))) << "the height is not known";
   report.seen["height"] = "48";
   report.seen["display"] = "laptop_14";
   report.switches[0].condition = {{"from_level", "1"}, {"speed", "2"}, {"to_level", "0"}};
-  EXPECT_THAT(toText(report), HasSubstr("in a window of 64 x 48 px, display laptop_14"));
-  EXPECT_THAT(toText(report), HasSubstr("level 1 to 0, speed=2"));
-  EXPECT_EQ(nlohmann::json::parse(toJson(report)).at("seen").at("height"), "48");
+  EXPECT_THAT(toText(resultOf(report)), HasSubstr("in a window of 64 x 48 px, display laptop_14"));
+  EXPECT_THAT(toText(resultOf(report)), HasSubstr("level 1 to 0, speed=2"));
+  EXPECT_EQ(toJson(resultOf(report)).at("height"), "48");
 }
 
 TEST(SwitchDistances, RefuseWhatWouldMislead) {

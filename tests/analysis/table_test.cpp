@@ -8,7 +8,7 @@
 
 #include "analysis/answer_tables/answer_columns.h"
 #include "analysis/answer_tables/levels.h"
-#include "analysis/answer_tables/row_filter.h"
+#include "analysis/answer_tables/table_input.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

@@ -61,7 +61,7 @@ TEST_F(SweepCli, AMachineWithoutADeviceFailsWithoutWriting) {
   const CallResult dry = call({"d.yaml", "--dry-run"});
   const CallResult list = call({"--list"});
   unsetenv("FAKE_DEVICE");
-  EXPECT_EQ(sweep.exitCode, 1);
+  EXPECT_EQ(sweep.exitCode, 2);
   EXPECT_THAT(sweep.err, HasSubstr("no device"));
   EXPECT_FALSE(exists("results"));
   EXPECT_EQ(dry.exitCode, 0);

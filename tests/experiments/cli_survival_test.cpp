@@ -151,5 +151,56 @@ TEST_F(SweepCli, InterruptEndsInOrderAndSaysHowToGoOn) {
   }
 }
 
+// A call into a driver or a library asks nobody.
+TEST_F(SweepCli, InterruptDoesNotWaitForALongRun) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(folder_ / "results");
+    write("d.yaml",
+          "title: a\nquestion: b\nscenes: [{name: grid}]\n"
+          "techniques: [{name: soft/bitmask, samples: [1], sleep_ms: 10000}]\n");
+    const pid_t child = start({"d.yaml", "--no-report"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    ::kill(child, signal);
+    const auto sent = std::chrono::steady_clock::now();
+    EXPECT_EQ(wait(child).exitCode, 128 + signal);
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::milliseconds(1500));
+    EXPECT_TRUE(store::Store(path("results/d.sqlite"), store::Access::ReadOnly).allRuns().empty())
+        << "a claim was left behind";
+  }
+}
+
+TEST_F(SweepCli, ARunThatKillsItsProcessTwiceFailsAndTheSweepGoesOn) {
+  write("box.obj", "v 0 0 0\n");
+  write("d.yaml",
+        "title: a\nquestion: b\nscenes: [{name: mesh, file: box.obj}]\ntiming: {batch: 4}\n"
+        "techniques: [{name: soft/bitmask, samples: [1, 2, 3]}, {name: soft/pcss, die: [false, true]}]\n");
+  const auto run = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"d.yaml", "--no-report"};
+    words.insert(words.end(), more.begin(), more.end());
+    return wait(start(words));
+  };
+  run();
+  run();
+  // A batch died with it at first; it alone is blamed.
+  const CallResult third = run();
+  EXPECT_EQ(third.exitCode, 1) << third.err;
+  EXPECT_EQ(doneKeys(path("results/d.sqlite")).size(), 4U) << third.out;
+  EXPECT_THAT(third.out, HasSubstr("died twice"));
+  EXPECT_THAT(third.out, HasSubstr("box.obj"));
+  const CallResult fourth = run();
+  EXPECT_EQ(fourth.exitCode, 1) << "it is not tried again";
+  EXPECT_THAT(fourth.out, HasSubstr("--retry-died"));
+  std::vector<std::string> states;
+  for (const store::Run& row : store::Store(path("results/d.sqlite"), store::Access::ReadOnly).allRuns()) {
+    states.push_back(row.status);
+    if (row.status == "failed") {
+      EXPECT_THAT(row.error, HasSubstr("soft/pcss in the scene 'mesh' of 'box.obj'"));
+    }
+  }
+  EXPECT_EQ(std::count(states.begin(), states.end(), "failed"), 1);
+  EXPECT_EQ(states.size(), 5U);
+  EXPECT_NE(run({"--retry-died"}).exitCode, 1) << "asked to, it tries, and dies";
+}
+
 }  // namespace
 }  // namespace limen::experiments

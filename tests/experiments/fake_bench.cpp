@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/experiments/fake_bench.h"
 
+#include <signal.h>
+
 #include <chrono>
 #include <thread>
 
@@ -23,6 +25,7 @@ CatalogueEntry technique(int version, std::string summary, std::string product,
                          std::vector<Parameter> parameters) {
   parameters.push_back(realParameter("sleep_ms", 0.0, 0.0, 10000.0, "ms", "Time that a run takes"));
   parameters.push_back(booleanParameter("fail", false, "The run fails"));
+  parameters.push_back(booleanParameter("die", false, "The run ends its process"));
   CatalogueEntry out = entry(version, std::move(summary), std::move(parameters));
   out.product = std::move(product);
   return out;
@@ -83,6 +86,7 @@ void FakeExecutor::execute(std::span<const PlannedRun> batch,
         std::chrono::duration<double, std::milli>(realOf(run.technique.values, "sleep_ms")));
     executed.push_back(run.key);
     RunOutcome outcome;
+    if (booleanOf(run.technique.values, "die")) raise(SIGKILL);
     outcome.sceneFacts = {{"triangles", 12}};
     if (booleanOf(run.technique.values, "fail")) {
       outcome.error = "asked to fail";

@@ -164,6 +164,9 @@ run sweeep
 check "an unknown command is bad input" is $status 2
 run --version
 check "the version is the project's" is "$(<"$scratch/out")" "limen 9.8.7"
+mkdir -p "$scratch/decoy/tree"
+(cd "$scratch" && CDPATH=$scratch/decoy PATH=$tools tree/limen --version >"$scratch/out" 2>"$scratch/err")
+check "wherever CDPATH points" is "$(<"$scratch/out")" "limen 9.8.7"
 
 run test -L unit
 check "test installs what tests need" called chromium

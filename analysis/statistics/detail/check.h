@@ -8,12 +8,12 @@
 
 namespace limen::analysis {
 
-/// Checks that the statistics share. Each throws limen::Error whose `where` names the list and the index,
+/// Checks shared by the statistics. Each throws limen::Error whose `where` names the list and the index,
 /// counted from 0: "values[3]".
 
 std::string indexed(const std::string& name, size_t index);
 
-/// A confidence level lies between 0 and 1, both excluded.
+/// A confidence level lies strictly between 0 and 1.
 void requireLevel(double level);
 void requireFinite(double value, const std::string& where);
 void requireFinite(const std::vector<double>& values, const std::string& name);
@@ -22,7 +22,7 @@ void requireSameLength(size_t length, const std::string& name, size_t other, con
 /// 0 <= successes <= trials. With `atLeastOne`, trials > 0.
 void requireCounts(int64_t successes, int64_t trials, const std::string& where, bool atLeastOne);
 
-/// Two lists of one length, at least 2, of finite numbers.
+/// Two lists of equal length, at least 2, of finite numbers.
 void requireSample(const std::vector<double>& x, const std::string& nameX, const std::vector<double>& y,
                    const std::string& nameY, double level);
 

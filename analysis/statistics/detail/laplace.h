@@ -6,7 +6,7 @@
 
 namespace limen::analysis {
 
-/// Logistic model with normal random effects b = L u, u ~ N(0, I), L lower triangular; one or two effects a
+/// Logistic model with normal random effects b = L u, u ~ N(0, I), L lower triangular; one or two effects per
 /// group.
 struct LaplaceModel {
   Eigen::MatrixXd fixed;                          ///< rows x coefficients
@@ -26,7 +26,7 @@ struct LaplaceValue {
   bool settled = true;                 ///< the modes were found
 };
 
-/// ln of the chance of `successes` of `trials` at log odds `eta`, binomial coefficient included.
+/// ln of the probability of `successes` of `trials` at log odds `eta`, including the binomial coefficient.
 double binomialLogChance(double successes, double trials, double eta);
 
 /// Laplace's approximation of the log-likelihood with its exact gradient; the modes move with the parameters.

@@ -10,7 +10,7 @@ namespace limen::analysis {
 
 struct Ranks {
   std::vector<double> ranks;     ///< from 1; equal values share the mean of theirs
-  std::vector<double> tieSizes;  ///< of each group of equal values, single ones too, by growing value
+  std::vector<double> tieSizes;  ///< of each group of equal values, including single ones, by ascending value
 };
 
 inline Ranks rank(const std::vector<double>& values) {

@@ -9,11 +9,11 @@
 /// start-up, so it is a separate module that a program loads when it first needs an image file.
 namespace limen::codec {
 
-Image readImage(const std::string& path);
-/// Bytes of a file. Encoded in memory, so that a full disk cannot cut a picture unnoticed.
+Image readImage(const std::string& path, const ImageLimits& limits);
+/// Bytes of a file. Encoded in memory, so that a full disk cannot truncate a picture unnoticed.
 std::string encodeExr(const Image& image, const std::string& description);
 std::string encodePng(const Image& image, const std::string& description);
-ImageFile readImageFile(const std::string& path);
+ImageFile readImageFile(const std::string& path, const ImageLimits& limits);
 
 /// The functions above, as the module exports them.
 struct Functions {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "experiments/base/error.h"
+#include "experiments/base/image_codec/checked_input.h"
 #include "experiments/base/image_codec/functions.h"
 
 namespace limen::codec {
@@ -27,15 +28,12 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec, const
 
 }  // namespace
 
-Image readImage(const std::string& path) {
-  const auto in = OIIO::ImageInput::open(path);
-  if (!in)
-    throw Error("cannot read image '" + path + "': " + OIIO::geterror(), {},
-                "use PNG, JPEG, TIFF, EXR or HDR and check the path");
-  const OIIO::ImageSpec& spec = in->spec();
+Image readImage(const std::string& path, const ImageLimits& limits) {
+  const auto in = openChecked(path, limits);
+  const OIIO::ImageSpec spec = in->spec();
   Image image(spec.width, spec.height, spec.nchannels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
-    throw Error("cannot read image '" + path + "': " + in->geterror(), {}, "is the file complete?");
+    throw Error("cannot read image '" + path + "': " + oneLine(in->geterror()), {}, "is the file complete?");
   return image;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "experiments/base/error.h"
+#include "experiments/base/image_codec/checked_input.h"
 #include "experiments/base/image_codec/functions.h"
 #include "experiments/base/text.h"
 
@@ -100,13 +101,6 @@ std::vector<std::string> remarksOn(const OIIO::ImageSpec& spec, bool integer) {
   return remarks;
 }
 
-/// A library's message on one line.
-std::string oneLine(std::string words) {
-  while (!words.empty() && words.back() == '\n') words.pop_back();
-  std::replace(words.begin(), words.end(), '\n', ' ');
-  return words;
-}
-
 /// The whole stored picture, all channels.
 Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path) {
   Image raw(spec.width, spec.height, spec.nchannels);
@@ -122,22 +116,12 @@ Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::s
 
 }  // namespace
 
-ImageFile readImageFile(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) throw Error("no such image '" + path + "'", {}, "check the path");
-  if (std::filesystem::is_directory(path, code))
-    throw Error("'" + path + "' is a folder", {}, "name its images with a pattern: '" + path + "/*.png'");
+ImageFile readImageFile(const std::string& path, const ImageLimits& limits) {
   OIIO::ImageSpec wish;
   // Otherwise encoded values come multiplied by alpha, which has no meaning in terms of light.
   wish.attribute("oiio:UnassociatedAlpha", 1);
-  const auto in = OIIO::ImageInput::open(path, &wish);
-  if (!in)
-    throw Error("cannot read image '" + path + "': " + oneLine(OIIO::geterror()), {},
-                "use PNG, JPEG, TIFF, EXR or HDR");
+  const auto in = openChecked(path, limits, wish);
   const OIIO::ImageSpec spec = in->spec();
-  if (spec.deep || spec.depth > 1)
-    throw Error("'" + path + "' is a deep or volumetric image", {}, "flatten it first");
-  if (spec.width < 1 || spec.height < 1) throw Error("'" + path + "' has no pixels");
 
   ImageFile file;
   file.path = path;
@@ -168,7 +152,7 @@ ImageFile readImageFile(const std::string& path) {
   for (int y = 0; y < file.image.height; ++y)
     for (int x = 0; x < file.image.width; ++x) {
       auto [fromX, fromY] = filePosition(orientation, x, y, fullWidth, fullHeight);
-      fromX += left;
+      fromX += left;  // windows lie within half the range of an int, see checked_input.cpp
       fromY += top;
       if (fromX < 0 || fromY < 0 || fromX >= raw.width || fromY >= raw.height) continue;
       for (int c = 0; c < colours; ++c)

@@ -2,9 +2,9 @@
 // What the statistics of groups refuse in a table, with its line and column.
 #include <gtest/gtest.h>
 
-#include "analysis/observer_statistics/anova_table.h"
-#include "analysis/observer_statistics/mixed_table.h"
-#include "analysis/observer_statistics/sensitivity_table.h"
+#include "analysis/observer_statistics/anova.h"
+#include "analysis/observer_statistics/mixed.h"
+#include "analysis/observer_statistics/sensitivity.h"
 #include "tests/analysis/statistics/expect.h"
 
 namespace limen::analysis {

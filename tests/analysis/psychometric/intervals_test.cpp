@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/psychometric/coverage.h"
 #include "analysis/psychometric/goodness.h"
 #include "analysis/statistics/distributions.h"
 #include "experiments/base/error.h"

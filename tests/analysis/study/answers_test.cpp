@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
-#include "analysis/study/sensitivity.h"
 #include "tests/analysis/statistics/expect.h"
 #include "tests/analysis/study/hand_made.h"
 #include "tests/analysis/synthetic_store.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the thesis printed, checked against itself, and set beside answers.
 #include "analysis/study/published.h"
-#include "analysis/output/result_data.h"
-#include "analysis/output/result_text.h"
+#include "analysis/output/result_renderers.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "analysis/statistics/distributions.h"
-#include "analysis/study/anova.h"
+#include "analysis/study/analyses.h"
 #include "tests/analysis/study/hand_made.h"
 #include "tests/analysis/synthetic_store.h"
 

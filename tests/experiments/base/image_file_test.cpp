@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "experiments/base/error.h"
@@ -172,6 +173,72 @@ TEST_F(ImageFileTest, AFullDiskLeavesNoPictureAndNamesTheFile) {
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+}
+
+/// Message of the refusal; reading takes next to no memory.
+std::string refusalOf(const std::string& path) {
+  std::string said;
+  try {
+    readImageFile(path);
+    ADD_FAILURE() << path << " was read";
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  EXPECT_THROW(readImage(path), Error);
+  EXPECT_THAT(said, HasSubstr(path));
+  return said;
+}
+
+TEST_F(ImageFileTest, AHeaderAloneTakesNoMemory) {
+  // The first 69 bytes of a PNG of 16,000 x 16,000 pixels and 16 bits: a header and the beginning of its
+  // data.
+  const unsigned char head[] = {0x89, 'P', 'N', 'G',  13,   10, 26, 10,   0,    0,  0, 13, 'I', 'H', 'D',
+                                'R',  0,   0,   0x3e, 0x80, 0,  0,  0x3e, 0x80, 16, 6, 0,  0,   0};
+  uint32_t crc = 0xffffffffU;  // of chunk type and data (PNG specification, annex D)
+  for (size_t i = 12; i < sizeof head; ++i) {
+    crc ^= head[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? 0xedb88320U ^ (crc >> 1U) : crc >> 1U;
+  }
+  crc = ~crc;
+  std::string bytes(reinterpret_cast<const char*>(head), sizeof head);
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(crc >> static_cast<unsigned>(shift));
+  bytes += std::string("\0\0\0\x18IDAT", 8) + std::string(28, 'x');
+  std::ofstream(path("bomb.png"), std::ios::binary) << bytes;
+  EXPECT_THAT(refusalOf(path("bomb.png")), HasSubstr("16000 x 16000"));
+}
+
+TEST_F(ImageFileTest, WindowsOfAnExrAreLimited) {
+  OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeDesc::HALF);
+  spec.full_width = spec.full_height = 30000;
+  save("display.exr", spec);
+  EXPECT_THAT(refusalOf(path("display.exr")), HasSubstr("display window of 30000 x 30000"));
+  spec.full_width = spec.full_height = 4;
+  spec.full_x = spec.full_y = -1000000000;
+  save("far.exr", spec);
+  EXPECT_THAT(refusalOf(path("far.exr")), HasSubstr("begins at"));
+}
+
+TEST_F(ImageFileTest, AnEmptyPictureOfAUsualSizeIsNoBomb) {
+  OIIO::ImageSpec spec(4096, 4096, 1, OIIO::TypeDesc::UINT8);
+  const auto out = OIIO::ImageOutput::create(path("black.png"));
+  spec.attribute("png:compressionLevel", 9);
+  ASSERT_TRUE(out && out->open(path("black.png"), spec));
+  const std::vector<uint8_t> black(size_t{4096} * 4096, 0);
+  ASSERT_TRUE(out->write_image(OIIO::TypeDesc::UINT8, black.data()));
+  ASSERT_TRUE(out->close());
+  EXPECT_EQ(readImageFile(path("black.png")).image.width, 4096);
+}
+
+TEST_F(ImageFileTest, LimitsCanBeRaised) {
+  OIIO::ImageSpec spec(4, 4, 1, OIIO::TypeDesc::HALF);
+  spec.full_width = spec.full_height = 5000;
+  save("wide.exr", spec);
+  refusalOf(path("wide.exr"));
+  const ImageLimits usual = imageLimits();
+  setImageLimits({.megapixels = 100.0, .alwaysMegapixels = 100.0});
+  EXPECT_EQ(readImageFile(path("wide.exr")).image.width, 5000);
+  setImageLimits(usual);
 }
 
 }  // namespace

@@ -59,5 +59,13 @@ TEST(YamlTree, ErrorsAreNeverAnythingButError) {
     }
 }
 
+TEST(YamlTree, BracketsInCommentsOpenNothing) {
+  std::string text;
+  for (int i = 0; i < 200; ++i) text += "k" + std::to_string(i) + ": 1  # in [0, 1)\n# and {(\n";
+  EXPECT_EQ(parseYaml(text, "f.yaml").members.size(), 200U);
+  EXPECT_THROW(parseYaml("a: \"# \" " + std::string(100000, '['), "f.yaml"), Error);
+  EXPECT_THROW(parseYaml(std::string(100, '['), "f.yaml"), Error);
+}
+
 }  // namespace
 }  // namespace limen

@@ -171,11 +171,10 @@ TEST_F(ViewWindow, KeysAndMouseReachItAndItEndsAsTold) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     xdotool("key k");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    return fs::exists(exported(number)) &&
-           read(exported(number++)).find("text: \"eye ") != std::string::npos;
+    return fs::exists(exported(number)) && read(exported(number++)).find("text: \"eye ") != std::string::npos;
   })) << read(path("out.txt"));
   kill(process_, SIGTERM);
-  EXPECT_EQ(finish(), 0) << read(path("out.txt"));
+  EXPECT_EQ(finish(), 128 + SIGTERM) << read(path("out.txt"));
   EXPECT_THAT(read(path("out.txt")), HasSubstr("stopping"));
 }
 

@@ -159,7 +159,7 @@ TEST_F(CompareCli, InputsAreNeverOverwritten) {
   std::filesystem::create_directory(path("maps"));
   save("maps/rmse.exr", noise(8, 8, 3, 1), {OIIO::TypeDesc::FLOAT, {}, {}});
   expectRefused({"compare", "maps/rmse.exr", "maps/rmse.exr", "--map", "maps"}, {"never overwritten"});
-  expectRefused({"compare", "maps/rmse.exr", "maps/rmse.exr", "--map", "maps/rmse.exr"}, {"no folder"});
+  expectRefused({"compare", "maps/rmse.exr", "maps/rmse.exr", "--map", "maps/rmse.exr"}, {"not a folder"});
 }
 
 TEST_F(CompareCli, SettingsAreListedAndChecked) {

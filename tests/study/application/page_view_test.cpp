@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, Page>> pages() {
   form.shown(0);
   form.take({window::Device::Keyboard, '3', 0, 0, 1}, {});
   add("form_review", form);
-  PauseScreen pause("", "The picture could not be shown: another window came in front.");
+  PauseScreen pause("", "The picture could not be shown: another window is in front.");
   add("pause", pause);
   pause.shown(0);
   pause.take({window::Device::Keyboard, 's', 0, 0, 1}, {});

@@ -15,7 +15,7 @@ TEST(Screens, BreakCannotBeLeftBeforeItsTime) {
   setting.atLeastS = 5.0;
   TextScreen screen(setting);
   screen.shown(10 * kS);
-  EXPECT_EQ(screen.page(12 * kS).status, "You can go on in 3 s");
+  EXPECT_EQ(screen.page(12 * kS).status, "You can continue in 3 s");
   screen.take(keyInput(window::kKeySpace, 15 * kS - 1), {});
   EXPECT_FALSE(screen.done());
   screen.take(keyInput(window::kKeySpace, 15 * kS), {});

@@ -184,7 +184,7 @@ TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
   run.act({"mousemove", "420", "270", "click", "1"});
   ASSERT_TRUE(run.reaches("stimulus"));
   run.signal(SIGTERM);
-  EXPECT_EQ(run.finish(), 1) << run.messages();
+  EXPECT_EQ(run.finish(), 128 + SIGTERM) << run.messages();
   EXPECT_EQ(column("SELECT answer FROM response"), std::vector<std::string>{"no"});
   EXPECT_EQ(column("SELECT device FROM response"), std::vector<std::string>{"mouse"});
   EXPECT_EQ(column("SELECT json_extract(extra, '$.early_inputs[0].key') FROM response"),

@@ -67,9 +67,9 @@ TEST(Expression, RefusalsSayPlaceAndReason) {
   EXPECT_THAT(refused(""), HasSubstr("something is missing at the end"));
   EXPECT_THAT(refused("1 +"), HasSubstr("something is missing at the end"));
   EXPECT_THAT(refused("(1 + 2"), HasSubstr("a bracket is not closed"));
-  EXPECT_THAT(refused("1 2"), HasSubstr("'2' is left over"));
-  EXPECT_THAT(refused("1)"), HasSubstr("')' is left over"));
-  EXPECT_THAT(refused("2 ^ 3"), HasSubstr("'^ 3' is left over"));
+  EXPECT_THAT(refused("1 2"), HasSubstr("'2' is unexpected"));
+  EXPECT_THAT(refused("1)"), HasSubstr("')' is unexpected"));
+  EXPECT_THAT(refused("2 ^ 3"), HasSubstr("'^ 3' is unexpected"));
   EXPECT_THAT(refused("* 3"), HasSubstr("'*' where a number or a name is expected"));
   EXPECT_THAT(refused("1e308 * 10"), HasSubstr("not a finite number"));
   EXPECT_THAT(refused("."), HasSubstr("does not start a number"));

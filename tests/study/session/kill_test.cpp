@@ -128,7 +128,7 @@ TEST_F(KillTest, AFullDiskGivesOneMessageAndWhatWasStoredStays) {
   const pid_t victim = start(path("s.sqlite"), "1", "700000");
   const int code = end(victim);
   EXPECT_EQ(code, 2);
-  EXPECT_THAT(said(), AllOf(HasSubstr(path("s.sqlite")), HasSubstr("what is done is kept")));
+  EXPECT_THAT(said(), AllOf(HasSubstr(path("s.sqlite")), HasSubstr("finished work is kept")));
   const std::string message = said();
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
   size_t before = 0;
