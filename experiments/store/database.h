@@ -90,8 +90,8 @@ class Transaction {
 /// then on.
 enum class Contents { Runs, Sessions };
 
-/// Opens, checks that the file is a store of a known schema, migrates. A file that is only read keeps its
-/// schema, which must be of version `oldest` at least: 1 has sweeps, 2 studies too. An empty file is a new
+/// Opens, checks that the file is a store of a known schema, migrates. A file opened for reading keeps its
+/// schema, which must be at least version `oldest`: 1 has sweeps, 2 also studies. An empty file is a new
 /// store.
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest = 1,
                       Contents contents = Contents::Runs);

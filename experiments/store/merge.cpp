@@ -124,7 +124,7 @@ int64_t Store::merge(const Store& other) {
     throw Error("cannot be merged into itself", path_, "name another store");
   // What is planned here is read, joined and written again: two merges at once would lose one of both.
   const FolderLock lock(folderOf(path_).string());
-  // Sessions are joined where they are exported: their numbers of participants would clash here.
+  // Sessions are joined on export: their numbers of participants would clash here.
   Statement tables(other.database_, "SELECT 1 FROM sqlite_schema WHERE name = 'session'");
   if (tables.step()) {
     Statement sessions(other.database_, "SELECT count(*) FROM session");

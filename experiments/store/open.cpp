@@ -143,17 +143,21 @@ bool isUnwritten(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::is_regular_file(status)) return status.type() == fs::file_type::not_found;
-  Closer closer;
-  const std::string name = readOnlyUri(path);
-  if (sqlite3_open_v2(name.c_str(), &closer.database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
-      SQLITE_OK)
-    return false;
-  sqlite3_busy_timeout(closer.database, kBusyTimeoutMs);
-  try {
-    return isEmpty(closer.database);
-  } catch (const Error&) {
-    return false;  // what it is will be said when it is opened
+  // A process that was killed while it turned on the log left a journal, which only a writer may roll back.
+  for (const int flags : {SQLITE_OPEN_READONLY, SQLITE_OPEN_READWRITE}) {
+    Closer closer;
+    const std::string name = flags == SQLITE_OPEN_READONLY ? readOnlyUri(path) : path;
+    const int more = flags == SQLITE_OPEN_READONLY ? SQLITE_OPEN_URI : 0;
+    if (sqlite3_open_v2(name.c_str(), &closer.database, flags | more, nullptr) != SQLITE_OK) return false;
+    sqlite3_busy_timeout(closer.database, kBusyTimeoutMs);
+    try {
+      return isEmpty(closer.database);
+    } catch (const Error&) {
+      // What else it is will be said when it is opened.
+      if ((sqlite3_errcode(closer.database) & 0xff) != SQLITE_READONLY) return false;
+    }
   }
+  return false;
 }
 
 sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Contents contents) {

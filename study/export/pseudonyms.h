@@ -14,9 +14,9 @@ class Pseudonyms {
   /// Reads the file if there is one. Throws Error on a damaged one.
   explicit Pseudonyms(const std::string& keyFile);
 
-  /// Gives every code that has none yet a pseudonym P001, P002 ... in an order that says nothing about that
-  /// of the sessions, and writes the file. Pseudonyms given before stay. Throws Error if it cannot be
-  /// written. Processes that do this at once agree.
+  /// Gives every code without one a pseudonym P001, P002 ... in an order unrelated to that of the sessions,
+  /// and writes the file. Existing pseudonyms stay. Throws Error if it cannot be written. Processes that do
+  /// this at once agree.
   void assign(std::vector<std::string> codes);
   const std::string& of(const std::string& code) const;
 

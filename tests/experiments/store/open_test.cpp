@@ -123,6 +123,26 @@ TEST_F(StoreTest, AnEmptyFileIsANewStore) {
   for (const char* name : {"junk", "music.sqlite", "."}) EXPECT_FALSE(isUnwritten(path(name))) << name;
 }
 
+TEST_F(StoreTest, AnEmptyFileWithAJournalToRollBackIsANewStore) {
+  // The file and its journal in the middle of a transaction that does not fit into the cache, as a kill
+  // leaves them. Only a writer may roll it back.
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path("a.sqlite").c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database,
+                         "PRAGMA cache_size = 1; BEGIN; CREATE TABLE x (y); WITH RECURSIVE n(i) AS (SELECT 1 "
+                         "UNION ALL SELECT i + 1 FROM n WHERE i < 200) INSERT INTO x SELECT "
+                         "randomblob(1000) FROM n",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  for (const char* suffix : {"", "-journal"})
+    writeFile(path("killed.sqlite") + suffix, readFile(path("a.sqlite") + suffix));
+  sqlite3_close(database);
+  ASSERT_GT(readFile(path("killed.sqlite")).size(), 0U) << "nothing is to be rolled back";
+  EXPECT_TRUE(isUnwritten(path("killed.sqlite")));
+  { Store store(path("killed.sqlite"), Access::ReadWrite); }
+  EXPECT_EQ(Store(path("killed.sqlite"), Access::ReadOnly).allRuns().size(), 0U);
+}
+
 TEST_F(StoreTest, AKillDuringCreationLeavesAFileThatIsNewOrAStore) {
   int unwritten = 0;
   for (int round = 0; round < 60; ++round) {

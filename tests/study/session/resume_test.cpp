@@ -209,7 +209,7 @@ TEST_F(SessionStoreTest, AnOldSessionOrOneThatMayNotBeResumedIsRefused) {
   clock_.pass(-1.0 * 3600.0);
   Protocol strict = protocol;
   strict.session.resume = ResumePolicy::Refuse;
-  EXPECT_THAT(errorOf([&] { resume(strict, second); }), HasSubstr("does not let session 1"));
+  EXPECT_THAT(errorOf([&] { resume(strict, second); }), HasSubstr("does not allow session 1"));
   EXPECT_EQ(resume(protocol, second).kind, Step::Kind::Finished);
 }
 
