@@ -5,7 +5,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -50,13 +49,7 @@ class OneTrial : public FrontEnd {
 
 class PresentedPlayerTest : public testing::Test {
  protected:
-  // One server for all tests: the window library stays with the first one that it meets.
-  static void SetUpTestSuite() {
-    server_ = std::make_unique<test::XServer>(1500, 800);
-    setenv("DISPLAY", server_->display().c_str(), 1);
-    unsetenv("WAYLAND_DISPLAY");
-  }
-  static void TearDownTestSuite() { server_.reset(); }
+  static void SetUpTestSuite() { test::openWindowsOnOneServer(); }
 
   PresentedPlayerTest() : protocol_(readProtocol("quick", catalogueFromRegistries())) {
     window::UiWindowOptions options;
@@ -77,12 +70,10 @@ class PresentedPlayerTest : public testing::Test {
     return frontEnd.played;
   }
 
-  static std::unique_ptr<test::XServer> server_;
   Protocol protocol_;
   std::unique_ptr<window::UiWindow> window_;
   Image picture_;
 };
-std::unique_ptr<test::XServer> PresentedPlayerTest::server_;
 
 TEST_F(PresentedPlayerTest, AStimulusLooksTheSameBesideASecondWindow) {
   const PlayResult alone = play();
