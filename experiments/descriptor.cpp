@@ -7,6 +7,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/problems.h"
 #include "experiments/base/text.h"
 #include "experiments/expectation_reader.h"
@@ -304,6 +305,7 @@ Descriptor parseDescriptor(const std::string& text, const std::string& path, con
 
 Descriptor readDescriptor(const std::string& path, const Catalogue& catalogue,
                           const std::set<std::string>& features) {
+  protectInput(path);
   return parseDescriptor(readTextFile(path), path, catalogue, features);
 }
 

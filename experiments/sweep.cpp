@@ -14,6 +14,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/printable.h"
+#include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 #include "experiments/catalogue_text.h"
 #include "experiments/console.h"
@@ -265,9 +266,7 @@ class Sweeper {
   std::map<std::string, std::unique_ptr<Executor>> executors_;
 };
 
-}  // namespace
-
-int sweepMain(int argc, char** argv, const SweepProgram& program) {
+int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
   const ParsedOptions parsed = parseOptions(argc, argv, program.name);
   if (parsed.exitCode) return *parsed.exitCode;
   std::vector<std::string> command(argv, argv + argc);
@@ -280,6 +279,12 @@ int sweepMain(int argc, char** argv, const SweepProgram& program) {
   } catch (...) {
     return reportFailure(program.name);
   }
+}
+
+}  // namespace
+
+int sweepMain(int argc, char** argv, const SweepProgram& program) {
+  return afterStandardOutput(program.name, parseAndSweep(argc, argv, program));
 }
 
 }  // namespace limen::experiments

@@ -11,6 +11,7 @@
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -89,8 +90,10 @@ class Records {
 Table Table::read(const std::string& path, char separator) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
-  if (!std::filesystem::exists(status)) throw Error(code ? code.message() : "no such file", path);
+  if (status.type() == std::filesystem::file_type::not_found) throw Error("no such file", path);
+  if (!std::filesystem::exists(status)) throw Error(code.message(), path);
   if (std::filesystem::is_directory(status)) throw Error("is a folder, not a table", path);
+  protectInput(path);
   return namingFile(path, [&] { return parse(readFileBytes(path), path, separator); });
 }
 

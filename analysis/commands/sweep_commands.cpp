@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "analysis/study_page/study_page.h"
 #include "analysis/sweep/switch_distances.h"
 #include "experiments/base/error.h"
+#include "experiments/base/staged_folder.h"
 
 namespace limen::analysis {
 
@@ -24,10 +26,12 @@ namespace {
 
 void runSwitchDistances(const SwitchOptions& options, bool json) {
   const std::vector<SwitchReport> reports = findSwitchDistances(options);
+  std::optional<StagedFolder> staged;
+  if (!options.folder.empty()) staged.emplace(options.folder);
   for (const SwitchReport& report : reports) {
     const Result result = resultOf(report);
-    if (!options.folder.empty()) {
-      std::filesystem::path folder = options.folder;
+    if (staged) {
+      std::filesystem::path folder = staged->path();
       if (reports.size() > 1) folder /= slug(report.title);
       std::filesystem::create_directories(folder);
       writeFileBytes((folder / "switch_distances.json").string(), jsonLine(result));
@@ -36,6 +40,7 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
     }
     std::fputs((json ? jsonLine(result) : toText(result)).c_str(), stdout);
   }
+  if (staged) staged->putInPlace();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
 #include "experiments/base/printable.h"
@@ -39,10 +38,7 @@ std::string ChartFile::head(double width, double height) const {
 std::string ChartFile::data() const { return gnuplotFile(stem_ + ".dat"); }
 
 void ChartFile::draw(const std::string& script, const std::string& data) const {
-  const std::filesystem::path folder(folder_);
-  writeFileBytes((folder / (stem_ + ".dat")).string(), data);
-  writeFileBytes((folder / (stem_ + ".gp")).string(), script);
-  runGnuplot(folder_, stem_ + ".gp");
+  drawPicture((std::filesystem::path(folder_) / name_).string(), script, data);
 }
 
 PanelGrid arrangePanels(size_t panels) {

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "experiments/base/error.h"
+#include "experiments/base/replace_file.h"
 
 namespace limen::analysis {
 
@@ -71,13 +72,7 @@ std::string readFileBytes(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void writeFileBytes(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.flush();
-  if (!file)
-    throw Error("cannot be written", path, "check the rights on its folder and the space on the disk");
-}
+void writeFileBytes(const std::string& path, const std::string& bytes) { replaceFile(path, bytes); }
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string out;

@@ -93,7 +93,10 @@ std::map<std::string, std::string> drawFigures(const std::vector<Figure>& figure
     all += "load '" + figure.name + ".gp'\n";
   }
   writeFileBytes((fs::path(folder) / "all.gp").string(), all);
-  runGnuplot(folder, "all.gp");
+  std::vector<std::string> pictures;
+  for (const Figure& figure : figures)
+    for (const char* extension : {".svg", ".pdf"}) pictures.push_back(figure.name + extension);
+  runGnuplot(folder, "all.gp", pictures);
   for (const Figure& figure : figures)
     out[figure.name] = inlineSvg(readFileBytes((fs::path(folder) / (figure.name + ".svg")).string()),
                                  figure.name, figure.description, "img");

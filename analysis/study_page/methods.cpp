@@ -323,14 +323,9 @@ std::string software(const StudyPage& page) {
   out += fmt::format(
       " They were analysed by Limen {} (commit {}), built with {}. Figures were drawn by gnuplot.",
       projectVersion(), buildCommit(), listed(libraries));
-  std::set<uint64_t> seeds;
-  size_t used = 0;
-  for (const SessionRow& session : page.facts.sessions)
-    if (session.used) seeds.insert(session.seed), ++used;
-  if (used == 1)
-    out += fmt::format(" Orders were drawn with the seed {}.", *seeds.begin());
-  else if (used > 1)
-    out += " Orders were drawn with a seed of each session's own, listed with the sessions.";
+  const std::vector<SessionRow>& sessions = page.facts.sessions;
+  if (std::any_of(sessions.begin(), sessions.end(), [](const SessionRow& one) { return one.used; }))
+    out += " Orders were drawn with a separate seed for each session, which is stored with it.";
   return out;
 }
 

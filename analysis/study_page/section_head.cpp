@@ -120,17 +120,15 @@ void addExclusions(const StudyPage& page, PageWriter& out) {
 namespace {
 
 void addSessions(const StudyPage& page, PageWriter& out) {
-  const ResultTable sessions =
-      TableOf("sessions", "", page.facts.sessions)
-          .add(text("participant"), &SessionRow::participant)
-          .add(text("session"), &SessionRow::name)
-          .add(text("state"), &SessionRow::state)
-          .add(flag("used"), &SessionRow::used)
-          .add(integer("answers"), &SessionRow::answers)
-          .add(text("display"), &SessionRow::display)
-          .add(text("seed"), [](const auto& row) { return std::to_string(row.seed); })
-          .add(text("program_version"), &SessionRow::programVersion);
-  out.file("tables/sessions.csv", toCsv(sessions), "sessions with their seeds");
+  const ResultTable sessions = TableOf("sessions", "", page.facts.sessions)
+                                   .add(text("participant"), &SessionRow::participant)
+                                   .add(text("session"), &SessionRow::name)
+                                   .add(text("state"), &SessionRow::state)
+                                   .add(flag("used"), &SessionRow::used)
+                                   .add(integer("answers"), &SessionRow::answers)
+                                   .add(text("display"), &SessionRow::display)
+                                   .add(text("program_version"), &SessionRow::programVersion);
+  out.file("tables/sessions.csv", toCsv(sessions), "sessions");
 }
 
 void addHashes(const StudyPage& page, PageWriter& out) {

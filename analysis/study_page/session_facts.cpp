@@ -149,7 +149,6 @@ SessionFacts readSessionFacts(const StudyChoice& choice, const std::string& hash
                    session.state,
                    display.name,
                    session.programVersion,
-                   session.seed,
                    0,
                    session.state == "finished" || choice.unfinished};
     for (const store::StudyTrial& trial : reader.trials(session.id)) {

@@ -78,7 +78,6 @@ struct PartFacts {
 /// A session without what could tell who it was or when.
 struct SessionRow {
   std::string participant, name, state, display, programVersion;
-  uint64_t seed = 0;
   size_t answers = 0;
   bool used = false;  ///< finished, or taken although it is not
 };

@@ -8,8 +8,8 @@
 #include "analysis/output/page.h"
 #include "analysis/output/text_output.h"
 #include "analysis/study_page/sections.h"
-#include "analysis/study_page/staged_folder.h"
 #include "experiments/base/error.h"
+#include "experiments/base/staged_folder.h"
 
 namespace limen::embedded {
 extern const char* const kStudyPageCss;

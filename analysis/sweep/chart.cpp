@@ -194,7 +194,7 @@ std::string drawChart(const Chart& chart, const ChartAxis& x, const ChartAxis& y
   const fs::path base = fs::path(folder) / chart.name;
   writeFileBytes(base.string() + ".gp", script(chart, x, y, seriesCount));
   writeFileBytes(base.string() + ".dat", data(chart, x, y, seriesCount));
-  runGnuplot(folder, chart.name + ".gp");
+  runGnuplot(folder, chart.name + ".gp", {chart.name + ".svg"});
   const std::string svg = inlineSvg(readFileBytes(base.string() + ".svg"), chart.name,
                                     chart.title + ": " + chart.yTitle + " against " + chart.xTitle, "group");
   std::string out = nameMarks(svg, chart, seriesCount);

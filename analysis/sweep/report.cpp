@@ -11,6 +11,7 @@
 #include "analysis/sweep/page.h"
 #include "analysis/sweep/trade_off.h"
 #include "experiments/base/error.h"
+#include "experiments/base/staged_folder.h"
 
 namespace limen::analysis {
 namespace {
@@ -95,7 +96,9 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
   return out;
 }
 
-ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const fs::path& folder) {
+/// Into `folder`, which will be `shownFolder`.
+ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const fs::path& folder,
+                         const fs::path& shownFolder) {
   std::error_code error;
   fs::create_directories(folder / "charts", error);
   if (error)
@@ -109,7 +112,7 @@ ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const
   const std::string page = (folder / "report.html").string();
   writeFileBytes(page, renderPage(sweep, charts, pictures));
 
-  ReportResult result{page,
+  ReportResult result{(shownFolder / "report.html").string(),
                       sweep.experiment.title,
                       sweep.experiment.hash,
                       sweep.cells.size(),
@@ -130,13 +133,16 @@ std::vector<ReportResult> writeReports(const ReportOptions& options) {
     sweeps.push_back(loadSweep(store, experiment));
     if (!options.force) requireComplete(sweeps.back(), options.storePath);
   }
+  const StagedFolder staged(options.folder);
   std::vector<ReportResult> results;
   for (const Sweep& sweep : sweeps) {
-    fs::path folder = options.folder;
+    fs::path below;
     if (options.ownFolders || sweeps.size() > 1)
-      folder /= slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
-    results.push_back(writeReport(sweep, options.storePath, folder));
+      below = slug(sweep.experiment.title) + "_" + sweep.experiment.hash.substr(0, kShortHash);
+    results.push_back(
+        writeReport(sweep, options.storePath, staged.path() / below, fs::path(options.folder) / below));
   }
+  staged.putInPlace();
   return results;
 }
 

@@ -7,9 +7,14 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/printable.h"
+#include "experiments/base/replace_file.h"
+#include "experiments/base/staged_folder.h"
 
 namespace limen {
 
@@ -47,7 +52,24 @@ std::string gnuplotTerminal(const std::string& extension, double width, double h
   return fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font 'sans,10'", 14.0 * width, 9.3 * height);
 }
 
-void runGnuplot(const std::string& folder, const std::string& file) {
+namespace {
+
+/// gnuplot does not notice a disk that is full.
+void requireWhole(const std::filesystem::path& picture) {
+  std::ifstream in(picture, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string extension = picture.extension().string();
+  const std::string end = extension == ".svg" ? "</svg>" : extension == ".png" ? "IEND" : "%%EOF";
+  constexpr size_t kTail = 32;
+  if (!in || bytes.find(end, bytes.size() > kTail ? bytes.size() - kTail : 0) == std::string::npos)
+    throw Error("the picture could not be written as a whole", picture.string(),
+                "check the folder, its permissions and the space left");
+}
+
+}  // namespace
+
+void runGnuplot(const std::string& folder, const std::string& file,
+                const std::vector<std::string>& pictures) {
   std::array<int, 2> messages{};
   if (pipe(messages.data()) != 0) throw Error("cannot create a pipe", "gnuplot");
   const pid_t child = fork();
@@ -73,6 +95,21 @@ void runGnuplot(const std::string& folder, const std::string& file) {
                 "install the Debian package gnuplot-nox");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Error("gnuplot failed: " + text.substr(0, 400), (std::filesystem::path(folder) / file).string());
+  for (const std::string& picture : pictures) requireWhole(std::filesystem::path(folder) / picture);
+}
+
+void drawPicture(const std::string& picture, const std::string& script, const std::string& data) {
+  const std::filesystem::path path(picture), folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::string stem = path.stem().string();
+  for (const std::string& name : {path.filename().string(), stem + ".gp", stem + ".dat"})
+    requireNoInput((folder / name).string());
+  if (!std::filesystem::is_directory(folder))
+    throw Error("cannot be written: there is no such folder", picture, "make the folder, or name another");
+  const StagedFolder staged(folder.string());
+  replaceFile((staged.path() / (stem + ".dat")).string(), data);
+  replaceFile((staged.path() / (stem + ".gp")).string(), script);
+  runGnuplot(staged.path().string(), stem + ".gp", {path.filename().string()});
+  staged.putInPlace();
 }
 
 }  // namespace limen

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace limen {
 
@@ -23,8 +24,15 @@ inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00
 /// multiples of the usual size.
 std::string gnuplotTerminal(const std::string& extension, double width = 1.0, double height = 1.0);
 
-/// Runs a script in `folder`, which is also its working directory. Throws Error if gnuplot is missing (with
-/// the package to install) or fails (with its output).
-void runGnuplot(const std::string& folder, const std::string& file);
+/// Runs a script that lies in `folder`, with that as its working folder, and checks that the `pictures` that
+/// it makes there are whole. Throws Error: gnuplot is missing (with the package to install) or fails (with
+/// what it said).
+void runGnuplot(const std::string& folder, const std::string& file, const std::vector<std::string>& pictures);
+
+/// Draws into `picture`, which ends in .svg, .pdf or .png; script and data come to lie beside it as STEM.gp
+/// and STEM.dat. The script writes to the picture's bare name and reads that of the data. All three are put
+/// in place once the picture is whole. Throws Error as runGnuplot(), and if one of the three is an input of
+/// this call.
+void drawPicture(const std::string& picture, const std::string& script, const std::string& data);
 
 }  // namespace limen

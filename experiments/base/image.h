@@ -36,8 +36,8 @@ void setImageLimits(const ImageLimits& limits);
 /// Reads any format that OpenImageIO knows; 8- and 16-bit integers become [0, 1]. Throws Error naming the
 /// file: no regular file, not an image, incomplete, beyond imageLimits(), too little memory.
 Image readImage(const std::string& path);
-/// EXR, 32-bit float, lossless. Written to a temporary file and renamed into place. `description` is stored
-/// in the file, for readers who find it without its context. Throws Error.
+/// EXR, 32-bit float, lossless. Encoded in memory and written as PartFile does. `description` goes into the
+/// file, for those who find it without its context. Throws Error.
 void writeExr(const std::string& path, const Image& image, const std::string& description = {});
 /// 8-bit PNG of values in [0, 1], stored as they are (no transfer curve); others are clamped. Otherwise as
 /// writeExr().

@@ -11,6 +11,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/printable.h"
+#include "experiments/base/standard_output.h"
 #include "experiments/base/text.h"
 
 namespace limen {
@@ -44,9 +45,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
                printable(hint).c_str());
 }
 
-}  // namespace
-
-int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
+int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
   const std::string& program = app.get_name();
   // CLI11 would only say that a subcommand is missing.
   std::vector<std::string> commands;
@@ -67,6 +66,12 @@ int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
     return reportFailure(program);
   }
   return exitCodeAfter(exitCode);
+}
+
+}  // namespace
+
+int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
+  return afterStandardOutput(app.get_name(), parseAndRun(app, argc, argv, exitCode));
 }
 
 }  // namespace limen

@@ -4,12 +4,13 @@
 #include <functional>
 #include <string>
 
+#include "experiments/base/part_file.h"
+
 namespace limen {
 
-/// Writes `text` to `path` through a temporary file beside it that is renamed once it is on disk: whatever
-/// happens, `path` holds either all of the old text or all of the new. `check`, if given, gets the temporary
-/// file's path before the old text is replaced; if it throws, the old text stays. Throws Error.
+/// Writes `text` to `path` as PartFile does. `check`, if any, gets the hidden file's path before the old text
+/// goes; what it throws leaves the old text in place. Throws Error.
 void replaceFile(const std::string& path, const std::string& text,
-                 const std::function<void(const std::string&)>& check = {});
+                 const std::function<void(const std::string&)>& check = {}, Readers readers = Readers::Usual);
 
 }  // namespace limen

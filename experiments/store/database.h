@@ -86,12 +86,14 @@ class Transaction {
   bool open_ = true;
 };
 
-/// Opens, checks that the file is a store of a known schema, migrates. A file opened for reading keeps its
-/// schema, which must be at least version `oldest`: 1 has sweeps, 2 also studies.
-sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest = 1);
+/// What a store is opened to write. One that holds sessions can be read by its owner alone (mode 0600) from
+/// then on.
+enum class Contents { Runs, Sessions };
 
-/// Whether the process named by `owner` (host:pid:start-time) is known to have ended; nullopt: it is on
-/// another host.
-std::optional<bool> isOwnerDead(const std::string& owner);
+/// Opens, checks that the file is a store of a known schema, migrates. A file opened for reading keeps its
+/// schema, which must be at least version `oldest`: 1 has sweeps, 2 also studies. An empty file is a new
+/// store.
+sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest = 1,
+                      Contents contents = Contents::Runs);
 
 }  // namespace limen::store

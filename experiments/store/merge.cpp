@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <system_error>
 
 #include "experiments/base/error.h"
+#include "experiments/base/folder_lock.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/part_file.h"
+#include "experiments/base/process.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {
@@ -58,13 +62,18 @@ std::string copyArtefact(const Artefact& artefact, const std::string& key, const
   if (fs::exists(full)) return target.string();
   std::error_code error;
   fs::create_directories(full.parent_path(), error);
-  fs::path partial = full;
-  partial += ".partial";
-  fs::copy_file(source, partial, fs::copy_options::overwrite_existing, error);
-  if (!error) fs::rename(partial, full, error);
   if (error)
-    throw Error("cannot copy to '" + full.string() + "': " + error.message(), to,
-                "check permissions and free space");
+    throw Error("the folder cannot be made: " + error.message(), full.parent_path().string(),
+                "check rights and space");
+  PartFile part(full.string());
+  std::ifstream in(source, std::ios::binary);
+  std::vector<char> buffer(size_t{1} << 20);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
+    part.write({buffer.data(), static_cast<size_t>(in.gcount())});
+  part.close();
+  if (sha256File(part.path()) != artefact.sha256)
+    throw Error("the artefact file '" + source.string() + "' cannot be read", from, "look at the disk");
+  part.putInPlace();
   return target.string();
 }
 
@@ -113,6 +122,8 @@ std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
 int64_t Store::merge(const Store& other) {
   if (fs::equivalent(path_, other.path_))
     throw Error("cannot be merged into itself", path_, "name another store");
+  // What is planned here is read, joined and written again: two merges at once would lose one of both.
+  const FolderLock lock(folderOf(path_).string());
   // Sessions are joined on export: their numbers of participants would clash here.
   Statement tables(other.database_, "SELECT 1 FROM sqlite_schema WHERE name = 'session'");
   if (tables.step()) {

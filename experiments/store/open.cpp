@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,6 +12,7 @@
 #include <utility>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/printable.h"
 #include "experiments/store/database.h"
 
@@ -108,6 +111,21 @@ std::string readOnlyUri(const std::string& path) {
   return uri + (untouched ? "?mode=ro&immutable=1" : "?mode=ro");
 }
 
+// What tells who took part is for the owner alone; the log and its index take the rights of the store from
+// then on.
+void hideFromOthers(const std::string& path) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    struct stat facts {};
+    const std::string file = path + suffix;
+    if (stat(file.c_str(), &facts) == 0 && (facts.st_mode & 077) != 0) chmod(file.c_str(), 0600);
+  }
+}
+
+bool holdsSessions(sqlite3* database) {
+  return pragma(database, "SELECT count(*) FROM sqlite_schema WHERE name = 'session'") > 0 &&
+         pragma(database, "SELECT count(*) FROM session") > 0;
+}
+
 void prepareFolder(const std::string& path) {
   const fs::path folder = fs::absolute(path).parent_path();
   std::error_code error;
@@ -121,7 +139,28 @@ void prepareFolder(const std::string& path) {
 
 }  // namespace
 
-sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
+bool isUnwritten(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::is_regular_file(status)) return status.type() == fs::file_type::not_found;
+  // A process that was killed while it turned on the log left a journal, which only a writer may roll back.
+  for (const int flags : {SQLITE_OPEN_READONLY, SQLITE_OPEN_READWRITE}) {
+    Closer closer;
+    const std::string name = flags == SQLITE_OPEN_READONLY ? readOnlyUri(path) : path;
+    const int more = flags == SQLITE_OPEN_READONLY ? SQLITE_OPEN_URI : 0;
+    if (sqlite3_open_v2(name.c_str(), &closer.database, flags | more, nullptr) != SQLITE_OK) return false;
+    sqlite3_busy_timeout(closer.database, kBusyTimeoutMs);
+    try {
+      return isEmpty(closer.database);
+    } catch (const Error&) {
+      // What else it is will be said when it is opened.
+      if ((sqlite3_errcode(closer.database) & 0xff) != SQLITE_READONLY) return false;
+    }
+  }
+  return false;
+}
+
+sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest, Contents contents) {
   // SQLite keeps a database of this name in memory, and drops it at the end.
   if (path.empty() || path == ":memory:")
     throw Error("'" + path + "' is not a file", "store", "name a file; what is measured would be lost");
@@ -136,6 +175,12 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   if (readOnly && !fs::exists(status))
     throw Error("no such result store", path, "check the path; limen sweep and limen study create stores");
   if (!readOnly) prepareFolder(path);
+  protectInput(path);
+  if (contents == Contents::Sessions && !readOnly) {
+    // Made by SQLite, the file would be open to others for a moment.
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file >= 0) close(file);
+  }
 
   const std::string name = readOnly ? readOnlyUri(path) : path;
   const int flags =
@@ -147,6 +192,8 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
   sqlite3_busy_timeout(database, kBusyTimeoutMs);
   execute(database, "PRAGMA foreign_keys = ON");
   if (readOnly) {
+    if (isEmpty(database))
+      throw Error("is empty: nothing was ever stored in it", path, "run a sweep or a study into it first");
     requireStore(database, path);
     if (pragma(database, "PRAGMA user_version") < oldest)
       throw Error("the store was written by an older Limen and holds no studies", path,
@@ -154,6 +201,7 @@ sqlite3* openDatabase(const std::string& path, bool readOnly, int oldest) {
     return closer.release();
   }
   if (!isEmpty(database)) requireStore(database, path);
+  if (contents == Contents::Sessions || holdsSessions(database)) hideFromOthers(path);
   turnOnWriteAheadLog(database);
   // With the log, a commit survives the death of the process even at NORMAL; FULL also syncs it, so that it
   // survives a power cut. What sweeps write for each run is not synced at once but in batches.

@@ -23,7 +23,8 @@ bool isThere(sqlite3* database, const StudyPrediction& key) {
 
 std::string settingsHash(const nlohmann::json& settings) { return sha256(jsonText(settings)); }
 
-PredictionLog::PredictionLog(const std::string& path) : database_(openDatabase(path, false)) {}
+PredictionLog::PredictionLog(const std::string& path)
+    : database_(openDatabase(path, false, 1, Contents::Sessions)) {}
 
 PredictionLog::~PredictionLog() { sqlite3_close(database_); }
 

@@ -3,6 +3,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/process.h"
 #include "experiments/store/session_rows.h"
 
 namespace limen::store {
@@ -97,7 +98,7 @@ std::string nameOf(sqlite3* database, const char* sql, const std::string& hash) 
 }  // namespace
 
 SessionLog::SessionLog(const std::string& path, bool syncEach)
-    : path_(path), database_(openDatabase(path, false)) {
+    : path_(path), database_(openDatabase(path, false, 1, Contents::Sessions)) {
   if (!syncEach) execute(database_, "PRAGMA synchronous = NORMAL");
 }
 

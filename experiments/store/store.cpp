@@ -8,6 +8,7 @@
 #include "experiments/base/clock.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/process.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {

@@ -139,7 +139,8 @@ class Store {
   sqlite3* database_ = nullptr;
 };
 
-/// host:pid:start-time of this process, as Run::owner.
-std::string processIdentity();
+/// Whether the file is still to become a store: it is missing or empty, or an SQLite file without tables, as
+/// a process leaves it that was killed while it made one.
+bool isUnwritten(const std::string& path);
 
 }  // namespace limen::store

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "experiments/base/error.h"
 #include "experiments/base/gnuplot.h"
@@ -61,11 +60,6 @@ std::string data(const Plot& plot) {
   return out;
 }
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << text) || !file.flush()) throw Error("cannot be written", path.string());
-}
-
 }  // namespace
 
 void drawPlot(const Plot& plot, const std::string& file) {
@@ -75,10 +69,7 @@ void drawPlot(const Plot& plot, const std::string& file) {
     throw Error("'" + file + "' is neither SVG, PNG nor PDF", "--plot",
                 "let the name end in .svg, .png or .pdf");
   requirePlainName(file, "--plot");
-  write(fs::path(path).replace_extension(".dat"), data(plot));
-  const fs::path scriptPath = fs::path(path).replace_extension(".gp");
-  write(scriptPath, script(plot, path));
-  runGnuplot(path.has_parent_path() ? path.parent_path().string() : ".", scriptPath.filename().string());
+  drawPicture(file, script(plot, path), data(plot));
 }
 
 }  // namespace limen::perception

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 
 namespace limen::perception {
@@ -33,7 +34,10 @@ std::string lowerExtension(const std::string& path) {
 OutputFiles::OutputFiles(const std::vector<FrameSet>& frames, const std::vector<std::string>& inputs)
     : frames_(frames) {
   for (const std::string& input : inputs)
-    if (!input.empty()) inputs_.insert(resolved(input));
+    if (!input.empty()) {
+      inputs_.insert(resolved(input));
+      protectInput(input);
+    }
 }
 
 void OutputFiles::refuseInputs(const std::string& option, const std::string& path) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/standard_output.h"
 #include "perception/metrics/flip/flip_gpu.h"
 
 namespace {
@@ -88,7 +89,7 @@ int main() {
         ms.size(), device.software ? " (wall time on a CPU)" : "", flip.mean(),
         static_cast<double>(flip.bytesHeld()) / 1048576.0);
     context->checkDebugMessages();
-    return limen::kExitSuccess;
+    return limen::afterStandardOutput("limen-flip-benchmark", limen::kExitSuccess);
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-flip-benchmark: {}\n", error.what());
     return limen::kExitFailedRuns;

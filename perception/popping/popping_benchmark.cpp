@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/standard_output.h"
 #include "perception/popping/popping_gpu.h"
 
 namespace {
@@ -161,7 +162,7 @@ int main(int argc, char** argv) {
       for (const bool isScene : {true, false})
         measure(*context, size, isScene ? "scene" : "noise", makeInput(size, isScene), size.x <= 1920);
     context->checkDebugMessages();
-    return kExitSuccess;
+    return afterStandardOutput("limen-popping-benchmark", kExitSuccess);
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-popping-benchmark: {}\n", error.what());
     return kExitFailedRuns;

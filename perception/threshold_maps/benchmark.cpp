@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/standard_output.h"
 #include "perception/threshold_maps/reference.h"
 #include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
@@ -222,7 +223,7 @@ int main(int argc, char** argv) {
     if (only.x > 0) sizes = {only};
     for (const glm::ivec2 size : sizes) measureSize(*context, size, display, copy, only.x > 0);
     context->checkDebugMessages();
-    return kExitSuccess;
+    return afterStandardOutput("limen-threshold-benchmark", kExitSuccess);
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-threshold-benchmark: {}\n", error.what());
     return kExitFailedRuns;

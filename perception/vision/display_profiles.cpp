@@ -23,6 +23,7 @@
 #include <set>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 #include "perception/vision/display.h"
 #include "perception/vision/display_yaml.h"
@@ -350,6 +351,7 @@ DisplayProfile readDisplay(const std::string& nameOrFile) {
   if (!fs::exists(nameOrFile, error) && nameOrFile.find_first_of("/.") == std::string::npos)
     throw Error("no display '" + nameOrFile + "', nor a file of that name", "",
                 suggest(nameOrFile, displayPresets()));
+  protectInput(nameOrFile);
   return profileOf(readWhole(nameOrFile), nameOrFile);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/application/presented_player.h"
 
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "renderer/gl/window_context.h"
@@ -9,6 +12,23 @@
 #include "study/stimulus/prepared_stimulus.h"
 
 namespace limen::study {
+
+namespace {
+
+/// The errors that OpenGL has had since the last call, "" for none. A picture made with one cannot be
+/// trusted.
+std::string takeGlErrors() {
+  std::string out;
+  // A lost context may give errors without end.
+  for (int i = 0; i < 8; ++i) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) break;
+    out += fmt::format("{}0x{:04x}", out.empty() ? "" : ", ", error);
+  }
+  return out;
+}
+
+}  // namespace
 
 struct PresentedPlayer::Prepared : PictureSource {
   std::vector<std::unique_ptr<PreparedStimulus>> stimuli;
@@ -48,6 +68,7 @@ void PresentedPlayer::checkFit() const {
 
 void PresentedPlayer::prepare(const Trial& trial, const Session&, const std::function<void()>& idle) {
   window_.context().makeCurrent();
+  takeGlErrors();  // of pages before the trial
   prepared_.reset();
   auto prepared = std::make_unique<Prepared>();
   const glm::ivec2 sizePx(protocol_.window.widthPx, protocol_.window.heightPx);
@@ -89,6 +110,9 @@ PlayResult PresentedPlayer::play(const std::function<bool()>& goOn) {
   result.stopped = shown.stopped;
   result.endNs = shown.endNs;
   if (!shown.valid && (!anyTiming_ || screen_.lost())) result.invalid = shown.reason;
+  // Whatever the times were: nobody knows what was seen.
+  window_.context().makeCurrent();
+  if (const std::string errors = takeGlErrors(); !errors.empty()) result.invalid = "OpenGL error " + errors;
   return result;
 }
 

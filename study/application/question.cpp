@@ -32,6 +32,38 @@ bool isLeftRight(const TaskSetting& task) {
   return task.type == Task::Alternative || (task.type == Task::Pairwise && task.sideBySide);
 }
 
+std::string keyName(int key) {
+  if (key > ' ' && key < 0x7F) return {static_cast<char>(key)};
+  switch (key) {
+    case window::kKeyLeft:
+    case window::kPadLeft:
+      return "left";
+    case window::kKeyRight:
+    case window::kPadRight:
+      return "right";
+    case window::kKeyUp:
+    case window::kPadUp:
+      return "up";
+    case window::kKeyDown:
+    case window::kPadDown:
+      return "down";
+    case window::kKeyEnter:
+      return "enter";
+    case window::kKeySpace:
+      return "space";
+    case window::kKeyBackspace:
+      return "backspace";
+    case window::kPadAccept:
+      return "accept";
+    case window::kPadBack:
+      return "back";
+    case window::kPadStart:
+      return "start";
+    default:
+      return "other";
+  }
+}
+
 double secondsBetween(int64_t from, int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
 }  // namespace
@@ -62,6 +94,14 @@ std::vector<PageButton> answerButtons(const TaskSetting& task) {
 }
 
 std::vector<PageButton> scaleButtons(const Scale& scale) { return digitButtons(scale.labels); }
+
+std::string earlyKeyName(const TaskSetting& task, const window::Input& input) {
+  if (input.device == window::Device::Mouse) return "mouse";
+  for (const PageButton& button : answerButtons(task))
+    if (std::find(button.keys.begin(), button.keys.end(), input.key) != button.keys.end())
+      return keyName(input.key);
+  return "other";
+}
 
 int answerColumns(const TaskSetting& task) {
   if (task.type != Task::Alternative || task.alternatives <= 3) return 0;

@@ -18,6 +18,10 @@ namespace limen::study {
 std::vector<PageButton> answerButtons(const TaskSetting& task);
 std::vector<PageButton> scaleButtons(const Scale& scale);
 
+/// What is stored of an input before the question: "mouse", the name of a key that answers, "other" for any
+/// other key: those may spell what nobody is to know.
+std::string earlyKeyName(const TaskSetting& task, const window::Input& input);
+
 /// Columns in which alternatives, and therefore their buttons, are arranged on screen.
 int answerColumns(const TaskSetting& task);
 

@@ -23,39 +23,6 @@ constexpr int64_t kRedrawAnywayNs = 1'000'000'000;
 constexpr int64_t kPatienceNs = 1'500'000'000;
 constexpr double kFeedbackS = 1.0;
 
-std::string keyName(const window::Input& input) {
-  if (input.device == window::Device::Mouse) return "mouse";
-  if (input.key > ' ' && input.key < 0x7F) return {static_cast<char>(input.key)};
-  switch (input.key) {
-    case window::kKeyLeft:
-    case window::kPadLeft:
-      return "left";
-    case window::kKeyRight:
-    case window::kPadRight:
-      return "right";
-    case window::kKeyUp:
-    case window::kPadUp:
-      return "up";
-    case window::kKeyDown:
-    case window::kPadDown:
-      return "down";
-    case window::kKeyEnter:
-      return "enter";
-    case window::kKeySpace:
-      return "space";
-    case window::kKeyBackspace:
-      return "backspace";
-    case window::kPadAccept:
-      return "accept";
-    case window::kPadBack:
-      return "back";
-    case window::kPadStart:
-      return "start";
-    default:
-      return "other";
-  }
-}
-
 // One word or two in the middle for a moment.
 class FeedbackPage : public PageScreen {
  public:
@@ -275,15 +242,15 @@ TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) 
     const Left left = afterStop();
     return left == Left::Done ? result : stopped(left, result);
   }
-  QuestionScreen question(session.protocol().parts.at(static_cast<size_t>(trial.plan.part)).task,
-                          played.endNs);
+  const TaskSetting& task = session.protocol().parts.at(static_cast<size_t>(trial.plan.part)).task;
+  QuestionScreen question(task, played.endNs);
   const double timeoutS = session.protocol().timing.answerTimeoutS;
   Left left = run(question, [&] { return question.timedOut(window::steadyNs(), timeoutS); });
   if (left == Left::Done && played.invalid.empty()) {
     result.answer = question.answer();
     for (const window::Input& input : early_)
       result.answer->extra["early_inputs"].push_back(
-          {{"key", keyName(input)},
+          {{"key", earlyKeyName(task, input)},
            {"device", toText(input.device)},
            {"before_question_s", static_cast<double>(result.answer->questionNs - input.timeNs) * 1e-9}});
     return result;

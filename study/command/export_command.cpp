@@ -24,8 +24,15 @@ void addExportCommand(CLI::App& app, Run&) {
                     "Participant codes instead of pseudonyms: for the lab's own use");
   command->callback([request] {
     if (request->formats.empty()) request->formats = {ExportFormat::Csv};
-    for (const std::string& file : writeExport(*request))
+    const WrittenExport written = writeExport(*request);
+    for (const std::string& file : written.files)
       std::printf("%s/%s\n", request->folder.c_str(), file.c_str());
+    if (written.ordersTellCode > 0)
+      std::fprintf(
+          stderr,
+          "warning: %zu of the sessions were run by an older Limen, which drew their orders from the "
+          "participants' codes: whoever guesses a code can check it against the order of trials\n",
+          written.ordersTellCode);
     if (!request->codes)
       std::printf("pseudonym key: %s (keep it separate from the export)\n",
                   keyFileOf(request->store).c_str());

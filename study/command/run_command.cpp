@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "experiments/base/build_facts.h"
-#include "experiments/base/hash.h"
 #include "experiments/base/interrupt.h"
 #include "renderer/catalogue.h"
 #include "renderer/gl/window_context.h"
@@ -19,6 +18,7 @@
 #include "study/command/commands.h"
 #include "study/session/privacy.h"
 #include "study/session/run.h"
+#include "study/session/session_seed.h"
 #include "study/stimulus/display_coding.h"
 
 namespace limen::study {
@@ -33,14 +33,6 @@ struct RunOptions {
   bool resume = false, fullScreen = false, announce = false, anyTiming = false, experimenter = false;
   int experimenterMonitor = 0;
 };
-
-// A session's orders differ between participants and can be reproduced without having been recorded.
-uint64_t seedOf(const Protocol& protocol, const RunOptions& options) {
-  if (options.seed) return *options.seed;
-  const std::string hash = sha256(protocol.hash + "/" + options.participant + "/" + options.session);
-  // 15 digits: below 2^60, which every reader of JSON keeps.
-  return std::stoull(hash.substr(0, 15), nullptr, 16);
-}
 
 /// "lower_left:64".
 PhotodiodePatch patchOf(const std::string& text) {
@@ -107,7 +99,7 @@ SessionRequest requestOf(const RunOptions& options, const Protocol& protocol) {
   request.store = options.store.empty() ? "results/" + protocol.name + ".sqlite" : options.store;
   request.participant = options.participant;
   request.session = options.session;
-  request.seed = seedOf(protocol, options);
+  request.seed = options.seed ? *options.seed : randomSessionSeed();
   request.resume = options.resume;
   request.display = perception::readDisplay(options.display.empty() ? protocol.display : options.display);
   const std::filesystem::path folder = std::filesystem::path(request.store).parent_path();
@@ -204,7 +196,7 @@ void addRunCommand(CLI::App& app, Run& run) {
       ->required();
   command->add_option("--session", options->session, "Number or name of the sitting")->capture_default_str();
   command->add_option("--seed", options->seed,
-                      "Seed of all orders (default: derived from protocol, participant and session)");
+                      "Seed of all orders, for tests (default: a random one, stored with the session)");
   command->add_option("--store", options->store, "Result store (default: results/PROTOCOL.sqlite)");
   command->add_option("--display", options->display,
                       "Display profile, preset or file (default: the protocol's)");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
 #include "experiments/base/yaml_tree.h"
 #include "study/command/commands.h"
@@ -26,6 +27,7 @@ struct TraceOptions {
 };
 
 json readSettings(const std::string& path) {
+  protectInput(path);
   const std::string text = readTextFile(path);
   json settings;
   const size_t first = text.find_first_not_of(" \t\r\n");

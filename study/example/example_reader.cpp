@@ -5,6 +5,7 @@
 
 #include "experiments/base/entry_reader.h"
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
@@ -209,6 +210,7 @@ std::vector<std::pair<std::string, std::string>> shippedExamples() { return ship
 
 Example readExample(const std::string& nameOrPath) {
   const std::string path = findShipped(nameOrPath, kExampleFolder, "example");
+  protectInput(path);
   return parseExample(readTextFile(path), path);
 }
 

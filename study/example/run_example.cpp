@@ -15,6 +15,7 @@
 #include "experiments/base/catalogue.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/replace_file.h"
 #include "experiments/base/text.h"
 #include "perception/popping/settings.h"
 #include "perception/vision/display.h"
@@ -34,16 +35,6 @@ std::string readText(const std::string& path) {
   std::ostringstream out;
   out << stream.rdbuf();
   return out.str();
-}
-
-void writeText(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    stream << text;
-    if (!stream.flush()) throw Error("cannot be written", path, "name a folder that can be");
-  }
-  fs::rename(unfinished, path);
 }
 
 class ExampleRun {
@@ -193,8 +184,8 @@ class ExampleRun {
     }
     for (const std::string& note : end_.notes) out += note + "\n";
     end_.summary = out + comparisonText_;
-    writeText(file("summary.json"), summary.dump(2) + "\n");
-    writeText(file("summary.txt"), end_.summary);
+    replaceFile(file("summary.json"), summary.dump(2) + "\n");
+    replaceFile(file("summary.txt"), end_.summary);
   }
 
   const Example& example_;

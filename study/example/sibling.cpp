@@ -12,10 +12,12 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/part_file.h"
 
 namespace limen::study {
 namespace {
@@ -54,7 +56,9 @@ std::string siblingProgram(const std::string& name) {
 }
 
 SiblingEnd runSibling(const std::vector<std::string>& words, const std::string& output) {
-  const std::string unfinished = output.empty() ? "/dev/null" : output + ".part";
+  std::optional<PartFile> part;
+  if (!output.empty()) part.emplace(output);
+  const std::string unfinished = part ? part->path() : "/dev/null";
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -81,14 +85,8 @@ SiblingEnd runSibling(const std::vector<std::string>& words, const std::string& 
   do waited = waitpid(child, &status, 0);
   while (waited < 0 && errno == EINTR);
   end.status = waited != child ? 127 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  std::error_code code;
-  if (interruptSignal() != 0 && !output.empty()) fs::remove(unfinished, code);
   throwIfInterrupted();
-  if (output.empty()) return end;
-  if (end.status == 0)
-    fs::rename(unfinished, output, code);
-  else
-    fs::remove(unfinished, code);
+  if (part && end.status == 0) part->putInPlace();
   return end;
 }
 

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <system_error>
 
 #include "experiments/base/error.h"
+#include "experiments/base/replace_file.h"
+#include "experiments/base/staged_folder.h"
 #include "experiments/base/text.h"
 #include "study/export/pseudonyms.h"
+#include "study/session/session_seed.h"
 
 namespace limen::study {
 namespace {
@@ -28,6 +30,11 @@ void requireDistinct(const std::vector<ExportedSession>& sessions) {
           "'" + entry->second + "' and '" + own + "' have the same letters and digits, and so the same file",
           {}, "export CSV, or leave --codes out");
   }
+}
+
+bool isSimulated(const store::Environment& environment) {
+  const auto frontEnd = environment.facts.find("front_end");
+  return frontEnd != environment.facts.end() && frontEnd->is_object() && frontEnd->value("simulated", false);
 }
 
 std::string folderName(ExportFormat format) {
@@ -70,7 +77,10 @@ std::vector<ExportedSession> loadSessions(const ExportRequest& request) {
     one.displayName = reader.display(session.display).name;
     one.state = session.state;
     one.programVersion = session.programVersion;
-    one.seed = session.seed;
+    if (request.codes) one.seed = session.seed;
+    one.simulated = isSimulated(reader.environment(session.environment));
+    one.ordersTellCode =
+        !request.codes && session.seed == formerSessionSeed(protocol.hash, session.participant, session.name);
     if (session.form.is_object()) one.form = session.form;
     one.trials = reader.trials(session.id, true);
     const std::vector<store::StudyEvent> events = reader.events(session.id);
@@ -104,25 +114,25 @@ std::vector<ExportedSession> loadSessions(const ExportRequest& request) {
   return out;
 }
 
-std::vector<std::string> writeExport(const ExportRequest& request) {
+WrittenExport writeExport(const ExportRequest& request) {
   std::error_code error;
   if (fs::exists(request.folder) && !fs::is_empty(request.folder, error))
     throw Error("is not an empty folder", request.folder, "name a new one; exports never overwrite");
   const std::vector<ExportedSession> sessions = loadSessions(request);
-  std::vector<std::string> written;
+  const Readers readers = request.codes ? Readers::OwnerOnly : Readers::Usual;
+  const StagedFolder staged(request.folder, readers);
+  WrittenExport written;
+  for (const ExportedSession& session : sessions) written.ordersTellCode += session.ordersTellCode ? 1 : 0;
   for (const ExportFormat format : request.formats) {
     const std::string prefix = request.formats.size() > 1 ? folderName(format) + "/" : "";
     for (const auto& [path, content] : filesOf(format, sessions, request.frames)) {
-      const fs::path file = fs::path(request.folder) / (prefix + path);
+      const fs::path file = staged.path() / (prefix + path);
       fs::create_directories(file.parent_path(), error);
-      std::ofstream out(file, std::ios::binary);
-      out << content;
-      out.close();
-      if (!out)
-        throw Error("cannot be written", file.string(), "check the folder's permissions and free space");
-      written.push_back(prefix + path);
+      replaceFile(file.string(), content, {}, readers);
+      written.files.push_back(prefix + path);
     }
   }
+  staged.putInPlaceAsNew();
   return written;
 }
 

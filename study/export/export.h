@@ -26,8 +26,14 @@ struct ExportRequest {
 /// protocol.
 std::vector<ExportedSession> loadSessions(const ExportRequest& request);
 
-/// Writes an export; returns the files' paths relative to the folder. Nothing is overwritten. Throws Error.
-std::vector<std::string> writeExport(const ExportRequest& request);
+struct WrittenExport {
+  std::vector<std::string> files;  ///< relative to the folder
+  size_t ordersTellCode = 0;       ///< sessions of that kind (ExportedSession)
+};
+
+/// Writes an export, all of it or nothing. Nothing is overwritten, also where two are written at once. With
+/// codes its files can be read by their owner alone. Throws Error.
+WrittenExport writeExport(const ExportRequest& request);
 
 /// Content of the files of a format by relative path.
 using Files = std::vector<std::pair<std::string, std::string>>;

@@ -33,23 +33,65 @@ std::string studyName(const std::vector<ExportedSession>& sessions) {
   return out;
 }
 
+std::string counted(size_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+/// Who answered: "3 participants", "12 simulated observers", or both.
+std::string whoAnswered(const std::vector<ExportedSession>& sessions) {
+  std::set<std::string> people, simulated;
+  for (const ExportedSession& session : sessions)
+    (session.simulated ? simulated : people).insert(session.subject);
+  std::string out = people.empty() ? "" : counted(people.size(), "participant");
+  if (!simulated.empty())
+    out += (out.empty() ? "" : " and ") + counted(simulated.size(), "simulated observer");
+  return out;
+}
+
+bool anySimulated(const std::vector<ExportedSession>& sessions) {
+  return std::any_of(sessions.begin(), sessions.end(),
+                     [](const ExportedSession& session) { return session.simulated; });
+}
+
+/// "" for people alone.
+std::string simulatedWords(const std::vector<ExportedSession>& sessions) {
+  if (!anySimulated(sessions)) return {};
+  const bool all = std::all_of(sessions.begin(), sessions.end(),
+                               [](const ExportedSession& session) { return session.simulated; });
+  return all ? "SIMULATED DATA: no person took part. All answers come from simulated observers and say "
+               "nothing "
+               "about people."
+             : "Holds simulated data: rows with simulated = 1 come from simulated observers and say nothing "
+               "about "
+               "people.";
+}
+
+/// Title of a data set, which is all that some readers show.
+std::string dataName(const std::vector<ExportedSession>& sessions) {
+  return studyName(sessions) + (anySimulated(sessions) ? " (" + whoAnswered(sessions) + ")" : "");
+}
+
 std::string readme(const std::vector<ExportedSession>& sessions) {
-  std::set<std::string> subjects;
+  const bool seeds = std::any_of(sessions.begin(), sessions.end(),
+                                 [](const ExportedSession& session) { return session.seed.has_value(); });
   std::string out = studyName(sessions) + "\n\n";
-  for (const ExportedSession& session : sessions) subjects.insert(session.subject);
-  out += std::to_string(subjects.size()) + " participants, " + std::to_string(sessions.size()) +
-         " sittings, written by " + versionText("limen-study") + ".\n\n";
+  if (const std::string words = simulatedWords(sessions); !words.empty()) out += words + "\n\n";
+  out += whoAnswered(sessions) + ", " + counted(sessions.size(), "sitting") + ", written by " +
+         versionText("limen-study") + ".\n\n";
   out +=
       "A row is a trial that was shown. Use those with counts = 1 and practice = 0 for "
       "results;\n"
       "trials whose frames came late have valid = 0 and were shown again. Times count from the start of the "
       "sitting.\n"
-      "Participants are named by pseudonyms, ages by bins; no times of day are given.\n\n";
-  out += "subject\tsession\tprotocol\tprotocol SHA-256\tdisplay\tdisplay SHA-256\tseed\tstate\tprogram\n";
+      "Ages are given in bins; no times of day are given. ";
+  out += seeds ? "Participants are named by their codes: for the lab's own use.\n\n"
+               : "Participants are named by pseudonyms.\n\n";
+  out += std::string("subject\tsession\tsimulated\tprotocol\tprotocol SHA-256\tdisplay\tdisplay SHA-256\t") +
+         (seeds ? "seed\t" : "") + "state\tprogram\n";
   for (const ExportedSession& s : sessions)
-    out += s.subject + "\t" + s.name + "\t" + s.protocolName + "\t" + s.protocolHash + "\t" + s.displayName +
-           "\t" + s.displayHash + "\t" + std::to_string(s.seed) + "\t" + s.state + "\t" + s.programVersion +
-           "\n";
+    out += s.subject + "\t" + s.name + "\t" + (s.simulated ? "1" : "0") + "\t" + s.protocolName + "\t" +
+           s.protocolHash + "\t" + s.displayName + "\t" + s.displayHash + "\t" +
+           (s.seed ? std::to_string(*s.seed) + "\t" : "") + s.state + "\t" + s.programVersion + "\n";
   return out;
 }
 
@@ -78,7 +120,7 @@ Files csvFiles(const std::vector<ExportedSession>& sessions, bool frames) {
 Files bidsFiles(const std::vector<ExportedSession>& sessions, bool frames) {
   Files out;
   out.emplace_back("dataset_description.json",
-                   dump({{"Name", studyName(sessions)},
+                   dump({{"Name", dataName(sessions)},
                          {"BIDSVersion", "1.9.0"},
                          {"DatasetType", "raw"},
                          {"GeneratedBy", {{{"Name", "Limen"}, {"Version", versionText("limen-study")}}}}}));
@@ -136,16 +178,18 @@ Files psychDsFiles(const std::vector<ExportedSession>& sessions, bool frames) {
     describe(swaps.columns);
     out.emplace_back(stem + "_description-frames_data.csv", toCsv(swaps));
   }
+  const std::string words = simulatedWords(sessions);
+  const std::string description = (words.empty() ? "" : words + " ") +
+                                  std::string("Answers of viewers, one row per trial, as recorded by Limen");
   const Table participants = participantTable(sessions);
   describe(participants.columns);
   out.emplace_back("data/description-participants_data.csv", toCsv(participants));
-  out.emplace_back("dataset_description.json",
-                   dump({{"@context", "https://schema.org/"},
-                         {"@type", "Dataset"},
-                         {"name", studyName(sessions)},
-                         {"description", "Answers of viewers, one row per trial, as recorded by Limen"},
-                         {"schemaVersion", "Psych-DS 1.0.0"},
-                         {"variableMeasured", variables}}));
+  out.emplace_back("dataset_description.json", dump({{"@context", "https://schema.org/"},
+                                                     {"@type", "Dataset"},
+                                                     {"name", dataName(sessions)},
+                                                     {"description", description},
+                                                     {"schemaVersion", "Psych-DS 1.0.0"},
+                                                     {"variableMeasured", variables}}));
   out.emplace_back("README.md", readme(sessions));
   return out;
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/export/pseudonyms.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <set>
 
 #include "experiments/base/error.h"
+#include "experiments/base/folder_lock.h"
+#include "experiments/base/replace_file.h"
 #include "perception/psychometrics/random.h"
 
 namespace limen::study {
@@ -20,34 +20,22 @@ namespace {
 
 constexpr const char* kHeader = "participant,pseudonym";
 
-void writeForOwner(const std::string& path, const std::string& text) {
-  const std::string fresh = path + ".new";
-  const int file = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  bool good = file >= 0;
-  for (size_t done = 0; good && done < text.size();) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    good = written > 0;
-    if (good) done += static_cast<size_t>(written);
-  }
-  good = good && fsync(file) == 0;
-  if (file >= 0) close(file);
-  if (!good || rename(fresh.c_str(), path.c_str()) != 0)
-    throw Error("cannot write the key table", path, "check the folder's permissions and free space");
-}
-
 }  // namespace
 
 std::string keyFileOf(const std::string& store) { return store + ".key.csv"; }
 
-Pseudonyms::Pseudonyms(const std::string& keyFile) : file_(keyFile) {
-  std::ifstream in(keyFile);
+Pseudonyms::Pseudonyms(const std::string& keyFile) : file_(keyFile) { read(); }
+
+void Pseudonyms::read() {
+  known_.clear();
+  std::ifstream in(file_);
   if (!in) return;
   std::string line;
   std::set<std::string> taken;
   for (int number = 1; std::getline(in, line); ++number) {
     if (number == 1 && line == kHeader) continue;
     const size_t comma = line.find(',');
-    const std::string where = keyFile + ":" + std::to_string(number);
+    const std::string where = file_ + ":" + std::to_string(number);
     if (number == 1 || comma == std::string::npos || comma == 0 || comma + 1 == line.size())
       throw Error("not a line of a key table: '" + line + "'", where, "restore the file from a copy");
     if (!known_.emplace(line.substr(0, comma), line.substr(comma + 1)).second ||
@@ -57,6 +45,8 @@ Pseudonyms::Pseudonyms(const std::string& keyFile) : file_(keyFile) {
 }
 
 void Pseudonyms::assign(std::vector<std::string> codes) {
+  const FolderLock lock(std::filesystem::path(file_).parent_path().string());
+  read();  // another process may have written it since
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
   std::erase_if(codes, [this](const std::string& code) { return known_.count(code) != 0; });
@@ -76,7 +66,7 @@ void Pseudonyms::assign(std::vector<std::string> codes) {
   }
   std::string text = fmt::format("{}\n", kHeader);
   for (const auto& [code, pseudonym] : known_) text += fmt::format("{},{}\n", code, pseudonym);
-  writeForOwner(file_, text);
+  replaceFile(file_, text, {}, Readers::OwnerOnly);
 }
 
 const std::string& Pseudonyms::of(const std::string& code) const { return known_.at(code); }

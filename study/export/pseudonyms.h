@@ -15,11 +15,13 @@ class Pseudonyms {
   explicit Pseudonyms(const std::string& keyFile);
 
   /// Gives every code without one a pseudonym P001, P002 ... in an order unrelated to that of the sessions,
-  /// and writes the file. Existing pseudonyms stay. Throws Error if it cannot be written.
+  /// and writes the file. Existing pseudonyms stay. Throws Error if it cannot be written. Processes that do
+  /// this at once agree.
   void assign(std::vector<std::string> codes);
   const std::string& of(const std::string& code) const;
 
  private:
+  void read();
   std::string file_;
   std::map<std::string, std::string> known_;
 };

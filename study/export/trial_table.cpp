@@ -58,6 +58,15 @@ int missedBlanks(const store::StudyTrial& trial) {
   return sum;
 }
 
+constexpr const char* kEarlyInputs = "early_inputs";
+
+/// How many, not which: what was typed stays out, whatever an older store holds.
+Cell earlyInputs(const store::StudyTrial& trial) {
+  if (!trial.response) return std::nullopt;
+  const auto found = trial.response->extra.find(kEarlyInputs);
+  return std::to_string(found != trial.response->extra.end() && found->is_array() ? found->size() : 0);
+}
+
 const std::map<std::string, std::string> kYesNo = {{"0", "no"}, {"1", "yes"}};
 
 std::vector<Column> subjectColumns() {
@@ -83,7 +92,11 @@ std::vector<double> eventTimesS(const std::vector<store::StudyEvent>& events) {
 }
 
 Table trialTable(const std::vector<ExportedSession>& sessions) {
-  const std::vector<std::string> factors = keys(sessions, conditionOf), extras = keys(sessions, extraOf);
+  const std::vector<std::string> factors = keys(sessions, conditionOf);
+  std::vector<std::string> extras = keys(sessions, extraOf);
+  std::erase(extras, kEarlyInputs);
+  const bool seeds = std::any_of(sessions.begin(), sessions.end(),
+                                 [](const ExportedSession& session) { return session.seed.has_value(); });
   size_t axes = 0;
   for (const ExportedSession& session : sessions)
     for (const store::StudyTrial& trial : session.trials)
@@ -127,9 +140,11 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
       {"device", "Device used to answer", "", {}},
       {"frames", "Swaps logged", "", {}},
       {"missed_blanks", "Vertical blanks for which a frame stayed on screen too long", "", {}},
+      {"early_inputs", "Keys and clicks before the question, which answered nothing", "", {}},
       {"stimulus_hashes", "SHA-256 of each stimulus shown, in order, separated by blanks", "", {}},
-      {"seed", "Seed of all randomness within the trial", "", {}}};
+      {"simulated", "Whether a simulated observer answered, and no person", "", kYesNo}};
   out.columns.insert(out.columns.end(), last.begin(), last.end());
+  if (seeds) out.columns.push_back({"seed", "Seed of all randomness within the trial", "", {}});
   for (const std::string& extra : extras)
     out.columns.push_back({"observer_" + extra, "Of a simulated observer: " + extra, "", {}});
 
@@ -170,8 +185,10 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
       row.push_back(response ? Cell(response->device) : std::nullopt);
       row.push_back(std::to_string(trial.frames.size()));
       row.push_back(trial.frames.empty() ? Cell() : Cell(std::to_string(missedBlanks(trial))));
+      row.push_back(earlyInputs(trial));
       row.push_back(hashes);
-      row.push_back(std::to_string(trial.seed));
+      row.push_back(flag(session.simulated));
+      if (seeds) row.push_back(session.seed ? Cell(std::to_string(trial.seed)) : std::nullopt);
       for (const std::string& extra : extras) {
         const nlohmann::json& object = extraOf(trial);
         row.push_back(object.contains(extra) ? text(object[extra]) : std::nullopt);
@@ -219,6 +236,7 @@ Table participantTable(const std::vector<ExportedSession>& sessions) {
          "Answer on the participant's form" + std::string(field.find("age") == 0 ? ", in bins" : ""),
          "",
          {}});
+  out.columns.push_back({"simulated", "Whether this is a simulated observer, and no person", "", kYesNo});
   out.columns.push_back({"sessions", "Sittings in this export", "", {}});
   for (const auto& [subject, own] : subjects) {
     std::vector<Cell> row = {subject};
@@ -229,6 +247,7 @@ Table participantTable(const std::vector<ExportedSession>& sessions) {
       if (value && field.find("age") == 0) value = ageBin(*value);
       row.push_back(value);
     }
+    row.push_back(flag(own.front()->simulated));
     row.push_back(std::to_string(own.size()));
     out.add(std::move(row));
   }

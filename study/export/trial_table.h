@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,16 @@
 
 namespace limen::study {
 
-/// What is exported of a session: no participant code, no time of day, no path.
+/// What is exported of a session: no participant code, nothing made of one, no time of day, no path.
 struct ExportedSession {
   std::string subject;  ///< pseudonym, or the code if that was requested
   std::string name;     ///< of the sitting
   std::string protocolName, protocolTitle, protocolHash, displayName, displayHash, state, programVersion;
-  uint64_t seed = 0;
+  bool simulated = false;        ///< no person answered
+  std::optional<uint64_t> seed;  ///< only where participant codes are exported, which older ones are made of
+  /// An older session, whose orders were drawn with a seed made of the participant's code: whoever guesses
+  /// the code can check the guess against them.
+  bool ordersTellCode = false;
   nlohmann::json form = nlohmann::json::object();
   std::vector<store::StudyTrial> trials;
   std::vector<double> startS;  ///< of each trial, from the beginning of its session

@@ -30,7 +30,7 @@ struct Known {
 
 std::map<std::string, Known> knownSessions(const std::string& path) {
   std::map<std::string, Known> out;
-  if (!std::filesystem::exists(path)) return out;
+  if (store::isUnwritten(path)) return out;
   const store::SessionReader reader(path);
   for (store::StudySession& session : reader.sessions()) {
     if (session.name != "1") continue;

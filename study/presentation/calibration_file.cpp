@@ -3,11 +3,12 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "experiments/base/error.h"
+#include "experiments/base/input_files.h"
+#include "experiments/base/replace_file.h"
 #include "study/presentation/calibration.h"
 
 namespace limen::study {
@@ -39,6 +40,7 @@ std::optional<std::pair<double, double>> twoNumbers(const std::string& text, con
 }  // namespace
 
 std::vector<Reading> readReadings(const std::string& path) {
+  protectInput(path);
   std::ifstream file(path);
   if (!file) throw Error("cannot be read", path, "name a CSV file of level,cd/m2");
   std::vector<Reading> out;
@@ -77,16 +79,9 @@ void writeProfile(const std::string& path, const perception::DisplayProfile& pro
   std::error_code failure;
   if (!force && std::filesystem::exists(path, failure))
     throw Error("already exists", path, "name another file, or give --force to overwrite it");
-  const std::string temporary = path + ".tmp";
-  {
-    std::ofstream file(temporary);
-    for (const std::string& comment : comments) file << "# " << comment << '\n';
-    file << perception::toYaml(profile);
-    if (!file.flush()) throw Error("cannot be written", path, "name a file in a writable folder");
-  }
-  std::filesystem::rename(temporary, path, failure);
-  if (failure)
-    throw Error("cannot be written: " + failure.message(), path, "name a file in a writable folder");
+  std::string text;
+  for (const std::string& comment : comments) text += "# " + comment + "\n";
+  replaceFile(path, text + perception::toYaml(profile));
 }
 
 }  // namespace limen::study

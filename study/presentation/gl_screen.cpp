@@ -67,13 +67,19 @@ void onButton(GLFWwindow* window, int button, int action, int) {
   queueOf(window).push_back({ScreenEvent::Kind::Mouse, kNames[button], at, nowNs()});
 }
 
+// Another window may have been opened since this one.
+const gl::Program& screenProgram(gl::WindowContext& context) {
+  context.makeCurrent();
+  return context.programs().get(
+      {"study/presentation/screen.vert.glsl", "study/presentation/screen.frag.glsl"});
+}
+
 }  // namespace
 
 GlScreen::GlScreen(gl::WindowContext& context, const perception::DisplayProfile& display, bool listens)
     : context_(context),
       sizePx_(context.framebufferSizePx()),
-      program_(context.programs().get(
-          {"study/presentation/screen.vert.glsl", "study/presentation/screen.frag.glsl"})),
+      program_(screenProgram(context)),
       listens_(listens) {
   const CodeThresholds thresholds = codeThresholds(display);
   thresholds_.assign(thresholds.begin(), thresholds.end());

@@ -6,6 +6,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/input_files.h"
 #include "experiments/base/node_reader.h"
 #include "experiments/base/shipped_files.h"
 #include "experiments/base/text.h"
@@ -232,6 +233,7 @@ std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shi
 
 Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue) {
   const std::string path = findShipped(nameOrPath, kProtocolFolder, "protocol");
+  protectInput(path);
   return parseProtocol(readTextFile(path), path, std::move(catalogue));
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/base/error.h"
+#include "experiments/base/replace_file.h"
 #include "study/stimulus/prediction.h"
 
 namespace limen::study {
@@ -38,16 +37,7 @@ std::map<std::string, PredictedPopping> readCache(const std::string& file) {
 void writeCache(const std::string& file, const std::map<std::string, PredictedPopping>& known) {
   json predictions = json::object();
   for (const auto& [key, value] : known) predictions[key] = toJson(value);
-  const std::string temporary = file + "." + std::to_string(getpid()) + ".tmp";
-  {
-    std::ofstream stream(temporary);
-    stream << json{{"limen_predictions", kForm}, {"predictions", predictions}}.dump(1) << '\n';
-    if (!stream.flush()) throw Error("cannot be written", temporary, "name a file in a writable folder");
-  }
-  std::error_code failure;
-  fs::rename(temporary, file, failure);
-  if (failure)
-    throw Error("cannot be written: " + failure.message(), file, "name a file in a writable folder");
+  replaceFile(file, json{{"limen_predictions", kForm}, {"predictions", predictions}}.dump(1) + "\n");
 }
 
 }  // namespace

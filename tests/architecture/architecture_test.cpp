@@ -74,9 +74,12 @@ TEST(Architecture, SourcesStartWithTheLicenceLine) {
   EXPECT_THAT(checkLicenceLines(LIMEN_SOURCE_DIR), IsEmpty());
 }
 
+TEST(Architecture, FilesAreWrittenInOneWay) { EXPECT_THAT(checkFileWriting(LIMEN_SOURCE_DIR), IsEmpty()); }
+
 TEST(Architecture, DocsListThePackagesThatTheLauncherInstalls) {
   const std::filesystem::path root = LIMEN_SOURCE_DIR;
-  EXPECT_THAT(checkPackageTable(readText(root / "docs/building.md"), readText(root / "packages.txt")), IsEmpty());
+  EXPECT_THAT(checkPackageTable(readText(root / "docs/building.md"), readText(root / "packages.txt")),
+              IsEmpty());
 }
 
 }  // namespace

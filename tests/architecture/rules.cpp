@@ -118,6 +118,21 @@ Violations checkLicenceLines(const fs::path& root) {
   return violations;
 }
 
+Violations checkFileWriting(const fs::path& root) {
+  static const std::regex kWriter(R"(\b(ofstream|copy_file)\b|\bfopen\(.*"[wa])");
+  Violations violations;
+  for (const fs::path& file : sourcesUnder(root, false)) {
+    std::ifstream in(file);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+      if (std::regex_search(line, kWriter))
+        violations.push_back(file.lexically_relative(root).generic_string() + ":" + std::to_string(number) +
+                             ": files are written with replaceFile() or PartFile");
+    }
+  }
+  return violations;
+}
+
 Violations checkPackageTable(const std::string& page, const std::string& packages) {
   std::vector<std::string> told, listed;
   std::istringstream rows(page), lines(packages);

@@ -19,6 +19,10 @@ Violations checkIncludes(const std::filesystem::path& root);
 /// Every .h, .cpp and .glsl file of the modules and tests under `root` starts with the licence line.
 Violations checkLicenceLines(const std::filesystem::path& root);
 
+/// No source file of the modules under `root` opens a file for writing by itself: what is written goes
+/// through experiments/base/part_file.h, which never leaves half a file and never replaces an input.
+Violations checkFileWriting(const std::filesystem::path& root);
+
 /// The dependency table of a page (rows "| `package` | when | reason |") says what packages.txt says, in its
 /// order.
 Violations checkPackageTable(const std::string& page, const std::string& packages);

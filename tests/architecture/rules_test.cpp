@@ -96,6 +96,17 @@ TEST_F(PlantedTree, AMissingLicenceLineIsFound) {
                                                              HasSubstr("renderer/frame/empty.glsl")));
 }
 
+TEST_F(PlantedTree, AFileThatIsWrittenByItselfIsFound) {
+  plant("experiments/store/good.cpp", "std::ifstream in(path);\nstd::fopen(path.c_str(), \"rb\");\n");
+  plant("analysis/sweep/stream.cpp", "int x;\nstd::ofstream out(path);\n");
+  plant("study/export/copy.cpp", "fs::copy_file(a, b);\n");
+  plant("renderer/frame/open.cpp", "auto* file = fopen(path.c_str(), \"wb\");\n");
+  plant("tests/study/free.cpp", "std::ofstream out(path);\n");
+  EXPECT_THAT(checkFileWriting(root_), UnorderedElementsAre(HasSubstr("analysis/sweep/stream.cpp:2"),
+                                                            HasSubstr("study/export/copy.cpp:1"),
+                                                            HasSubstr("renderer/frame/open.cpp:1")));
+}
+
 TEST(TargetRules, ALinkAgainstTheDirectionIsFoundInsideGeneratorExpressions) {
   const auto targets = readTargets(
       "limen_options|.|\n"

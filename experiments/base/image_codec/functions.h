@@ -10,15 +10,16 @@
 namespace limen::codec {
 
 Image readImage(const std::string& path, const ImageLimits& limits);
-void writeExr(const std::string& path, const Image& image, const std::string& description);
-void writePng(const std::string& path, const Image& image, const std::string& description);
+/// Bytes of a file. Encoded in memory, so that a full disk cannot truncate a picture unnoticed.
+std::string encodeExr(const Image& image, const std::string& description);
+std::string encodePng(const Image& image, const std::string& description);
 ImageFile readImageFile(const std::string& path, const ImageLimits& limits);
 
 /// The functions above, as the module exports them.
 struct Functions {
   decltype(&readImage) read;
-  decltype(&writeExr) exr;
-  decltype(&writePng) png;
+  decltype(&encodeExr) exr;
+  decltype(&encodePng) png;
   decltype(&readImageFile) readFile;
 };
 inline constexpr const char* kEntry = "limenImageCodec";

@@ -5,7 +5,7 @@ extern "C" const limen::codec::Functions* limenImageCodec();
 
 // Named by codec::kEntry.
 extern "C" const limen::codec::Functions* limenImageCodec() {
-  static constexpr limen::codec::Functions kFunctions{&limen::codec::readImage, &limen::codec::writeExr,
-                                                      &limen::codec::writePng, &limen::codec::readImageFile};
+  static constexpr limen::codec::Functions kFunctions{&limen::codec::readImage, &limen::codec::encodeExr,
+                                                      &limen::codec::encodePng, &limen::codec::readImageFile};
   return &kFunctions;
 }

@@ -7,8 +7,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "experiments/base/error.h"
+#include "tests/full_disk.h"
 
 namespace limen {
 namespace {
@@ -148,6 +150,29 @@ TEST_F(ImageFileTest, RefusesWhatIsNoImage) {
   EXPECT_THROW(readImageFile(folder_.string()), Error);
   save("two.tif", {2, 2, 2, OIIO::TypeDesc::UINT8});
   EXPECT_THROW(readImageFile(path("two.tif")), Error);
+}
+
+TEST_F(ImageFileTest, AFullDiskLeavesNoPictureAndNamesTheFile) {
+  Image noise(64, 64, 3);
+  std::mt19937 random(1);
+  for (float& value : noise.data) value = static_cast<float>(random() % 256U) / 255.0F;
+  writePng(path("fits.png"), noise);
+  ASSERT_EQ(readImage(path("fits.png")).data.size(), noise.data.size()) << "and the module is loaded";
+  ASSERT_GT(std::filesystem::file_size(path("fits.png")), 8192U) << "too small to test anything";
+  for (const char* name : {"a.png", "a.exr"}) {
+    const std::string file = path(name);
+    // Not in a child: the library's threads would be missing there.
+    const FullDisk disk(4096);
+    try {
+      std::string(name) == "a.png" ? writePng(file, noise) : writeExr(file, noise);
+      ADD_FAILURE() << name << " is written";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(file + ": cannot be written"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
 }
 
 /// Message of the refusal; reading takes next to no memory.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/base/process.h"
 #include "tests/experiments/store/store_fixture.h"
 
 namespace limen::store {

@@ -158,5 +158,50 @@ TEST_F(MergeTest, MoreRunsThanATransactionTakesAllArrive) {
   EXPECT_EQ(left.allRuns().size(), 150U);
 }
 
+TEST_F(StoreTest, MergesAtOnceIntoOneStoreLoseNothing) {
+  constexpr int kInputs = 4, kRuns = 40;
+  for (int round = 0; round < 6; ++round) {
+    const std::string name = "round" + std::to_string(round) + "/";
+    std::filesystem::create_directories(path(name));
+    // Shards of one experiment: the plan of the result has the runs of all. Two of them have the same
+    // picture.
+    for (int i = 0; i < kInputs; ++i) {
+      Store store(path(name + std::to_string(i) + ".sqlite"), Access::ReadWrite);
+      Experiment experiment;
+      experiment.hash = "h";
+      experiment.title = "t";
+      std::vector<PlanEntry> plan;
+      for (int k = 0; k < kRuns; ++k) {
+        store::Run run = makeRun("k" + std::to_string(i) + "_" + std::to_string(k));
+        plan.push_back({run.key, run.technique, run.scene, run.label});
+        const std::string file = "artefacts/" + std::to_string(k) + ".png",
+                          text(100000, static_cast<char>('a' + k % 20));
+        std::filesystem::create_directories(path(name + "artefacts"));
+        writeFile(path(name + file), text);
+        run.artefacts = {{"product_png", file, sha256(text)}};
+        addDone(store, run);
+      }
+      store.putExperiment(experiment, plan, {});
+    }
+    std::filesystem::create_directories(path(name + "out"));
+    std::vector<pid_t> children;
+    for (int i = 0; i < kInputs; ++i)
+      children.push_back(startChild([&, i] {
+        const Store from(path(name + std::to_string(i) + ".sqlite"), Access::ReadOnly);
+        Store to(path(name + "out/s.sqlite"), Access::ReadWrite);
+        to.merge(from);
+      }));
+    for (const pid_t child : children) EXPECT_EQ(exitCode(child), 0);
+    const Store merged(path(name + "out/s.sqlite"), Access::ReadOnly);
+    EXPECT_EQ(merged.allRuns().size(), static_cast<size_t>(kInputs * kRuns));
+    ASSERT_EQ(merged.experiments().size(), 1U);
+    EXPECT_EQ(merged.plan(merged.experiments()[0].id).size(), static_cast<size_t>(kInputs * kRuns));
+    for (const store::Run& run : merged.allRuns())
+      EXPECT_EQ(sha256File(path(name + "out/" + run.artefacts.at(0).path)), run.artefacts[0].sha256);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path(name + "out")))
+      EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+  }
+}
+
 }  // namespace
 }  // namespace limen::store

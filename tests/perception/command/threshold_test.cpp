@@ -111,8 +111,8 @@ TEST_F(ThresholdCli, RefusesToOverwriteAndToMixUpFiles) {
   expectRefused({"threshold", "a.exr", "-o", "m.exr", "-o", "m.exr"}, {"written twice"});
   expectRefused({"threshold", "a.exr", "-o", "m.jpg"}, {".exr or .png"});
   expectRefused({"threshold"}, {"an image is missing"});
-  expectRefused({"threshold", "a.exr", "-o", "a.exr/m.exr"}, {"cannot write 'a.exr/m.exr'"});
-  expectRefused({"threshold", "a.exr", "-o", "/proc/m.exr"}, {"cannot write '/proc/m.exr'"});
+  expectRefused({"threshold", "a.exr", "-o", "a.exr/m.exr"}, {"a.exr: the folder cannot be made"});
+  expectRefused({"threshold", "a.exr", "-o", "/proc/m.exr"}, {"/proc/m.exr: cannot be written"});
   EXPECT_EQ(read("a.exr"), before);
 }
 

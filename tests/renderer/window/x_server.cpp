@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 
 extern char** environ;
@@ -51,6 +52,12 @@ void XServer::stop() {
   kill(process_, SIGKILL);
   waitpid(process_, nullptr, 0);
   process_ = -1;
+}
+
+void openWindowsOnOneServer() {
+  static const XServer kServer(2560, 1440);
+  setenv("DISPLAY", kServer.display().c_str(), 1);
+  unsetenv("WAYLAND_DISPLAY");
 }
 
 }  // namespace limen::test

@@ -24,4 +24,8 @@ class XServer {
   std::string display_;
 };
 
+/// Lets windows of this process open on a server of 2560 x 1440 pixels that lives as long as the process: the
+/// window library stays with the first server that it meets.
+void openWindowsOnOneServer();
+
 }  // namespace limen::test

@@ -90,9 +90,7 @@ double share(const Image& image, const TargetRect& rect, glm::vec3 background) {
 
 // LIMEN_PAGES names a folder for pictures of all of them, for people to look at.
 TEST(PageView, EveryPageFitsIntoCommonWindows) {
-  const test::XServer server(2560, 1440);
-  setenv("DISPLAY", server.display().c_str(), 1);
-  unsetenv("WAYLAND_DISPLAY");
+  test::openWindowsOnOneServer();
   const char* folder = std::getenv("LIMEN_PAGES");
   struct Case {
     glm::ivec2 sizePx;

@@ -146,5 +146,25 @@ TEST(Question, TimesOutOnlyWhileTheAnswerIsOpen) {
   EXPECT_FALSE(screen.timedOut(9000 * kMs, 2.0));
 }
 
+TEST(Question, OfKeysPressedEarlyOnlyThoseThatAnswerAreNamed) {
+  TaskSetting task;
+  task.type = Task::YesNo;
+  task.answers = {"yes", "no"};
+  const auto name = [&](int key, window::Device device = window::Device::Keyboard) {
+    return earlyKeyName(task, {device, key, 0, 0, 0});
+  };
+  EXPECT_EQ(name('y'), "y");
+  EXPECT_EQ(name('2'), "2");
+  EXPECT_EQ(name(window::kKeyLeft), "left");
+  EXPECT_EQ(name(window::kPadRight, window::Device::Gamepad), "right");
+  for (int key = 1; key < 0x3000; ++key) {
+    if (key == 'y' || key == 'n' || key == '1' || key == '2' || key == window::kKeyLeft ||
+        key == window::kKeyRight || key == window::kPadLeft || key == window::kPadRight)
+      continue;
+    EXPECT_EQ(name(key), "other") << key;
+  }
+  EXPECT_EQ(name(window::kKeyNone, window::Device::Mouse), "mouse");
+}
+
 }  // namespace
 }  // namespace limen::study

@@ -192,6 +192,64 @@ TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
   EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});
 }
 
+TEST_F(SessionAtWindow, WhatIsTypedEarlyIsNotStored) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments(), path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  run.key("y");
+  ASSERT_TRUE(run.reaches("instructions"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("practice_start"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("stimulus"));
+  for (const char* key : {"s", "m", "1", "t", "h"}) run.key(key);
+  ASSERT_TRUE(run.reaches("question"));
+  run.key("n");
+  ASSERT_TRUE(run.reaches("stimulus"));
+  run.signal(SIGTERM);
+  run.finish();
+  const std::vector<std::string> extras = column("SELECT extra FROM response");
+  ASSERT_EQ(extras.size(), 1u);
+  const std::vector<std::string> keys =
+      column("SELECT json_extract(value, '$.key') FROM response, json_each(extra, '$.early_inputs')");
+  EXPECT_EQ(keys, (std::vector<std::string>{"other", "other", "1", "other", "other"}));
+  // Nor in the log of events.
+  EXPECT_EQ(
+      column("SELECT count(*) FROM event WHERE data LIKE '%\"key\":\"s\"%' OR data LIKE '%\"key\":\"m\"%' OR "
+             "data LIKE '%\"key\":\"h\"%'"),
+      std::vector<std::string>{"0"});
+  EXPECT_EQ(fs::status(path("s.sqlite")).permissions() & (fs::perms::group_all | fs::perms::others_all),
+            fs::perms::none);
+}
+
+TEST_F(SessionAtWindow, StimuliAreSeenBesideTheExperimentersWindow) {
+  const test::XServer server(1500, 800);
+  for (const char* folder : {"alone", "beside"}) {
+    std::vector<std::string> more = {"--screenshots", path(folder)};
+    if (std::string(folder) == "beside") more.push_back("--experimenter-window");
+    fs::remove(path("s.sqlite"));
+    test::StudyRun run(server.display(), arguments(more), path("messages"));
+    const std::vector<std::string> meant = answerAll(run);
+    EXPECT_EQ(run.finish(), 0) << run.messages();
+    EXPECT_EQ(meant.size(), 8u) << folder;
+    EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), meant) << folder;
+  }
+  const auto stimuli = [this](const std::string& folder) {
+    std::map<std::string, std::string> out;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path(folder))) {
+      const std::string name = entry.path().filename().string();
+      if (name.find("stimulus") != std::string::npos)
+        out[name.substr(name.find("stimulus"))] = entry.path().string();
+    }
+    return out;
+  };
+  const auto alone = stimuli("alone"), beside = stimuli("beside");
+  ASSERT_EQ(alone.size(), 8u);
+  ASSERT_EQ(beside.size(), 8u);
+  for (const auto& [name, file] : alone)
+    EXPECT_EQ(readImage(beside.at(name)).data, readImage(file).data) << name;
+}
+
 TEST_F(SessionAtWindow, DecliningEndsItAndKeepsNoAnswers) {
   const test::XServer server(640, 480);
   test::StudyRun run(server.display(), arguments(), path("messages"));

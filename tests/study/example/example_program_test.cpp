@@ -146,7 +146,7 @@ TEST_F(ExampleProgram, RefusesWhatItCannotDo) {
   EXPECT_THAT(window.text, HasSubstr("another protocol"));
   const ProgramRun folder = runProgram("limen-study example --quiet -o " + file + "/out " + file);
   EXPECT_EQ(folder.code, 2);
-  EXPECT_THAT(folder.text, HasSubstr("cannot be created"));
+  EXPECT_THAT(folder.text, HasSubstr("cannot create the folder"));
   const ProgramRun list = runProgram("limen-study example --list");
   EXPECT_EQ(list.code, 0);
   EXPECT_THAT(list.text, HasSubstr("schwarz_2009_quick"));

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +15,7 @@
 
 #include "experiments/base/error.h"
 #include "study/export/pseudonyms.h"
+#include "study/session/session_seed.h"
 
 namespace limen::study {
 namespace {
@@ -33,7 +36,7 @@ class Export : public testing::Test {
   ~Export() override { fs::remove_all(folder_); }
 
   /// A session of three trials: practice, one whose frames came late, its repetition.
-  void addSession(const std::string& participant, const std::string& name) {
+  void addSession(const std::string& participant, const std::string& name, bool simulated = false) {
     store::SessionLog log(store_);
     store::StudySession session;
     session.participant = participant;
@@ -41,7 +44,7 @@ class Export : public testing::Test {
     session.name = name;
     session.protocol = "p0";
     session.display = "d0";
-    session.seed = 18446744073709551615U;
+    session.seed = seed_;
     session.programVersion = "limen-study 0.1";
     session.started = "2026-03-01T12:00:00.000Z";
     const store::StudyBlock practice{0, "main", "main: practice", true, 1},
@@ -51,7 +54,8 @@ class Export : public testing::Test {
     started.form = json{{"age", "34"}, {"vision", "normal"}};
     const int64_t id = log.start(session, {"p0", "quick", "quick.yaml", "A title", "title: A title"},
                                  {"d0", "desk", "name: desk", json::object()},
-                                 {"llvmpipe", true, json::object()}, {practice, block}, {started});
+                                 {"llvmpipe", true, {{"front_end", {{"simulated", simulated}}}}},
+                                 {practice, block}, {started});
     ASSERT_TRUE(log.claim(id));
     int number = 0;
     const auto show = [&](int trial, int attempt, bool isPractice, int startS, int endS, bool valid) {
@@ -67,7 +71,7 @@ class Export : public testing::Test {
       row.stimuli = json::array({json::object()});
       row.stimulusHashes = {"abc"};
       row.practice = isPractice;
-      row.seed = 7;
+      row.seed = 7417417417;
       row.startedUtc = begun.event.utc;
       begun.begun = row;
       ended.event = {++number, valid ? "answered" : "trial_invalid", "2026-03-01T12:00:02.000Z",
@@ -82,6 +86,8 @@ class Export : public testing::Test {
         response.severity = 3;
         response.reactionTimeS = 0.25;
         response.device = "keyboard";
+        for (const char* key : {"s", "m", "i"})
+          response.extra["early_inputs"].push_back({{"key", key}, {"device", "keyboard"}});
         end.response = response;
       }
       end.frames = {{0, 0, 0, 100 * kSecond, 0}, {0, 0, 1, 100 * kSecond + kSecond / 4, valid ? 0 : 2}};
@@ -138,6 +144,7 @@ class Export : public testing::Test {
 
   fs::path folder_;
   std::string store_;
+  uint64_t seed_ = 18446744073709551615U;
 };
 
 TEST_F(Export, CsvHasARowForEveryShowing) {
@@ -240,6 +247,148 @@ TEST_F(Export, NoFileTellsCodesOrTimesOfDay) {
   ASSERT_EQ(stat(keyFileOf(store_).c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   EXPECT_THAT(read(keyFileOf(store_)), HasSubstr("annalena,P001"));
+}
+
+/// All that an export has written, with its paths.
+std::string everythingIn(const fs::path& folder) {
+  std::string out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    out += entry.path().string() + "\n";
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path());
+    out.append(std::istreambuf_iterator<char>(in), {});
+  }
+  return out;
+}
+
+TEST_F(Export, NoSeedLeavesUnlessCodesDo) {
+  // As an older version gave it: whoever guesses the code can check it.
+  seed_ = formerSessionSeed("p0", "annalena", "1");
+  addSession("annalena", "1");
+  seed_ = 18446744073709551615U;
+  addSession("bert", "1");
+  const std::vector<ExportFormat> all = {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs};
+  EXPECT_EQ(writeExport(request("out", all)).ordersTellCode, 1u);
+  const std::string text = everythingIn(folder_ / "out");
+  for (const std::string& secret :
+       {std::to_string(formerSessionSeed("p0", "annalena", "1")), std::to_string(seed_),
+        std::string("7417417417"), std::string("seed"), std::string("annalena")})
+    EXPECT_THAT(text, testing::Not(HasSubstr(secret)));
+  ExportRequest codes = request("codes", all);
+  codes.codes = true;
+  EXPECT_EQ(writeExport(codes).ordersTellCode, 0u);
+  EXPECT_THAT(everythingIn(folder_ / "codes"),
+              testing::AllOf(HasSubstr("7417417417"), HasSubstr(std::to_string(seed_))));
+}
+
+TEST_F(Export, AFormerSeedIsThatOfTheFormula) {
+  // printf 'p0/annalena/1' | sha256sum | cut -c1-15
+  EXPECT_EQ(formerSessionSeed("p0", "annalena", "1"), 0x15992b46f13d068ull);
+}
+
+TEST_F(Export, RandomSeedsAreNeverTheSameAndFitIntoJson) {
+  std::set<uint64_t> seeds;
+  for (int i = 0; i < 1000; ++i) seeds.insert(randomSessionSeed());
+  EXPECT_EQ(seeds.size(), 1000u);
+  EXPECT_LT(*seeds.rbegin(), uint64_t{1} << 60);
+  EXPECT_GT(*seeds.rbegin(), uint64_t{1} << 59) << "1000 draws that all miss the upper half: 1e-301";
+}
+
+TEST_F(Export, KeysTypedEarlyAreCountedAndNotTold) {
+  addSession("anna", "1");
+  writeExport(request("out", {ExportFormat::Csv}));
+  const auto rows = parse(read(folder_ / "out/trials.csv"), ',');
+  EXPECT_EQ(rows.at(0).at("early_inputs"), "3");
+  EXPECT_EQ(rows.at(1).at("early_inputs"), "") << "no answer";
+  EXPECT_THAT(read(folder_ / "out/trials.csv"), testing::Not(HasSubstr("\"key")));
+}
+
+TEST_F(Export, SimulatedDataSayThatTheyAre) {
+  addSession("sim1", "1", true);
+  addSession("sim2", "1", true);
+  const std::vector<ExportFormat> all = {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs};
+  writeExport(request("out", all));
+  for (const char* file : {"csv/README", "bids/README", "psych_ds/README.md"}) {
+    const std::string text = read(folder_ / "out" / file);
+    EXPECT_THAT(text, HasSubstr("2 simulated observers, 2 sittings")) << file;
+    EXPECT_THAT(text, HasSubstr("no person took part")) << file;
+    EXPECT_THAT(text, testing::Not(HasSubstr("participants,"))) << file;
+  }
+  const json bids = json::parse(read(folder_ / "out/bids/dataset_description.json"));
+  EXPECT_EQ(bids["Name"], "A title (2 simulated observers)");
+  const json psychDs = json::parse(read(folder_ / "out/psych_ds/dataset_description.json"));
+  EXPECT_THAT(psychDs["description"].get<std::string>(), HasSubstr("no person took part"));
+  for (const auto& row : parse(read(folder_ / "out/csv/trials.csv"), ','))
+    EXPECT_EQ(row.at("simulated"), "1");
+  for (const auto& row : parse(read(folder_ / "out/bids/participants.tsv"), '\t'))
+    EXPECT_EQ(row.at("simulated"), "1");
+  // People and simulated observers in one store.
+  addSession("anna", "1");
+  writeExport(request("both", {ExportFormat::Csv}));
+  EXPECT_THAT(read(folder_ / "both/README"),
+              testing::AllOf(HasSubstr("1 participant and 2 simulated observers, 3 sittings"),
+                             HasSubstr("Holds simulated data")));
+  std::map<std::string, int> rows;
+  for (const auto& row : parse(read(folder_ / "both/trials.csv"), ',')) ++rows[row.at("simulated")];
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"0", 3}, {"1", 6}}));
+  EXPECT_THAT(read(folder_ / "both/participants.csv"), HasSubstr("simulated"));
+}
+
+TEST_F(Export, WithCodesOnlyTheOwnerReadsIt) {
+  addSession("anna", "1");
+  ExportRequest codes = request("codes", {ExportFormat::Csv, ExportFormat::Bids});
+  codes.codes = true;
+  writeExport(codes);
+  const auto mode = [](const fs::path& path) {
+    struct stat status {};
+    EXPECT_EQ(stat(path.c_str(), &status), 0);
+    return status.st_mode & 077;
+  };
+  EXPECT_EQ(mode(folder_ / "codes"), 0u);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "codes")) {
+    if (entry.is_regular_file()) {
+      EXPECT_EQ(mode(entry.path()), 0u) << entry.path();
+    }
+  }
+  EXPECT_EQ(mode(store_), 0u);
+}
+
+TEST_F(Export, TwoAtOnceAgreeOnPseudonymsAndMixNothing) {
+  for (int i = 0; i < 6; ++i) addSession("code" + std::to_string(i), "1");
+  for (int round = 0; round < 10; ++round) {
+    fs::remove(keyFileOf(store_));
+    const std::string suffix = std::to_string(round);
+    std::vector<pid_t> children;
+    // Two into folders of their own, one into the same as the first.
+    for (const char* folder : {"a", "b", "a"}) {
+      children.push_back(fork());
+      if (children.back() != 0) continue;
+      try {
+        writeExport(request(folder + suffix, {ExportFormat::Csv}));
+        _exit(0);
+      } catch (const Error& error) {
+        _exit(std::string(error.what()).find("is not an empty folder") != std::string::npos ? 2 : 3);
+      }
+    }
+    std::vector<int> codes;
+    for (const pid_t child : children) {
+      int status = 0;
+      waitpid(child, &status, 0);
+      codes.push_back(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+    }
+    EXPECT_EQ(codes[1], 0);
+    EXPECT_EQ(codes[0] + codes[2], 2) << "one of both is refused";
+    // The same person has the same name in both, and only the table tells who it is.
+    std::map<std::string, std::string> key;
+    for (const auto& row : parse(read(keyFileOf(store_)), ','))
+      key[row.at("participant")] = row.at("pseudonym");
+    EXPECT_EQ(key.size(), 6u);
+    EXPECT_EQ(read(folder_ / ("a" + suffix) / "trials.csv"), read(folder_ / ("b" + suffix) / "trials.csv"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / ("a" + suffix)), fs::directory_iterator()), 5)
+        << "trials, frames, participants, dictionary, README";
+  }
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
 }
 
 TEST_F(Export, PseudonymsStayAndNewOnesAreAdded) {

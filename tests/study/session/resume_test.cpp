@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "experiments/base/process.h"
 #include "experiments/store/store.h"
 #include "tests/study/session/session_fixture.h"
 
@@ -208,7 +209,7 @@ TEST_F(SessionStoreTest, AnOldSessionOrOneThatMayNotBeResumedIsRefused) {
   clock_.pass(-1.0 * 3600.0);
   Protocol strict = protocol;
   strict.session.resume = ResumePolicy::Refuse;
-  EXPECT_THAT(errorOf([&] { resume(strict, second); }), HasSubstr("does not let session 1"));
+  EXPECT_THAT(errorOf([&] { resume(strict, second); }), HasSubstr("does not allow session 1"));
   EXPECT_EQ(resume(protocol, second).kind, Step::Kind::Finished);
 }
 
@@ -278,7 +279,7 @@ TEST_F(SessionStoreTest, ASessionThatALivingProcessHoldsIsRefused) {
   std::istringstream fields(text.substr(text.rfind(')') + 1));
   std::string start;
   for (int i = 3; i <= 22; ++i) fields >> start;
-  const std::string self = store::processIdentity();
+  const std::string self = processIdentity();
   const std::string host = self.substr(0, self.find(':'));
   sql(request_.store, "UPDATE session SET owner = '" + host + ":" + parent + ":" + start + "'");
   EXPECT_THAT(errorOf([&] { resume(protocol, second); }),

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
+#include "experiments/base/standard_output.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/search_technique.h"
 
@@ -271,7 +272,7 @@ int main(int argc, char** argv) {
     const techniques::SearchSettings search = techniques::SearchSettings::table().read(values);
     if (const auto* steered = std::get_if<techniques::FrameTimeBudget>(&search.budget))
       summarise(rows, steered->targetMs, std::min(options.settled, options.frames));
-    return kExitSuccess;
+    return afterStandardOutput("limen-budget-benchmark", kExitSuccess);
   } catch (const Error& error) {
     fmt::print(stderr, "limen-budget-benchmark: {}\n", error.what());
     return kExitBadInput;

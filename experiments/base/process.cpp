@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/base/process.h"
+
 #include <unistd.h>
 
 #include <array>
@@ -6,10 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "experiments/store/database.h"
-#include "experiments/store/store.h"
-
-namespace limen::store {
+namespace limen {
 namespace {
 
 std::string hostName() {
@@ -51,4 +50,4 @@ std::optional<bool> isOwnerDead(const std::string& owner) {
   return startTime(owner.substr(first + 1, second - first - 1)) != owner.substr(second + 1);
 }
 
-}  // namespace limen::store
+}  // namespace limen
