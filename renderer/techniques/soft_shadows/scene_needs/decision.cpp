@@ -58,7 +58,11 @@ class Decider {
             .bias = SlopeBias{.slope = 2.0},
             .budget = UniformBudget{.limit = common_.budget}};
   }
-  static Micropatches patches() { return {.depths = CoarseDepths::Nearest}; }
+  static Micropatches patches() {
+    Micropatches nearest;
+    nearest.depths = CoarseDepths::Nearest;
+    return nearest;
+  }
   const BitmaskSettings* masked() const { return std::get_if<BitmaskSettings>(&decision_.setting); }
   bool layered() const { return masked() && !std::holds_alternative<CentreMap>(masked()->maps); }
 
