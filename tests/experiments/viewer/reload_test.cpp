@@ -32,7 +32,8 @@ class ShaderReload : public ViewerTest {
     const fs::path root = folder_ / "shaders", source = LIMEN_SOURCE_DIR;
     for (const char* folder : {"renderer", "perception", "experiments"})
       for (const auto& entry : fs::recursive_directory_iterator(source / folder))
-        if (entry.path().extension() == ".glsl") {
+        if (entry.path().extension() == ".glsl" ||
+            entry.path().extension() == ".h") {  // bindings are headers
           const fs::path to = root / fs::relative(entry.path(), source);
           fs::create_directories(to.parent_path());
           fs::copy_file(entry.path(), to);
