@@ -103,7 +103,7 @@ TEST_F(SavedViews, SayAllThatIsWrongWithItsLines) {
   EXPECT_THAT(refusal(), AllOf(HasSubstr("views.yaml:2:36: camera"),
                                HasSubstr("views.yaml:3:5: 'camera' of a view is missing"),
                                HasSubstr("views.yaml:4:5: a view is '7'"), HasSubstr("unknown key 'fov'"),
-                               HasSubstr("views.yaml:5:5: view 'b' is already in line 3")));
+                               HasSubstr("views.yaml:5:5: view 'b' is also in line 3")));
 }
 
 TEST_F(SavedViews, WhatAHandWroteIsKept) {

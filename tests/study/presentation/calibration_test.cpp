@@ -212,7 +212,10 @@ TEST_F(CalibrationFile, AProfileIsReadBackAndNeverOverwrittenUnasked) {
   profile.transfer = perception::TransferCurve::Gamma;
   const std::string path = (folder_ / "lab.yaml").string();
   writeProfile(path, profile, {"calibrated by hand"}, false);
-  EXPECT_EQ(perception::readDisplay(path).hash(), profile.hash());
+  // What a process has read it never overwrites, asked to or not: a copy is read.
+  const std::string copy = (folder_ / "copy.yaml").string();
+  std::filesystem::copy_file(path, copy);
+  EXPECT_EQ(perception::readDisplay(copy).hash(), profile.hash());
   EXPECT_THROW(writeProfile(path, profile, {}, false), Error);
   profile.gamma = 2.4;
   writeProfile(path, profile, {}, true);

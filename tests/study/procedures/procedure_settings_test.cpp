@@ -49,7 +49,7 @@ TEST(ProcedureSettings, SlipsNameTheKeyAndTheMend) {
   EXPECT_THAT(refusal("staircase", R"({"steps": [2, 0]})"), HasSubstr("procedure.steps: found 0"));
   EXPECT_THAT(refusal("staircase", R"({"stop": {"trails": 5}})"), HasSubstr("did you mean 'trials'"));
   EXPECT_THAT(refusal("staircase", R"({"stop": {"trials": null, "reversals": null}})"),
-              HasSubstr("when to stop"));
+              HasSubstr("no stopping rule"));
   EXPECT_THAT(refusal("staircase", R"({"estimate_reversals": 7})"), HasSubstr("even number"));
   EXPECT_THAT(refusal("staircase", R"({"stimulus": {"start": 2}})"),
               HasSubstr("between minimum and maximum"));
