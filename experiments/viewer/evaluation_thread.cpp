@@ -74,11 +74,11 @@ class EvaluationThread::Work {
     for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
       if (!info.needsReference) continue;
       const ParameterValues defaults(info.parameters, {});
-      const auto compare = [&](const Image& product, std::map<std::string, ErrorMap>& maps) {
+      const auto compare = [&, &metric = info](const Image& product, std::map<std::string, ErrorMap>& maps) {
         const perception::ComparisonInput input{
             nullptr,    nullptr, &product, out.reference.get(), everywhere ? nullptr : &request.view->mask,
             &metricGpu_};
-        perception::MetricResult result = info.compare(input, defaults);
+        perception::MetricResult result = metric.compare(input, defaults);
         if (result.map && !maps.count(result.mapName)) {
           const double white = experiments::mapWhite(result.mapName);
           maps[result.mapName] = {

@@ -109,8 +109,8 @@ TEST(PageView, EveryPageFitsIntoCommonWindows) {
                                std::to_string(static_cast<int>(shape.scale)) + ".png";
       SCOPED_TRACE(file);
       PageLayout layout;
-      window.draw(style.background, [&] {
-        layout = drawPage(page, glm::vec2(shape.sizePx), {-1, -1}, style);
+      window.draw(style.background, [&, &shown = page] {
+        layout = drawPage(shown, glm::vec2(shape.sizePx), {-1, -1}, style);
       });
       const Image image = window.readBack();
       window.show();

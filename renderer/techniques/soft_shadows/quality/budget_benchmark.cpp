@@ -13,6 +13,7 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
