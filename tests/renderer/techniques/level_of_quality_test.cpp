@@ -306,33 +306,6 @@ TEST_F(LevelsOfQuality, SmoothsAsTheFilterIsDefined) {
   }
 }
 
-// Masks are joined by OR, whatever the order; areas are added up in another one.
-TEST_F(LevelsOfQuality, InvocationsThatShareAPixelFindWhatOneFinds) {
-  const scene::Scene scene = makeScene("sphere_grid");
-  for (const char* occluders : {"micropatches", "microquads_microtris", "microrects"})
-    for (const char* technique : {"soft_shadows/bitmask", kArea}) {
-      Graded one;
-      for (const int64_t lanes : {1, 2, 8, 16}) {
-        Graded several = grade(scene, technique,
-                               {{"resolution", int64_t{256}},
-                                {"occluders", text(occluders)},
-                                {"passes", text("split")},
-                                {"passes.lanes", lanes}},
-                               {61, 45});
-        if (lanes == 1) {
-          one = std::move(several);
-          continue;
-        }
-        SCOPED_TRACE(testing::Message() << technique << ' ' << occluders << ' ' << lanes);
-        if (technique != std::string(kArea)) {
-          EXPECT_TRUE(sameBits(one.visibility.data, several.visibility.data));
-        }
-        for (size_t i = 0; i < one.visibility.pixels(); ++i)
-          ASSERT_NEAR(one.visibility.data[i], several.visibility.data[i], 1e-5) << i;
-      }
-    }
-}
-
 // A search area of e texels on an axis has at most e / 2^i + 2 micro-occluders of level i there, less what
 // level 0 shows to be none: cells of c texels, of which e in a row touch at most (e - 2) / c + 2. With r the
 // budget's root and a level l that is not smoothed, e <= r 2^l; cells of the level above have at least 2^l
