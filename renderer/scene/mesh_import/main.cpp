@@ -19,6 +19,13 @@
 
 namespace {
 
+// The shadow memory of AddressSanitizer is beyond any limit.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kLimitMemory = false;
+#else
+constexpr bool kLimitMemory = true;
+#endif
+
 void limit(__rlimit_resource_t resource, double amount) {
   rlimit limits{};
   if (getrlimit(resource, &limits) != 0) return;
@@ -58,9 +65,7 @@ int main(int argc, char** argv) {
   double read = 0.0;
   const auto opening = [&](uint64_t bytes) {
     read += static_cast<double>(bytes);
-#if !defined(__SANITIZE_ADDRESS__)  // whose shadow memory is beyond any limit
-    limit(RLIMIT_AS, memoryMiB * 1048576.0 + perByte * read);
-#endif
+    if (kLimitMemory) limit(RLIMIT_AS, memoryMiB * 1048576.0 + perByte * read);
   };
   try {
     scene::sendMesh(scene::readMeshFile(argv[1], opening), send);
