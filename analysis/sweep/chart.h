@@ -50,8 +50,9 @@ struct ChartAxis {
   bool isAtFoot(double value) const { return foot && place(value) == *foot; }
 };
 
-/// Round numbers within [low, high], in steps of 1, 2 or 5 times a power of ten; five at most.
-std::vector<double> roundLevels(double low, double high);
+/// Round numbers within [low, high], in steps of 1, 2 or 5 times a power of ten; one more than
+/// `steps` at most.
+std::vector<double> roundLevels(double low, double high, int steps = 4);
 
 /// An axis wide enough for all values. Not logarithmic only if told so.
 ChartAxis makeChartAxis(const std::vector<double>& values, bool linear);

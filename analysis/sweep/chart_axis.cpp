@@ -32,7 +32,8 @@ void addLogTicks(ChartAxis& axis, double low) {
   // Of less than a decade even steps say more.
   axis.ticks.clear();
   axis.minorTicks.clear();
-  for (const double level : roundLevels(low, axis.high)) axis.ticks.emplace_back(formatNumber(level), level);
+  for (const double level : roundLevels(low, axis.high, 6))
+    axis.ticks.emplace_back(formatNumber(level), level);
 }
 
 double step125(double width) {
@@ -44,10 +45,10 @@ double step125(double width) {
 
 }  // namespace
 
-std::vector<double> roundLevels(double low, double high) {
+std::vector<double> roundLevels(double low, double high, int steps) {
   std::vector<double> levels;
   if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) return levels;
-  const double step = step125((high - low) / 4.0);
+  const double step = step125((high - low) / steps);
   for (double multiple = std::ceil(low / step); multiple * step <= high; ++multiple)
     levels.push_back(multiple * step);
   return levels;

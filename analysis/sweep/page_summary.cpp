@@ -27,9 +27,7 @@ std::string renderFront(const Sweep& sweep, const Panel& panel) {
   };
   const double least = sweep.comparableError(of(panel.front.back()));
   const auto note = [&](size_t index) {
-    return panel.verdict.knee == index ? "worth it; the knee"
-           : of(index).worth           ? "worth it"
-                                       : "gains too little";
+    return panel.verdict.knee == index ? "knee" : of(index).worth ? "yes" : "no";
   };
   return fmt::format("<details{}><summary>Pareto front: {}, from fast to exact</summary>",
                      panel.front.size() <= kOpenFront ? " open" : "",
@@ -42,7 +40,7 @@ std::string renderFront(const Sweep& sweep, const Panel& panel) {
                     .add(rounded("y", sweep.y.label()), [&](size_t index) { return of(index).y; })
                     .addIf(least > 0.0, significant("times_least", "× the least", 3),
                            [&](size_t index) { return sweep.comparableError(of(index)) / least; })
-                    .add(text("verdict", "cost"), note),
+                    .add(text("verdict", "Worth it"), note),
                 options) +
          "</details>\n";
 }

@@ -18,7 +18,7 @@ struct LevelColumn {
   std::string heading() const {
     const std::string end = formatNumber(last) + " ×";
     if (first == last) return first == 1.0 ? "the least" : "up to " + end;
-    return first == 1.0 ? "the least to " + end : formatNumber(first) + " to " + end;
+    return first == 1.0 ? "up to " + end : formatNumber(first) + " to " + end;
   }
 };
 
@@ -70,9 +70,8 @@ std::string renderWinner(const Sweep& sweep, const Panel& panel, const TradeOffV
 std::string renderMatrix(const Sweep& sweep) {
   const std::vector<LevelColumn> columns = columnsOf(sweep);
   std::string out = fmt::format(
-      "<div class=\"scroll\"><table class=\"verdict\"><caption>{} setting by the {} that is allowed, in "
-      "multiples "
-      "of the least of its panel. ≈: not told apart from it in {}.</caption>\n<thead><tr><th "
+      "<div class=\"scroll\"><table class=\"verdict\"><caption>{} setting for the {} that is allowed, in "
+      "multiples of the panel's least. ≈: not told apart from it in {}.</caption>\n<thead><tr><th "
       "scope=\"col\">{}</th>",
       sweep.xIsTime ? "Fastest" : "Cheapest", escapeHtml(sweep.y.title), sweep.xIsTime ? "time" : "cost",
       escapeHtml(sweep.names.heading(sweep.panelName)));

@@ -109,7 +109,7 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
   for (size_t index = 0; index < charts.size(); ++index) {
     const Chart& chart = charts[index];
     const ChartAxis &x = xAxes[index], &y = yAxes[index];
-    page.ownRanges = page.ownRanges || x.low != xAxes[0].low || y.low != yAxes[0].low;
+    if (!isCounter) page.ownRanges = page.ownRanges || x.low != xAxes[0].low || y.low != yAxes[0].low;
     out.push_back(chart.marks.empty() ? "" : drawChart(chart, x, y, sweep.series.size(), folder));
     for (const ChartMark& mark : chart.marks)
       page.footUsed = page.footUsed || x.isAtFoot(mark.x) || y.isAtFoot(mark.y);
