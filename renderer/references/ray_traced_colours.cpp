@@ -11,6 +11,7 @@
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
 #include "renderer/references/square_number.h"
+#include "renderer/techniques/sampling_noise.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
@@ -143,6 +144,11 @@ class RayTracedColours : public techniques::Technique {
   std::optional<gl::Texture> product_;
   Image colour_;
 };
+
+const Registered<techniques::SamplingNoise> kNoise{{kColours, [](const ParameterValues& values) {
+                                                      return largestDeviation(
+                                                          ColoursSettings::table().read(values).samples);
+                                                    }}};
 
 double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 
