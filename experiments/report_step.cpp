@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/base/environment.h"
+#include "experiments/base/failure.h"
 
 namespace limen::experiments {
 namespace {
@@ -48,10 +49,10 @@ ReportResult makeReport(const std::string& storeName, const std::string& folderN
   const int status = call(command);
   if (status != 0)
     return {"",
-            fmt::format(
-                "the report could not be written (limen-report ended with {}); the runs are kept in {}; try: "
-                "limen report {}",
-                status, store, quoteCommand({command.begin() + 1, command.end()})),
+            fmt::format("the report could not be written ({} ended with {}); the runs are kept in {}; try: "
+                        "limen report {}",
+                        calledName("limen-report"), status, store,
+                        quoteCommand({command.begin() + 1, command.end()})),
             true};
   const fs::path page = fs::path(folder) / "report.html";
   const std::string path = fs::exists(page) ? page.string() : folder;

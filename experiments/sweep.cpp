@@ -230,6 +230,8 @@ class Sweeper {
   ReportResult writeReport(const PlannedSweep& sweep) const {
     const fs::path store = sweep.store;
     const std::string folder = (store.parent_path() / (store.stem().string() + "_report")).string();
+    // Charts of a large sweep take a while.
+    if (isatty(STDOUT_FILENO)) say("writing the report");
     ReportResult result = makeReport(sweep.store, folder);
     if (result.failed)
       std::fprintf(stderr, "%s: %s\n", calledName(program_.name).c_str(), printable(result.message).c_str());
