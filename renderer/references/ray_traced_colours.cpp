@@ -145,10 +145,10 @@ class RayTracedColours : public techniques::Technique {
   Image colour_;
 };
 
-const Registered<techniques::SamplingNoise> kNoise{{kColours, [](const ParameterValues& values) {
-                                                      return largestDeviation(
-                                                          ColoursSettings::table().read(values).samples);
-                                                    }}};
+const Registered<techniques::SamplingNoise> kColourNoise{
+    {kColours, [](const ParameterValues& values) {
+       return largestDeviation(ColoursSettings::table().read(values).samples);
+     }}};
 
 double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 

@@ -121,7 +121,7 @@ class RayTracedLight : public techniques::Technique {
   Image visibility_;
 };
 
-const Registered<techniques::SamplingNoise> kNoise{
+const Registered<techniques::SamplingNoise> kVisibilityNoise{
     {"soft_shadows/ray_traced", [](const ParameterValues& values) {
        return largestDeviation(RayTracedSettings::table().read(values).samples);
      }}};
