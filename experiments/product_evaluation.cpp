@@ -10,16 +10,16 @@
 #include "experiments/measured_quantities.h"
 #include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
-#include "renderer/techniques/sampling_noise.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
 
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
                                          std::vector<std::pair<std::string, Image>>& maps) {
-  const techniques::SamplingNoise* noise =
+  const references::SamplingNoise* noise =
       run.reference.name.empty() ? nullptr
-                                 : techniques::SamplingNoiseRegistry::instance().find(run.reference.name);
+                                 : references::SamplingNoiseRegistry::instance().find(run.reference.name);
   std::vector<store::Measurement> out;
   for (const Configuration& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);

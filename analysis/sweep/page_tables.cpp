@@ -113,10 +113,9 @@ std::string renderRunTable(const Sweep& sweep) {
   HtmlOptions options;
   options.attributes = " class=\"sortable\"";
   options.box = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All runs\">";
-  options.caption =
-      counted(sweep.cells.size(), "finished run") +
-      "; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “Front”: place on the "
-      "Pareto front of its panel.";
+  options.caption = counted(sweep.cells.size(), "finished run") +
+                    "; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>.";
+  if (sweep.noVerdict.empty()) options.caption += " “Front”: place on the Pareto front of its panel.";
   options.sortable = true;
   options.ofRow = [&](size_t row) {
     return fmt::format(" data-run=\"{}\" data-series=\"{}\"", escapeHtml(sweep.cells[row].run.key),

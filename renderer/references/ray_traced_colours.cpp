@@ -10,8 +10,8 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/references/square_number.h"
-#include "renderer/techniques/sampling_noise.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
@@ -145,10 +145,10 @@ class RayTracedColours : public techniques::Technique {
   Image colour_;
 };
 
-const Registered<techniques::SamplingNoise> kColourNoise{
-    {kColours, [](const ParameterValues& values) {
-       return largestDeviation(ColoursSettings::table().read(values).samples);
-     }}};
+const Registered<SamplingNoise> kColourNoise{{kColours, [](const ParameterValues& values) {
+                                                return largestDeviation(
+                                                    ColoursSettings::table().read(values).samples);
+                                              }}};
 
 double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 

@@ -10,8 +10,8 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/references/square_number.h"
-#include "renderer/techniques/sampling_noise.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::references {
@@ -121,7 +121,7 @@ class RayTracedLight : public techniques::Technique {
   Image visibility_;
 };
 
-const Registered<techniques::SamplingNoise> kVisibilityNoise{
+const Registered<SamplingNoise> kVisibilityNoise{
     {"soft_shadows/ray_traced", [](const ParameterValues& values) {
        return largestDeviation(RayTracedSettings::table().read(values).samples);
      }}};

@@ -145,8 +145,9 @@ TEST_F(SweepTest, TimesWhoseIntervalsOverlapAreNotCalledBeaten) {
 }
 
 TEST_F(SweepTest, ThereIsNoVerdictWhereXIsNeitherATimeNorACost) {
-  const std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 4, {1}, 0.05)};
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 4, {1}, 0.05)};
   for (const char* x : {"samples", "rmse"}) {
+    for (store::Run& run : runs) run.key += x;
     const Sweep sweep = load(runs, {{"x", x}, {"y", "rmse"}});
     EXPECT_THAT(sweep.noVerdict, testing::HasSubstr("neither a time nor a cost")) << x;
     EXPECT_TRUE(sweep.panels.at(0).front.empty());
@@ -183,7 +184,7 @@ TEST_F(SweepTest, TheNoiseOfTheReferenceIsThatOfTheRunsOwnMetric) {
   const Sweep sweep = load(runs, {{"x", "gpu_ms"}, {"y", "rmse"}});
   EXPECT_EQ(sweep.panels[0].noise, 0.003);
   EXPECT_EQ(sweep.panels[0].verdict.levels[0].cheapest, 0U);
-  EXPECT_TRUE(sweep.cells[1].beaten);
+  EXPECT_THAT(sweep.panels[0].verdict.worth, ElementsAre(0));
 }
 
 TEST_F(SweepTest, MultiplesOfDecibelsAreThoseOfTheAmplitude) {

@@ -7,7 +7,7 @@
 #include "experiments/base/parameter.h"
 #include "experiments/base/registry.h"
 
-namespace limen::techniques {
+namespace limen::references {
 
 /// Noise of a reference whose pixels are sampled independently of each other, registered beside it. A
 /// reference that samples all pixels at the same points has none: its errors go together and do not average
@@ -20,4 +20,4 @@ struct SamplingNoise {
 };
 using SamplingNoiseRegistry = Registry<SamplingNoise>;
 
-}  // namespace limen::techniques
+}  // namespace limen::references
