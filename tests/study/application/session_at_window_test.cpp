@@ -15,6 +15,7 @@
 #include "experiments/base/image.h"
 #include "tests/renderer/window/x_server.h"
 #include "tests/study/application/study_run.h"
+#include "tests/study/presentation/pseudo_terminal.h"
 
 namespace limen {
 namespace {
@@ -189,6 +190,139 @@ TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
   EXPECT_EQ(column("SELECT device FROM response"), std::vector<std::string>{"mouse"});
   EXPECT_EQ(column("SELECT json_extract(extra, '$.early_inputs[0].key') FROM response"),
             std::vector<std::string>{"y"});
+  EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});
+}
+
+/// Of a button's face, which a highlight brightens.
+float brightnessAt(const Image& image, int x, int y) { return image.at(x, y, 1); }
+
+TEST_F(SessionAtWindow, APointerThatHappensToRestOnAnAnswerSuggestsAndAnswersNothing) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments({"--screenshots", path("shots")}), path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  run.key("y");
+  ASSERT_TRUE(run.reaches("instructions"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("practice_start"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("stimulus"));
+  run.act({"mousemove", "420", "270"});  // where "no" will be
+  ASSERT_TRUE(run.reaches("question"));
+  run.act({"click", "1"});
+  run.act({"mousemove", "220", "270", "click", "1"});
+  ASSERT_TRUE(run.reaches("stimulus"));
+  run.signal(SIGTERM);
+  run.finish();
+  EXPECT_EQ(column("SELECT answer FROM response"), std::vector<std::string>{"yes"})
+      << "the first click counted";
+  bool seen = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path("shots"))) {
+    if (entry.path().filename().string().find("_question_1") == std::string::npos) continue;
+    seen = true;
+    const Image image = readImage(entry.path().string());
+    // Inside the buttons, beside their lettering.
+    EXPECT_EQ(brightnessAt(image, 240, 250), brightnessAt(image, 400, 250));
+    EXPECT_NE(brightnessAt(image, 240, 250), brightnessAt(image, 10, 10)) << "no button there";
+  }
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(SessionAtWindow, AnswersStandOnTheSidesThatTheProtocolDeclares) {
+  std::ostringstream text;
+  text << std::ifstream(path("quick.yaml")).rdbuf();
+  std::string protocol = text.str();
+  const std::string task = "task: {type: yes_no,";
+  protocol.replace(protocol.find(task), task.size(), task + " answer_sides: reversed,");
+  std::ofstream(path("quick.yaml")) << protocol << "\nwords: german\n";
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments({"--screenshots", path("shots")}), path("messages"));
+  // In this small window German instructions take more than one page.
+  std::string screen;
+  while ((screen = run.line()) != "screen: question") {
+    ASSERT_NE(screen, "");
+    if (screen != "screen: stimulus") run.key(screen == "screen: consent" ? "y" : "space");
+  }
+  run.act({"mousemove", "420", "270", "click", "1"});
+  ASSERT_TRUE(run.reaches("question"));
+  run.key("Left");
+  ASSERT_TRUE(run.reaches("practice_result"));
+  run.signal(SIGTERM);
+  run.finish();
+  // On the right is yes, which German participants read as "ja".
+  EXPECT_EQ(column("SELECT answer FROM response ORDER BY event"), (std::vector<std::string>{"yes", "no"}));
+  EXPECT_EQ(column("SELECT json_extract(data, '$.answers_from_the_left.main') FROM event WHERE number = 0"),
+            std::vector<std::string>{"[\"no\",\"yes\"]"});
+  EXPECT_EQ(column("SELECT json_extract(facts, '$.front_end.language') FROM environment"),
+            std::vector<std::string>{"Deutsch"});
+}
+
+TEST_F(SessionAtWindow, ARecorderGetsEveryMarkerAndTheStoreKnowsWhen) {
+  const test::XServer server(640, 480);
+  test::PseudoTerminal recorder;
+  test::StudyRun run(server.display(), arguments({"--markers", "serial:" + recorder.device()}),
+                     path("messages"));
+  answerAll(run);
+  ASSERT_EQ(run.finish(), 0) << run.messages();
+  const std::string all =
+      "FROM event, json_each(event.data, '$.markers') AS marker WHERE kind = 'answered' ORDER BY number, "
+      "marker.key";
+  const auto stored = [&](const std::string& what) {
+    std::vector<int64_t> out;
+    for (const std::string& text : column("SELECT json_extract(marker.value, '$." + what + "') " + all))
+      out.push_back(std::stoll(text));
+    return out;
+  };
+  const std::vector<int64_t> codes = stored("code"), sent = stored("sent_ns"), due = stored("due_ns");
+  // In each of 8 trials: stimulus, its end, question, answer; a change in those that have one.
+  const size_t changes = std::stoul(column("SELECT count(*) FROM trial WHERE change = 1").at(0));
+  ASSERT_EQ(codes.size(), 8 * 4 + changes);
+  ASSERT_TRUE(recorder.waitFor(codes.size()));
+  const auto received = recorder.received();
+  ASSERT_EQ(received.size(), codes.size());
+  for (size_t i = 0; i < codes.size(); ++i) {
+    EXPECT_EQ(received[i].first, codes[i]) << i;
+    EXPECT_GE(sent[i], due[i]);
+    // The listener is another thread of this machine, which has two processors and much to do.
+    EXPECT_NEAR(static_cast<double>(received[i].second - sent[i]) * 1e-9, 0.0, 0.25) << i;
+  }
+  // A stimulus's marker carries the time of its first frame, the question's and the answer's those of the
+  // answer.
+  const std::string ofKind =
+      "SELECT json_extract(marker.value, '$.due_ns') FROM event, "
+      "json_each(event.data, '$.markers') AS marker WHERE kind = 'answered' AND "
+      "json_extract(marker.value, '$.marker') = ";
+  EXPECT_EQ(column(ofKind + "'stimulus' ORDER BY number"),
+            column("SELECT min(swap_ns) FROM frame_log GROUP BY trial ORDER BY trial"));
+  EXPECT_EQ(column(ofKind + "'question' ORDER BY number"),
+            column("SELECT question_ns FROM response ORDER BY event"));
+  EXPECT_EQ(column(ofKind + "'answer' ORDER BY number"),
+            column("SELECT answered_ns FROM response ORDER BY event"));
+  EXPECT_EQ(column("SELECT json_extract(facts, '$.front_end.markers.codes.change') FROM environment"),
+            std::vector<std::string>{"2"});
+}
+
+TEST_F(SessionAtWindow, AMarkerPortThatDoesNotWorkIsNamedBeforeTheSession) {
+  const test::XServer server(640, 480);
+  test::StudyRun run(server.display(), arguments({"--markers", "serial:/dev/no_such_tty"}), path("messages"));
+  EXPECT_EQ(run.finish(), 2);
+  EXPECT_THAT(run.messages(), HasSubstr("/dev/no_such_tty"));
+  EXPECT_FALSE(fs::exists(path("s.sqlite")));
+}
+
+TEST_F(SessionAtWindow, ARecorderThatIsUnpluggedStopsTheSession) {
+  const test::XServer server(640, 480);
+  test::PseudoTerminal recorder;
+  test::StudyRun run(server.display(), arguments({"--markers", "serial:" + recorder.device()}),
+                     path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  recorder.hangUp();
+  run.key("y");
+  ASSERT_TRUE(run.reaches("instructions"));
+  run.key("space");
+  ASSERT_TRUE(run.reaches("practice_start"));
+  run.key("space");
+  EXPECT_EQ(run.finish(), 1);
+  EXPECT_THAT(run.rest(), testing::AllOf(HasSubstr(recorder.device()), HasSubstr("--resume")));
   EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});
 }
 

@@ -51,6 +51,7 @@ class Export : public testing::Test {
         block{1, "main", "main", false, 1};
     store::StudyEntry started;
     started.event = {0, "started", "2026-03-01T12:00:00.000Z", 10 * kSecond, json::object()};
+    started.event.data["answers_from_the_left"] = {{"main", {"no", "yes"}}};
     started.form = json{{"age", "34"}, {"vision", "normal"}};
     const int64_t id = log.start(session, {"p0", "quick", "quick.yaml", "A title", "title: A title"},
                                  {"d0", "desk", "name: desk", json::object()},
@@ -68,7 +69,10 @@ class Export : public testing::Test {
       row.part = "main";
       row.block = isPractice ? 0 : 1;
       row.condition = {{"distance", "4"}};
-      row.stimuli = json::array({json::object()});
+      // Practice changed, the others showed either level throughout.
+      row.stimuli = json::array({{{"changes", isPractice},
+                                  {"catch_shows_after", attempt == 1},
+                                  {"levels", {{"before", 3}, {"after", 0}}}}});
       row.stimulusHashes = {"abc"};
       row.practice = isPractice;
       row.seed = 7417417417;
@@ -170,6 +174,9 @@ TEST_F(Export, CsvHasARowForEveryShowing) {
   EXPECT_THAT(cells("reaction_time_s"), ElementsAre("0.25", "", "0.25"));
   EXPECT_THAT(cells("missed_blanks"), ElementsAre("0", "2", "0"));
   EXPECT_THAT(cells("condition_distance"), ElementsAre("4", "4", "4"));
+  EXPECT_THAT(cells("shown"), ElementsAre("change", "before", "after"));
+  EXPECT_THAT(cells("levels"), ElementsAre("3>0", "3", "0"));
+  EXPECT_THAT(cells("answers_from_the_left"), ElementsAre("no | yes", "no | yes", "no | yes"));
   const auto frames = parse(read(folder_ / "out/frames.csv"), ',');
   ASSERT_EQ(frames.size(), 6u);
   EXPECT_EQ(frames[3].at("swap_s"), "0.25");
@@ -226,7 +233,11 @@ TEST_F(Export, BidsHasWhatTheStandardRequires) {
   const auto rows = parse(events, '\t');
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[1].at("answer"), "n/a");
-  EXPECT_EQ(json::parse(read(folder_ / "out" / (stem + ".json")))["TaskName"], "quick");
+  // BIDS 1.9, "Task events": a sidecar of events describes columns, each by an object; what is said of a task
+  // is in a file for all that has its label.
+  for (const auto& [column, about] : json::parse(read(folder_ / "out" / (stem + ".json"))).items())
+    EXPECT_TRUE(about.is_object()) << column;
+  EXPECT_EQ(json::parse(read(folder_ / "out/task-quick_beh.json"))["TaskName"], "quick");
   EXPECT_EQ(parse(read(folder_ / "out/participants.tsv"), '\t')[0].at("participant_id"), sub);
 }
 
