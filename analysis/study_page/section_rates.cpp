@@ -175,7 +175,7 @@ ResultTable rowsOf(const ResultTable& rates, const std::string& scope) {
     std::string own;
     bool change = true, byCatch = false;
     for (const Column& column : rates.columns) {
-      if (column.name == "catch_shows") byCatch = column.cells[row].has_value();
+      if (column.name == "catch_shows") byCatch = !column.cells[row].empty();
       if (column.name == "scope") own = cellText(column, column.cells[row]);
       if (column.name == "change") change = std::get<bool>(column.cells[row].value());
     }

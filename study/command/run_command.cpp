@@ -232,8 +232,9 @@ void addRunCommand(CLI::App& app, Run& run) {
                     "Trials count even if frames were late: for trying things out, not for data");
   command->add_option(
       "--photodiode", options->photodiode,
-      "A square for a light sensor, CORNER:PIXELS (lower_left:64): white once a stimulus has changed, "
-      "otherwise on every other frame. The sensor must cover it, since it gives answers away");
+      "A square for a light sensor, CORNER:PIXELS (lower_left:64): white while a stimulus shows its state "
+      "after the change, otherwise on every other frame. The sensor must cover it, since it gives answers "
+      "away");
   command->add_option(
       "--markers", options->markers,
       "Port to a recorder that gets a byte when a stimulus begins, changes and ends, at the "
