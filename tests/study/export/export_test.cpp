@@ -80,6 +80,14 @@ class Export : public testing::Test {
       begun.begun = row;
       ended.event = {++number, valid ? "answered" : "trial_invalid", "2026-03-01T12:00:02.000Z",
                      endS * kSecond, json::object()};
+      if (markers_)
+        ended.event.data = {{"trial", trial},
+                            {"attempt", attempt},
+                            {"markers",
+                             {{{"marker", "stimulus"},
+                               {"code", 1},
+                               {"due_ns", startS * kSecond + kSecond / 2},
+                               {"sent_ns", startS * kSecond + kSecond / 2 + kSecond / 1000}}}}};
       store::StudyTrialEnd end{trial, attempt, valid, valid ? "" : "2 missed frames", {}, {}};
       if (valid) {
         store::StudyResponse response;
@@ -149,6 +157,7 @@ class Export : public testing::Test {
   fs::path folder_;
   std::string store_;
   uint64_t seed_ = 18446744073709551615U;
+  bool markers_ = false;  ///< sessions were run with a recorder
 };
 
 TEST_F(Export, CsvHasARowForEveryShowing) {
@@ -187,7 +196,34 @@ TEST_F(Export, CsvHasARowForEveryShowing) {
   EXPECT_EQ(people[0].at("vision"), "normal");
 }
 
+TEST_F(Export, MarkersComeWithTheirTimes) {
+  addSession("anna", "1");
+  writeExport(request("without", {ExportFormat::Csv}));
+  EXPECT_FALSE(fs::exists(folder_ / "without/markers.csv"));
+  markers_ = true;
+  addSession("anna", "2");
+  writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
+  const auto rows = parse(read(folder_ / "out/csv/markers.csv"), ',');
+  ASSERT_EQ(rows.size(), 3u);
+  // The session began at 10 s of the clock, its trials at 11, 14 and 16 s.
+  const double due[] = {1.5, 4.5, 6.5};
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(std::stod(rows[i].at("due_s")), due[i], 1e-9);
+    EXPECT_NEAR(std::stod(rows[i].at("sent_s")), due[i] + 0.001, 1e-9);
+    EXPECT_EQ(rows[i].at("marker"), "stimulus");
+    EXPECT_EQ(rows[i].at("code"), "1");
+    EXPECT_EQ(rows[i].at("session"), "2");
+  }
+  EXPECT_EQ(rows[2].at("attempt"), "1");
+  const std::string subject = subjectOf("anna");
+  EXPECT_TRUE(
+      fs::exists(folder_ / "out/bids/sourcedata" / ("sub-" + subject + "_ses-2_task-quick_markers.tsv")));
+  EXPECT_TRUE(fs::exists(folder_ / "out/psych_ds/data" /
+                         ("study-quick_subject-" + subject + "_session-2_description-markers_data.csv")));
+}
+
 TEST_F(Export, EveryColumnIsInTheDictionaries) {
+  markers_ = true;
   addSession("anna", "1");
   addSession("bert", "1");
   writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
