@@ -133,7 +133,8 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
     throw Error("has to be 100 to 1000000", "--samples", "2000 are usual");
   const FitSettings settings = readFitSettings(options, data);
   std::optional<IntervalMethod> method;
-  if (!options.intervals.empty()) method = readIntervalMethod(options.intervals, "--intervals");
+  if (!options.intervals.empty() && options.intervals != "none")
+    method = readIntervalMethod(options.intervals, "--intervals");
   const bool parametric =
       choice(options.resample, {"parametric", "nonparametric"}, "--resample") == "parametric";
 
@@ -184,6 +185,9 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
       case IntervalMethod::Laplace:
         answer.intervals = laplaceIntervals(answer.data, answer.fit, options.confidence);
         break;
+      case IntervalMethod::Observers:
+        throw Error("takes the pooled answers of a result store's observers", "--intervals observers",
+                    "of a table or a single observer take profile");
       case IntervalMethod::Posterior:
         answer.intervals = posteriorIntervals(answer.data, answer.fit, options.confidence);
         break;

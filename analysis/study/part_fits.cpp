@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/study/analyses.h"
 
+#include "analysis/study/observer_intervals.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
@@ -30,16 +31,25 @@ FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const Fitte
 
 FitAnswer fitPart(const StudyAnswers& study, const FittedPart& part, const FitOptions& typed) {
   const StudyPart& own = study.plan.parts[part.part];
-  FitAnswer out = answerFit(optionsOf(typed, own, part), part.conditions);
+  FitOptions options = optionsOf(typed, own, part);
+  const bool pooled = part.pooledObservers > 1;
+  if (options.intervals.empty())
+    options.intervals = nameOf(pooled ? IntervalMethod::Observers : IntervalMethod::Profile);
+  const bool overObservers = pooled && options.intervals == nameOf(IntervalMethod::Observers);
+  if (overObservers) options.intervals = "none";
+  FitAnswer out = answerFit(options, part.conditions);
+  if (overObservers) out.intervals = observerIntervals(study, part, out.fit, options.confidence);
   out.part = own.name;
   out.notes = part.notes;
+  if (pooled && out.intervals && !overObservers)
+    out.notes.push_back(
+        "intervals take all answers as independent, which makes them too narrow for several observers");
   return out;
 }
 
 std::vector<PartFit> studyFits(const StudyAnswers& study, const std::string& store) {
   FitOptions options;
   options.file = store;
-  options.intervals = nameOf(IntervalMethod::Profile);
   std::vector<PartFit> out;
   for (const StudyPart& part : study.plan.parts) {
     if (!part.isBinary() || numericVariables(part).empty()) continue;
