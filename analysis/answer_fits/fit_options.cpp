@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "analysis/answer_tables/table.h"
+#include "analysis/answer_tables/answer_columns.h"
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -111,10 +111,7 @@ std::vector<Condition> readConditions(const FitOptions& options) {
       condition.blocks.push_back(block);
       continue;
     }
-    const int64_t outcome = table.count(row, correct);
-    if (outcome > 1)
-      throw Error("'" + table.text(row, correct) + "' is neither 0 nor 1", table.place(row, correct),
-                  "outcomes are 0 or 1; counts take --k and --n");
+    const int64_t outcome = readBinary(table, row, correct, "outcomes are 0 or 1; counts take --k and --n");
     const auto [place, first] = blockOf.emplace(std::pair(at->second, block.level), condition.blocks.size());
     if (first) condition.blocks.push_back({block.level, 0, 0, 0.0});
     Block& pooled = condition.blocks[place->second];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "analysis/output/text_output.h"
 #include "experiments/base/text.h"
 #include "experiments/base/yaml_json.h"
 
@@ -163,7 +164,8 @@ std::string conditionTitle(const StudyPart& part, const std::map<std::string, st
   std::vector<std::string> words;
   for (const StudyFactor& factor : part.factors)
     if (const auto own = condition.find(factor.name); own != condition.end())
-      words.push_back(levelTitle(own->second));
+      words.push_back((finiteNumber(own->second) ? levelTitle(factor.name) + " " : "") +
+                      levelTitle(own->second));
   return join(words);
 }
 
