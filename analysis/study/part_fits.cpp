@@ -29,7 +29,7 @@ FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const Fitte
 
 /// As tests/analysis/study/thresholds_test.cpp counts it, of 1000 studies.
 constexpr const char* kObserverCoverage =
-    "95 % ones held the threshold in COVERAGE % of 1000 simulated studies of 8 observers";
+    "95 % ones held the threshold in 95.8 % of 1000 simulated studies of 8 observers";
 
 }  // namespace
 

@@ -19,7 +19,8 @@ class ThresholdReader {
     out_.part = plan_.name;
     out_.variable = whole.variable;
     out_.title = plan_.titleOf(whole.variable);
-    if (plan_.adaptive && plan_.procedure.contains("type")) out_.procedure = plan_.procedure["type"];
+    if (plan_.adaptive && plan_.procedure.contains("type") && plan_.procedure["type"].is_string())
+      out_.procedure = plan_.procedure["type"];
     out_.settings = ownFitSettings(plan_, whole);
     for (const StudyFactor& factor : plan_.factors)
       if (factor.name != whole.variable) out_.factors.push_back(factor.name);
@@ -71,8 +72,12 @@ class ThresholdReader {
       one.observer = observer;
       one.condition = static_cast<size_t>(same - whole_.conditions.begin());
       for (const Block& block : part.conditions[i].blocks) one.trials += block.trials;
-      one.procedure = estimate(own, part.levels[i]);
       one.note = why;
+      try {
+        one.procedure = estimate(own, part.levels[i]);
+      } catch (const Error& error) {
+        one.note += (one.note.empty() ? "" : "; ") + out_.procedure + ": " + error.message();
+      }
       if (why.empty()) take(fit.conditions[i], intervals.conditions[i], one);
       out_.observers.push_back(std::move(one));
     }
@@ -81,7 +86,8 @@ class ThresholdReader {
   static void take(const ConditionFit& fit, const ConditionIntervals& intervals, ObserverThreshold& out) {
     constexpr size_t kThreshold = static_cast<size_t>(FitParameter::Threshold);
     if (fit.atBound[kThreshold] != 0) {
-      out.note = "the answers set no threshold: the fit ends at a bound";
+      out.note += (out.note.empty() ? "" : "; ") +
+                  std::string("the answers set no threshold: the fit ends at a bound");
       return;
     }
     out.value = fit.values[kThreshold];

@@ -26,7 +26,7 @@ std::string oneText(const Named& one, bool percent) {
   const auto value = [&](double v) { return percent ? percentText(v) : numberText(v); };
   std::string out = value(one.value);
   if (one.interval && one.interval->low < one.interval->high)
-    out += fmt::format(" (95 % {} to {})", value(one.interval->low), value(one.interval->high));
+    out += fmt::format(" [{} to {}]", value(one.interval->low), value(one.interval->high));
   return one.name.empty() ? out : out + " for " + one.name;
 }
 
@@ -133,7 +133,7 @@ std::string answerText(const StudyPage& page) {
   std::string out = page.study.simulated > 0 ? "Of simulated observers: " : "";
   for (size_t i = 0; i < sentences.size(); ++i) out += (i > 0 ? "; " : "") + sentences[i];
   if (page.study.simulated == 0) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
-  return out + ".";
+  return out + (out.find('[') == std::string::npos ? "." : " (in brackets: 95 % intervals over observers).");
 }
 
 }  // namespace limen::analysis

@@ -71,12 +71,11 @@ std::optional<Figure> thresholdFigure(const StudyPage& page, const PartThreshold
                   [](const ThresholdCondition& one) { return one.within.has_value(); }))
     if (std::any_of(part.conditions.begin(), part.conditions.end(),
                     [](const ThresholdCondition& one) { return one.within.has_value(); }))
-      figure.plots.push_back(
-          means + " using 1:5:(0):($6-$5) with vectors nohead title '95 % within observers' lw 5 " + kWithin);
-  figure.plots.push_back(means +
-                         " using 1:3:(0):($4-$3) with vectors nohead title '95 % over observers' lw 1.5 " +
-                         seriesColour(0));
-  figure.plots.push_back(means + " using 1:2 with points title 'mean' pt 7 ps 0.8 " + seriesColour(0));
+      figure.plots.push_back(means + " using 1:5:(0):($6-$5) with vectors nohead lw 5 " + kWithin +
+                             " title '95 % within observers'");
+  figure.plots.push_back(means + " using 1:3:(0):($4-$3) with vectors nohead lw 1.5 " + seriesColour(0) +
+                         " title '95 % over observers'");
+  figure.plots.push_back(means + " using 1:2 with points pt 7 ps 0.8 " + seriesColour(0) + " title 'mean'");
   // Intervals of few observers may be far wider than all that was measured.
   for (const std::vector<double>& row : rows)
     for (const double end : {row[2], row[3]})

@@ -165,16 +165,16 @@ struct Coverage {
   double share() const { return static_cast<double>(held) / given; }
 };
 
-// Of 200 studies 95 % are 190 with a standard deviation of 3.1: three of those are 90.4 to 99.6 %. Profile
-// intervals of the pooled answers, which take 560 answers of 8 observers as independent, hold it far more
-// rarely.
+// (Of 1000 studies the intervals hold it in 958, those of means in 956, profile intervals in 497.) Of 200
+// studies 95 % are 190 with a standard deviation of 3.1: three of those are 90.4 to 99.6 %. Profile intervals
+// of the pooled answers, which take 560 answers of 8 observers as independent, hold it far more rarely.
 TEST(Thresholds, IntervalsOverObserversHoldTheTruthAsOftenAsTheySay) {
   const TemporaryFolder folder;
   FitOptions typed;
   typed.file = folder.path("data");
   std::ofstream(typed.file) << "x\n";
   Coverage pooled, profile, means;
-  const int studies = getenv("TH_N") ? atoi(getenv("TH_N")) : 200;
+  const int studies = 200;
   for (uint64_t seed = 1; seed <= static_cast<uint64_t>(studies); ++seed) {
     const StudyAnswers study = drawStudy(seed);
     const FittedPart part = fittedParts(study, {}).at(0);
@@ -188,7 +188,6 @@ TEST(Thresholds, IntervalsOverObserversHoldTheTruthAsOftenAsTheySay) {
   }
   EXPECT_EQ(pooled.given, studies);
   EXPECT_EQ(means.given, studies);
-  printf("COV %g %g %g\n", pooled.share(), means.share(), profile.share());
   for (const Coverage& one : {pooled, means}) {
     EXPECT_GT(one.share(), 0.904);
     EXPECT_LT(one.share(), 0.996);
