@@ -35,7 +35,8 @@ std::optional<Figure> thresholdFigure(const StudyPage& page, const PartThreshold
     labels.emplace_back(static_cast<double>(labels.size() + 1), label);
   }
   const bool turned = longest * labels.size() > 44;
-  if (turned) figure.heightPx += 30 + static_cast<int>(std::min<size_t>(longest, 24)) * 4;
+  figure.heightPx += 60;
+  if (turned) figure.heightPx += 40 + static_cast<int>(std::min<size_t>(longest, 24)) * 5;
   double low = INFINITY, high = -INFINITY;
   const auto take = [&](double value) { low = std::min(low, value), high = std::max(high, value); };
   std::vector<std::vector<double>> rows;
@@ -64,15 +65,10 @@ std::optional<Figure> thresholdFigure(const StudyPage& page, const PartThreshold
   }
   const std::string means =
       addBlock(figure, "over observers: condition, mean, interval from, to, within observers from, to", rows);
-  figure.plots.push_back(
-      means + " using 1:2:3:4 with yerrorbars title 'mean, 95 % over observers' pt 7 ps 0.8 lw 1.5 " +
-      seriesColour(0));
   if (std::any_of(part.conditions.begin(), part.conditions.end(),
                   [](const ThresholdCondition& one) { return one.within.has_value(); }))
-    if (std::any_of(part.conditions.begin(), part.conditions.end(),
-                    [](const ThresholdCondition& one) { return one.within.has_value(); }))
-      figure.plots.push_back(means + " using 1:5:(0):($6-$5) with vectors nohead lw 5 " + kWithin +
-                             " title '95 % within observers'");
+    figure.plots.push_back(means + " using 1:5:(0):($6-$5) with vectors nohead lw 5 " + kWithin +
+                           " title '95 % within observers'");
   figure.plots.push_back(means + " using 1:3:(0):($4-$3) with vectors nohead lw 1.5 " + seriesColour(0) +
                          " title '95 % over observers'");
   figure.plots.push_back(means + " using 1:2 with points pt 7 ps 0.8 " + seriesColour(0) + " title 'mean'");
@@ -91,7 +87,8 @@ std::optional<Figure> thresholdFigure(const StudyPage& page, const PartThreshold
   } else if (high > low) {
     figure.settings += fmt::format("set yrange [{}:{}]\n", low - margin, high + margin);
   }
-  figure.settings += namedTics("x", labels, turned) + fmt::format("set xrange [0.5:{}.5]\n", labels.size());
+  figure.settings += "set clip two\n" + namedTics("x", labels, turned) +
+                     fmt::format("set xrange [0.5:{}.5]\n", labels.size());
   return figure;
 }
 
