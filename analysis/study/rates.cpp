@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "analysis/statistics/within_subjects.h"
 #include "analysis/study/link.h"
 
 namespace limen::analysis {
@@ -92,9 +93,11 @@ class PartRates {
   }
 
   void rows(double level, StudyRates& out) const {
+    const std::map<GroupKey, std::optional<Interval>> within = withinObservers(level);
     for (const auto& [key, group] : groups_[1]) {
       const bool change = true;
       out.rows.push_back(row(group, change, level));
+      if (const auto own = within.find(key); own != within.end()) out.rows.back().within = own->second;
       const auto catches = groups_[0].find(key);
       if (catches != groups_[0].end()) out.rows.push_back(row(catches->second, false, level));
     }
@@ -117,6 +120,32 @@ class PartRates {
   }
 
  private:
+  /// Of the levels of each factor, and of the conditions.
+  std::map<GroupKey, std::optional<Interval>> withinObservers(double level) const {
+    std::map<std::pair<int, size_t>, std::vector<GroupKey>> families;
+    for (const auto& [key, group] : groups_[1])
+      if (key.first > 0) families[{key.first, key.first == 1 ? key.second.front() : 0}].push_back(key);
+    std::map<GroupKey, std::optional<Interval>> out;
+    for (const auto& [name, keys] : families) {
+      std::vector<std::vector<double>> rates;
+      for (const GroupKey& key : keys) {
+        const auto& observers = groups_[1].at(key).observers;
+        rates.emplace_back();
+        for (const auto& [observer, count] : groups_[1].at(keys.front()).observers)
+          if (const auto own = observers.find(observer); own != observers.end())
+            rates.back().push_back(static_cast<double>(own->second.positive) /
+                                   static_cast<double>(own->second.trials));
+        if (rates.back().size() != observers.size() || observers.size() != rates.front().size())
+          rates.clear();
+        if (rates.empty()) break;
+      }
+      if (rates.empty()) continue;
+      const auto intervals = withinSubjectIntervals(rates, true, level);
+      for (size_t i = 0; i < keys.size(); ++i) out[keys[i]] = intervals[i];
+    }
+    return out;
+  }
+
   std::string of() const { return part_.asksYesNo() ? "yes" : "right"; }
 
   void count(const GroupKey& key, RateScope scope, const std::map<std::string, std::string>& condition,
@@ -162,7 +191,7 @@ class PartRates {
       rates.push_back(static_cast<double>(count.positive) / static_cast<double>(count.trials));
     }
     out.pooled = detectionRate(all.positive, all.trials, level);
-    out.overObservers = meanOverSubjects(rates, level);
+    out.overObservers = meanRateOverSubjects(rates, level);
     if (out.scope == RateScope::Part) out.published = publishedRate(study_.plan.name, part_.name, change);
     out.text = group.condition.empty() ? "all" : conditionText(part_, group.condition);
     return out;

@@ -26,6 +26,8 @@ class PartReader {
   void readVariables(const YamlNode& node, const std::string& what, Variables& out);
   void readFactors(const YamlNode& node, Part& out);
   FactorLevel readLevel(const std::string& factor, const YamlMember* named, const YamlNode& value);
+  /// Words for factors and axes, which the analysis reads.
+  void checkTitles(const YamlNode& node, const Part& part);
   void readTrials(const YamlNode& map, Part& out);
   void readProcedure(const YamlNode& node, Part& out);
   void readBlocks(const YamlNode& node, Part& out);
