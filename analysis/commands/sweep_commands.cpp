@@ -58,7 +58,7 @@ void addSweepCommands(CLI::App& app) {
   const auto call = std::make_shared<Call>();
   CLI::App* distances = app.add_subcommand(
       "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
-  distances->add_option("STORE", call->options.storePath, "result store that limen-sweep wrote")->required();
+  distances->add_option("STORE", call->options.storePath, "result store that limen sweep wrote")->required();
   distances->add_option("-p,--probability", call->options.probability, "detection that is allowed")
       ->capture_default_str();
   distances->add_option("--confidence", call->options.confidence, "of the interval over views")
@@ -131,6 +131,7 @@ void addReportCommand(CLI::App& app) {
   addStudyChoice(*command, call->study);
   command->add_flag("--json", call->json, "print one JSON line for each page");
   command->callback([call, command] {
+    if (call->sweeps.folder.empty()) call->sweeps.folder = defaultReportFolder(call->sweeps.storePath);
     call->study.choice.store = call->sweeps.storePath;
     report(*command, *call);
   });

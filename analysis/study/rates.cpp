@@ -84,6 +84,10 @@ class PartRates {
     const bool named = std::any_of(part_.factors.begin(), part_.factors.end(),
                                    [](const StudyFactor& f) { return f.name == "presentation"; });
     byStimulus_ = !named && presentations.size() > 1;
+    std::set<std::string> shown;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part && !answer.catchShows.empty()) shown.insert(answer.catchShows);
+    byCatch_ = shown.size() > 1;
     for (const StudyAnswer& answer : study.answers)
       if (answer.part == part) add(answer);
   }
@@ -164,6 +168,10 @@ class PartRates {
     if (byStimulus_)
       count({1, {part_.factors.size(), answer.presentation == "static" ? 1U : 0U}}, RateScope::Level,
             {{"presentation", answer.presentation}}, answer);
+    // False alarms that come with one state alone tell of answers by the first or last frame.
+    if (byCatch_ && !answer.catchShows.empty())
+      count({1, {part_.factors.size() + 1, answer.catchShows == "after" ? 1U : 0U}}, RateScope::Level,
+            {{"catch_shows", answer.catchShows}}, answer);
     // With one factor its levels are the conditions.
     if (levels.size() > 1) count({2, levels}, RateScope::Condition, answer.condition, answer);
   }
@@ -191,7 +199,7 @@ class PartRates {
 
   const StudyAnswers& study_;
   const StudyPart& part_;
-  bool byStimulus_ = false;
+  bool byStimulus_ = false, byCatch_ = false;
   std::map<GroupKey, Group> groups_[2];  // catch trials, trials with a change
 };
 

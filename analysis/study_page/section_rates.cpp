@@ -170,18 +170,19 @@ std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part) {
 
 namespace {
 
-/// The rows of one scope; catch trials only of the whole part.
+/// The rows of one scope; catch trials only of the whole part and by what they showed.
 ResultTable rowsOf(const ResultTable& rates, const std::string& scope) {
   ResultTable out = rates;
   for (Column& column : out.columns) column.cells.clear();
   for (size_t row = 0; row < rates.rows(); ++row) {
     std::string own;
-    bool change = true;
+    bool change = true, byCatch = false;
     for (const Column& column : rates.columns) {
+      if (column.name == "catch_shows") byCatch = !column.cells[row].empty();
       if (column.name == "scope") own = cellText(column, column.cells[row]);
       if (column.name == "change") change = std::get<bool>(column.cells[row].value());
     }
-    if (own != scope || !(change || scope == "part")) continue;
+    if (own != scope || !(change || byCatch || scope == "part")) continue;
     for (size_t i = 0; i < out.columns.size(); ++i)
       out.columns[i].cells.push_back(rates.columns[i].cells[row]);
   }

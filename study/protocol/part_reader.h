@@ -13,8 +13,8 @@ const std::vector<std::string>& partKeys();
 /// Reads one part of a protocol, and checks that all its conditions give stimuli and its orders exist.
 class PartReader {
  public:
-  PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz)
-      : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz) {}
+  PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz, const Words& words)
+      : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz), words_(words) {}
 
   /// `otherKeys`: keys of the map that do not belong to the part, if a single part is at the top level.
   Part read(const YamlNode& map, const std::string& defaultName, const std::vector<std::string>& otherKeys);
@@ -41,6 +41,7 @@ class PartReader {
   NodeReader& reader_;
   const Catalogue& catalogue_;
   double refreshHz_;
+  const Words& words_;
   std::optional<ProcedureSettings> procedure_;
 };
 
