@@ -147,7 +147,8 @@ void addNotes(const PartAnova& part, Section& out) {
   if (part.transform != RateTransform::None)
     out.notes.push_back("rates p are transformed, asin(sqrt(p)): means and differences are in radians");
   else if (part.rates)
-    out.notes.push_back("rates are not transformed");
+    out.notes.push_back(
+        "rates are not transformed; intervals of their means are t intervals on the logit scale");
   std::string source;
   for (size_t i = 0; i < part.result->effects.size(); ++i) {
     const AnovaEffect& effect = part.result->effects[i];
