@@ -60,7 +60,7 @@ struct StudyPlan {
   size_t partNamed(const std::string& name);
 };
 
-/// Throws Error on text that is no YAML.
-StudyPlan readStudyPlan(const store::StudyProtocol& protocol);
+/// Throws Error, which names the store that holds it, on text that is no YAML.
+StudyPlan readStudyPlan(const store::StudyProtocol& protocol, const std::string& store);
 
 }  // namespace limen::analysis

@@ -208,6 +208,24 @@ TEST_F(ImageFileTest, AHeaderAloneTakesNoMemory) {
   EXPECT_THAT(refusalOf(path("bomb.png")), HasSubstr("16000 x 16000"));
 }
 
+TEST_F(ImageFileTest, ComplaintsAboutEveryRowAreCutShort) {
+  OIIO::ImageSpec spec(16, 4000, 1, OIIO::TypeDesc::UINT8);
+  spec.attribute("compression", "lzw");
+  spec.attribute("tiff:RowsPerStrip", 1);
+  save("rows.tif", spec);
+  std::fstream file(path("rows.tif"), std::ios::binary | std::ios::in | std::ios::out);
+  uint32_t directory = 0;  // little-endian, as this machine writes it
+  file.seekg(4);
+  file.read(reinterpret_cast<char*>(&directory), sizeof directory);
+  ASSERT_GT(directory, 8U);
+  file.seekp(8);
+  file << std::string(directory - 8, '\xff');
+  file.close();
+  const std::string refusal = refusalOf(path("rows.tif"));
+  EXPECT_THAT(refusal, HasSubstr("rows.tif"));
+  EXPECT_LT(refusal.size(), 1000U);
+}
+
 TEST_F(ImageFileTest, WindowsOfAnExrAreLimited) {
   OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeDesc::HALF);
   spec.full_width = spec.full_height = 30000;
