@@ -213,14 +213,8 @@ TEST_F(ImageFileTest, ComplaintsAboutEveryRowAreCutShort) {
   spec.attribute("compression", "lzw");
   spec.attribute("tiff:RowsPerStrip", 1);
   save("rows.tif", spec);
-  std::fstream file(path("rows.tif"), std::ios::binary | std::ios::in | std::ios::out);
-  uint32_t directory = 0;  // little-endian, as this machine writes it
-  file.seekg(4);
-  file.read(reinterpret_cast<char*>(&directory), sizeof directory);
-  ASSERT_GT(directory, 8U);
-  file.seekp(8);
-  file << std::string(directory - 8, '\xff');
-  file.close();
+  // The pictures' rows, which come last.
+  std::filesystem::resize_file(path("rows.tif"), std::filesystem::file_size(path("rows.tif")) / 2);
   const std::string refusal = refusalOf(path("rows.tif"));
   EXPECT_THAT(refusal, HasSubstr("rows.tif"));
   EXPECT_LT(refusal.size(), 1000U);
