@@ -86,7 +86,7 @@ TEST_P(MeshFormat, IsReadOrRefused) {
   Parser parser = GetParam();
   parser.rounds = 100;
   parser.read = [](const std::string& path) {
-    const scene::ImportedMesh in = scene::importMesh(path, {.memoryMiB = 512.0, .seconds = 4.0});
+    const scene::ImportedMesh in = scene::importMesh(path, {.memoryMiB = 512.0, .seconds = 1.0});
     for (const glm::dvec3& p : in.mesh.positions)
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         throw Violation{"a vertex is not finite"};

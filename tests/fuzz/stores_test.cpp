@@ -35,7 +35,20 @@ void putStore(const std::string& from, const std::string& to) {
 TEST(Fuzz, StoresOfSweeps) {
   const analysis::TemporaryFolder folder;
   const std::string sound = folder.path("sound.sqlite");
-  analysis::writeLargeExperiment(sound, false);
+  {
+    store::Store store(sound, store::Access::ReadWrite);
+    std::vector<store::Run> runs;
+    for (int i = 0; i < 6; ++i)
+      runs.push_back(analysis::makeRun(i % 2 == 0 ? "a" : "b", i < 3 ? "s" : "t", i + 1, {1.0 + i, 2.0, 3.0},
+                                       0.1 / (i + 1)));
+    store::Experiment experiment;
+    experiment.hash = "h";
+    experiment.path = "d.yaml";
+    experiment.title = "Title";
+    experiment.question = "Question?";
+    experiment.report = {{"x", "gpu_ms"}, {"y", "rmse"}, {"series", "technique"}, {"panels", "scene"}};
+    analysis::writeExperiment(store, experiment, runs, {{"missing", "a", "s", "never run"}});
+  }
   mergeJournal(sound);
   expectRobust({.name = "sweep_store",
                 .extension = ".sqlite",

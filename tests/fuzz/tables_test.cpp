@@ -43,7 +43,7 @@ TEST(Fuzz, AnswerTables) {
                           }
                       if (!numbers) throw Error("no numbers", path);
                     },
-                .rounds = 3000});
+                .rounds = 2000});
 }
 
 TEST(Fuzz, AnswerColumns) {
@@ -55,9 +55,9 @@ TEST(Fuzz, AnswerColumns) {
                     [](const std::string& path) {
                       const analysis::Table table = analysis::Table::read(path);
                       analysis::AnswerColumns columns;
- columns.correct = "correct";
- columns.trials = "trials";
- const analysis::AnswerReader reader(table, columns);
+                      columns.correct = "correct";
+                      columns.trials = "trials";
+                      const analysis::AnswerReader reader(table, columns);
                       for (size_t row = 0; row < table.rows(); ++row) {
                         const analysis::AnswerCount count = reader.count(row);
                         if (count.correct < 0 || count.correct > count.trials || count.trials < 1)
@@ -65,7 +65,7 @@ TEST(Fuzz, AnswerColumns) {
                         requireFinite(reader.value(row), "a rate");
                       }
                     },
-                .rounds = 4000});
+                .rounds = 2000});
 }
 
 TEST(Fuzz, Sensitivities) {
@@ -81,7 +81,7 @@ TEST(Fuzz, Sensitivities) {
                       for (const double value : {error.gainDb, error.rmsDb, error.largestDb})
                         requireFinite(value, "an error of a model");
                     },
-                .rounds = 3000});
+                .rounds = 2000});
 }
 
 TEST(Fuzz, Readings) {
@@ -102,7 +102,7 @@ TEST(Fuzz, Readings) {
                            {fit.gamma, fit.blackCdM2, fit.peakCdM2, fit.rmsCdM2, fit.largestShare})
                         requireFinite(value, "a fitted value");
                     },
-                .rounds = 4000});
+                .rounds = 2000});
 }
 
 }  // namespace
