@@ -39,7 +39,8 @@ void writeSeed(const Format& format, const std::string& file) {
   if (out && out->open(file, spec)) out->write_image(OIIO::TypeDesc::FLOAT, values.data());
 }
 
-/// Encoded in a process of its own: the image library starts threads, which no child of this process would have.
+/// Encoded in a process of its own: the image library starts threads, which no child of this process would
+/// have.
 std::string encoded(const Format& format) {
   std::string pattern = (std::filesystem::temp_directory_path() / "limen_fuzz_XXXXXX").string();
   const std::string folder = mkdtemp(pattern.data()), file = folder + "/seed" + format.ending;
