@@ -30,11 +30,7 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec, const
 
 Image readImage(const std::string& path, const ImageLimits& limits) {
   const auto in = openChecked(path, limits);
-  const OIIO::ImageSpec spec = in->spec();
-  Image image(spec.width, spec.height, spec.nchannels);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
-    throw Error("cannot read image '" + path + "': " + oneLine(in->geterror()), {}, "is the file complete?");
-  return image;
+  return readPixels(*in, in->spec(), path);
 }
 
 std::string encodeExr(const Image& image, const std::string& description) {
