@@ -84,7 +84,7 @@ VideoReader::VideoReader(const std::string& path) {
 VideoReader::~VideoReader() = default;
 
 void VideoReader::open() {
-  decoder_ = codec::videoFunctions().open(resolvedPath(facts_.path));
+  decoder_ = codec::videoFunctions().open(resolvedPath(facts_.path), facts_.path);
   next_ = 0;
 }
 

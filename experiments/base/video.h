@@ -69,7 +69,7 @@ struct VideoFormat {
   const char* codec;    ///< four letters
   const char* meaning;  ///< how pixel values are stored
   bool lossless = false;
-  bool always = false;    ///< OpenCV brings it along; the others need FFmpeg behind OpenCV
+  bool always = false;    ///< can be written everywhere; the others need FFmpeg behind OpenCV
   bool evenSize = false;  ///< width and height must be even
 };
 const std::vector<VideoFormat>& videoFormats();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "experiments/base/avi_encoder.h"
 #include "experiments/base/error.h"
 #include "experiments/base/input_files.h"
 #include "experiments/base/part_file.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 const std::vector<VideoFormat>& videoFormats() {
   static const std::vector<VideoFormat> kFormats = {
-      {".avi", "MJPG", "JPEG pictures: Rec. 601 matrix, full range", false, true, false},
+      {".avi", "MJPG", "JPEG pictures (quality 95): Rec. 601 matrix, full range", false, true, false},
       {".mkv", "FFV1", "lossless RGB, full range", true, false, true},
       {".mp4", "avc1", "H.264, Rec. 601 matrix, studio range, which the file does not declare", false, false,
        true},
@@ -78,6 +79,10 @@ VideoWriter::VideoWriter(const std::string& path, int width, int height, double 
   std::error_code code;
   if (!folder.empty()) fs::create_directories(folder, code);
   files_ = std::make_unique<Files>(path);
+  if (format.always) {
+    encoder_ = std::make_unique<AviEncoder>(files_->file, path, width, height, framesPerSecond);
+    return;
+  }
   encoder_ = codec::videoFunctions().create(files_->file, path, format, width, height, framesPerSecond);
 }
 

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <opencv2/videoio/registry.hpp>
+#include <vector>
 
 #include "experiments/base/error.h"
 #include "experiments/base/video_codec/functions.h"
@@ -11,6 +12,9 @@
 
 namespace limen::codec {
 namespace {
+
+/// As readImageFile() scales 8 bits, to the last digit.
+constexpr float kCode = 1.0F / 255.0F;
 
 class OpenCvDecoder : public VideoDecoder {
  public:
@@ -64,7 +68,7 @@ class OpenCvDecoder : public VideoDecoder {
     for (int y = 0; y < frame.rows; ++y) {
       const unsigned char* from = frame.ptr(y);
       for (int x = 0; x < frame.cols; ++x, from += 3)
-        for (int c = 0; c < 3; ++c) *to++ = static_cast<float>(from[2 - c]) / 255.0F;
+        for (int c = 0; c < 3; ++c) *to++ = static_cast<float>(from[2 - c]) * kCode;
     }
     return image;
   }
@@ -77,12 +81,17 @@ class OpenCvDecoder : public VideoDecoder {
 
 }  // namespace
 
-std::unique_ptr<VideoDecoder> openVideo(const std::string& path) {
-  // Not CAP_ANY: it would also take cameras, and names as patterns of images.
-  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER}) {
-    if (!cv::videoio_registry::hasBackend(static_cast<cv::VideoCaptureAPIs>(backend))) continue;
+std::unique_ptr<VideoDecoder> openVideo(const std::string& file, const std::string& path) {
+  // Not CAP_ANY: it would also take cameras, and names as patterns of images. The built-in reader of Motion
+  // JPEG prints messages of its own and is the last resort.
+  std::vector<int> backends;
+  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_GSTREAMER})
+    if (cv::videoio_registry::hasBackend(static_cast<cv::VideoCaptureAPIs>(backend)))
+      backends.push_back(backend);
+  if (backends.empty()) backends.push_back(cv::CAP_OPENCV_MJPEG);
+  for (const int backend : backends) {
     try {
-      cv::VideoCapture capture(path, backend);
+      cv::VideoCapture capture(file, backend);
       if (capture.isOpened()) return std::make_unique<OpenCvDecoder>(std::move(capture), path);
     } catch (const std::exception&) {  // the next one may read it
     }

@@ -11,9 +11,6 @@
 namespace limen::codec {
 namespace {
 
-/// Of JPEG: 95 is the built-in writer's default, 100 the least loss.
-constexpr int kQuality = 100;
-
 class OpenCvEncoder : public VideoEncoder {
  public:
   OpenCvEncoder(cv::VideoWriter writer, std::string path)
@@ -62,22 +59,13 @@ std::unique_ptr<VideoEncoder> createVideo(const std::string& file, const std::st
   const int code = cv::VideoWriter::fourcc(letters[0], letters[1], letters[2], letters[3]);
   std::string reason = "no encoder for " + std::string(letters) + " behind OpenCV on this machine";
   try {
-    cv::VideoWriter writer;
-    // The built-in writer for the format that it knows, so that the same frames give the same file
-    // everywhere.
-    if (format.always) {
-      writer.open(file, cv::CAP_OPENCV_MJPEG, code, framesPerSecond, {width, height});
-      if (writer.isOpened()) writer.set(cv::VIDEOWRITER_PROP_QUALITY, kQuality);
-    } else {
-      writer.open(file, cv::CAP_FFMPEG, code, framesPerSecond, {width, height});
-    }
+    cv::VideoWriter writer(file, cv::CAP_FFMPEG, code, framesPerSecond, {width, height});
     if (writer.isOpened()) return std::make_unique<OpenCvEncoder>(std::move(writer), path);
   } catch (const std::exception& error) {
     reason = error.what();
   }
-  throw Error(
-      "'" + path + "' cannot be written: " + reason, {},
-      format.always ? "check the folder and its permissions" : "write .avi, which needs none, or PNG images");
+  throw Error("'" + path + "' cannot be written: " + reason, {},
+              "write .avi, which needs none, or PNG images");
 }
 
 }  // namespace limen::codec

@@ -39,8 +39,8 @@ class VideoEncoder {
   virtual void close() = 0;
 };
 
-/// Throws Error naming the file if nothing here reads it.
-std::unique_ptr<VideoDecoder> openVideo(const std::string& path);
+/// Reads `file`, an absolute name; errors name `path`. Throws Error if nothing here reads it.
+std::unique_ptr<VideoDecoder> openVideo(const std::string& file, const std::string& path);
 /// Writes to `file`; errors name `path`.
 std::unique_ptr<VideoEncoder> createVideo(const std::string& file, const std::string& path,
                                           const VideoFormat& format, int width, int height,
