@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "analysis/answer_tables/table.h"
+#include "analysis/answer_tables/answer_columns.h"
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -111,10 +111,7 @@ std::vector<Condition> readConditions(const FitOptions& options) {
       condition.blocks.push_back(block);
       continue;
     }
-    const int64_t outcome = table.count(row, correct);
-    if (outcome > 1)
-      throw Error("'" + table.text(row, correct) + "' is neither 0 nor 1", table.place(row, correct),
-                  "outcomes are 0 or 1; counts take --k and --n");
+    const int64_t outcome = readBinary(table, row, correct, "outcomes are 0 or 1; counts take --k and --n");
     const auto [place, first] = blockOf.emplace(std::pair(at->second, block.level), condition.blocks.size());
     if (first) condition.blocks.push_back({block.level, 0, 0, 0.0});
     Block& pooled = condition.blocks[place->second];
@@ -133,7 +130,8 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
     throw Error("has to be 100 to 1000000", "--samples", "2000 are usual");
   const FitSettings settings = readFitSettings(options, data);
   std::optional<IntervalMethod> method;
-  if (!options.intervals.empty()) method = readIntervalMethod(options.intervals, "--intervals");
+  if (!options.intervals.empty() && options.intervals != "none")
+    method = readIntervalMethod(options.intervals, "--intervals");
   const bool parametric =
       choice(options.resample, {"parametric", "nonparametric"}, "--resample") == "parametric";
 
@@ -184,6 +182,9 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
       case IntervalMethod::Laplace:
         answer.intervals = laplaceIntervals(answer.data, answer.fit, options.confidence);
         break;
+      case IntervalMethod::Observers:
+        throw Error("takes the pooled answers of a result store's observers", "--intervals observers",
+                    "of a table or a single observer take profile");
       case IntervalMethod::Posterior:
         answer.intervals = posteriorIntervals(answer.data, answer.fit, options.confidence);
         break;

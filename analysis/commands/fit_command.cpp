@@ -34,7 +34,9 @@ void fitStore(FitCall& call) {
 }
 
 void fitTable(const FitCall& call) {
-  const FitAnswer answer = answerFit(call.options, readConditions(call.options));
+  FitOptions options = call.options;
+  if (options.intervals.empty()) options.intervals = "profile";
+  const FitAnswer answer = answerFit(options, readConditions(options));
   if (!call.plot.empty()) drawFit(answer, call.plot);
   Section head;
   head.fact(text("file"), answer.file);
@@ -57,7 +59,7 @@ void addFitCommand(CLI::App& app) {
                   "column with the stimulus level; of a store the axis or factor, where there are several");
   fit->add_option("--k", options.correct, "column with the number of correct or positive answers");
   fit->add_option("--n", options.trials, "column with the number of trials");
-  fit->add_option("--outcome", options.outcome, "column with 0 or 1, where each row is one trial");
+  fit->add_option("--outcome", options.outcome, "column with 0 or 1, no or yes, where each row is one trial");
   fit->add_option("--by", options.by,
                   "columns whose values are the conditions; of a store factors, 'observer' or none (default: "
                   "all factors but x, observers pooled)")
@@ -96,7 +98,10 @@ void addFitCommand(CLI::App& app) {
                   "priors go by them and not by the data's")
       ->delimiter(',');
   fit->add_flag("--overdispersion", options.overdispersion, "fit eta: beta-binomial answers");
-  fit->add_option("--intervals", options.intervals, "bootstrap, bca, profile, laplace, posterior");
+  fit->add_option(
+      "--intervals", options.intervals,
+      "profile, bootstrap, bca, laplace, posterior, none; of a store whose observers are pooled also "
+      "observers, which takes them as the unit and is the default there (default: profile)");
   fit->add_option("--confidence", options.confidence, "of the intervals")->capture_default_str();
   fit->add_option("--resample", options.resample,
                   "parametric (from the fit) or nonparametric (from the answers)")

@@ -74,7 +74,8 @@ double partBelow(const std::vector<double>& sorted, double estimate) {
 }  // namespace
 
 const std::vector<std::string>& intervalMethodNames() {
-  static const std::vector<std::string> kNames = {"bootstrap", "bca", "profile", "laplace", "posterior"};
+  static const std::vector<std::string> kNames = {"bootstrap", "bca",       "profile",
+                                                  "laplace",   "posterior", "observers"};
   return kNames;
 }
 

@@ -17,7 +17,8 @@ enum class IntervalMethod {
   Bca,        ///< bias-corrected and accelerated percentiles (Efron 1987, JASA 82)
   Profile,    ///< where the maximum over all others has dropped by half the chi-squared quantile
   Laplace,    ///< normal by the curvature at the optimum, on the scales of t, ln w and the rates
-  Posterior   ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
+  Posterior,  ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
+  Observers   ///< jackknife over the observers whose answers were pooled (analysis/study)
 };
 const std::vector<std::string>& intervalMethodNames();  ///< "bootstrap", "bca", ...
 IntervalMethod readIntervalMethod(const std::string& name, const std::string& where);  ///< throws Error
