@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string>& choiceOptions() {
   static const std::vector<std::string> kOptions = {"--protocol", "--observers", "--no-exclusions",
-                                                    "--unfinished"};
+                                                    "--unfinished", "--codes"};
   return kOptions;
 }
 
@@ -41,6 +41,8 @@ void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
+  command.add_flag("--codes", input.choice.codes,
+                   "Participant codes in place of O01, O02, ...: for the lab's own use");
 }
 
 bool choosesSessions(const CLI::App& command) {

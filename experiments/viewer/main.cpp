@@ -14,6 +14,7 @@
 #include "experiments/base/program.h"
 #include "experiments/base/text.h"
 #include "experiments/viewer/export_descriptor.h"
+#include "experiments/viewer/path_video.h"
 #include "experiments/viewer/screenshot.h"
 #include "experiments/viewer/viewer.h"
 #include "renderer/gl/devices.h"
@@ -29,6 +30,7 @@ struct ViewOptions {
   std::string size = "640x480", windowSize = "1600x1000", results = "results/viewer";
   std::string display = "schwarz_2009", arrangement = "first";
   std::string screenshot, shaders;
+  PathVideoOptions video;
   int frames = 1, monitor = 0;
   double scale = 0.0;
   bool fullScreen = false;
@@ -191,6 +193,11 @@ int view(const ViewOptions& options) {
   viewerOptions.resultsFolder = options.results;
   viewerOptions.shaderRoot = options.shaders;
   if (!options.shaders.empty()) gl::setShaderRoot(options.shaders);
+  if (!options.video.file.empty()) {
+    const std::string description = writePathVideo(viewerOptions.setup, options.video);
+    std::printf("%s: %s\n", options.video.file.c_str(), description.c_str());
+    return 0;
+  }
   viewerOptions.display = perception::readDisplay(options.display);
   const InitialView first = initialView(options.arrangement);
   if (options.screenshot.empty()) return viewInWindow(options, viewerOptions, first);
@@ -242,6 +249,15 @@ int viewMain(int argc, char** argv) {
       "GPU to render on: a part of its name or its index (limen sweep --list devices)");
   app.add_option("--screenshot", options.screenshot,
                  "Write a picture of the viewer (PNG) and exit; needs no display");
+  app.add_option(
+      "--video", options.video.file,
+      "Write a video of the camera's path (.avi, .mkv lossless, .mp4) and exit; with --second both side "
+      "by side; needs no display");
+  app.add_option("--fps", options.video.framesPerSecond, "With --video: frames per second")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--seconds", options.video.seconds, "With --video: its length (default: to the path's end)")
+      ->check(CLI::PositiveNumber);
   app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limen-perceive compare: every metric on any two images or sequences.
+// limen-perceive compare: how two images, sequences or videos differ.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -20,8 +22,10 @@ namespace limen::perception {
 namespace {
 
 struct CompareOptions : ImageOptions {
+  CompareOptions() { displayName = "desktop_24"; }
   std::string test, reference, mapFolder;
   std::vector<std::string> metrics;
+  bool all = false, regions = false;
 };
 
 /// Named like a metric: the popping predictor on the pair, with nothing moving.
@@ -40,11 +44,24 @@ struct Selection {
   }
 };
 
-Selection select(std::vector<std::string> asked, const DisplayProfile& display) {
-  if (asked.empty()) {
-    asked = defaultMetrics();
-    asked.emplace_back(kJnd);
-  }
+/// What everybody asks for first, in this order.
+const std::vector<std::string>& usualMetrics() {
+  static const std::vector<std::string> kNames = {"rmse", "psnr", "ssim", "flip", kJnd};
+  return kNames;
+}
+const std::vector<std::string>& usualFigures() {
+  static const std::vector<std::string> kNames = {"rmse", "psnr",        "ssim",
+                                                  "flip", "largest_jnd", "visible_share"};
+  return kNames;
+}
+
+std::vector<std::string> allMetrics() {
+  std::vector<std::string> names = defaultMetrics();
+  names.emplace_back(kJnd);
+  return names;
+}
+
+Selection select(const std::vector<std::string>& asked, const DisplayProfile& display) {
   Selection out;
   for (auto name = asked.begin(); name != asked.end(); ++name) {
     if (std::find(asked.begin(), name, *name) != name)
@@ -75,15 +92,112 @@ void writeMap(const MetricMap& map, const std::string& folder, const std::string
   report.outputs.emplace_back(map.name + " picture, " + meaning, base + ".png");
 }
 
+/// Limits on and settings of anything but the usual figures and metrics ask for all of them.
+bool needsAll(const CompareOptions& options) {
+  const auto others = [](const std::vector<std::string>& texts, char end,
+                         const std::vector<std::string>& usual) {
+    return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+      return std::find(usual.begin(), usual.end(), text.substr(0, text.find(end))) == usual.end();
+    });
+  };
+  return others(options.failAbove, '=', usualFigures()) || others(options.failBelow, '=', usualFigures()) ||
+         others(options.set, '.', usualMetrics());
+}
+
+double valueOf(const Figures& figures, const std::string& name, double otherwise) {
+  for (const Figure& figure : figures)
+    if (figure.name == name && figure.value) return *figure.value;
+  return otherwise;
+}
+
+/// FLIP averages over the image; a mean beyond this is plain to see.
+constexpr double kPlainFlip = 0.1;
+
+/// What the figures of one pair come down to, in a sentence.
+std::string conclusion(const Figures& figures, bool identical, bool withJnd, const DisplayProfile& display) {
+  if (identical) return "The images are identical.";
+  const double largest = valueOf(figures, "largest_jnd", 0.0);
+  const double share = valueOf(figures, "visible_share", 0.0);
+  if (!withJnd) return "The images differ.";
+  if (share > 0.0)
+    return fmt::format(
+        "A viewer can see the difference on the display {}: {:.2g} % of the pixels differ by 1 JND or more, "
+        "at "
+        "most by {:.3g} JND.",
+        display.name, 100.0 * share, largest);
+  const double flip = valueOf(figures, "flip", 0.0);
+  if (flip >= kPlainFlip)
+    return fmt::format(
+        "The images differ plainly by FLIP ({:.2g}), though no pixel by 1 JND (at most {:.2g}): the JND "
+        "model "
+        "does not see changes that leave contrasts as they are, such as an even change of brightness.",
+        flip, largest);
+  return fmt::format(
+      "A viewer is not expected to see the difference on the display {}: no pixel differs by 1 JND (at most "
+      "{:.2g}).",
+      display.name, largest);
+}
+
+/// The same of all frames.
+struct Conclusions {
+  size_t frames = 0, identical = 0, visible = 0;
+  double worst = -1.0;
+  std::string worstFrame;
+
+  void add(const Figures& figures, bool same, const std::string& frame) {
+    ++frames;
+    identical += same;
+    visible += valueOf(figures, "visible_share", 0.0) > 0.0;
+    const double largest = valueOf(figures, "largest_jnd", 0.0);
+    if (largest > worst) worst = largest, worstFrame = frame;
+  }
+  std::string sentence(bool withJnd, const DisplayProfile& display) const {
+    if (identical == frames) return "The images are identical in every frame.";
+    if (!withJnd) return fmt::format("The images differ in {} of {} frames.", frames - identical, frames);
+    return fmt::format(
+        "In {} of {} frames pixels differ by 1 JND or more on the display {}; most in {}, by {:.3g} JND.",
+        visible, frames, display.name, worstFrame, worst);
+  }
+};
+
+bool areIdentical(const InputImage& a, const InputImage& b) {
+  return a.nonFinite == 0 && b.nonFinite == 0 && a.linear.channels == b.linear.channels &&
+         a.linear.data == b.linear.data;
+}
+
+/// The popping predictor on the pair, with nothing moving.
+void predictJnd(const InputImage& test, const InputImage& reference, const DisplayProfile& display,
+                const PoppingSettings& settings, bool withRegions, FrameReport& report,
+                std::vector<MetricMap>* maps) {
+  PoppingInput pair;
+  pair.actual = test.shown();
+  pair.predicted = reference.shown();
+  pair.linear = true;
+  PoppingResult result = predictPopping(pair, display, settings);
+  append(report.figures, poppingFigures(result));
+  report.extra["jnd_model"] = poppingModelAsJson(result.model);
+  if (withRegions) {
+    report.text = regionTable(result);
+    report.extra["regions"] = regionsAsJson(result);
+  }
+  if (maps) maps->push_back({kJnd, std::move(result.jnd)});
+}
+
 int compare(const CompareOptions& options, const std::vector<std::string>& words) {
   const DisplayProfile display = readDisplay(options.displayName);
-  const Selection selected = select(options.metrics, display);
+  const bool usual = options.metrics.empty() && !options.all && !options.list && !needsAll(options);
+  const Selection selected = select(!options.metrics.empty() ? options.metrics
+                                    : usual                  ? usualMetrics()
+                                                             : allMetrics(),
+                                    display);
   if (options.list) {
     printSettings(options, selected.groups);
     return kExitSuccess;
   }
   if (options.test.empty() || options.reference.empty())
     throw Error("an image is missing", "compare", "give two: limen-perceive compare IMAGE REFERENCE");
+  if (options.regions && !selected.jnd)
+    throw Error("there are no regions without jnd", "--regions", "add jnd to --metrics");
   const std::vector<ParameterValues> values = parseSettings(options.set, selected.groups, "--set");
   const PoppingSettings popping =
       selected.jnd ? PoppingSettings::table().read(values.back()) : PoppingSettings{};
@@ -93,8 +207,8 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   if (selected.jnd) append(declared, declaredPoppingFigures());
   const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, declared, "");
 
-  const ImageSequence tests = expandImages(options.test), references = expandImages(options.reference);
-  const std::vector<FrameSet> frames = alignSequences({tests, references});
+  const std::vector<ImageSequence> sequences = {expandImages(options.test), expandImages(options.reference)};
+  const std::vector<FrameSet> frames = alignSequences(sequences);
   std::vector<std::string> files;
   for (const FrameSet& frame : frames) files.insert(files.end(), frame.paths.begin(), frame.paths.end());
   OutputFiles outputs(frames, files);
@@ -112,37 +226,32 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   header.settings = valuesAsJson(selected.groups, values);
   header.settings["input"] = input.toJson();
   header.json = options.json;
+  header.sentenceFirst = true;
+  header.videos = videosOf(sequences);
+  if (usual) header.shownFigures = usualFigures();
   header.primaryFigures = {"rmse", "psnr", "ssim", "de94", "flip", "largest_jnd"};
   ReportPrinter printer(header, frames.size(), limits);
+  Conclusions conclusions;
   for (const FrameSet& frame : frames) {
-    InputImage test = readInput(frame.paths[0], display, input);
-    InputImage reference = readInput(frame.paths[1], display, input);
+    InputImage test = readInput(frame, 0, display, input);
+    InputImage reference = readInput(frame, 1, display, input);
     matchInputs(test, reference);
     FrameReport report;
     report.frame = frame;
     report.inputs = {{"image", &test}, {"reference", &reference}};
     std::vector<MetricMap> maps;
-    report.figures = namingFile(frame.label(), [&] {
-      return metrics.run(test, reference, options.mapFolder.empty() ? nullptr : &maps);
-    });
+    std::vector<MetricMap>* const wanted = options.mapFolder.empty() ? nullptr : &maps;
+    report.figures = namingFile(frame.label(), [&] { return metrics.run(test, reference, wanted); });
     report.extra = metrics.facts();
-    if (selected.jnd) {
-      PoppingInput pair;
-      pair.actual = test.shown();
-      pair.predicted = reference.shown();
-      pair.linear = true;
-      PoppingResult result = predictPopping(pair, display, popping);
-      append(report.figures, poppingFigures(result));
-      report.text = regionTable(result);
-      report.extra["regions"] = regionsAsJson(result);
-      report.extra["jnd_model"] = poppingModelAsJson(result.model);
-      if (!options.mapFolder.empty()) maps.push_back({kJnd, std::move(result.jnd)});
-    }
+    if (selected.jnd) predictJnd(test, reference, display, popping, options.regions, report, wanted);
     for (const MetricMap& map : maps)
       writeMap(map, outputs.folder(options.mapFolder, frame), header.statement, report);
+    const bool identical = areIdentical(test, reference);
+    report.sentence = conclusion(report.figures, identical, selected.jnd, display);
+    conclusions.add(report.figures, identical, frame.label());
     printer.add(report);
   }
-  return printer.finish();
+  return printer.finish(conclusions.sentence(selected.jnd, display));
 }
 
 }  // namespace
@@ -150,23 +259,28 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
 void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* const command =
-      app.add_subcommand("compare", "Difference between an image and a reference: every metric");
+      app.add_subcommand("compare", "How an image differs from a reference, and whether a viewer can see it");
   command
       ->add_option("IMAGE", options->test,
-                   "Image, or sequence: frame_%04d.png, frame_####.png, 'frames/*.png'")
+                   "Image, sequence (frame_%04d.png, frame_####.png, 'frames/*.png') or video")
       ->type_name("");
   command
       ->add_option("REFERENCE", options->reference,
-                   "Image or sequence to compare with; one for all frames, or as many")
+                   "Image, sequence or video to compare with; one image for all frames, or as many")
       ->type_name("");
   addImageOptions(*command, *options);
+  CLI::Option* const all =
+      command->add_flag("--all", options->all, "Every metric, not only rmse, psnr, ssim, flip and JND");
+  command->add_flag("--regions", options->regions,
+                    "The regions in which the change would pop as a switch between two frames");
   command
       ->add_option("--metrics", options->metrics,
                    "Only these: " + join(MetricRegistry::instance().names()) +
                        ", jnd (the popping predictor, nothing moving)")
       ->type_name("NAME,...")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->excludes(all);
   command
       ->add_option("--map", options->mapFolder,
                    "Folder for the metrics' maps: EXR of the values, PNG for viewing")
@@ -181,7 +295,7 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
                    "Exit with 1 if a figure for which higher is better is below a limit")
       ->type_name("FIGURE=VALUE")
       ->allow_extra_args(false);
-  addSettingsHelp(*command, [] { return select({}, displayPreset("schwarz_2009")).groups; });
+  addSettingsHelp(*command, [] { return select(allMetrics(), displayPreset("desktop_24")).groups; });
   command->callback([options, &exitCode, words] { exitCode = compare(*options, words); });
 }
 

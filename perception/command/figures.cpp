@@ -108,13 +108,17 @@ nlohmann::json FigureSummary::toJson() const {
   return out;
 }
 
-std::string FigureSummary::table() const {
+std::string FigureSummary::table(const std::vector<std::string>& shown) const {
   size_t width = 6;
+  const auto hidden = [&](const Series& series) {
+    return !shown.empty() && std::find(shown.begin(), shown.end(), series.figure.name) == shown.end();
+  };
   for (const Series& series : series_) width = std::max(width, series.figure.name.size());
   std::string out = fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>12}  worst frame\n", "", width, "mean",
                                 "median", "min", "max");
   const nlohmann::json all = toJson();
   for (const Series& series : series_) {
+    if (hidden(series)) continue;
     const nlohmann::json& row = all.at(series.figure.name);
     if (row.is_null()) {
       out += fmt::format("  {:<{}} {:>12}\n", series.figure.name, width, "none");
@@ -137,6 +141,14 @@ std::string FigureSummary::worstFrame(const std::string& figure) const {
     return series.frames[static_cast<size_t>(worst - series.values.begin())];
   }
   return {};
+}
+
+Figures shownOf(const Figures& figures, const std::vector<std::string>& shown) {
+  if (shown.empty()) return figures;
+  Figures out;
+  for (const Figure& figure : figures)
+    if (std::find(shown.begin(), shown.end(), figure.name) != shown.end()) out.push_back(figure);
+  return out;
 }
 
 std::string figureTable(const Figures& figures) {

@@ -47,7 +47,8 @@ class FigureSummary {
   /// {"rmse": {"mean":, "median":, "min":, "min_frame":, "max":, "max_frame":, "frames":}, ...}; frames
   /// without a value do not count; null if none has one.
   nlohmann::json toJson() const;
-  std::string table() const;
+  /// Of these figures; of all if none is named.
+  std::string table(const std::vector<std::string>& shown = {}) const;
   /// The frame with the worst value of a figure; "" if no frame has one.
   std::string worstFrame(const std::string& figure) const;
 
@@ -60,6 +61,8 @@ class FigureSummary {
   std::vector<Series> series_;  ///< in order of first appearance
 };
 
+/// Those with these names; all if none is named.
+Figures shownOf(const Figures& figures, const std::vector<std::string>& shown);
 /// Aligned lines "  name   value unit".
 std::string figureTable(const Figures& figures);
 nlohmann::json figuresAsJson(const Figures& figures);

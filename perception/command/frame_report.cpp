@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/command/frame_report.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
 #include "experiments/base/printable.h"
 #include "experiments/base/text.h"
+#include "perception/command/video_inputs.h"
 
 namespace limen::perception {
 namespace {
@@ -37,6 +39,7 @@ nlohmann::json frameJson(const FrameReport& report, const std::vector<std::strin
   if (!unavailable.empty()) out["unavailable"] = unavailable;
   for (const auto& [role, input] : report.inputs) out["inputs"][role] = input->toJson();
   for (const auto& [what, path] : report.outputs) out["outputs"][what] = path;
+  if (!report.sentence.empty()) out["sentence"] = report.sentence;
   out["warnings"] = warnings;
   if (report.extra.is_object()) out.update(report.extra);
   return out;
@@ -52,6 +55,18 @@ std::vector<std::string> allWarnings(const FrameReport& report) {
 
 }  // namespace
 
+std::vector<VideoFacts> videosOf(const std::vector<ImageSequence>& sequences) {
+  std::vector<VideoFacts> out;
+  for (const ImageSequence& sequence : sequences) {
+    if (!sequence.video) continue;
+    const VideoFacts& facts = videoInput(sequence.argument).facts();
+    const bool known = std::any_of(out.begin(), out.end(),
+                                   [&](const VideoFacts& other) { return other.path == facts.path; });
+    if (!known) out.push_back(facts);
+  }
+  return out;
+}
+
 std::string limenVersion() {
   std::string commit = buildCommit();
   const bool dirty = commit.find("-dirty") != std::string::npos;
@@ -60,7 +75,14 @@ std::string limenVersion() {
 
 ReportPrinter::ReportPrinter(ReportHeader header, size_t frames, std::vector<Limit> limits)
     : header_(std::move(header)), frames_(frames), limits_(std::move(limits)) {
-  if (!header_.json) std::printf("%s\n", header_.statement.c_str());
+  if (!header_.json && !(header_.sentenceFirst && frames_ == 1)) printStatement();
+}
+
+void ReportPrinter::printStatement() const {
+  std::printf("%s\n", header_.statement.c_str());
+  // A single frame's line says it all.
+  if (frames_ > 1)
+    for (const VideoFacts& facts : header_.videos) std::printf("%s\n", videoLine(facts).c_str());
 }
 
 nlohmann::json ReportPrinter::headerJson() const {
@@ -72,20 +94,39 @@ nlohmann::json ReportPrinter::headerJson() const {
                         {"call", header_.words},        {"display", displayJson(header_.display)},
                         {"settings", header_.settings}, {"limits", limits},
                         {"exceeded", exceeded_}};
+  for (const VideoFacts& facts : header_.videos)
+    out["videos"].push_back({{"path", facts.path},
+                             {"frames", facts.frames},
+                             {"frames_per_second", facts.framesPerSecond},
+                             {"codec", facts.codec},
+                             {"colour", facts.colour},
+                             {"decoder", facts.decoder}});
   if (header_.extra.is_object()) out.update(header_.extra);
   return out;
 }
 
 void ReportPrinter::printText(const FrameReport& report) const {
   if (frames_ == 1) {
-    size_t width = 0;
-    for (const auto& [role, input] : report.inputs) width = std::max(width, role.size());
-    for (const auto& [role, input] : report.inputs)
-      std::printf("%-*s  %s\n", static_cast<int>(width), role.c_str(), input->line().c_str());
-    std::printf("\n%s", figureTable(report.figures).c_str());
+    const auto printInputs = [&] {
+      size_t width = 0;
+      for (const auto& [role, input] : report.inputs) width = std::max(width, role.size());
+      for (const auto& [role, input] : report.inputs)
+        std::printf("%-*s  %s\n", static_cast<int>(width), role.c_str(), input->line().c_str());
+    };
+    if (header_.sentenceFirst) {
+      std::printf("%s\n", report.sentence.c_str());
+    } else {
+      printInputs();
+    }
+    std::printf("\n%s", figureTable(shownOf(report.figures, header_.shownFigures)).c_str());
     if (!report.text.empty()) std::printf("\n%s", report.text.c_str());
     if (!report.outputs.empty()) std::printf("\n");
     for (const auto& [what, path] : report.outputs) std::printf("%s: %s\n", what.c_str(), path.c_str());
+    if (header_.sentenceFirst) {
+      std::printf("\n");
+      printInputs();
+      printStatement();
+    }
   } else {
     std::string line;
     for (const std::string& name : header_.primaryFigures)
@@ -118,7 +159,7 @@ void ReportPrinter::add(const FrameReport& report) {
   printLine(line);
 }
 
-int ReportPrinter::finish() {
+int ReportPrinter::finish(const std::string& sentence) {
   const std::string worst =
       header_.primaryFigures.empty() ? "" : summary_.worstFrame(header_.primaryFigures.front());
   if (frames_ > 1 && header_.json) {
@@ -129,9 +170,11 @@ int ReportPrinter::finish() {
     line["worst_frame"] = worst.empty() ? nlohmann::json() : nlohmann::json(worst);
     line["worst_by"] = header_.primaryFigures.empty() ? "" : header_.primaryFigures.front();
     line["warning_count"] = warnings_;
+    if (!sentence.empty()) line["sentence"] = sentence;
     printLine(line);
   } else if (frames_ > 1) {
-    std::printf("\n%zu frames\n%s", frames_, summary_.table().c_str());
+    if (!sentence.empty()) std::printf("\n%s\n", sentence.c_str());
+    std::printf("\n%zu frames\n%s", frames_, summary_.table(header_.shownFigures).c_str());
     if (!worst.empty())
       std::printf("worst frame by %s: %s\n", header_.primaryFigures.front().c_str(), worst.c_str());
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/base/video.h"
 #include "perception/command/figures.h"
 #include "perception/command/image_input.h"
 #include "perception/command/image_sequence.h"
@@ -23,14 +24,21 @@ struct ReportHeader {
   nlohmann::json extra;     ///< further members of the JSON result; an object or null
   std::vector<std::string>
       primaryFigures;  ///< shown for each frame of a sequence; the first determines the worst
+  std::vector<std::string> shownFigures;  ///< in text; empty: all
+  std::vector<VideoFacts> videos;         ///< that are read
+  bool sentenceFirst = false;             ///< of a single image: its sentence comes first, the statement last
   bool json = false;
 };
+
+/// The videos among them.
+std::vector<VideoFacts> videosOf(const std::vector<ImageSequence>& sequences);
 
 /// The result for one frame.
 struct FrameReport {
   FrameSet frame;
   std::vector<std::pair<std::string, const InputImage*>> inputs;  ///< with their roles
   Figures figures;
+  std::string sentence;  ///< what they come down to
   std::string text;      ///< further lines, shown for single images
   nlohmann::json extra;  ///< further members of the frame's JSON object; an object or null
   std::vector<std::pair<std::string, std::string>> outputs;  ///< what, path
@@ -50,10 +58,12 @@ class ReportPrinter {
   void add(const FrameReport& report);
   /// Prints the summary. Returns the exit code: kExitFailedRuns if a limit was exceeded (said on stderr),
   /// else success.
-  int finish();
+  /// `sentence`, if given, says what the frames of a sequence come down to.
+  int finish(const std::string& sentence = {});
 
  private:
   nlohmann::json headerJson() const;
+  void printStatement() const;
   void printText(const FrameReport& report) const;
 
   ReportHeader header_;

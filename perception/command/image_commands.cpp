@@ -9,6 +9,7 @@ void addImageCommands(CLI::App& app, int& exitCode, const std::vector<std::strin
   addThresholdCommand(app, exitCode, words);
   addPopCommand(app, exitCode, words);
   addCompareCommand(app, exitCode, words);
+  addVideoCommand(app, exitCode);
 }
 
 }  // namespace limen::perception

@@ -11,5 +11,6 @@ namespace limen::perception {
 void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
 void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
 void addPopCommand(CLI::App& app, int& exitCode, const std::vector<std::string>& words);
+void addVideoCommand(CLI::App& app, int& exitCode);
 
 }  // namespace limen::perception

@@ -8,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "perception/command/video_inputs.h"
 
 namespace limen::perception {
 namespace {
@@ -122,6 +123,7 @@ nlohmann::json InputImage::toJson() const {
                         {"non_finite", nonFinite},
                         {"clipped_px", clippedPx}};
   if (!alpha.empty()) out["alpha"] = alpha;
+  if (videoFrame) out["video_frame"] = *videoFrame + 1;
   return out;
 }
 
@@ -130,12 +132,12 @@ std::string InputImage::line() const {
                      linear.channels == 1 ? "grey" : "RGB", assumed, alpha.empty() ? "" : "; " + alpha);
 }
 
-InputImage readInput(const std::string& path, const DisplayProfile& display, const ParameterValues& input) {
-  ImageFile file = readImageFile(path);
-  InputImage out;
-  out.path = path;
-  out.kind = file.kind();
-  out.sha256 = sha256File(path);
+namespace {
+
+/// What the file's numbers mean on this display. `out` has path and kind.
+InputImage interpret(ImageFile file, InputImage out, const DisplayProfile& display,
+                     const ParameterValues& input) {
+  const std::string& path = out.path;
   out.warnings = file.remarks;
   const InputSettings settings = InputSettings::table().read(input);
   const std::string values = settings.values != FileValues::Auto ? toText(settings.values)
@@ -183,6 +185,37 @@ InputImage readInput(const std::string& path, const DisplayProfile& display, con
     for (float& value : light.data)
       if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
   return out;
+}
+
+}  // namespace
+
+InputImage readInput(const std::string& path, const DisplayProfile& display, const ParameterValues& input) {
+  ImageFile file = readImageFile(path);
+  InputImage out;
+  out.path = path;
+  out.kind = file.kind();
+  out.sha256 = sha256File(path);
+  return interpret(std::move(file), std::move(out), display, input);
+}
+
+InputImage readInput(const FrameSet& frame, size_t argument, const DisplayProfile& display,
+                     const ParameterValues& input) {
+  const std::string& path = frame.paths[argument];
+  const std::optional<int64_t>& index = frame.videoFrames[argument];
+  if (!index) return readInput(path, display, input);
+  VideoReader& video = videoInput(path);
+  ImageFile file;
+  file.image = video.frame(*index);
+  file.path = path;
+  file.integer = true;
+  file.bits = 8;
+  if (*index == 0) file.remarks = video.facts().remarks;
+  InputImage out;
+  out.path = path;
+  out.kind = video.facts().kind() + ", " + video.facts().colour;
+  out.sha256 = videoSha256(path);
+  out.videoFrame = index;
+  return interpret(std::move(file), std::move(out), display, input);
 }
 
 void matchInputs(InputImage& first, InputImage& second) {

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/base/image_file.h"
 #include "experiments/base/settings_table.h"
+#include "perception/command/image_sequence.h"
 #include "perception/vision/display.h"
 
 namespace limen::perception {
@@ -38,11 +40,12 @@ const std::vector<Parameter>& inputParameters();
 /// An image as stored in a file and as the display shows it.
 struct InputImage {
   std::string path;
-  std::string kind;     ///< "8-bit png"
-  std::string assumed;  ///< how the values were interpreted, as text
-  std::string alpha;    ///< how alpha was treated, as text; "" without alpha
-  std::string sha256;   ///< of the file
-  bool coded = false;   ///< values are pixel values of a display, not light
+  std::string kind;                   ///< "8-bit png"
+  std::string assumed;                ///< how the values were interpreted, as text
+  std::string alpha;                  ///< how alpha was treated, as text; "" without alpha
+  std::string sha256;                 ///< of the file
+  std::optional<int64_t> videoFrame;  ///< of a video: the frame's index, from 0
+  bool coded = false;                 ///< values are pixel values of a display, not light
   /// Light relative to the display's white, 1 or 3 channels, not clipped; non-finite values are kept.
   Image linear;
   /// Values of a coded file; empty for files of light, and if alpha changed the picture.
@@ -62,6 +65,11 @@ struct InputImage {
 
 /// Reads `path` for `display`. Throws Error like readImageFile().
 InputImage readInput(const std::string& path, const DisplayProfile& display, const ParameterValues& input);
+
+/// Reads the image of a frame that the argument with this index gives: a file or a frame of a video, whose
+/// remarks come with its first frame. Throws Error.
+InputImage readInput(const FrameSet& frame, size_t argument, const DisplayProfile& display,
+                     const ParameterValues& input);
 
 /// Throws Error unless both have the same size. Grey paired with colour becomes colour.
 void matchInputs(InputImage& first, InputImage& second);

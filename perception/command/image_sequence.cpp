@@ -10,6 +10,8 @@
 #include <regex>
 
 #include "experiments/base/error.h"
+#include "experiments/base/video.h"
+#include "perception/command/video_inputs.h"
 
 namespace limen::perception {
 namespace {
@@ -89,7 +91,8 @@ ImageSequence numbered(const std::string& argument, const NumberPlace& place) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, code)) {
     const std::string name = entry.path().filename().string();
     const std::optional<int64_t> number = numberIn(place, name);
-    if (number && entry.is_regular_file(code)) sequence.frames.push_back({(folder / name).string(), number});
+    if (number && entry.is_regular_file(code))
+      sequence.frames.push_back({(folder / name).string(), number, {}});
   }
   std::sort(sequence.frames.begin(), sequence.frames.end(),
             [](const SequenceFrame& a, const SequenceFrame& b) { return *a.number < *b.number; });
@@ -108,10 +111,20 @@ ImageSequence globbed(const std::string& argument) {
   glob_t found{};
   if (glob(argument.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
     for (size_t i = 0; i < found.gl_pathc; ++i)
-      if (fs::is_regular_file(found.gl_pathv[i])) sequence.frames.push_back({found.gl_pathv[i], {}});
+      if (fs::is_regular_file(found.gl_pathv[i])) sequence.frames.push_back({found.gl_pathv[i], {}, {}});
   globfree(&found);
   std::sort(sequence.frames.begin(), sequence.frames.end(),
             [](const SequenceFrame& a, const SequenceFrame& b) { return naturallyLess(a.path, b.path); });
+  return sequence;
+}
+
+ImageSequence ofVideo(const std::string& argument) {
+  ImageSequence sequence;
+  sequence.argument = argument;
+  sequence.single = false;
+  sequence.video = true;
+  const int64_t frames = videoInput(argument).facts().frames;
+  for (int64_t index = 0; index < frames; ++index) sequence.frames.push_back({argument, index + 1, index});
   return sequence;
 }
 
@@ -138,7 +151,7 @@ void checkCounts(const ImageSequence& first, const ImageSequence& other, bool by
                       other.argument + "'",
                   {}, "give sequences of the same frames");
   } else if (first.frames.size() != other.frames.size()) {
-    throw Error(fmt::format("'{}' has {} images, '{}' has {}", first.argument, first.frames.size(),
+    throw Error(fmt::format("'{}' has {} frames, '{}' has {}", first.argument, first.frames.size(),
                             other.argument, other.frames.size()),
                 {}, "give sequences of the same length");
   }
@@ -149,7 +162,13 @@ void checkCounts(const ImageSequence& first, const ImageSequence& other, bool by
 ImageSequence expandImages(const std::string& argument) {
   std::error_code code;
   if (argument.empty()) throw Error("an image's name is empty");
-  if (fs::exists(argument, code)) return {argument, true, {{argument, {}}}, {}};
+  if (fs::exists(argument, code)) {
+    if (isVideoName(argument) && !fs::is_directory(argument, code)) return ofVideo(argument);
+    ImageSequence image;
+    image.argument = argument;
+    image.frames = {{argument, {}, {}}};
+    return image;
+  }
   const fs::path path(argument);
   ImageSequence sequence;
   if (const std::optional<NumberPlace> place = findPlace(path.filename().string())) {
@@ -177,17 +196,21 @@ std::vector<FrameSet> alignSequences(const std::vector<ImageSequence>& sequences
       lead = &sequence;
       continue;
     }
-    checkCounts(*lead, sequence, lead->frames.front().number && sequence.frames.front().number);
+    const bool byNumber = lead->frames.front().number && sequence.frames.front().number;
+    checkCounts(*lead, sequence, byNumber && !lead->video && !sequence.video);
   }
   const size_t count = lead ? lead->frames.size() : 1;
   std::vector<FrameSet> frames(count);
   for (size_t i = 0; i < count; ++i) {
     frames[i].index = i;
     if (lead) frames[i].number = lead->frames[i].number;
-    for (const ImageSequence& sequence : sequences)
-      frames[i].paths.push_back(sequence.frames.empty() ? ""
-                                : sequence.single       ? sequence.frames.front().path
-                                                        : sequence.frames[i].path);
+    for (const ImageSequence& sequence : sequences) {
+      const SequenceFrame frame = sequence.frames.empty() ? SequenceFrame{}
+                                  : sequence.single       ? sequence.frames.front()
+                                                          : sequence.frames[i];
+      frames[i].paths.push_back(frame.path);
+      frames[i].videoFrames.push_back(frame.videoFrame);
+    }
   }
   return frames;
 }

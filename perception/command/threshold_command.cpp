@@ -74,7 +74,8 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
   const std::vector<ParameterValues> values = parseSettings(options.set, thresholdGroups(), "--set");
   const ThresholdMapSettings settings = ThresholdMapSettings::table().read(values.front());
   const ParameterValues input = options.input();
-  const std::vector<FrameSet> frames = alignSequences({expandImages(options.image)});
+  const std::vector<ImageSequence> sequences = {expandImages(options.image)};
+  const std::vector<FrameSet> frames = alignSequences(sequences);
   std::vector<std::string> files;
   for (const FrameSet& frame : frames) files.push_back(frame.paths.front());
   OutputFiles outputs(frames, files);
@@ -92,12 +93,13 @@ int threshold(const ThresholdOptions& options, const std::vector<std::string>& w
   header.settings = valuesAsJson(thresholdGroups(), values);
   header.settings["input"] = input.toJson();
   header.json = options.json;
+  header.videos = videosOf(sequences);
   header.primaryFigures = {"median", "min", "max"};
   ReportPrinter printer(header, frames.size(), {});
   // Pictures of a sequence share the scale of the first frame.
   double scale = options.scaleCdM2;
   for (const FrameSet& frame : frames) {
-    const InputImage image = readInput(frame.paths.front(), display, input);
+    const InputImage image = readInput(frame, 0, display, input);
     const ThresholdMap map = namingFile(frame.label(), [&] {
       return computeThresholdMap(luminancePlane(image.shown(), display), display.pixelsPerDegree(), settings);
     });
@@ -133,7 +135,7 @@ void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::st
       "threshold", "Threshold map: the luminance differences that stay invisible in an image");
   command
       ->add_option("IMAGE", options->image,
-                   "Image, or sequence: frame_%04d.png, frame_####.png, 'frames/*.png'")
+                   "Image, sequence (frame_%04d.png, frame_####.png, 'frames/*.png') or video")
       ->type_name("");
   command
       ->add_option("-o,--output", options->outputs,

@@ -8,36 +8,9 @@
 #include <map>
 #include <utility>
 
+#include "perception/image_analysis/connected_components.h"
+
 namespace limen::perception {
-namespace {
-
-constexpr uint32_t kOutside = std::numeric_limits<uint32_t>::max();
-
-/// Sets of pixels; the root of a set is its first pixel, row by row.
-class PixelSets {
- public:
-  explicit PixelSets(size_t pixels) : parent_(pixels, kOutside) {}
-  void make(uint32_t pixel) { parent_[pixel] = pixel; }
-  bool holds(uint32_t pixel) const { return parent_[pixel] != kOutside; }
-  uint32_t root(uint32_t pixel) {
-    while (parent_[pixel] != pixel) {
-      parent_[pixel] = parent_[parent_[pixel]];
-      pixel = parent_[pixel];
-    }
-    return pixel;
-  }
-  void unite(uint32_t a, uint32_t b) {
-    a = root(a), b = root(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
-}  // namespace
-
 double poppingRating(double sigma, const PoppingSettings& settings) {
   if (!(sigma > 0.0)) return -std::numeric_limits<double>::infinity();
   return std::log(settings.rating.scale * sigma) / std::log(settings.rating.base);
@@ -46,46 +19,36 @@ double poppingRating(double sigma, const PoppingSettings& settings) {
 RegionMap findRegions(const std::vector<double>& jnd, const std::vector<uint8_t>& seeds, int width,
                       int height, const PoppingSettings& settings) {
   const size_t pixels = static_cast<size_t>(width) * height;
-  assert(jnd.size() == pixels && (seeds.empty() || seeds.size() == pixels) && pixels < kOutside);
-  const bool diagonal = settings.regions.connectivity == 8;
-  const auto pixelAt = [&](int x, int y) {
-    return static_cast<uint32_t>(static_cast<size_t>(y) * width + x);
-  };
-
-  PixelSets sets(pixels);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const uint32_t pixel = pixelAt(x, y);
-      if (!(jnd[pixel] >= settings.regions.thresholdJnd) || !std::isfinite(jnd[pixel])) continue;
-      sets.make(pixel);
-      if (x > 0 && sets.holds(pixel - 1)) sets.unite(pixel, pixel - 1);
-      if (y == 0) continue;
-      for (int dx = diagonal ? -1 : 0; dx <= (diagonal ? 1 : 0); ++dx)
-        if (x + dx >= 0 && x + dx < width && sets.holds(pixelAt(x + dx, y - 1)))
-          sets.unite(pixel, pixelAt(x + dx, y - 1));
-    }
-
-  std::vector<uint8_t> seeded(pixels, 0);
-  for (uint32_t pixel = 0; pixel < pixels; ++pixel)
-    if (sets.holds(pixel) && (seeds.empty() || seeds[pixel])) seeded[sets.root(pixel)] = 1;
-
+  assert(jnd.size() == pixels && (seeds.empty() || seeds.size() == pixels));
+  std::vector<uint8_t> above(pixels);
+  for (size_t pixel = 0; pixel < pixels; ++pixel)
+    above[pixel] = std::isfinite(jnd[pixel]) && jnd[pixel] >= settings.regions.thresholdJnd;
   RegionMap map;
   map.width = width, map.height = height;
-  map.labels.assign(pixels, 0);
+  map.labels = connectedComponents(above, width, height, settings.regions.connectivity);
+
+  std::vector<uint8_t> seeded;  // by component
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    const uint32_t component = map.labels[pixel];
+    if (component >= seeded.size()) seeded.resize(component + size_t{1}, 0);
+    if (component > 0 && (seeds.empty() || seeds[pixel])) seeded[component] = 1;
+  }
+  std::vector<uint32_t> labels(seeded.size(), 0);  // by component: its number among those with a seed
+  size_t pixel = 0;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const uint32_t pixel = pixelAt(x, y);
-      if (!sets.holds(pixel)) continue;
-      const uint32_t root = sets.root(pixel);
-      if (!seeded[root]) continue;
-      if (pixel == root) {  // met before all other pixels of the set
+    for (int x = 0; x < width; ++x, ++pixel) {
+      const uint32_t component = map.labels[pixel];
+      if (!seeded[component]) {
+        map.labels[pixel] = 0;
+        continue;
+      }
+      if (labels[component] == 0) {  // its first pixel
         PoppingRegion region;
-        region.label = static_cast<uint32_t>(map.regions.size() + 1);
+        region.label = labels[component] = static_cast<uint32_t>(map.regions.size() + 1);
         region.least = region.most = {x, y};
         map.regions.push_back(region);
-        map.labels[pixel] = region.label;
       }
-      map.labels[pixel] = map.labels[root];
+      map.labels[pixel] = labels[component];
       PoppingRegion& region = map.regions[map.labels[pixel] - 1];
       region.least = glm::min(region.least, glm::ivec2(x, y));
       region.most = glm::max(region.most, glm::ivec2(x, y));

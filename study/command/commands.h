@@ -25,6 +25,7 @@ void addProtocolCommand(CLI::App& app, Run& run);
 void addRunCommand(CLI::App& app, Run& run);
 void addSessionsCommand(CLI::App& app, Run& run);  ///< sessions, replay
 void addSimulateCommand(CLI::App& app, Run& run);
+void addStimuliCommand(CLI::App& app, Run& run);
 void addTimingCommand(CLI::App& app, Run& run);
 void addTraceCommand(CLI::App& app, Run& run);
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   study::addPowerCommand(app, run);
   study::addPredictCommand(app, run);
   study::addExampleCommand(app, run);
+  study::addStimuliCommand(app, run);
   study::addTraceCommand(app, run);
   study::addTimingCommand(app, run);
   study::addCalibrateCommand(app, run);

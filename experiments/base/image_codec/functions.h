@@ -13,6 +13,8 @@ Image readImage(const std::string& path, const ImageLimits& limits);
 /// Bytes of a file. Encoded in memory, so that a full disk cannot truncate a picture unnoticed.
 std::string encodeExr(const Image& image, const std::string& description);
 std::string encodePng(const Image& image, const std::string& description);
+/// 1 or 3 channels of values in [0, 1], stored as they are; chroma is not subsampled.
+std::string encodeJpeg(const Image& image, int quality);
 ImageFile readImageFile(const std::string& path, const ImageLimits& limits);
 
 /// The functions above, as the module exports them.
@@ -20,6 +22,7 @@ struct Functions {
   decltype(&readImage) read;
   decltype(&encodeExr) exr;
   decltype(&encodePng) png;
+  decltype(&encodeJpeg) jpeg;
   decltype(&readImageFile) readFile;
 };
 inline constexpr const char* kEntry = "limenImageCodec";

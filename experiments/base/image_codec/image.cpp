@@ -26,15 +26,19 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec, const
   return {bytes.begin(), bytes.end()};
 }
 
+std::vector<uint8_t> inBytes(const Image& image) {
+  std::vector<uint8_t> bytes(image.data.size());
+  std::transform(image.data.begin(), image.data.end(), bytes.begin(), [](float value) {
+    return static_cast<uint8_t>(std::lround(255.0F * (value > 0.0F ? std::min(value, 1.0F) : 0.0F)));
+  });
+  return bytes;
+}
+
 }  // namespace
 
 Image readImage(const std::string& path, const ImageLimits& limits) {
   const auto in = openChecked(path, limits);
-  const OIIO::ImageSpec spec = in->spec();
-  Image image(spec.width, spec.height, spec.nchannels);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
-    throw Error("cannot read image '" + path + "': " + oneLine(in->geterror()), {}, "is the file complete?");
-  return image;
+  return readPixels(*in, in->spec(), path);
 }
 
 std::string encodeExr(const Image& image, const std::string& description) {
@@ -47,13 +51,16 @@ std::string encodeExr(const Image& image, const std::string& description) {
 }
 
 std::string encodePng(const Image& image, const std::string& description) {
-  std::vector<uint8_t> bytes(image.data.size());
-  std::transform(image.data.begin(), image.data.end(), bytes.begin(), [](float value) {
-    return static_cast<uint8_t>(std::lround(255.0F * (value > 0.0F ? std::min(value, 1.0F) : 0.0F)));
-  });
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   if (!description.empty()) spec.attribute("ImageDescription", description);
-  return encode("png", spec, bytes);
+  return encode("png", spec, inBytes(image));
+}
+
+std::string encodeJpeg(const Image& image, int quality) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  return encode("jpg", spec, inBytes(image));
 }
 
 }  // namespace limen::codec

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "experiments/base/image.h"
+#include "experiments/base/video.h"
 #include "tests/renderer/window/x_server.h"
 #include "tests/run_program.h"
 
@@ -47,6 +48,35 @@ TEST_F(ViewProgram, WithoutADisplayItSaysHowToGetAPicture) {
   EXPECT_THAT(run.text, HasSubstr("no window system"));
   EXPECT_THAT(run.text, HasSubstr("--screenshot"));
   EXPECT_EQ(std::count(run.text.begin(), run.text.end(), '\n'), 1);
+}
+
+TEST_F(ViewProgram, VideosFollowTheCamerasPath) {
+  const std::string view = "limen-view --scene lod/patch --technique soft_shadows/hard --size 40x30 ";
+  const ProgramRun whole = runProgram(view + "--fps 4 --seconds 1 --video " + path("a.avi"), "-u DISPLAY");
+  ASSERT_EQ(whole.code, 0) << whole.text;
+  EXPECT_THAT(whole.text, HasSubstr("4 frames at 4/s"));
+  VideoReader video(path("a.avi"));
+  ASSERT_EQ(video.facts().frames, 4);
+  EXPECT_EQ(video.facts().framesPerSecond, 4.0);
+  EXPECT_EQ(video.facts().width, 40);
+  // The camera moves, and frame k is the view at k / 4 s.
+  EXPECT_NE(video.frame(0).data, video.frame(3).data);
+  ASSERT_EQ(
+      runProgram(view + "--fps 4 --seconds 0.25 --set scene.camera.time_s=0.75 --video " + path("b.avi"),
+                 "-u DISPLAY")
+          .code,
+      0);
+  VideoReader later(path("b.avi"));
+  ASSERT_EQ(later.facts().frames, 1);
+  EXPECT_EQ(later.frame(0).data, video.frame(3).data);
+  const ProgramRun both = runProgram(
+      view + "--second soft_shadows/pcf --fps 2 --seconds 0.5 --video " + path("c.avi"), "-u DISPLAY");
+  ASSERT_EQ(both.code, 0) << both.text;
+  EXPECT_EQ(VideoReader(path("c.avi")).facts().width, 80);
+  const ProgramRun still =
+      runProgram("limen-view --scene box_under_light --video " + path("d.avi"), "-u DISPLAY");
+  EXPECT_EQ(still.code, 2);
+  EXPECT_THAT(still.text, HasSubstr("--seconds"));
 }
 
 TEST_F(ViewProgram, ScreenshotsNeedNoDisplayAndAreTheSameEachTime) {

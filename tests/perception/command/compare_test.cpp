@@ -16,7 +16,7 @@ using CompareCli = PerceiveCli;
 
 TEST_F(CompareCli, IdenticalImagesHaveNoError) {
   save("a.png", noise(48, 40, 3, 1));
-  const nlohmann::json found = result({"compare", "a.png", "a.png"});
+  const nlohmann::json found = result({"compare", "a.png", "a.png", "--all", "--regions"});
   for (const char* name : {"rmse", "mae", "signed_error", "largest_error", "p99_error", "de94", "de94_p99",
                            "de94_max", "non_finite", "rmse_coded", "mae_coded", "largest_error_coded"})
     EXPECT_EQ(figure(found, name), 0.0) << name;
@@ -36,8 +36,9 @@ TEST_F(CompareCli, JndIsThePoppingPredictorWithNothingMoving) {
   for (int y = 10; y < 22; ++y)
     for (int x = 10; x < 22; ++x) image.at(x, y, 1) = (x / 3 + y / 3) % 2 ? 0.9F : 0.1F;
   save("a.png", image);
-  const nlohmann::json compared = result({"compare", "a.png", "b.png", "--metrics", "jnd", "--map", "maps"}),
-                       popped = result({"pop", "b.png", "a.png"});
+  const nlohmann::json compared = result(
+                           {"compare", "a.png", "b.png", "--metrics", "jnd", "--map", "maps", "--regions"}),
+                       popped = result({"pop", "b.png", "a.png", "--display", "desktop_24"});
   EXPECT_GT(figure(compared, "largest_jnd"), 2.0);
   for (const auto& [name, value] : compared.at("figures").items())
     EXPECT_EQ(value, popped.at("figures").at(name)) << name;
@@ -56,7 +57,7 @@ TEST_F(CompareCli, FiguresOfFlatImagesAreThoseOfArithmetic) {
   // One grey level apart everywhere: 100 and 110 of 255.
   save("a.png", flat(24, 24, {110 / 255.0F, 110 / 255.0F, 110 / 255.0F}));
   save("b.png", flat(24, 24, {100 / 255.0F, 100 / 255.0F, 100 / 255.0F}));
-  const nlohmann::json found = result({"compare", "a.png", "b.png"});
+  const nlohmann::json found = result({"compare", "a.png", "b.png", "--all"});
   const double coded = 10.0 / 255, lit = light(110.0 / 255) - light(100.0 / 255);
   EXPECT_NEAR(figure(found, "rmse_coded"), coded, 1e-6);
   EXPECT_NEAR(figure(found, "psnr_coded"), -20.0 * std::log10(coded), 1e-4);
@@ -77,16 +78,73 @@ TEST_F(CompareCli, ResultSaysWhoHowAndOnWhat) {
       result({"compare", "a.png", "b.png", "--metrics", "rmse,de94", "--set", "de94.statistic=max"});
   EXPECT_THAT(found.at("statement").get<std::string>(),
               AllOf(HasSubstr("Limen 0."), HasSubstr("commit"), HasSubstr("de94.statistic max"),
-                    HasSubstr("display schwarz_2009"), HasSubstr("1600"), Not(HasSubstr("\n"))));
+                    HasSubstr("display desktop_24"), HasSubstr("1920"), Not(HasSubstr("\n"))));
   EXPECT_EQ(found.at("settings").at("de94").at("statistic"), "max");
   EXPECT_EQ(found.at("settings").at("input").at("alpha"), "over_black");
   EXPECT_EQ(found.at("call").at(1), "compare");
   EXPECT_EQ(found.at("inputs").at("image").at("sha256").get<std::string>().size(), 64U);
-  // 20 in 4:3 at 1600 pixels and 0.6 m: 2 * 0.6 tan(0.5 deg) / 0.254 mm.
-  EXPECT_NEAR(found.at("display").at("pixels_per_degree").get<double>(), 41.229, 1e-3);
+  // 24 in 16:9 at 1920 pixels and 0.6 m: 2 * 0.6 tan(0.5 deg) / 0.27673 mm.
+  EXPECT_NEAR(found.at("display").at("pixels_per_degree").get<double>(), 37.843, 5e-3);
   const experiments::CallResult text = call({"compare", "a.png", "b.png", "--metrics", "rmse"});
-  EXPECT_EQ(text.out.substr(0, 6), "Limen ");
-  EXPECT_THAT(text.out, AllOf(HasSubstr("display schwarz_2009"), HasSubstr("8-bit png"), HasSubstr("rmse")));
+  EXPECT_THAT(text.out, AllOf(HasSubstr("\nLimen "), HasSubstr("display desktop_24"), HasSubstr("8-bit png"),
+                              HasSubstr("rmse")));
+}
+
+/// First line, then the names in the table of figures.
+std::pair<std::string, std::vector<std::string>> sentenceAndFigures(const std::string& text) {
+  std::istringstream lines(text);
+  std::string sentence, line;
+  std::getline(lines, sentence);
+  std::vector<std::string> names;
+  while (std::getline(lines, line))
+    if (line.rfind("  ", 0) == 0) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return {sentence, names};
+}
+
+TEST_F(CompareCli, ASentenceComesFirstThenTheUsualFigures) {
+  Image image = noise(64, 48, 3, 1);
+  save("b.png", image);
+  for (int y = 10; y < 30; ++y)
+    for (int x = 10; x < 30; ++x) image.at(x, y, 1) = (x / 3 + y / 3) % 2 ? 0.95F : 0.05F;
+  save("a.png", image);
+  const auto [plain, names] = sentenceAndFigures(call({"compare", "a.png", "b.png"}).out);
+  EXPECT_THAT(plain, AllOf(HasSubstr("A viewer can see the difference"), HasSubstr("desktop_24")));
+  EXPECT_THAT(names, testing::AnyOf(
+                         testing::ElementsAre("rmse", "psnr", "ssim", "flip", "largest_jnd", "visible_share"),
+                         testing::Contains("not")));  // flip not available
+  const auto [all, allNames] = sentenceAndFigures(call({"compare", "a.png", "b.png", "--all"}).out);
+  EXPECT_EQ(all, plain);
+  EXPECT_GT(allNames.size(), 15U);
+  EXPECT_THAT(call({"compare", "a.png", "b.png", "--all"}).out, Not(HasSubstr("Sigma JND")));
+  EXPECT_THAT(call({"compare", "a.png", "b.png", "--regions"}).out, HasSubstr("Sigma JND"));
+  EXPECT_EQ(sentenceAndFigures(call({"compare", "a.png", "a.png"}).out).first, "The images are identical.");
+  EXPECT_EQ(result({"compare", "a.png", "b.png"}).at("sentence"), plain);
+  EXPECT_FALSE(result({"compare", "a.png", "b.png"}).contains("regions"));
+
+  // One code in one pixel is below any threshold.
+  image = noise(64, 48, 3, 1);
+  image.at(20, 20, 1) += 1.0F / 255.0F;
+  save("c.png", image);
+  EXPECT_THAT(sentenceAndFigures(call({"compare", "c.png", "b.png"}).out).first,
+              HasSubstr("not expected to see the difference"));
+}
+
+// The predictor sees contrasts alone; the sentence must not call that invisible.
+TEST_F(CompareCli, AnEvenChangeOfBrightnessIsNotCalledInvisible) {
+  save("a.png", flat(48, 48, {0.8F, 0.8F, 0.8F}));
+  save("b.png", flat(48, 48, {0.2F, 0.2F, 0.2F}));
+  const nlohmann::json found = result({"compare", "a.png", "b.png"});
+  EXPECT_EQ(figure(found, "visible_share"), 0.0);
+  if (found.at("figures").at("flip").is_null()) GTEST_SKIP() << "no FLIP without OpenGL";
+  EXPECT_THAT(found.at("sentence").get<std::string>(),
+              AllOf(HasSubstr("differ plainly"), Not(HasSubstr("not expected"))));
+}
+
+TEST_F(CompareCli, LimitsOnOtherFiguresComputeThem) {
+  save("a.png", flat(8, 8, {110 / 255.0F}));
+  save("b.png", flat(8, 8, {100 / 255.0F}));
+  EXPECT_EQ(call({"compare", "a.png", "b.png", "--fail-above", "largest_error_coded=0.0392"}).exitCode, 1);
+  EXPECT_EQ(call({"compare", "a.png", "b.png", "--fail-above", "largest_error_coded=0.0393"}).exitCode, 0);
 }
 
 TEST_F(CompareCli, LimitsDecideTheExitCode) {
@@ -122,7 +180,9 @@ TEST_F(CompareCli, ALimitOnWhatCannotBeToldIsNoPass) {
 TEST_F(CompareCli, FlipIsAFigureOrHasAReason) {
   save("a.png", noise(24, 24, 3, 1));
   save("b.png", noise(24, 24, 3, 2));
-  const nlohmann::json found = result({"compare", "a.png", "b.png", "--metrics", "flip,rmse"});
+  const nlohmann::json found =
+      result({"compare", "a.png", "b.png", "--metrics", "flip,rmse", "--display", "schwarz_2009"});
+  // 20 in 4:3 at 1600 pixels and 0.6 m: 2 * 0.6 tan(0.5 deg) / 0.254 mm.
   EXPECT_NEAR(found.at("settings").at("flip").at("pixels_per_degree").get<double>(), 41.229, 1e-3);
   if (found.at("figures").at("flip").is_null()) {
     EXPECT_FALSE(found.at("unavailable").at("flip").get<std::string>().empty());
@@ -197,7 +257,7 @@ TEST_F(CompareCli, TheProgramItselfAnswersAlike) {
 TEST_F(CompareCli, SameCallGivesTheSameBytes) {
   save("a.png", noise(40, 30, 3, 1));
   save("b.png", noise(40, 30, 3, 2));
-  const std::vector<std::string> words = {"compare", "a.png", "b.png", "--json", "--map", "maps"};
+  const std::vector<std::string> words = {"compare", "a.png", "b.png", "--json", "--all", "--map", "maps"};
   const std::string first = call(words).out, map = read("maps/de94.exr");
   EXPECT_EQ(call(words).out, first);
   EXPECT_EQ(read("maps/de94.exr"), map);

@@ -76,7 +76,7 @@ TEST_F(ImageInputCli, AbsoluteLuminanceSpansTheDisplaysBlackToItsWhite) {
   // schwarz_2009 shows 0.5 to 250 cd/m2 in the dark: 125.25 lies half way.
   save("a.exr", flat(8, 8, {125.25F, 125.25F, 125.25F}), {OIIO::TypeDesc::FLOAT, {}, {}});
   save("b.exr", flat(8, 8, {1e4F, 1e4F, 1e4F}), {OIIO::TypeDesc::FLOAT, {}, {}});
-  const nlohmann::json found = compared("a.exr", "b.exr", {"--scene-luminance"});
+  const nlohmann::json found = compared("a.exr", "b.exr", {"--scene-luminance", "--display", "schwarz_2009"});
   EXPECT_NEAR(figure(found, "largest_error"), 0.5, 1e-6);
   EXPECT_EQ(found.at("inputs").at("reference").at("clipped_px"), 64);
   EXPECT_THAT(found.at("warnings").dump(), HasSubstr("brighter than the display's white"));
