@@ -71,8 +71,9 @@ void addFitCommand(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::IsMember({"free", "catch"}));
   addStudyChoice(*fit, call->study);
-  fit->add_option(
-      "--task", options.task,
+  FitSettings& settings = options.settings;
+  fit->add_option_function<std::string>(
+      "--task", [&](const std::string& task) { settings.task = readFitTask(task, "--task"); },
       "yesno, 2afc, mafc:M, equal (guess rate = lapse rate); 2afc if not given, of a store its own");
   fit->add_option(
       "--sigmoid", options.sigmoid,
@@ -83,24 +84,32 @@ void addFitCommand(CLI::App& app) {
                   "rising, falling (F of -x, on a log axis of 1/x) or auto, as the answers go; rising if not "
                   "given, of a store auto");
   fit->add_option("--level", options.thresholdLevel, "F at which the threshold is; 0.5 if not given");
-  fit->add_option("--method", options.method, "ml: maximum likelihood, map: with priors")
-      ->capture_default_str();
-  fit->add_option("--fix", options.fixed, "parameter that is known: lapse=0.01; may be repeated");
-  fit->add_option("--share", options.shared, "parameters that all conditions have in common: lapse,width")
+  addChoice<FitMethod>(*fit, "--method", settings.method, "maximum likelihood (default), or with priors");
+  fit->add_option_function<std::vector<std::string>>(
+      "--fix",
+      [&](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) fixParameter(settings, text);
+      },
+      "parameter that is known: lapse=0.01; may be repeated");
+  fit->add_option_function<std::vector<std::string>>(
+         "--share",
+         [&](const std::vector<std::string>& names) {
+           for (const std::string& name : names) shareParameter(settings, name);
+         },
+         "parameters that all conditions have in common: lapse,width")
       ->delimiter(',');
-  fit->add_option("--lapse-most", options.lapseMost, "upper bound of the lapse rate")->capture_default_str();
-  fit->add_option("--guess-most", options.guessMost, "upper bound of a guess rate that is fitted")
+  fit->add_option("--lapse-most", settings.lapseMost, "upper bound of the lapse rate")->capture_default_str();
+  fit->add_option("--guess-most", settings.guessMost, "upper bound of a guess rate that is fitted")
       ->capture_default_str();
   fit->add_option("--range", options.range,
                   "LOW,HIGH: levels between which the threshold is expected; bounds and "
                   "priors go by them and not by the data's")
       ->delimiter(',');
-  fit->add_flag("--overdispersion", options.overdispersion, "fit eta: beta-binomial answers");
-  fit->add_option("--intervals", options.intervals, "bootstrap, bca, profile, laplace, posterior");
+  fit->add_flag("--overdispersion", settings.overdispersion, "fit eta: beta-binomial answers");
+  addChoice<IntervalMethod>(*fit, "--intervals", options.intervals, "how intervals are found", "intervals");
   fit->add_option("--confidence", options.confidence, "of the intervals")->capture_default_str();
-  fit->add_option("--resample", options.resample,
-                  "parametric (from the fit) or nonparametric (from the answers)")
-      ->capture_default_str();
+  addChoice<Resampling>(*fit, "--resample", options.resampling,
+                        "from the fit (parametric, the default) or from the answers");
   fit->add_option("--samples", options.samples, "of bootstrap and goodness of fit")->capture_default_str();
   fit->add_option("--seed", options.seed, "of bootstrap and goodness of fit")->capture_default_str();
   fit->add_option("--threads", options.threads, "of the bootstrap; no result depends on them")
@@ -109,9 +118,7 @@ void addFitCommand(CLI::App& app) {
   fit->add_flag("--goodness", options.goodness,
                 "deviance and residuals against samples drawn from the fit; influence of each block");
   fit->add_option("--plot", call->plot, "draw into FILE.svg, .pdf or .png");
-  fit->add_flag("--json", call->study.asJson, "One JSON object");
-  fit->add_option("--csv", call->study.csv, "Writes all tables of the result to this file")
-      ->type_name("FILE");
+  addOutput(*fit, call->study);
   fit->callback([call, fit] {
     call->study.choice.store = call->options.file;
     if (!isStudyStore(*fit, call->study, {"--k", "--n", "--outcome", "--order"}, {"--part", "--guess"}))

@@ -144,20 +144,11 @@ void addScaleCommand(CLI::App& app) {
                       "column with who answered: bootstrap over subjects, circular triads");
   command->add_option("--round", columns.round,
                       "column that tells a subject's passes through the pairs apart, for circular triads");
-  static const std::map<std::string, PairwiseModel> kModels = {
-      {"thurstone", PairwiseModel::kThurstoneMaximumLikelihood},
-      {"thurstone-ls", PairwiseModel::kThurstoneLeastSquares},
-      {"bradley-terry", PairwiseModel::kBradleyTerry}};
-  command
-      ->add_option("--model", setting.model,
-                   "thurstone (case V), thurstone-ls (by least squares) or bradley-terry (default)")
-      ->transform(CLI::CheckedTransformer(kModels));
-  static const std::map<std::string, UnboundedScale> kUnbounded = {{"refuse", UnboundedScale::kRefuse},
-                                                                   {"penalise", UnboundedScale::kPenalise}};
-  command
-      ->add_option("--unbounded", setting.unbounded,
-                   "what to do if answers put an item infinitely far away: refuse (default) or penalise")
-      ->transform(CLI::CheckedTransformer(kUnbounded));
+  addChoice<PairwiseModel>(*command, "--model", setting.model,
+                           "thurstone (case V), thurstone-ls (by least squares) or bradley-terry (default)");
+  addChoice<UnboundedScale>(
+      *command, "--unbounded", setting.unbounded,
+      "what to do if answers put an item infinitely far away: refuse (default) or penalise");
   command->add_option("--prior-sd", setting.priorDeviation, "of values, if they are penalised")
       ->capture_default_str();
   command->add_option("--reference", setting.reference, "item that is 0 on the scale");

@@ -55,14 +55,11 @@ FactorComparison compareLevels(const RepeatedMeasures& data, size_t factor, bool
   for (size_t subject = 0; subject < data.subjects; ++subject)
     for (const std::vector<double>& level : means) bySubject.push_back(level[subject]);
   out.friedman = friedmanTest(bySubject, data.subjects, means.size());
-  std::vector<double> p;
   for (size_t first = 0; first < means.size(); ++first)
-    for (size_t second = first + 1; second < means.size(); ++second) {
+    for (size_t second = first + 1; second < means.size(); ++second)
       out.rankPairs.push_back({first, second, signedRankTest(means[first], means[second]), 1.0});
-      p.push_back(out.rankPairs.back().test.p);
-    }
-  const std::vector<double> adjusted = adjustHolm(p);
-  for (size_t i = 0; i < adjusted.size(); ++i) out.rankPairs[i].pHolm = adjusted[i];
+  adjustHolm(
+      out.rankPairs, [](const RankComparison& pair) { return pair.test.p; }, &RankComparison::pHolm);
   return out;
 }
 

@@ -126,7 +126,7 @@ Section sectionOf(const PartSensitivity& part) {
   out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(flag("yes_no")), part.yesNo);
   out.fact(forData(integer("alternatives")), part.alternatives);
-  out.fact(forData(text("correction")), part.correction == RateCorrection::kLogLinear ? "loglinear" : "none");
+  out.fact(forData(text("correction")), toText(part.correction));
   out.add(rowTable(part));
   out.add(meanTable(part));
   if (!part.rows.empty()) {

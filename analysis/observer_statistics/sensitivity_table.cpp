@@ -101,12 +101,6 @@ std::string conditionTitle(const Table& table, size_t row, const std::vector<siz
 
 }  // namespace
 
-RateCorrection readRateCorrection(const std::string& text) {
-  if (text == "loglinear") return RateCorrection::kLogLinear;
-  if (text == "none") return RateCorrection::kNone;
-  throw Error("no correction '" + text + "'", "--correction", suggest(text, {"loglinear", "none"}));
-}
-
 std::vector<PartSensitivity> tableSensitivity(const Table& table, const SensitivityColumns& columns) {
   const int alternatives = alternativesOf(columns.task);
   const Count count = counterOf(table, columns, alternatives == 0);

@@ -136,7 +136,7 @@ Result resultOf(const Scales& scales) {
   const ScaleSetting& setting = scales.setting;
   Result out;
   out.command = "scale";
-  out.head.fact(forData(text("model")), modelName(setting.model));
+  out.head.fact(forData(text("model")), toText(setting.model));
   out.head.fact(forData(number("level")), setting.bootstrap.level);
   out.head.fact(forData(text("reference")),
                 setting.reference.empty() ? ResultCell() : ResultCell(setting.reference));
@@ -198,7 +198,7 @@ void drawScales(const Scales& scales, const std::string& path) {
           "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#999999'\n",
           low - margin, high + margin);
   const std::string zero = setting.reference.empty() ? "values sum to 0" : setting.reference + " is 0";
-  const std::string kind = fmt::format("{}; {}", modelName(setting.model), zero);
+  const std::string kind = fmt::format("{}; {}", toText(setting.model), zero);
   if (!single)
     script += fmt::format("set multiplot layout {},{} title {} noenhanced\n", grid.rows, grid.columns,
                           gnuplotQuoted(kind));

@@ -9,6 +9,7 @@
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit.h"
 #include "analysis/statistics/interval.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -19,9 +20,13 @@ enum class IntervalMethod {
   Laplace,    ///< normal by the curvature at the optimum, on the scales of t, ln w and the rates
   Posterior   ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
 };
-const std::vector<std::string>& intervalMethodNames();  ///< "bootstrap", "bca", ...
-IntervalMethod readIntervalMethod(const std::string& name, const std::string& where);  ///< throws Error
-const std::string& nameOf(IntervalMethod method);
+constexpr EnumNames<IntervalMethod, 5> enumNames(IntervalMethod) {
+  return {{{{IntervalMethod::Bootstrap, "bootstrap"},
+            {IntervalMethod::Bca, "bca"},
+            {IntervalMethod::Profile, "profile"},
+            {IntervalMethod::Laplace, "laplace"},
+            {IntervalMethod::Posterior, "posterior"}}}};
+}
 
 struct FitInterval : Interval {
   bool lowOpen = false, highOpen = false;  ///< ends at a bound of the fit: the data set no limit on that side

@@ -95,6 +95,17 @@ Objective::Objective(const std::vector<Condition>& conditions, const FitSettings
   }
 }
 
+std::vector<std::pair<size_t, size_t>> commonPlaces(const Objective& one, size_t c, const Objective& other,
+                                                    size_t d) {
+  std::vector<std::pair<size_t, size_t>> out;
+  for (size_t i = 0; i < kFitParameters; ++i) {
+    const int from = one.place(c, static_cast<FitParameter>(i));
+    const int to = other.place(d, static_cast<FitParameter>(i));
+    if (from >= 0 && to >= 0) out.emplace_back(from, to);
+  }
+  return out;
+}
+
 AxisValues Objective::valuesOf(size_t condition, const double* x) const {
   AxisValues values = fixed_;
   for (size_t i = 0; i < kFitParameters; ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "analysis/psychometric/likelihood.h"
@@ -51,5 +52,9 @@ class Objective {
   std::vector<std::array<int, kFitParameters>> places_;
   AxisValues fixed_{};
 };
+
+/// Places of the parameters that condition `c` of one objective and `d` of another both vary.
+std::vector<std::pair<size_t, size_t>> commonPlaces(const Objective& one, size_t c, const Objective& other,
+                                                    size_t d);
 
 }  // namespace limen::analysis

@@ -22,16 +22,10 @@ struct Own {
 
 Own ownOf(const std::vector<Condition>& conditions, const Fit& fit, size_t c) {
   Objective joint(conditions, fit.settings);
-  const bool shared =
-      std::any_of(fit.settings.shared.begin(), fit.settings.shared.end(), [](bool s) { return s; });
-  if (shared || conditions.size() == 1) return {std::move(joint), fit.x, c};
+  if (fit.settings.sharesAny() || conditions.size() == 1) return {std::move(joint), fit.x, c};
   Objective alone({conditions[c]}, fit.settings);
   std::vector<double> x(alone.size());
-  for (size_t i = 0; i < kFitParameters; ++i) {
-    const FitParameter parameter = static_cast<FitParameter>(i);
-    if (const int to = alone.place(0, parameter); to >= 0)
-      x[static_cast<size_t>(to)] = fit.x[static_cast<size_t>(joint.place(c, parameter))];
-  }
+  for (const auto& [from, to] : commonPlaces(joint, c, alone, 0)) x[to] = fit.x[from];
   return {std::move(alone), std::move(x), 0};
 }
 
@@ -68,9 +62,7 @@ Limit profileLimit(const Objective& objective, const std::vector<double>& optimu
   double outside = inside, above = below;
   while (above < 0.0) {
     // That rates end at 0 is no limit of the fit.
-    if (outside == bound)
-      return {bound,
-              side > 0 || free.parameter == FitParameter::Threshold || free.parameter == FitParameter::Width};
+    if (outside == bound) return {bound, side > 0 || !isRate(free.parameter)};
     inside = outside;
     below = above;
     outside = side < 0 ? std::max(bound, outside - step) : std::min(bound, outside + step);
@@ -149,7 +141,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
     if (fit.conditions[c].atBound[indexOf(FitParameter::Threshold)] != 0 ||
         fit.conditions[c].atBound[indexOf(FitParameter::Width)] != 0) {
       intervals.warnings.push_back(
-          (conditions[c].name.empty() ? "" : conditions[c].name + ": ") +
+          fit.conditions[c].prefix() +
           std::string("no Laplace intervals, as the fit is at a bound; 'profile' and "
                       "'posterior' say what the answers leave open"));
       intervals.conditions.emplace_back();
@@ -174,7 +166,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
       for (Eigen::Index b = 0; b < n; ++b)
         h(a, b) = all[inside[static_cast<size_t>(a)] * size + inside[static_cast<size_t>(b)]];
     const Eigen::LLT<Eigen::MatrixXd> cholesky(h);
-    const std::string of = conditions[c].name.empty() ? "" : conditions[c].name + ": ";
+    const std::string of = fit.conditions[c].prefix();
     ConditionIntervals found;
     if (!h.allFinite() || cholesky.info() != Eigen::Success) {
       intervals.warnings.push_back(of +
@@ -201,7 +193,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
         continue;
       }
       // Rates stay rates.
-      const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+      const bool rate = isRate(parameter);
       const double low = rate ? std::max(middle - half, 0.0) : middle - half;
       const double high = rate ? std::min(middle + half, free.high) : middle + half;
       found[i] = offScale(own.objective, parameter, {{low, high}});

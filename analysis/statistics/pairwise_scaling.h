@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/statistics/interval.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -22,12 +23,21 @@ enum class PairwiseModel {
   kBradleyTerry  ///< P(i over j) = 1 / (1 + exp(s_j - s_i)) (Bradley and Terry 1952), maximum likelihood
 };
 
+constexpr EnumNames<PairwiseModel, 3> enumNames(PairwiseModel) {
+  return {{{{PairwiseModel::kBradleyTerry, "bradley-terry"},
+            {PairwiseModel::kThurstoneMaximumLikelihood, "thurstone"},
+            {PairwiseModel::kThurstoneLeastSquares, "thurstone-ls"}}}};
+}
+
 /// What to do if the data put an item infinitely far away: no chain of preferences leads from each item to
 /// each other (Ford 1957); for least squares, any pair judged unanimously.
 enum class UnboundedScale {
   kRefuse,   ///< limen::Error that names items
   kPenalise  ///< a bounded answer, marked as such, which depends on the penalty
 };
+constexpr EnumNames<UnboundedScale, 2> enumNames(UnboundedScale) {
+  return {{{{UnboundedScale::kRefuse, "refuse"}, {UnboundedScale::kPenalise, "penalise"}}}};
+}
 
 struct PairwiseOptions {
   PairwiseModel model = PairwiseModel::kBradleyTerry;

@@ -2,7 +2,6 @@
 #include "analysis/study/analyses.h"
 
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -11,8 +10,8 @@ namespace {
 FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const FittedPart& fitted) {
   FitOptions own = typed;
   own.level = fitted.variable;
-  own.task = nameOf(fitted.task);
-  if (fitted.guess) own.fixed.push_back("guess=" + shortestNumber(*fitted.guess));
+  own.settings.task = fitted.task;
+  if (fitted.guess) own.settings.fixed[indexOf(FitParameter::Guess)] = fitted.guess;
   const auto fill = [](std::string& option, const std::string& value) {
     if (option.empty()) option = value;
   };
@@ -39,7 +38,7 @@ FitAnswer fitPart(const StudyAnswers& study, const FittedPart& part, const FitOp
 std::vector<PartFit> studyFits(const StudyAnswers& study, const std::string& store) {
   FitOptions options;
   options.file = store;
-  options.intervals = nameOf(IntervalMethod::Profile);
+  options.intervals = IntervalMethod::Profile;
   std::vector<PartFit> out;
   for (const StudyPart& part : study.plan.parts) {
     if (!part.isBinary() || numericVariables(part).empty()) continue;
