@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "analysis/answer_tables/answer_columns.h"
+#include "analysis/answer_tables/choice.h"
 #include "analysis/answer_tables/levels.h"
 #include "analysis/answer_tables/table.h"
 #include "analysis/output/text_output.h"
@@ -20,25 +21,18 @@ namespace {
 
 size_t parameterNamed(const std::string& name, const std::string& option) {
   const auto& names = fitParameterNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw Error("no parameter '" + name + "'", option, suggest(name, {names.begin(), names.end()}));
-  return static_cast<size_t>(found - names.begin());
+  return placeOf(name, {names.begin(), names.end()}, "parameter", option);
 }
 
 /// Place of a choice among those that are known, of which the first is the default.
 size_t choice(const std::string& text, const std::vector<std::string>& known, const std::string& option) {
-  const auto found = text.empty() ? known.begin() : std::find(known.begin(), known.end(), text);
-  if (found == known.end()) throw Error("no choice '" + text + "'", option, suggest(text, known));
-  return static_cast<size_t>(found - known.begin());
+  return text.empty() ? 0 : placeOf(text, known, "choice", option);
 }
 
 }  // namespace
 
 void fixParameter(FitSettings& settings, const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos) throw Error("'" + text + "' has no value", "--fix", "write lapse=0.01");
-  const std::string name = text.substr(0, equals), digits = text.substr(equals + 1);
+  const auto [name, digits] = splitAssignment(text, "has no value", "--fix", "write lapse=0.01");
   std::optional<double>& value = settings.fixed[parameterNamed(name, "--fix")];
   value = finiteNumber(digits);
   if (!value) throw Error("'" + digits + "' is not a number", "--fix " + name);
@@ -77,8 +71,7 @@ std::vector<Condition> readConditions(const FitOptions& options) {
   const size_t trials = single ? correct : table.column(options.trials, "--n");
   const bool ordered = !options.order.empty();
   const size_t order = ordered ? table.column(options.order, "--order") : 0;
-  std::vector<size_t> by;
-  for (const std::string& name : options.by) by.push_back(table.column(name, "--by"));
+  const std::vector<size_t> by = table.columns(options.by, "--by");
 
   std::vector<std::string> names;
   for (size_t row = 0; row < table.rows(); ++row) {

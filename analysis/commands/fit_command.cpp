@@ -65,10 +65,9 @@ void addFitCommand(CLI::App& app) {
   fit->add_option("--order", options.order,
                   "column that says when a row was measured; otherwise the file's order");
   fit->add_option("--part", call->parts.part, "of a store: the part to fit (default: all that can be)");
-  fit->add_option("--guess", call->guess,
-                  "of a store, yes/no: free, fitted with the catch trials as trials without a stimulus, or "
-                  "catch, held at their rate")
-      ->capture_default_str()
+  addDefaulted(*fit, "--guess", call->guess,
+               "of a store, yes/no: free, fitted with the catch trials as trials without a stimulus, or "
+               "catch, held at their rate")
       ->check(CLI::IsMember({"free", "catch"}));
   addStudyChoice(*fit, call->study);
   FitSettings& settings = options.settings;
@@ -98,22 +97,20 @@ void addFitCommand(CLI::App& app) {
          },
          "parameters that all conditions have in common: lapse,width")
       ->delimiter(',');
-  fit->add_option("--lapse-most", settings.lapseMost, "upper bound of the lapse rate")->capture_default_str();
-  fit->add_option("--guess-most", settings.guessMost, "upper bound of a guess rate that is fitted")
-      ->capture_default_str();
+  addDefaulted(*fit, "--lapse-most", settings.lapseMost, "upper bound of the lapse rate");
+  addDefaulted(*fit, "--guess-most", settings.guessMost, "upper bound of a guess rate that is fitted");
   fit->add_option("--range", options.range,
                   "LOW,HIGH: levels between which the threshold is expected; bounds and "
                   "priors go by them and not by the data's")
       ->delimiter(',');
   fit->add_flag("--overdispersion", settings.overdispersion, "fit eta: beta-binomial answers");
   addChoice<IntervalMethod>(*fit, "--intervals", options.intervals, "how intervals are found", "intervals");
-  fit->add_option("--confidence", options.confidence, "of the intervals")->capture_default_str();
+  addDefaulted(*fit, "--confidence", options.confidence, "of the intervals");
   addChoice<Resampling>(*fit, "--resample", options.resampling,
                         "from the fit (parametric, the default) or from the answers");
-  fit->add_option("--samples", options.samples, "of bootstrap and goodness of fit")->capture_default_str();
-  fit->add_option("--seed", options.seed, "of bootstrap and goodness of fit")->capture_default_str();
-  fit->add_option("--threads", options.threads, "of the bootstrap; no result depends on them")
-      ->capture_default_str()
+  addDefaulted(*fit, "--samples", options.samples, "of bootstrap and goodness of fit");
+  addDefaulted(*fit, "--seed", options.seed, "of bootstrap and goodness of fit");
+  addDefaulted(*fit, "--threads", options.threads, "of the bootstrap; no result depends on them")
       ->check(CLI::Range(1u, 64u));
   fit->add_flag("--goodness", options.goodness,
                 "deviance and residuals against samples drawn from the fit; influence of each block");

@@ -107,7 +107,7 @@ void addSdtCommand(CLI::App& app) {
                       "CSV: column that says who answered; means are over subjects");
   addList(*command, "--by", columns.by,
           "CSV: columns of conditions, A,B,...; without --subject means are over their rows");
-  command->add_option("--task", columns.task, "CSV: yesno, 2afc, mafc:M")->capture_default_str();
+  addDefaulted(*command, "--task", columns.task, "CSV: yesno, 2afc, mafc:M");
   addAnswerColumns(*command, columns.answers);
   command->add_option("--signal", columns.signal,
                       "CSV: column with 1 where there was something to see and 0 elsewhere, beside --outcome "

@@ -26,6 +26,12 @@ struct StudyInput {
   std::string csv;
 };
 
+/// An option whose default is what the target holds; help shows it.
+template <class T>
+CLI::Option* addDefaulted(CLI::App& command, const std::string& name, T& target, const std::string& meaning) {
+  return command.add_option(name, target, meaning)->capture_default_str();
+}
+
 /// An option that takes A,B,... and no further argument.
 CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<std::string>& target,
                      const std::string& meaning);

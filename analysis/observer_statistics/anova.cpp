@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/observer_statistics/anova.h"
 
-#include <fmt/format.h>
-
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "analysis/statistics/multiple_comparisons.h"
-#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {
@@ -38,9 +36,7 @@ std::vector<size_t> firstMissing(const std::vector<NamedFactor>& factors,
 
 void transformRates(RepeatedMeasures& data) {
   for (double& value : data.values) {
-    if (!(value >= 0.0 && value <= 1.0))
-      throw Error(fmt::format("{} is no rate, which the arcsine transform is for", value), "--transform",
-                  "transform rates from 0 to 1 only");
+    assert(value >= 0.0 && value <= 1.0);
     value = std::asin(std::sqrt(value));
   }
 }

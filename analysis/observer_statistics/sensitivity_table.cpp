@@ -107,8 +107,7 @@ std::vector<PartSensitivity> tableSensitivity(const Table& table, const Sensitiv
   if (columns.by.empty() && columns.subject.empty())
     throw Error("the columns that tell answers apart are not named", table.name(),
                 "give --subject, --by with columns of conditions, or both");
-  std::vector<size_t> by;
-  for (const std::string& name : columns.by) by.push_back(table.column(name, "--by"));
+  const std::vector<size_t> by = table.columns(columns.by, "--by");
   const bool subjects = !columns.subject.empty();
   const std::vector<size_t> own =
       subjects ? std::vector<size_t>{table.column(columns.subject, "--subject")} : by;

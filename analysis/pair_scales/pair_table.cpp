@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/pair_scales/pair_table.h"
 
-#include <optional>
-
 #include "analysis/answer_tables/answer_columns.h"
 #include "analysis/correlations/relation_table.h"
 #include "analysis/output/text_output.h"
@@ -10,11 +8,6 @@
 
 namespace limen::analysis {
 namespace {
-
-std::optional<size_t> optionalColumn(const Table& table, const std::string& name, const std::string& option) {
-  if (name.empty()) return {};
-  return table.column(name, option);
-}
 
 /// Which of both ways the columns are named.
 bool isOrdered(const PairColumns& columns) {
@@ -44,10 +37,10 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
       ordered ? table.column(columns.first, "--first") : table.column(columns.winner, "--winner");
   const size_t second =
       ordered ? table.column(columns.second, "--second") : table.column(columns.loser, "--loser");
-  const auto chosen = optionalColumn(table, columns.chosen, "--chosen");
-  const auto count = optionalColumn(table, columns.count, "--n");
-  const auto subject = optionalColumn(table, columns.subject, "--subject");
-  const auto round = optionalColumn(table, columns.round, "--round");
+  const auto chosen = table.optionalColumn(columns.chosen, "--chosen");
+  const auto count = table.optionalColumn(columns.count, "--n");
+  const auto subject = table.optionalColumn(columns.subject, "--subject");
+  const auto round = table.optionalColumn(columns.round, "--round");
   const RowGroups groups = groupRows(table, columns.by, "--by");
 
   std::vector<PairGroup> out(groups.names.size());

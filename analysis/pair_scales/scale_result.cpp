@@ -58,11 +58,7 @@ ResultTable stepTable(const ItemScale& scale, const ScaleSetting& setting) {
 
 ResultTable consistencyTable(const ItemScale& scale) {
   const auto items = static_cast<int64_t>(scale.items.size());
-  const auto ifJudged = [](double SubjectConsistency::*member) {
-    return [member](const SubjectConsistency& one) {
-      return one.rounds > 0 ? ResultCell(one.*member) : ResultCell();
-    };
-  };
+  const auto ifJudged = [](auto member) { return when(&SubjectConsistency::rounds, member); };
   return TableOf(
              "consistency",
              scale.consistency.empty()
@@ -91,6 +87,20 @@ void addNotes(const ItemScale& scale, Section& out) {
                    [](const SubjectConsistency& one) { return one.rounds > 0; }))
     out.notes.push_back("nobody judged each pair exactly once: no circular triads");
   out.notes.insert(out.notes.end(), scale.notes.begin(), scale.notes.end());
+}
+
+/// What the bars are.
+std::string barsText(const ItemScale& scale, const ScaleSetting& setting) {
+  const std::string level = levelText(setting.bootstrap.level);
+  switch (scale.bootstrap) {
+    case ScaleBootstrap::Subjects:
+      return level + " bootstrap over subjects";
+    case ScaleBootstrap::Judgements:
+      return level + " bootstrap over judgements";
+    case ScaleBootstrap::None:
+      break;
+  }
+  return level + ", value +- z error";
 }
 
 }  // namespace
@@ -153,24 +163,6 @@ Result resultOf(const Scales& scales) {
   out.notes.push_back(kDashNote);
   return out;
 }
-
-namespace {
-
-/// What the bars are.
-std::string barsText(const ItemScale& scale, const ScaleSetting& setting) {
-  const std::string level = levelText(setting.bootstrap.level);
-  switch (scale.bootstrap) {
-    case ScaleBootstrap::Subjects:
-      return level + " bootstrap over subjects";
-    case ScaleBootstrap::Judgements:
-      return level + " bootstrap over judgements";
-    case ScaleBootstrap::None:
-      break;
-  }
-  return level + ", value +- z error";
-}
-
-}  // namespace
 
 void drawScales(const Scales& scales, const std::string& path) {
   const ChartFile file(path);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <boost/math/special_functions/beta.hpp>
-#include <cassert>
 #include <cmath>
 #include <exception>
 #include <mutex>

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "analysis/psychometric/fit.h"
-#include "analysis/statistics/summary.h"
 
 namespace limen::psychometrics {
 class Random;

@@ -6,8 +6,8 @@
 
 #include "analysis/psychometric/intervals.h"
 #include "analysis/statistics/distributions.h"
+#include "analysis/statistics/summary.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {

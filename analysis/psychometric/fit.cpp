@@ -25,20 +25,10 @@ void settle(const Objective& objective, Optimum& optimum) {
   if (!std::isfinite(optimum.value)) return;
   for (size_t j = 0; j < objective.size(); ++j) {
     const FreeParameter& free = objective.free()[j];
-    if (optimum.atBound[j] != 0) {
-      // What is as good as there is there.
-      std::vector<double> x = optimum.x;
-      x[j] = optimum.atBound[j] < 0 ? free.low : free.high;
-      const double value = objective.evaluate(x.data(), nullptr);
-      if (value <= optimum.value + kFlat) {
-        optimum.x = x;
-        optimum.value = value;
-      }
-      continue;
-    }
-    // Rates that tell nothing are 0, never as large as they may be.
+    // What is as good as at a bound is there. Rates that tell nothing are 0, never as large as they may be.
+    const int reached = optimum.atBound[j];
     for (const int side : {-1, 1}) {
-      if (isRate(free.parameter) && side > 0) continue;
+      if (reached != 0 ? side != reached : isRate(free.parameter) && side > 0) continue;
       std::vector<double> x = optimum.x;
       x[j] = side < 0 ? free.low : free.high;
       const double value = objective.evaluate(x.data(), nullptr);

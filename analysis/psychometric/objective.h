@@ -40,8 +40,8 @@ class Objective {
   double evaluate(const double* x, double* gradient) const;
 
   AxisValues valuesOf(size_t condition, const double* x) const;
-  /// ln of the priors' density at x, up to a constant.
-  double logPriorAt(const double* x) const;
+  /// ln of the priors' density at x, up to a constant; with `gradient`, its derivatives are taken off there.
+  double logPriorAt(const double* x, double* gradient = nullptr) const;
 
  private:
   SigmoidShape shape_;

@@ -151,20 +151,17 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
     const std::vector<double> all = secondDerivatives(own.objective, own.x);
     const size_t size = own.x.size();
     // What is at a bound has no curvature to go by and is held there.
-    std::vector<size_t> inside;
+    std::vector<Eigen::Index> inside;
     std::vector<int> place(size, -1);
     for (size_t j = 0; j < size; ++j) {
       const FreeParameter& free = own.objective.free()[j];
       const double near = 1e-6 * (free.high - free.low);
       if (own.x[j] <= free.low + near || own.x[j] >= free.high - near) continue;
       place[j] = static_cast<int>(inside.size());
-      inside.push_back(j);
+      inside.push_back(static_cast<Eigen::Index>(j));
     }
-    const auto n = static_cast<Eigen::Index>(inside.size());
-    Eigen::MatrixXd h(n, n);
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b < n; ++b)
-        h(a, b) = all[inside[static_cast<size_t>(a)] * size + inside[static_cast<size_t>(b)]];
+    const auto n = static_cast<Eigen::Index>(inside.size()), whole = static_cast<Eigen::Index>(size);
+    const Eigen::MatrixXd h = Eigen::Map<const Eigen::MatrixXd>(all.data(), whole, whole)(inside, inside);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(h);
     const std::string of = fit.conditions[c].prefix();
     ConditionIntervals found;
