@@ -28,9 +28,6 @@ bool isOrdered(const PairColumns& columns) {
 
 }  // namespace
 
-size_t PairGroup::item(const std::string& wanted) { return indexIn(items, wanted); }
-size_t PairGroup::subject(const std::string& wanted) { return indexIn(subjects, wanted); }
-
 std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns) {
   const bool ordered = isOrdered(columns);
   const size_t first =
@@ -54,7 +51,7 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
     const std::string &a = readLabel(table, row, first), &b = readLabel(table, row, second);
     if (a == b)
       throw Error("'" + a + "' is compared with itself", table.place(row, second), "leave the row out");
-    const size_t itemA = group.item(a), itemB = group.item(b);
+    const size_t itemA = indexIn(group.items, a), itemB = indexIn(group.items, b);
     PairJudgement one{itemA, itemB, 1, 0, 0};
     if (chosen) {
       const std::string& choice = readLabel(table, row, *chosen);
@@ -64,7 +61,7 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
       if (choice == b) std::swap(one.winner, one.loser);
     }
     if (count) one.count = table.count(row, *count);
-    if (subject) one.subject = group.subject(readLabel(table, row, *subject));
+    if (subject) one.subject = indexIn(group.subjects, readLabel(table, row, *subject));
     if (round) one.round = indexIn(rounds[groups.of[row]], readLabel(table, row, *round));
     group.judged += one.count;
     if (ordered && one.winner == itemA) group.firstChosen += one.count;

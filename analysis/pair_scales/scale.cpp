@@ -87,7 +87,6 @@ class GroupScale {
     options.model = setting.model;
     options.unbounded = setting.unbounded;
     options.priorDeviation = setting.priorDeviation;
-    options.level = setting.bootstrap.level;
     options.seed = psychometrics::childSeed(setting.bootstrap.seed, group.name);
     options.resamples = group.subjects.empty() ? static_cast<int>(setting.bootstrap.samples) : 0;
     options.names = group.items;

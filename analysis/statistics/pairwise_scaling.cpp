@@ -12,7 +12,6 @@
 #include "analysis/statistics/detail/draw.h"
 #include "analysis/statistics/detail/log_math.h"
 #include "analysis/statistics/distributions.h"
-#include "analysis/statistics/summary.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
@@ -241,7 +240,6 @@ void judgeFit(PairwiseScale& scale, const std::vector<Pair>& pairs, PairwiseMode
 void bootstrap(PairwiseScale& scale, const std::vector<Pair>& pairs, size_t items,
                const PairwiseOptions& options) {
   std::mt19937_64 random(options.seed);
-  std::vector<std::vector<double>> draws(items);
   for (int r = 0; r < options.resamples; ++r) {
     std::vector<Pair> sample = pairs;
     for (Pair& p : sample)
@@ -251,18 +249,13 @@ void bootstrap(PairwiseScale& scale, const std::vector<Pair>& pairs, size_t item
     const bool penalise = scale.penalised || !whyUnbounded(sample, items, options).empty();
     scale.penalisedResamples += penalise ? 1 : 0;
     const Fit again = fit(sample, items, options, penalise);
-    for (size_t i = 0; i < items; ++i) draws[i].push_back(again.values(static_cast<Eigen::Index>(i)));
     scale.bootstrapValues.emplace_back(again.values.begin(), again.values.end());
   }
-  const double tail = (1.0 - options.level) / 2.0;
-  for (const std::vector<double>& values : draws)
-    scale.bootstrapIntervals.push_back({quantile(values, tail), quantile(values, 1.0 - tail)});
 }
 
 }  // namespace
 
 PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const PairwiseOptions& options) {
-  requireLevel(options.level);
   if (!(options.priorDeviation > 0.0 && std::isfinite(options.priorDeviation)))
     throw Error(fmt::format("{} is no standard deviation", options.priorDeviation), "priorDeviation",
                 "give one above 0");
@@ -281,12 +274,10 @@ PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const P
                    ? "; proportions were taken as (k + 1/2) / (n + 1)"
                    : fmt::format("; held together by a penalty, a normal prior of standard deviation {}",
                                  options.priorDeviation));
-  const double z = criticalZ(options.level);
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
     const double value = result.values(i), error = std::sqrt(std::max(0.0, result.covariance(i, i)));
     scale.values.push_back(value);
     scale.standardErrors.push_back(error);
-    scale.intervals.push_back(around(value, z * error));
     for (Eigen::Index j = 0; j < result.values.size(); ++j)
       scale.covariance.push_back(result.covariance(i, j));
   }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics/interval.h"
 #include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
@@ -45,7 +44,6 @@ struct PairwiseOptions {
   /// Maximum likelihood is penalised as by a normal prior of this standard deviation on each scale value.
   /// Least squares uses (k + 1/2) / (n + 1) for every pair instead.
   double priorDeviation = 2.0;
-  double level = 0.95;
   int resamples = 0;  ///< of the bootstrap; 0 for none
   uint64_t seed = 1;
   std::vector<std::string> names;  ///< of the items, for messages; empty: their indices from 0
@@ -55,12 +53,9 @@ struct PairwiseScale {
   std::vector<double> values;  ///< sum to 0
   /// From the inverse Hessian under that constraint; of least squares by the delta method.
   std::vector<double> standardErrors;
-  std::vector<double> covariance;   ///< items x items, rows; for errors of differences
-  std::vector<Interval> intervals;  ///< value +- z error
-  /// Percentile intervals; each resample redraws every pair's judgements from its observed proportion.
-  /// Empty without resamples. Same seed, same bytes.
-  std::vector<Interval> bootstrapIntervals;
-  /// The samples behind the intervals: for each resample the values of all items.
+  std::vector<double> covariance;  ///< items x items, rows; for errors of differences
+  /// For each resample, which redraws every pair's judgements from its observed proportion, the values of all
+  /// items. Same seed, same bytes.
   std::vector<std::vector<double>> bootstrapValues;
   int penalisedResamples = 0;  ///< resamples that were unbounded, and penalised regardless of `unbounded`
 
