@@ -60,8 +60,11 @@ class Describer {
       // A metric that declares neither its own name nor a title goes by its registered name.
       const std::string title =
           quantity.title.empty() ? titleFromName(metric.name, quantity.unit) : quantity.title;
-      add({descriptor_.metricNames[i], measurementTitle(title, metric, descriptor_.metrics, entry.parameters),
-           quantity.unit, quantity.direction, "error", "", entry.source});
+      const std::string full = measurementTitle(title, metric, descriptor_.metrics, entry.parameters);
+      add({descriptor_.metricNames[i], full, quantity.unit, quantity.direction, "error", "", entry.source});
+      if (!descriptor_.reference) continue;
+      add({descriptor_.metricNames[i] + kNoiseSuffix, full + ", noise of the reference", quantity.unit,
+           Direction::Neither, "fact", "", "95 % bound on a difference of two runs; docs/analyse.md"});
     }
   }
 

@@ -22,6 +22,7 @@
 #include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
+#include "renderer/gl/devices.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -373,6 +374,15 @@ class GlExecutor : public Executor {
 
 std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder) {
   return std::make_unique<GlExecutor>(resultsFolder);
+}
+
+std::vector<std::string> listDevices() {
+  std::vector<std::string> out;
+  for (const gl::DeviceInfo& device : gl::listHeadlessDevices())
+    out.push_back(std::to_string(out.size()) + "  " +
+                  (device.renderer.empty() ? "(no OpenGL 4.5)"
+                                           : device.line() + (device.software ? ", software renderer" : "")));
+  return out;
 }
 
 }  // namespace limen::experiments

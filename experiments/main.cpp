@@ -5,6 +5,7 @@
 
 int main(int argc, char** argv) {
   using namespace limen::experiments;
-  return sweepMain(argc, argv,
-                   {"limen-sweep", [] { return *limen::catalogueFromRegistries(); }, makeGlExecutor});
+  return sweepMain(
+      argc, argv,
+      {"limen-sweep", [] { return *limen::catalogueFromRegistries(); }, makeGlExecutor, listDevices});
 }

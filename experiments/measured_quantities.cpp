@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace limen::experiments {
 namespace {
@@ -44,6 +45,11 @@ store::Measurement measured(const std::string& name, std::optional<double> value
   const store::QuantityRow* row = find(name);
   assert(row != nullptr && "measured without a declaration");
   return {name, value, row->unit, row->kind};
+}
+
+double noiseOfDifference(double deviation, int64_t pixels) {
+  constexpr double kNormal95 = 1.959964;
+  return kNormal95 * 2.0 * deviation / std::sqrt(static_cast<double>(pixels));
 }
 
 }  // namespace limen::experiments

@@ -13,6 +13,9 @@ namespace limen::experiments {
 std::string measurementName(const Configuration& metric, const std::vector<Configuration>& all,
                             const std::vector<Parameter>& declared);
 
+/// After a metric's name: the noise that the reference leaves in a difference of two values of it.
+inline constexpr const char* kNoiseSuffix = "_noise";
+
 /// Title of the same value: the metric's, distinguished in the same way ("RMSE, penumbra").
 std::string measurementTitle(const std::string& title, const Configuration& metric,
                              const std::vector<Configuration>& all, const std::vector<Parameter>& declared);

@@ -7,14 +7,19 @@
 #include <future>
 
 #include "experiments/base/hash.h"
+#include "experiments/measured_quantities.h"
 #include "experiments/measurement_name.h"
 #include "perception/metrics/error_map.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
 
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
                                          std::vector<std::pair<std::string, Image>>& maps) {
+  const references::SamplingNoise* noise =
+      run.reference.name.empty() ? nullptr
+                                 : references::SamplingNoiseRegistry::instance().find(run.reference.name);
   std::vector<store::Measurement> out;
   for (const Configuration& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
@@ -22,6 +27,10 @@ std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception
     const std::string name = measurementName(metric, run.metrics, info.parameters);
     out.push_back(
         {name, std::isfinite(result.value) ? std::optional(result.value) : std::nullopt, info.unit, "error"});
+    if (info.averagesPixels && noise != nullptr && result.evaluatedPixels > 0)
+      out.push_back({name + kNoiseSuffix,
+                     noiseOfDifference(noise->deviation(run.reference.values), result.evaluatedPixels),
+                     info.unit, "fact"});
     const bool known =
         std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.first == result.mapName; });
     if (result.map && !known) maps.emplace_back(result.mapName, std::move(*result.map));

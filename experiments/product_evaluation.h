@@ -12,7 +12,8 @@
 
 namespace limen::experiments {
 
-/// Applies the run's metrics. Maps for pictures are added to `maps` (name, image).
+/// Applies the run's metrics; those that average pixels get a fact NAME_noise if the reference is sampled.
+/// Maps for pictures are added to `maps` (name, image).
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
                                          std::vector<std::pair<std::string, Image>>& maps);
 

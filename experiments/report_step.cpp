@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/base/environment.h"
+#include "experiments/base/failure.h"
 
 namespace limen::experiments {
 namespace {
@@ -43,15 +44,19 @@ ReportResult makeReport(const std::string& storeName, const std::string& folderN
   const std::string store = asFile(storeName), folder = asFile(folderName);
   std::error_code code;
   const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path() / "limen-report";
-  if (code || !fs::exists(program)) return {"", "no report: limen-report is not built"};
+  if (code || !fs::exists(program)) return {"", "no report: limen-report is not built", false};
   const std::vector<std::string> command = {program.string(), store, "--sweeps", "-o", folder, "--force"};
   const int status = call(command);
   if (status != 0)
-    return {"", fmt::format("no report: limen-report ended with {}; try: limen report {}", status,
-                            quoteCommand({command.begin() + 1, command.end()}))};
+    return {"",
+            fmt::format("the report could not be written ({} ended with {}); the runs are kept in {}; try: "
+                        "limen report {}",
+                        calledName("limen-report"), status, store,
+                        quoteCommand({command.begin() + 1, command.end()})),
+            true};
   const fs::path page = fs::path(folder) / "report.html";
   const std::string path = fs::exists(page) ? page.string() : folder;
-  return {path, "report: " + path};
+  return {path, "report: " + path, false};
 }
 
 }  // namespace limen::experiments

@@ -70,6 +70,14 @@ class Sweeper {
   }
 
   int list() const {
+    if (*options_.list == "devices") {
+      for (const std::string& line : program_.devices ? program_.devices() : std::vector<std::string>{})
+        if (options_.json)
+          printJson({{"device", line}});
+        else
+          say(line);
+      return kExitSuccess;
+    }
     if (options_.json)
       for (const nlohmann::json& line : describeAsJson(program_.catalogue(), *options_.list)) printJson(line);
     else
@@ -213,16 +221,23 @@ class Sweeper {
     if (whole)
       expectations = evaluateExpectations(sweep.descriptor, sweep.plan, experiment,
                                           executor->environment().device, results);
-    const std::string report = whole && !options_.noReport ? writeReport(sweep) : "";
-    return summarise(sweep, tally, expectations, executor->account(), report);
+    ReportResult report;
+    if (whole && !options_.noReport) report = writeReport(sweep);
+    const int exitCode = summarise(sweep, tally, expectations, executor->account(), report.path);
+    return report.failed ? std::max(exitCode, kExitFailedRuns) : exitCode;
   }
 
-  std::string writeReport(const PlannedSweep& sweep) const {
+  ReportResult writeReport(const PlannedSweep& sweep) const {
     const fs::path store = sweep.store;
     const std::string folder = (store.parent_path() / (store.stem().string() + "_report")).string();
-    const ReportResult result = makeReport(sweep.store, folder);
-    say(result.message);
-    return result.path;
+    // Charts of a large sweep take a while.
+    if (isatty(STDOUT_FILENO)) say("writing the report");
+    ReportResult result = makeReport(sweep.store, folder);
+    if (result.failed)
+      std::fprintf(stderr, "%s: %s\n", calledName(program_.name).c_str(), printable(result.message).c_str());
+    else
+      say(result.message);
+    return result;
   }
 
   int summarise(const PlannedSweep& sweep, const SweepTally& tally,
@@ -267,8 +282,9 @@ class Sweeper {
 };
 
 int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
-  const ParsedOptions parsed = parseOptions(argc, argv, program.name);
+  const ParsedOptions parsed = parseOptions(argc, argv, calledName(program.name));
   if (parsed.exitCode) return *parsed.exitCode;
+  if (!parsed.options.device.empty()) setenv("LIMEN_EGL_DEVICE", parsed.options.device.c_str(), 1);
   std::vector<std::string> command(argv, argv + argc);
   command[0] = program.name;
   try {
@@ -277,14 +293,14 @@ int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
     std::fprintf(stderr, "%s\n", printable(error.what()).c_str());
     return exitCodeAfter(kExitBadInput);
   } catch (...) {
-    return reportFailure(program.name);
+    return reportFailure(calledName(program.name));
   }
 }
 
 }  // namespace
 
 int sweepMain(int argc, char** argv, const SweepProgram& program) {
-  return afterStandardOutput(program.name, parseAndSweep(argc, argv, program));
+  return afterStandardOutput(calledName(program.name), parseAndSweep(argc, argv, program));
 }
 
 }  // namespace limen::experiments

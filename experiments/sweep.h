@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "experiments/base/catalogue.h"
 #include "experiments/executor.h"
@@ -17,6 +18,8 @@ struct SweepProgram {
   /// Makes the executor whose artefacts go below `resultsFolder`. Called only when there is a sweep to run;
   /// throws Error.
   std::function<std::unique_ptr<Executor>(const std::string& resultsFolder)> makeExecutor;
+  /// One line for each device that --device can choose; null: there are none.
+  std::function<std::vector<std::string>()> devices = {};
 };
 
 /// The command line of `limen sweep`. Returns the exit code: 0; 1 for failed runs, broken expectations or a

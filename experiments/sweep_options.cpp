@@ -56,10 +56,14 @@ ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   app.add_flag("--retry-died", options.retryDied, "Try runs again whose process died twice");
   app.add_flag("--dry-run", options.dryRun, "Print the plan and its size without running it");
   app.add_flag("--no-report", options.noReport, "Do not write an HTML report");
+  app.add_option("--device", options.device,
+                 "GPU to measure on: a part of its name (nvidia) or its index; --list devices shows them")
+      ->type_name("NAME");
   app.add_flag("--json", options.json, "JSON lines on standard output");
   std::string list;
   CLI::Option* const listOption = app.add_option(
-      "--list", list, "List what descriptors can name: scenes, techniques, metrics, or one NAME in full");
+      "--list", list,
+      "List what descriptors can name: scenes, techniques, metrics, or one NAME in full; or devices");
   listOption->expected(0, 1)->type_name("WHAT");
   app.add_flag("--features", options.features, "List which features of the theses the descriptors cover");
   app.add_option("--root", options.root,

@@ -14,6 +14,7 @@ struct SweepOptions {
   int shardIndex = 1, shardCount = 1;
   bool dryRun = false, json = false, failFast = false, retryDied = false, noReport = false, features = false;
   std::optional<std::string> list;  ///< "" for everything
+  std::string device;               ///< name or index of the GPU; "": the first that is one
   std::string root;  ///< source tree with experiments/features.yaml and experiments/descriptors
 
   bool merge = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,10 @@ struct FitAnswer {
   std::string file, hash;          ///< of the data; the hash is its SHA-256
   std::string part;                ///< of a study; empty for tables
   std::string level;               ///< name of x
+  std::string title;               ///< of x for people, with its unit; "" for its name
   std::vector<std::string> notes;  ///< what whoever reads the numbers has to know of the data
   std::vector<Condition> data;
+  std::vector<std::map<std::string, std::string>> levels;  ///< of each condition's factors or columns
   Fit fit;
   std::optional<FitIntervals> intervals;
   bool parametric = true;          ///< how replicates of the intervals were drawn

@@ -97,12 +97,20 @@ FitChart chartOf(const FitAnswer& answer) {
   return out;
 }
 
+std::string pointSize(const FitChart& chart) {
+  int64_t most = 1;
+  for (const FitSeries& series : chart.series)
+    for (const FitPoint& point : series.points) most = std::max(most, point.trials);
+  return fmt::format("0.3+0.9*sqrt($3/{}.0)", most);
+}
+
 void drawFit(const FitAnswer& answer, const std::string& path) {
   const ChartFile file(path);
   const FitChart chart = chartOf(answer);
   std::string out = file.head() + "set key left " + (chart.falling ? "bottom" : "top") +
                     " Left reverse noenhanced samplen 2\nset xlabel " +
-                    gnuplotQuoted(answer.level + (chart.blanks ? " (open points: no stimulus)" : "")) +
+                    gnuplotQuoted((answer.title.empty() ? answer.level : answer.title) +
+                                  (chart.blanks ? " (open points: no stimulus)" : "")) +
                     " noenhanced\nset ylabel 'share of correct or positive answers' noenhanced\n"
                     "set yrange [0:1.02]\n" +
                     fmt::format("set xrange [{}:{}]\n", chart.low, chart.high) +
@@ -110,11 +118,12 @@ void drawFit(const FitAnswer& answer, const std::string& path) {
   for (size_t c = 0; c < chart.series.size(); ++c) {
     const std::string& name = chart.series[c].name;
     out += fmt::format(
-        "{0}{1} index {2} using 1:2:4 with points pt variable ps 0.7 {5} notitle, {1} index {3} using 1:2 "
+        "{0}{1} index {2} using 1:2:({7}):4 with points ps variable pt variable {5} notitle, {1} index {3} "
+        "using 1:2 "
         "with lines "
         "lw 1.5 {5} {6}, {1} index {4} using 1:2:3:4 with xerrorbars pt 2 ps 0.7 {5} notitle",
         c ? ", " : "", file.data(), 3 * c, 3 * c + 1, 3 * c + 2, seriesStyle(c),
-        name.empty() ? "notitle" : "title " + gnuplotQuoted(name));
+        name.empty() ? "notitle" : "title " + gnuplotQuoted(name), pointSize(chart));
   }
   file.draw(out + "\n", dataOf(chart));
 }

@@ -36,5 +36,7 @@ struct FitChart {
 };
 
 FitChart chartOf(const FitAnswer& answer);
+/// Of a point by its trials in column 3, as gnuplot's expression: its area grows with them.
+std::string pointSize(const FitChart& chart);
 
 }  // namespace limen::analysis

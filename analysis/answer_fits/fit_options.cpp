@@ -114,7 +114,7 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
   if (options.samples < 100 || options.samples > 1000000)
     throw Error("has to be 100 to 1000000", "--samples", "2000 are usual");
   const FitSettings settings = readFitSettings(options, data);
-  const std::optional<IntervalMethod>& method = options.intervals;
+  const IntervalMethod method = options.intervals.value_or(IntervalMethod::None);
   const bool parametric = options.resampling == Resampling::Parametric;
 
   FitAnswer answer;
@@ -149,7 +149,10 @@ FitAnswer answerFit(const FitOptions& options, std::vector<Condition> data) {
   if (bootstrapped) {
     answer.intervals = bootstrapIntervals(answer.data, answer.fit, parametric ? replicates : draw(false),
                                           method == IntervalMethod::Bca, options.confidence);
-  } else if (method) {
+  } else if (method == IntervalMethod::Observers) {
+    throw Error("takes the pooled answers of a result store's observers", "--intervals observers",
+                "of a table or a single observer take profile");
+  } else if (method != IntervalMethod::None) {
     const auto intervals = method == IntervalMethod::Profile   ? profileIntervals
                            : method == IntervalMethod::Laplace ? laplaceIntervals
                                                                : posteriorIntervals;

@@ -14,6 +14,7 @@ namespace {
 
 /// A parameter, or the slope, of one condition as fitted.
 struct ParameterRow {
+  size_t index = 0;  ///< of the condition
   std::string condition, name;
   double value = 0.0;
   std::optional<FitInterval> interval;
@@ -42,6 +43,7 @@ std::vector<ParameterRow> parameterRows(const FitAnswer& answer) {
     const FitQuantities quantities = quantitiesOf(fit);
     for (size_t i = 0; i < kFitQuantities; ++i) {
       ParameterRow row;
+      row.index = c;
       row.condition = fit.name;
       row.name = quantityName(i);
       row.value = quantities[i];
@@ -62,16 +64,29 @@ std::vector<ParameterRow> parameterRows(const FitAnswer& answer) {
   return out;
 }
 
+/// A column for each factor of a study's conditions; `indexOfRow` says which condition a row is of.
+template <class Table, class Index>
+void addLevels(const FitAnswer& answer, Table& out, Index indexOfRow) {
+  if (answer.levels.size() != answer.fit.conditions.size() || answer.levels.empty()) return;
+  for (const auto& [factor, first] : answer.levels.front())
+    out.add(forData(text(factor)), [&, name = factor](const auto& row) {
+      const auto& levels = answer.levels[indexOfRow(row)];
+      const auto own = levels.find(name);
+      return own == levels.end() ? ResultCell() : ResultCell(own->second);
+    });
+}
+
 ResultTable parameterTable(const FitAnswer& answer) {
   const std::vector<ParameterRow> rows = parameterRows(answer);
   Column bounds =
       interval("", answer.intervals ? fmt::format("{:.4g} %", 100.0 * answer.intervals->confidence) : "95 %");
   bounds.kind = Kind::Significant;
-  bounds.digits = 7;
-  return TableOf("parameters", "", rows)
-      .add(ifAny(text("condition")), &ParameterRow::condition)
-      .add(text("parameter"), &ParameterRow::name)
-      .add(significant("estimate", "", 8), &ParameterRow::value)
+  bounds.digits = 4;
+  TableOf out("parameters", "", rows);
+  out.add(ifAny(text("condition")), &ParameterRow::condition);
+  addLevels(answer, out, [](const ParameterRow& row) { return row.index; });
+  return out.add(text("parameter"), &ParameterRow::name)
+      .add(significant("estimate"), &ParameterRow::value)
       .add(ifAny(bounds), &ParameterRow::interval)
       .add(ifAny(flag("low_open", "low at bound")), at(&ParameterRow::interval, &FitInterval::lowOpen))
       .add(ifAny(flag("high_open", "high at bound")), at(&ParameterRow::interval, &FitInterval::highOpen))
@@ -104,8 +119,8 @@ ResultTable conditionTable(const FitAnswer& answer) {
       .add(ifAny(text("condition")), &ConditionFit::name)
       .add(integer("trials"), &ConditionFit::trials)
       .add(integer("blocks", "levels or blocks"), &ConditionFit::blocks)
-      .add(significant("deviance", "", 8), &ConditionFit::deviance)
-      .add(significant("log_likelihood", "", 8), &ConditionFit::logLikelihood)
+      .add(number("deviance", "", 2), &ConditionFit::deviance)
+      .add(number("log_likelihood", "", 2), &ConditionFit::logLikelihood)
       // Priors of a parameter that conditions share have no condition of their own.
       .add(forData(number("log_posterior")),
            [=](const ConditionFit& fit) {
@@ -164,15 +179,15 @@ void addGoodness(const FitAnswer& answer, Section& out) {
   out.add(
       TableOf("blocks", "residuals of blocks, and the fit without each", blocks)
           .add(ifAny(text("condition")), &BlockRow::condition)
-          .add(significant("level", "", 6),
+          .add(significant("level"),
                [](const BlockRow& row) {
                  return std::isfinite(row.level) ? ResultCell(row.level) : ResultCell();
                })
           .add(forData(flag("no_stimulus")), [](const BlockRow& row) { return !std::isfinite(row.level); })
           .add(number("predicted", "", 4), &BlockRow::predicted)
           .add(number("deviance_residual", "residual"), &BlockRow::residual)
-          .add(significant("threshold_without", "threshold", 6), without(&BlockInfluence::threshold))
-          .add(significant("width_without", "width", 6), without(&BlockInfluence::width))
+          .add(significant("threshold_without", "threshold"), without(&BlockInfluence::threshold))
+          .add(significant("width_without", "width"), without(&BlockInfluence::width))
           .add(flag("influential"), at(&BlockRow::influence, &BlockInfluence::influential)));
 }
 
@@ -187,17 +202,17 @@ void addModels(const FitAnswer& answer, Section& out) {
   out.add(TableOf("models", "", rows)
               .add(text("model"), &ModelRow::name)
               .add(integer("parameters"), at(&ModelRow::fit, &Fit::freeParameters))
-              .add(significant("log_likelihood", "", 7), at(&ModelRow::fit, &Fit::logLikelihood))
-              .add(significant("deviance", "", 7), at(&ModelRow::fit, &Fit::deviance))
-              .add(significant("aic", "AIC", 7), at(&ModelRow::fit, &Fit::aic))
-              .add(significant("bic", "BIC", 7), at(&ModelRow::fit, &Fit::bic))
-              .add(ifAny(significant("log_posterior", "", 7)), [=](const ModelRow& row) {
+              .add(number("log_likelihood", "", 2), at(&ModelRow::fit, &Fit::logLikelihood))
+              .add(number("deviance", "", 2), at(&ModelRow::fit, &Fit::deviance))
+              .add(number("aic", "AIC", 2), at(&ModelRow::fit, &Fit::aic))
+              .add(number("bic", "BIC", 2), at(&ModelRow::fit, &Fit::bic))
+              .add(ifAny(number("log_posterior", "", 2)), [=](const ModelRow& row) {
                 return map ? ResultCell(row.fit->logPosterior()) : ResultCell();
               }));
   if (!answer.ratio) return;
   out.add(TableOf("likelihood_ratio", "likelihood ratio, shared within not shared",
                   std::vector<LikelihoodRatio>{*answer.ratio})
-              .add(significant("statistic", "χ²", 6), &LikelihoodRatio::statistic)
+              .add(number("statistic", "χ²", 2), &LikelihoodRatio::statistic)
               .add(integer("df"), &LikelihoodRatio::degrees)
               .add(probability(), &LikelihoodRatio::p));
   out.notes.push_back("likelihood ratio: approximate for few trials; rates at a bound make p too large");

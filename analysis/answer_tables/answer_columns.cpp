@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
@@ -49,6 +54,16 @@ std::string AnswerReader::meaning() const {
 }
 
 int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& hint) {
+  static const std::map<std::string, int64_t> kWords = {
+      {"yes", 1}, {"true", 1},  {"correct", 1},   {"right", 1}, {"y", 1}, {"t", 1},
+      {"no", 0},  {"false", 0}, {"incorrect", 0}, {"wrong", 0}, {"n", 0}, {"f", 0}};
+  std::string word = table.text(row, column);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (const auto known = kWords.find(word); known != kWords.end()) return known->second;
+  if (!finiteNumber(word))
+    throw Error("'" + table.text(row, column) + "' is neither 0 nor 1", table.place(row, column),
+                hint + "; yes and no, true and false, correct and incorrect, right and wrong are taken too");
   const double value = table.number(row, column);
   if (value != 0.0 && value != 1.0)
     throw Error("'" + table.text(row, column) + "' is neither 0 nor 1", table.place(row, column), hint);

@@ -45,7 +45,8 @@ class AnswerReader {
   size_t first_ = 0, trials_ = 0;
 };
 
-/// 0 or 1. Throws Error with line and column.
+/// 0 or 1, or words for them: yes and no, true and false, correct and incorrect, right and wrong, y and n, t
+/// and f, in any case. Throws Error with line and column.
 int64_t readBinary(const Table& table, size_t row, size_t column, const std::string& hint);
 /// `correct` of `trials`, with trials. Throws Error with line and column.
 AnswerCount readCounts(const Table& table, size_t row, size_t correct, size_t trials);

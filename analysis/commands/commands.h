@@ -12,7 +12,7 @@ namespace limen::analysis {
 void addReportCommand(CLI::App& app);  ///< report
 void addSweepCommands(CLI::App& app);  ///< switch-distances
 void addFitCommand(CLI::App& app);     ///< fit
-void addStudyCommands(CLI::App& app);  ///< rates, validate
+void addStudyCommands(CLI::App& app);  ///< rates, thresholds, validate
 void addAnovaCommand(CLI::App& app);
 void addSdtCommand(CLI::App& app);
 void addMixedCommand(CLI::App& app);

@@ -34,7 +34,9 @@ void fitStore(FitCall& call) {
 }
 
 void fitTable(const FitCall& call) {
-  const FitAnswer answer = answerFit(call.options, readConditions(call.options));
+  FitOptions options = call.options;
+  if (!options.intervals) options.intervals = IntervalMethod::Profile;
+  const FitAnswer answer = answerFit(options, readConditions(options));
   if (!call.plot.empty()) drawFit(answer, call.plot);
   Section head;
   head.fact(text("file"), answer.file);
@@ -57,7 +59,7 @@ void addFitCommand(CLI::App& app) {
                   "column with the stimulus level; of a store the axis or factor, where there are several");
   fit->add_option("--k", options.correct, "column with the number of correct or positive answers");
   fit->add_option("--n", options.trials, "column with the number of trials");
-  fit->add_option("--outcome", options.outcome, "column with 0 or 1, where each row is one trial");
+  fit->add_option("--outcome", options.outcome, "column with 0 or 1, no or yes, where each row is one trial");
   fit->add_option("--by", options.by,
                   "columns whose values are the conditions; of a store factors, 'observer' or none (default: "
                   "all factors but x, observers pooled)")
@@ -104,7 +106,11 @@ void addFitCommand(CLI::App& app) {
                   "priors go by them and not by the data's")
       ->delimiter(',');
   fit->add_flag("--overdispersion", settings.overdispersion, "fit eta: beta-binomial answers");
-  addChoice<IntervalMethod>(*fit, "--intervals", options.intervals, "how intervals are found", "intervals");
+  addChoice<IntervalMethod>(
+      *fit, "--intervals", options.intervals,
+      "profile unless given; of a store whose observers are pooled observers, which takes "
+      "them as the unit",
+      "intervals");
   addDefaulted(*fit, "--confidence", options.confidence, "of the intervals");
   addChoice<Resampling>(*fit, "--resample", options.resampling,
                         "from the fit (parametric, the default) or from the answers");

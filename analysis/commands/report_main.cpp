@@ -7,6 +7,7 @@
 #include "analysis/commands/sweep_reports.h"
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/program.h"
 
 namespace {
@@ -34,10 +35,13 @@ int main(int argc, char** argv) {
     const bool study = app.remaining_size() > 0 || (!sweepsOnly && options.experiment.empty() &&
                                                     limen::analysis::holdsSessions(options.storePath));
     if (study) {
-      std::fprintf(stderr, "limen-report: for studies and their options use limen analyse report\n");
+      // The launcher does so by itself.
+      if (limen::calledName("limen-report") == "limen-report")
+        std::fprintf(stderr, "limen-report: for studies and their options use limen analyse report\n");
       exitCode = kExitHoldsStudy;
       return;
     }
+    if (options.folder.empty()) options.folder = limen::analysis::defaultReportFolder(options.storePath);
     for (const limen::analysis::ReportResult& result : limen::analysis::writeReports(options))
       limen::analysis::printReport(result, json);
   });

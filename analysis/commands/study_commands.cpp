@@ -8,6 +8,7 @@
 #include "analysis/output/text_output.h"
 #include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
+#include "analysis/study/thresholds.h"
 #include "analysis/study/validation.h"
 #include "experiments/base/error.h"
 
@@ -63,10 +64,30 @@ void addRates(CLI::App& app) {
   });
 }
 
+void addThresholds(CLI::App& app) {
+  struct Call : StudyInput {
+    std::string part;
+    AnovaSettings settings;
+  };
+  CLI::App* command = app.add_subcommand(
+      "thresholds", "thresholds of each observer and condition of a study, compared over observers");
+  auto call = std::make_shared<Call>();
+  addStudyInput(*command, *call);
+  command->add_option(
+      "--part", call->part,
+      "Part of the protocol (default: those whose stimuli a procedure chose, or else all with a "
+      "numeric variable)");
+  command->callback([call] {
+    const StudyAnswers study = readStudy(*call);
+    print(*call, headOf(study), resultOf(studyThresholds(study, call->part, call->settings), study));
+  });
+}
+
 }  // namespace
 
 void addStudyCommands(CLI::App& app) {
   addRates(app);
+  addThresholds(app);
 
   CLI::App* command = app.add_subcommand(
       "validate",

@@ -65,7 +65,8 @@ void addTableInput(CLI::App& command, StudyInput& input) {
 }
 
 void addAnswerColumns(CLI::App& command, AnswerColumns& columns) {
-  command.add_option("--outcome", columns.outcome, "CSV: column with 0 or 1, where each row is one trial");
+  command.add_option("--outcome", columns.outcome,
+                     "CSV: column with 0 or 1, no or yes, where each row is one trial");
   command.add_option("--k", columns.correct, "CSV: column with the number of correct or positive answers");
   command.add_option("--n", columns.trials, "CSV: column with the number of trials");
 }

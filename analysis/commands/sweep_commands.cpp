@@ -24,10 +24,11 @@ namespace limen::analysis {
 
 namespace {
 
-void runSwitchDistances(const SwitchOptions& options, bool json) {
+void runSwitchDistances(const SwitchOptions& options, bool json, const std::string& csv) {
   const std::vector<SwitchReport> reports = findSwitchDistances(options);
   std::optional<StagedFolder> staged;
   if (!options.folder.empty()) staged.emplace(options.folder);
+  std::vector<Section> sections;
   for (const SwitchReport& report : reports) {
     const Result result = resultOf(report);
     if (staged) {
@@ -38,8 +39,11 @@ void runSwitchDistances(const SwitchOptions& options, bool json) {
       writeFileBytes((folder / "switch_distances.csv").string(), toCsv(result.head.table("curves")));
       drawSwitchChart(report, (folder / "switch_distances.svg").string());
     }
+    sections.push_back(result.head);
+    sections.back().fact(key(text("experiment_title")), report.title);
     std::fputs((json ? jsonLine(result) : toText(result)).c_str(), stdout);
   }
+  if (!csv.empty()) writeFileBytes(csv, toCsv(sections));
   if (staged) staged->putInPlace();
 }
 
@@ -87,11 +91,12 @@ void addSweepCommands(CLI::App& app) {
   struct Call {
     SwitchOptions options;
     bool json = false;
+    std::string csv;
   };
   const auto call = std::make_shared<Call>();
   CLI::App* distances = app.add_subcommand(
       "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
-  distances->add_option("STORE", call->options.storePath, "result store that limen-sweep wrote")->required();
+  distances->add_option("STORE", call->options.storePath, "result store that limen sweep wrote")->required();
   addDefaulted(*distances, "-p,--probability", call->options.probability, "detection that is allowed");
   addDefaulted(*distances, "--confidence", call->options.confidence, "of the interval over views");
   distances->add_option("--experiment", call->options.experiment, "title or hash of one experiment");
@@ -104,7 +109,9 @@ void addSweepCommands(CLI::App& app) {
   distances->add_option("-o,--output", call->options.folder, "folder for JSON, CSV and chart");
   distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
   distances->add_flag("--json", call->json, "print one JSON line for each experiment");
-  distances->callback([call] { runSwitchDistances(call->options, call->json); });
+  distances->add_option("--csv", call->csv, "Writes all tables of the result to this file")
+      ->type_name("FILE");
+  distances->callback([call] { runSwitchDistances(call->options, call->json, call->csv); });
 }
 
 void addReportCommand(CLI::App& app) {
@@ -116,6 +123,7 @@ void addReportCommand(CLI::App& app) {
   addStudyChoice(*command, call->study);
   command->add_flag("--json", call->json, "print one JSON line for each page");
   command->callback([call, command] {
+    if (call->sweeps.folder.empty()) call->sweeps.folder = defaultReportFolder(call->sweeps.storePath);
     call->study.choice.store = call->sweeps.storePath;
     report(*command, *call);
   });

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -14,14 +15,20 @@ namespace limen::analysis {
 
 void addSweepReportOptions(CLI::App& command, ReportOptions& options) {
   command.add_option("STORE", options.storePath, "result store with a sweep, a study or both")->required();
-  command
-      .add_option("-o,--output", options.folder, "folder for report.html, CSV tables, figures and pictures")
-      ->required();
+  command.add_option(
+      "-o,--output", options.folder,
+      "folder for report.html, CSV tables, figures and pictures (default: STORE's name with _report, "
+      "beside it)");
   command.add_option(
       "--experiment", options.experiment,
       "title or hash (8 digits or more) of one experiment; otherwise all of the store, each in a folder "
       "of its own if there are several");
   command.add_flag("--force", options.force, "report although runs are missing or failed; the page says so");
+}
+
+std::string defaultReportFolder(const std::string& store) {
+  const std::filesystem::path path = store;
+  return (path.parent_path() / (path.stem().string() + "_report")).string();
 }
 
 void printPage(const std::string& page, Section facts, bool json) {

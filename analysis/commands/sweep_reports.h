@@ -15,6 +15,10 @@ namespace limen::analysis {
 /// STORE, -o, --experiment, --force: what limen-report and `limen analyse report` have in common.
 void addSweepReportOptions(CLI::App& command, ReportOptions& options);
 
+/// Where the report of a store goes unless -o says otherwise: results/quick_report for results/quick.sqlite,
+/// as a sweep writes it.
+std::string defaultReportFolder(const std::string& store);
+
 /// One line for a page that was written: its path, or its facts as JSON.
 void printPage(const std::string& page, Section facts, bool json);
 void printReport(const ReportResult& result, bool json);

@@ -41,10 +41,11 @@ void transformRates(RepeatedMeasures& data) {
   }
 }
 
-FactorComparison compareLevels(const RepeatedMeasures& data, size_t factor, bool ranks) {
+FactorComparison compareLevels(const RepeatedMeasures& data, size_t factor, bool ranks, bool rates) {
   FactorComparison out;
   const std::vector<std::vector<double>> means = levelMeans(data, factor);
-  for (const std::vector<double>& level : means) out.means.push_back(meanOverSubjects(level));
+  for (const std::vector<double>& level : means)
+    out.means.push_back(rates ? meanRateOverSubjects(level) : meanOverSubjects(level));
   out.pairs = comparePairs(data, factor);
   if (!ranks) return out;
   std::vector<double> bySubject;
@@ -108,7 +109,8 @@ void analyseGroup(PartAnova& out, const GroupObservations& data, const AnovaSett
   out.result = analyseRepeatedMeasures(cells);
   out.published.resize(out.result->effects.size());
   for (size_t factor = 0; factor < factors.size(); ++factor)
-    out.comparisons.push_back(compareLevels(cells, factor, settings.ranks));
+    out.comparisons.push_back(
+        compareLevels(cells, factor, settings.ranks, out.rates && settings.transform == RateTransform::None));
 }
 
 }  // namespace limen::analysis

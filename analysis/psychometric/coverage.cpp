@@ -52,6 +52,7 @@ constexpr Measured kMeasured[] = {
 }  // namespace
 
 std::vector<std::string> coverageNotes(IntervalMethod method, bool parametric, const FitTask& task) {
+  if (method == IntervalMethod::Observers) return {};
   std::vector<std::string> notes;
   const bool drawn = method == IntervalMethod::Bootstrap || method == IntervalMethod::Bca;
   const auto isOf = [&](const Measured& row, const std::string& name) {

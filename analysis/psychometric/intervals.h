@@ -18,14 +18,18 @@ enum class IntervalMethod {
   Bca,        ///< bias-corrected and accelerated percentiles (Efron 1987, JASA 82)
   Profile,    ///< where the maximum over all others has dropped by half the chi-squared quantile
   Laplace,    ///< normal by the curvature at the optimum, on the scales of t, ln w and the rates
-  Posterior   ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
+  Posterior,  ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
+  Observers,  ///< jackknife over the observers whose answers were pooled (analysis/study)
+  None        ///< asked for none
 };
-constexpr EnumNames<IntervalMethod, 5> enumNames(IntervalMethod) {
+constexpr EnumNames<IntervalMethod, 7> enumNames(IntervalMethod) {
   return {{{{IntervalMethod::Bootstrap, "bootstrap"},
             {IntervalMethod::Bca, "bca"},
             {IntervalMethod::Profile, "profile"},
             {IntervalMethod::Laplace, "laplace"},
-            {IntervalMethod::Posterior, "posterior"}}}};
+            {IntervalMethod::Posterior, "posterior"},
+            {IntervalMethod::Observers, "observers"},
+            {IntervalMethod::None, "none"}}}};
 }
 
 struct FitInterval : Interval {

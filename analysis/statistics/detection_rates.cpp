@@ -5,6 +5,7 @@
 
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/distributions.h"
+#include "experiments/base/error.h"
 
 namespace limen::analysis {
 Interval wilsonInterval(int64_t successes, int64_t trials, double level) {
@@ -55,6 +56,24 @@ MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double leve
   const double reach = tCritical(1.0 - level, n - 1.0) * *result.standardError;
   result.interval = around(result.mean, reach);
   return result;
+}
+
+MeanOverSubjects meanRateOverSubjects(const std::vector<double>& rates, double level) {
+  for (const double rate : rates)
+    if (!(rate >= 0.0 && rate <= 1.0)) throw Error(std::to_string(rate) + " is no rate from 0 to 1");
+  MeanOverSubjects result = meanOverSubjects(rates, level);
+  if (!result.interval) return result;
+  result.interval.reset();
+  if (result.mean > 0.0 && result.mean < 1.0)
+    result.interval = logitInterval(result.mean, *result.standardError,
+                                    tCritical(1.0 - level, static_cast<double>(rates.size()) - 1.0));
+  return result;
+}
+
+Interval logitInterval(double mean, double error, double critical) {
+  const double logit = std::log(mean / (1.0 - mean)), reach = critical * error / (mean * (1.0 - mean));
+  const auto rate = [](double x) { return 1.0 / (1.0 + std::exp(-x)); };
+  return {rate(logit - reach), rate(logit + reach)};
 }
 
 }  // namespace limen::analysis

@@ -42,4 +42,14 @@ struct MeanOverSubjects {
 /// limen::Error without values, or if one is not finite.
 MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double level = 0.95);
 
+/// mean +- critical error on the logit scale; 0 < mean < 1.
+Interval logitInterval(double mean, double error, double critical);
+
+/// The same of rates, with an interval that stays between 0 and 1: mean +- t_(n-1) error on the logit scale,
+/// the error carried over by the slope there, error / (m (1 - m)). It is the logit interval of proportions of
+/// clusters in surveys (Korn and Graubard 1998, Survey Methodology 24; svyciprop(method = "logit") of R's
+/// package survey), with observers as clusters. None where all are 0 or all 1. limen::Error for a value
+/// outside of 0 to 1.
+MeanOverSubjects meanRateOverSubjects(const std::vector<double>& rates, double level = 0.95);
+
 }  // namespace limen::analysis

@@ -61,7 +61,8 @@ struct PartScale {
 std::vector<PartScale> studyScales(const StudyAnswers& study);
 
 /// Fits a part as its protocol's `simulation:` block describes it, where `typed` does not say otherwise: its
-/// task, sigmoid, axis, direction and threshold level. Throws Error as answerFit().
+/// task, sigmoid, axis, direction and threshold level. Intervals, unless named, are those over observers
+/// where several are pooled, else profile intervals. Throws Error as answerFit().
 FitAnswer fitPart(const StudyAnswers& study, const FittedPart& part, const FitOptions& typed);
 
 /// Of a part with a numeric variable: its functions, or why there are none.
@@ -72,7 +73,7 @@ struct PartFit {
 };
 
 /// Every part with right and wrong or yes and no answers and a numeric variable, as `limen analyse fit` fits
-/// it unless told otherwise, with 95 % profile intervals. `store`: the file that the answers are from.
+/// it unless told otherwise. `store`: the file that the answers are from.
 std::vector<PartFit> studyFits(const StudyAnswers& study, const std::string& store);
 
 }  // namespace limen::analysis

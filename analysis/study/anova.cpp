@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <set>
 
-namespace limen::analysis {
-namespace {
+#include "analysis/study/varying_factors.h"
 
-/// Factors that vary, by their levels that were shown.
+namespace limen::analysis {
+
 std::vector<NamedFactor> varyingFactors(const StudyPart& part,
-                                        const std::vector<const StudyAnswer*>& answers) {
+                                        const std::vector<ConditionLevels>& conditions) {
   std::vector<NamedFactor> out;
   for (const StudyFactor& factor : part.factors) {
     std::set<std::string> shown;
-    for (const StudyAnswer* answer : answers)
-      if (const auto own = answer->condition.find(factor.name); own != answer->condition.end())
-        shown.insert(own->second);
+    for (const ConditionLevels& condition : conditions)
+      if (const auto own = condition.find(factor.name); own != condition.end()) shown.insert(own->second);
     NamedFactor varying{factor.name, {}};
     for (const std::string& level : factor.levels)
       if (shown.erase(level) > 0) varying.levels.push_back(level);
@@ -26,16 +25,18 @@ std::vector<NamedFactor> varyingFactors(const StudyPart& part,
 }
 
 std::optional<std::vector<size_t>> cellOf(const std::vector<NamedFactor>& factors,
-                                          const StudyAnswer& answer) {
+                                          const ConditionLevels& condition) {
   std::vector<size_t> out;
   for (const NamedFactor& factor : factors) {
-    const auto own = answer.condition.find(factor.name);
-    if (own == answer.condition.end()) return {};
+    const auto own = condition.find(factor.name);
+    if (own == condition.end()) return {};
     const auto level = std::find(factor.levels.begin(), factor.levels.end(), own->second);
     out.push_back(static_cast<size_t>(level - factor.levels.begin()));
   }
   return out;
 }
+
+namespace {
 
 PartAnova anovaOf(const StudyAnswers& study, const StudyPart& part,
                   const std::vector<const StudyAnswer*>& answers, const AnovaSettings& settings) {
@@ -48,16 +49,18 @@ PartAnova anovaOf(const StudyAnswers& study, const StudyPart& part,
     return out;
   }
   if (part.adaptive) {
-    out.note = "a procedure chose the stimuli: rates say more of it than of observers";
+    out.note = "a procedure chose the stimuli: limen analyse thresholds compares what it is for";
     return out;
   }
-  GroupObservations data{varyingFactors(part, answers), study.observers, {}};
+  std::vector<ConditionLevels> conditions;
+  for (const StudyAnswer* answer : answers) conditions.push_back(answer->condition);
+  GroupObservations data{varyingFactors(part, conditions), study.observers, {}};
   if (data.factors.empty()) {
     out.note = "no factor has two levels";
     return out;
   }
   for (const StudyAnswer* answer : answers)
-    if (const auto cell = cellOf(data.factors, *answer))
+    if (const auto cell = cellOf(data.factors, answer->condition))
       data.observations.push_back({answer->observer, *cell, answer->outcome == 1 ? 1.0 : 0.0});
   analyseGroup(out, data, settings);
   for (size_t i = 0; i < out.published.size(); ++i) {

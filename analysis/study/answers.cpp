@@ -28,6 +28,10 @@ StudyAnswer answerOf(const store::StudyTrial& trial, const StudyPart& part) {
   if (which < trial.stimulusHashes.size()) out.stimulusHash = trial.stimulusHashes[which];
   if (which < trial.stimuli.size() && trial.stimuli[which].is_object())
     out.presentation = trial.stimuli[which].value("presentation", std::string());
+  if (!trial.change && !trial.stimuli.empty() && trial.stimuli[0].is_object())
+    if (const auto after = trial.stimuli[0].find("catch_shows_after");
+        after != trial.stimuli[0].end() && after->is_boolean())
+      out.catchShows = after->get<bool>() ? "after" : "before";
   out.outcome = trial.response->outcome;
   out.target = trial.target;
   out.repetition = trial.repetition;

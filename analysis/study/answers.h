@@ -22,6 +22,9 @@ struct StudyAnswer {
   std::vector<double> axes;  ///< what a procedure asked for, in the order of StudyPart::axes
   std::string presentation;  ///< "dynamic", "static"; "" if stimuli say nothing
   bool change = true;        ///< false: catch trial
+  /// Of a catch trial: the state that it showed throughout, "before" or "after" the change; "" if not
+  /// recorded.
+  std::string catchShows;
   /// Of what was shown; with several the one in the interval or at the position of the change.
   std::string stimulusHash;
   std::string displayHash;

@@ -125,6 +125,15 @@ std::pair<std::vector<size_t>, std::string> groupOf(const StudyAnswers& study, c
   return {places, join(words)};
 }
 
+std::map<std::string, std::string> levelsIn(const StudyAnswers& study, const StudyAnswer& answer,
+                                            const Grouping& grouping) {
+  std::map<std::string, std::string> out;
+  for (const StudyFactor* factor : grouping.factors)
+    if (const auto own = answer.condition.find(factor->name); own != answer.condition.end()) out.insert(*own);
+  if (grouping.observers) out[kObserver] = study.observers[answer.observer];
+  return out;
+}
+
 void take(const StudyAnswer& answer, double level, Condition& condition) {
   auto block = std::find_if(condition.blocks.begin(), condition.blocks.end(),
                             [&](const Block& one) { return one.level == level; });
@@ -143,8 +152,12 @@ FittedPart fittedPart(const StudyAnswers& study, size_t index, const std::string
   FittedPart out;
   out.part = index;
   out.variable = variable;
+  out.choice = choice;
+  out.choice.part = part.name;
+  out.choice.variable = variable;
   out.task = taskOf(part);
   std::map<std::vector<size_t>, Condition> conditions;
+  std::map<std::vector<size_t>, std::map<std::string, std::string>> levels;
   std::vector<bool> seen(study.observers.size());
   Block catches;
   for (const StudyAnswer& answer : study.answers) {
@@ -160,12 +173,14 @@ FittedPart fittedPart(const StudyAnswers& study, size_t index, const std::string
     auto [places, name] = groupOf(study, answer, grouping);
     Condition& condition = conditions[places];
     condition.name = name;
+    levels[places] = levelsIn(study, answer, grouping);
     take(answer, levelOf(answer, part, variable), condition);
   }
   for (auto& [places, condition] : conditions) {
     std::sort(condition.blocks.begin(), condition.blocks.end(),
               [](const Block& a, const Block& b) { return a.level < b.level; });
     out.conditions.push_back(std::move(condition));
+    out.levels.push_back(levels[places]);
   }
   if (out.conditions.empty()) throw Error("has no answers", "part " + part.name);
   if (choice.guessFromCatch && part.asksYesNo()) {
@@ -183,11 +198,13 @@ FittedPart fittedPart(const StudyAnswers& study, size_t index, const std::string
   }
   const auto observers = std::count(seen.begin(), seen.end(), true);
   if (!grouping.pooled.empty()) out.notes.push_back("pooled over " + join(grouping.pooled));
-  if (!grouping.observers && observers > 1)
-    out.notes.push_back(fmt::format(
-        "answers of {} observers pooled: the function is that of their mixture, wider than each one's where "
-        "their thresholds differ, and intervals take all answers as independent, which makes them too narrow",
-        observers));
+  if (!grouping.observers && observers > 1) {
+    out.pooledObservers = static_cast<size_t>(observers);
+    out.notes.push_back(
+        fmt::format("answers of {} observers pooled: the function is that of their mixture, wider than each "
+                    "one's where their thresholds differ",
+                    observers));
+  }
   if (contains(part.axes, variable))
     out.notes.push_back(
         "a procedure chose the levels by earlier answers; samples of bootstrap and goodness of fit take them "
@@ -196,6 +213,30 @@ FittedPart fittedPart(const StudyAnswers& study, size_t index, const std::string
 }
 
 }  // namespace
+
+FitSettings ownFitSettings(const StudyPart& part, const FittedPart& fitted) {
+  FitSettings settings;
+  settings.task = fitted.task;
+  if (part.assumed && part.assumed->variable == fitted.variable) {
+    settings.sigmoid = psychometrics::sigmoidFamily(part.assumed->sigmoid, part.name);
+    settings.axis = part.assumed->axis == "log" ? psychometrics::StimulusAxis::Logarithmic
+                                                : psychometrics::StimulusAxis::Linear;
+    settings.falling = part.assumed->direction == "falling";
+    settings.thresholdLevel = part.assumed->level;
+  } else {
+    settings.falling = answersFall(fitted.conditions, settings);
+  }
+  return settings;
+}
+
+void shareAllButThreshold(FitSettings& settings, size_t conditions) {
+  const auto share = [&](FitParameter parameter) {
+    settings.shared[indexOf(parameter)] = conditions > 1 && !settings.fixed[indexOf(parameter)];
+  };
+  share(FitParameter::Width);
+  share(FitParameter::Lapse);
+  if (settings.task.kind == FitTask::Kind::YesNo) share(FitParameter::Guess);
+}
 
 std::vector<std::string> numericVariables(const StudyPart& part) {
   std::vector<std::string> out;

@@ -25,8 +25,11 @@ struct FittedPart {
   std::string variable;
   FitTask task;
   std::vector<Condition> conditions;  ///< in the protocol's order of levels, observers in that of sessions
-  std::optional<double> guess;        ///< of catch trials, where asked for
-  std::vector<std::string> notes;     ///< what whoever reads a fit has to know of the answers
+  std::vector<std::map<std::string, std::string>> levels;  ///< of each condition's factors
+  std::optional<double> guess;                             ///< of catch trials, where asked for
+  size_t pooledObservers = 0;      ///< whose answers a condition may mix; 0: not mixed
+  FittedPartsChoice choice;        ///< that it was made by
+  std::vector<std::string> notes;  ///< what whoever reads a fit has to know of the answers
 };
 
 /// Numeric variables of a part: axes of its procedure, and factors all of whose levels are numbers.
@@ -40,5 +43,12 @@ std::vector<std::string> numericVariables(const StudyPart& part);
 /// Throws Error: no such part, variable or factor, a part that cannot be fitted if it was named, or none that
 /// can; with what there is to choose from.
 std::vector<FittedPart> fittedParts(const StudyAnswers& study, const FittedPartsChoice& choice);
+
+/// Settings for fits to single observers: task of the part; sigmoid, axis, direction and threshold level as
+/// the protocol assumes them, or the direction in which the answers in `fitted` go.
+FitSettings ownFitSettings(const StudyPart& part, const FittedPart& fitted);
+/// One width, one lapse rate and, in yes/no tasks, one guess rate for all of an observer's conditions, unless
+/// they are fixed.
+void shareAllButThreshold(FitSettings& settings, size_t conditions);
 
 }  // namespace limen::analysis

@@ -12,34 +12,20 @@ namespace {
 /// Quantile of chi-squared with one degree of freedom that a one-sided test of 5 % takes: 1.6449^2.
 constexpr double kTelling = 2.705543454;
 
+/// Rates far above any limit that makes sense have to be in reach.
 FitSettings settingsOf(const StudyPart& part, const FittedPart& fitted) {
-  FitSettings settings;
-  settings.task = fitted.task;
-  // Rates far above any limit that makes sense have to be in reach.
+  FitSettings settings = ownFitSettings(part, fitted);
   settings.lapseMost =
       0.9 * (fitted.task.kind == FitTask::Kind::ForcedChoice ? 1.0 - 1.0 / fitted.task.alternatives
                                                              : 1.0 - settings.guessMost);
-  if (part.assumed && part.assumed->variable == fitted.variable) {
-    settings.sigmoid = psychometrics::sigmoidFamily(part.assumed->sigmoid, part.name);
-    settings.axis = part.assumed->axis == "log" ? psychometrics::StimulusAxis::Logarithmic
-                                                : psychometrics::StimulusAxis::Linear;
-    settings.falling = part.assumed->direction == "falling";
-  } else {
-    settings.falling = answersFall(fitted.conditions, settings);
-  }
   return settings;
 }
 
 ObserverLapse lapseOf(const std::vector<Condition>& conditions, FitSettings settings, double limit) {
-  const auto share = [&](FitParameter parameter) {
-    settings.shared[indexOf(parameter)] = conditions.size() > 1 && !settings.fixed[indexOf(parameter)];
-  };
-  share(FitParameter::Width);
-  share(FitParameter::Lapse);
-  if (settings.task.kind == FitTask::Kind::YesNo) share(FitParameter::Guess);
+  shareAllButThreshold(settings, conditions.size());
   const Fit free = fitPsychometric(conditions, settings);
   settings.fixed[indexOf(FitParameter::Lapse)] = limit;
-  share(FitParameter::Lapse);
+  shareAllButThreshold(settings, conditions.size());
   const Fit held = fitPsychometric(conditions, settings);
   ObserverLapse out;
   out.rate = free.conditions[0].value(FitParameter::Lapse);

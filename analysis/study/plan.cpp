@@ -2,9 +2,12 @@
 #include "analysis/study/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
-#include "experiments/base/yaml_tree.h"
+#include "analysis/output/text_output.h"
+#include "experiments/base/text.h"
+#include "experiments/base/yaml_json.h"
 
 namespace limen::analysis {
 namespace {
@@ -69,6 +72,58 @@ std::optional<AssumedFunction> assumedOf(const YamlNode& simulation, const std::
   return out;
 }
 
+/// Units of what a procedure chooses, by name.
+std::map<std::string, std::string> unitsOf(const YamlNode& procedure) {
+  if (const YamlNode* parts = procedure.find("procedures"); parts && !parts->items.empty())
+    return unitsOf(parts->items.front());
+  const std::string usual = textOf(procedure.find("type")) == "quest" ? "log10" : "";
+  std::map<std::string, std::string> out;
+  const auto take = [&](const YamlNode& axis) {
+    const std::string unit = textOf(axis.find("unit"), usual);
+    if (!unit.empty()) out[textOf(axis.find("name"), "stimulus")] = unit;
+  };
+  const YamlNode* stimulus = procedure.find("stimulus");
+  if (!stimulus) return out;
+  if (stimulus->kind == YamlNode::Kind::Map) take(*stimulus);
+  for (const YamlNode& axis : stimulus->items)
+    if (axis.kind == YamlNode::Kind::Map) take(axis);
+  return out;
+}
+
+/// The function that a procedure with one axis assumes, with the threshold where it has its own; none of
+/// staircases and of models that are no sigmoid.
+std::optional<AssumedFunction> assumedByProcedure(const YamlNode& procedure, const std::string& variable) {
+  const std::string type = textOf(procedure.find("type"));
+  const auto value = [&](const char* key, double otherwise) {
+    const std::string text = textOf(procedure.find(key));
+    return text.empty() ? otherwise : std::strtod(text.c_str(), nullptr);
+  };
+  AssumedFunction out;
+  out.variable = variable;
+  if (type == "quest") {
+    const double guess = value("gamma", 0.5), lapse = value("delta", 0.01) * (1.0 - guess);
+    out.sigmoid = "gumbel";
+    out.level = (value("threshold_probability", 0.82) - guess) / (1.0 - guess - lapse);
+    return out;
+  }
+  if (type != "psi" && type != "quest_plus") return {};
+  const std::string model = textOf(procedure.find("model"), type == "psi" ? "logistic" : "weibull_db");
+  if (model == "sigmoid") {
+    out.sigmoid = textOf(procedure.find("family"), "logistic");
+    out.axis = textOf(procedure.find("axis"), out.sigmoid == "weibull" ? "log" : "linear");
+  } else if (model.rfind("weibull", 0) == 0) {
+    out.sigmoid =
+        model == "weibull" ? "weibull" : "gumbel";  // a Weibull of what dB and log10 units stand for
+    out.axis = model == "weibull" ? "log" : "linear";
+    out.level = -std::expm1(-1.0);
+  } else if (model == "logistic" || model == "normal") {
+    out.sigmoid = model;
+  } else {
+    return {};
+  }
+  return out;
+}
+
 StudyPart partOf(const YamlNode& node, const std::string& name) {
   StudyPart out;
   out.name = name;
@@ -79,13 +134,40 @@ StudyPart partOf(const YamlNode& node, const std::string& name) {
   if (const YamlNode* procedure = node.find("procedure")) {
     out.adaptive = true;
     out.axes = axesOf(*procedure);
+    out.units = unitsOf(*procedure);
+    out.procedure = toJson(*procedure);
+    if (out.axes.size() == 1) out.assumed = assumedByProcedure(*procedure, out.axes.front());
   }
+  if (const YamlNode* titles = node.find("titles"))
+    for (const YamlMember& title : titles->members) out.titles[title.key.text] = title.value.text;
   if (const YamlNode* factors = node.find("factors"))
     for (const YamlMember& factor : factors->members) out.factors.push_back(factorOf(factor));
   return out;
 }
 
 }  // namespace
+
+std::string StudyPart::titleOf(const std::string& variable) const {
+  const auto title = titles.find(variable), unit = units.find(variable);
+  std::string out = title != titles.end() ? title->second : levelTitle(variable);
+  if (unit != units.end() && out.find('(') == std::string::npos) out += " (" + unit->second + ")";
+  return out;
+}
+
+std::string levelTitle(const std::string& level) {
+  std::string out = level;
+  std::replace(out.begin(), out.end(), '_', ' ');
+  return out;
+}
+
+std::string conditionTitle(const StudyPart& part, const std::map<std::string, std::string>& condition) {
+  std::vector<std::string> words;
+  for (const StudyFactor& factor : part.factors)
+    if (const auto own = condition.find(factor.name); own != condition.end())
+      words.push_back((finiteNumber(own->second) ? levelTitle(factor.name) + " " : "") +
+                      levelTitle(own->second));
+  return join(words);
+}
 
 const StudyPart& StudyPlan::part(const std::string& wanted) const {
   return *std::find_if(parts.begin(), parts.end(), [&](const StudyPart& one) { return one.name == wanted; });
@@ -117,7 +199,8 @@ StudyPlan readStudyPlan(const store::StudyProtocol& protocol) {
     out.parts.push_back(partOf(root, "main"));
   }
   if (const YamlNode* simulation = root.find("simulation"))
-    for (StudyPart& part : out.parts) part.assumed = assumedOf(*simulation, part.name);
+    for (StudyPart& part : out.parts)
+      if (auto assumed = assumedOf(*simulation, part.name)) part.assumed = std::move(assumed);
   if (const YamlNode* rules = root.find("exclusions"))
     for (const YamlMember& rule : rules->members)
       out.exclusions.push_back({rule.key.text, std::strtod(rule.value.text.c_str(), nullptr)});

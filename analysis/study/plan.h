@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +17,8 @@ struct StudyFactor {
   std::vector<std::string> levels;  ///< in order of writing
 };
 
-/// The psychometric function that a protocol's `simulation:` block gives its simulated observers: what its
-/// author takes answers to be like. Names as `limen analyse fit` has them.
+/// The psychometric function that a protocol's `simulation:` block gives its simulated observers, or else its
+/// procedure assumes: what its author takes answers to be like. Names as `limen analyse fit` has them.
 struct AssumedFunction {
   std::string variable;              ///< an axis or a factor
   std::string sigmoid = "logistic";  ///< of the mirrored axis where it falls
@@ -35,7 +37,12 @@ struct StudyPart {
   /// procedure.
   std::vector<std::string> axes;
   std::optional<AssumedFunction> assumed;
+  nlohmann::json procedure;                   ///< settings of an adaptive part's procedure; null without one
+  std::map<std::string, std::string> titles;  ///< of factors and axes, as the protocol words them
+  std::map<std::string, std::string> units;   ///< of axes
 
+  /// "Switch distance (m)": for people, of a factor or axis.
+  std::string titleOf(const std::string& variable) const;
   bool asksYesNo() const { return task == "yes_no"; }
   /// Whether an answer's outcome of 1 is one of two: "yes", or the right one.
   bool isBinary() const { return asksYesNo() || task == "interval" || task == "alternative"; }
@@ -59,6 +66,11 @@ struct StudyPlan {
   /// Index of a part, which is added as one that asks for nothing known if the text does not have it.
   size_t partNamed(const std::string& name);
 };
+
+/// A factor's level for people: "2 to 3" for "2_to_3".
+std::string levelTitle(const std::string& level);
+/// Levels of the part's factors in their order: "2 to 3, static".
+std::string conditionTitle(const StudyPart& part, const std::map<std::string, std::string>& condition);
 
 /// Throws Error on text that is no YAML.
 StudyPlan readStudyPlan(const store::StudyProtocol& protocol);

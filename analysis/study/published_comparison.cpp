@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 
 #include "analysis/output/text_output.h"
 #include "experiments/base/text.h"
@@ -180,21 +181,51 @@ class Comparer {
     std::optional<double> tauC, r;
     if (own) tauC = valueOf(own->kendall.tauC);
     if (own) r = valueOf(one.agreement.clamped ? own->clamped.correlation : own->pearson);
-    std::string note;
-    if (!findings_.validation)
-      note = "ours: " + findings_.whyNotValidated;
-    else if (!own)
-      note = "ours: too few scenarios of this kind";
-    else if (!tauC || !r)
-      note = "ours: predictions or answers do not vary";
-    out_.statistics.push_back(
-        {one.part,
-         fmt::format("{} with {}, {}", one.predictor, one.severity ? "mean severity" : "detection rate",
-                     one.set),
-         {comparedNumber("tau_c", one.agreement.tauC, tauC, 3),
-          comparedNumber(one.agreement.clamped ? "r clamped" : "r", one.agreement.r, r, 3)},
-         note,
-         one.agreement.source});
+    const Missing missing = whyMissing(one, own, tauC && r);
+    const std::string note = missing.full.empty() ? "" : "ours: " + missing.full;
+    ComparedStatistic statistic = {
+        one.part,
+        fmt::format("{} with {}, {}", one.predictor, one.severity ? "mean severity" : "detection rate",
+                    one.set),
+        {comparedNumber("tau_c", one.agreement.tauC, tauC, 3),
+         comparedNumber(one.agreement.clamped ? "r clamped" : "r", one.agreement.r, r, 3)},
+        note,
+        one.agreement.source};
+    // In the row itself, where a dash would leave one wondering.
+    for (ComparedValue& value : statistic.values)
+      if (!value.ours) value.oursText = "none: " + missing.brief;
+    out_.statistics.push_back(std::move(statistic));
+  }
+
+  /// Why there is no coefficient; empty if there is.
+  struct Missing {
+    std::string brief, full;
+  };
+  Missing whyMissing(const PublishedAgreementOf& one, const Agreement* own, bool given) const {
+    if (!findings_.validation) return {"not predicted", findings_.whyNotValidated};
+    if (!own) return {"too few", "too few scenarios of this kind"};
+    if (given) return {};
+    std::vector<double> predictions, answers;
+    for (const PartValidation& part : findings_.validation->parts)
+      for (const Scenario& scenario : part.scenarios) {
+        const auto value = scenario.predictors.find(one.predictor);
+        const bool fits = one.set == "both" || one.set == "all" || scenario.presentation == one.set;
+        if (part.part != one.part || !fits || (one.severity && !scenario.meanSeverity)) continue;
+        if (value != scenario.predictors.end()) predictions.push_back(value->second);
+        answers.push_back(one.severity ? *scenario.meanSeverity : scenario.rate);
+      }
+    const auto constant = [](const std::vector<double>& values) {
+      return !values.empty() &&
+             std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; });
+    };
+    const std::string what = one.severity ? "mean severity" : "detection rate";
+    if (constant(predictions))
+      return {"constant score", fmt::format("{} is {:.4g} in all {} scenarios", one.predictor, predictions[0],
+                                            predictions.size())};
+    if (constant(answers))
+      return {"constant answers",
+              fmt::format("the {} is {:.4g} in all {} scenarios", what, answers[0], answers.size())};
+    return {"not defined", "the coefficient is not defined for these predictions and answers"};
   }
 
   void notes() {
@@ -255,9 +286,19 @@ Result resultOf(const std::vector<PublishedComparison>& comparisons) {
                        if (!row.value->ours || !row.value->printed) return {};
                        return *row.value->ours - *row.value->printed;
                      })
-                .add(ifAny(text("note")), of(&ComparedStatistic::note))
+                .add(forData(text("note")), of(&ComparedStatistic::note))
                 .add(forData(text("source")), of(&ComparedStatistic::source)));
     if (!one.statistics.empty()) own.notes.push_back("published: " + one.statistics.front().source);
+    // Once each; beside the rows they would part the table in two.
+    std::vector<std::string> said;
+    std::map<std::string, std::vector<std::string>> about;
+    for (const ComparedStatistic& statistic : one.statistics) {
+      if (statistic.note.empty()) continue;
+      indexIn(said, statistic.note);
+      about[statistic.note].push_back((statistic.part.empty() ? "" : statistic.part + ", ") +
+                                      statistic.statistic);
+    }
+    for (const std::string& note : said) own.notes.push_back(join(about[note], "; ") + ": " + note);
     own.notes.insert(own.notes.end(), one.notes.begin(), one.notes.end());
     out.sections.push_back(std::move(own));
   }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "analysis/statistics/within_subjects.h"
 #include "analysis/study/link.h"
 
 namespace limen::analysis {
@@ -83,14 +84,20 @@ class PartRates {
     const bool named = std::any_of(part_.factors.begin(), part_.factors.end(),
                                    [](const StudyFactor& f) { return f.name == "presentation"; });
     byStimulus_ = !named && presentations.size() > 1;
+    std::set<std::string> shown;
+    for (const StudyAnswer& answer : study.answers)
+      if (answer.part == part && !answer.catchShows.empty()) shown.insert(answer.catchShows);
+    byCatch_ = shown.size() > 1;
     for (const StudyAnswer& answer : study.answers)
       if (answer.part == part) add(answer);
   }
 
   void rows(double level, StudyRates& out) const {
+    const std::map<GroupKey, std::optional<Interval>> within = withinObservers(level);
     for (const auto& [key, group] : groups_[1]) {
       const bool change = true;
       out.rows.push_back(row(group, change, level));
+      if (const auto own = within.find(key); own != within.end()) out.rows.back().within = own->second;
       const auto catches = groups_[0].find(key);
       if (catches != groups_[0].end()) out.rows.push_back(row(catches->second, false, level));
     }
@@ -113,6 +120,32 @@ class PartRates {
   }
 
  private:
+  /// Of the levels of each factor, and of the conditions.
+  std::map<GroupKey, std::optional<Interval>> withinObservers(double level) const {
+    std::map<std::pair<int, size_t>, std::vector<GroupKey>> families;
+    for (const auto& [key, group] : groups_[1])
+      if (key.first > 0) families[{key.first, key.first == 1 ? key.second.front() : 0}].push_back(key);
+    std::map<GroupKey, std::optional<Interval>> out;
+    for (const auto& [name, keys] : families) {
+      std::vector<std::vector<double>> rates;
+      for (const GroupKey& key : keys) {
+        const auto& observers = groups_[1].at(key).observers;
+        rates.emplace_back();
+        for (const auto& [observer, count] : groups_[1].at(keys.front()).observers)
+          if (const auto own = observers.find(observer); own != observers.end())
+            rates.back().push_back(static_cast<double>(own->second.positive) /
+                                   static_cast<double>(own->second.trials));
+        if (rates.back().size() != observers.size() || observers.size() != rates.front().size())
+          rates.clear();
+        if (rates.empty()) break;
+      }
+      if (rates.empty()) continue;
+      const auto intervals = withinSubjectIntervals(rates, true, level);
+      for (size_t i = 0; i < keys.size(); ++i) out[keys[i]] = intervals[i];
+    }
+    return out;
+  }
+
   std::string of() const { return part_.asksYesNo() ? "yes" : "right"; }
 
   void count(const GroupKey& key, RateScope scope, const std::map<std::string, std::string>& condition,
@@ -135,6 +168,10 @@ class PartRates {
     if (byStimulus_)
       count({1, {part_.factors.size(), answer.presentation == "static" ? 1U : 0U}}, RateScope::Level,
             {{"presentation", answer.presentation}}, answer);
+    // False alarms that come with one state alone tell of answers by the first or last frame.
+    if (byCatch_ && !answer.catchShows.empty())
+      count({1, {part_.factors.size() + 1, answer.catchShows == "after" ? 1U : 0U}}, RateScope::Level,
+            {{"catch_shows", answer.catchShows}}, answer);
     // With one factor its levels are the conditions.
     if (levels.size() > 1) count({2, levels}, RateScope::Condition, answer.condition, answer);
   }
@@ -154,7 +191,7 @@ class PartRates {
       rates.push_back(static_cast<double>(count.positive) / static_cast<double>(count.trials));
     }
     out.pooled = detectionRate(all.positive, all.trials, level);
-    out.overObservers = meanOverSubjects(rates, level);
+    out.overObservers = meanRateOverSubjects(rates, level);
     if (out.scope == RateScope::Part) out.published = publishedRate(study_.plan.name, part_.name, change);
     out.text = group.condition.empty() ? "all" : conditionText(part_, group.condition);
     return out;
@@ -162,7 +199,7 @@ class PartRates {
 
   const StudyAnswers& study_;
   const StudyPart& part_;
-  bool byStimulus_ = false;
+  bool byStimulus_ = false, byCatch_ = false;
   std::map<GroupKey, Group> groups_[2];  // catch trials, trials with a change
 };
 

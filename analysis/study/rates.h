@@ -26,8 +26,11 @@ struct RateRow {
   bool change = true;                            ///< false: catch trials, a report being a false alarm
   std::string of;                                ///< "yes" or "right"
   Rate pooled;
-  MeanOverSubjects overObservers;  ///< of each observer's own rate
-  std::string text;                ///< the condition in words
+  MeanOverSubjects overObservers;  ///< of each observer's own rate; the interval stays between 0 and 1
+  /// Of rates with a change: Cousineau and Morey's, among the levels of a factor or all conditions, if all
+  /// observers saw them all.
+  std::optional<Interval> within;
+  std::string text;  ///< the condition in words
   std::optional<PublishedRate> published;
 };
 

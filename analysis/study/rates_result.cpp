@@ -39,6 +39,7 @@ ResultTable rateTable(const StudyRates& rates, const std::string& part) {
       .add(share("estimate", "mean"), of(&MeanOverSubjects::mean))
       .add(share("sd"), of(&MeanOverSubjects::standardDeviation))
       .add(shareInterval("", "95 % over observers"), of(&MeanOverSubjects::interval))
+      .add(ifAny(shareInterval("within", "95 % within observers")), &RateRow::within)
       .add(count("positive", "trials", "pooled"),
            [](const RateRow& row) { return countOf(&Rate::successes, &Rate::trials)(row.pooled); })
       .add(forData(share("pooled_rate")), pooled(&Rate::rate))
@@ -129,8 +130,11 @@ Result resultOf(const StudyRates& rates) {
   }
   out.notes = rates.notes;
   out.notes.push_back(
-      "over observers: mean, sd and t interval of their own rates, not cut to 0 and 100 %. Pooled trials of "
-      "one observer are not independent: their interval is too narrow");
+      "over observers: mean and sd of their own rates, t interval on the logit scale, which stays between 0 "
+      "and "
+      "100 %; within observers: Cousineau-Morey, for comparing levels or conditions. Pooled trials of one "
+      "observer "
+      "are not independent: their interval is too narrow");
   return out;
 }
 

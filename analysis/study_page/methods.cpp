@@ -264,7 +264,9 @@ std::string analyses(const StudyPage& page) {
   if (!page.rates.rows.empty())
     out +=
         "Rates are means over observers of each observer's own rate, with 95 % intervals from Student's t "
-        "over observers; intervals of pooled rates are Wilson's. ";
+        "over observers on the logit scale (Korn and Graubard 1998), and within observers after Cousineau "
+        "and "
+        "Morey (Morey 2008); intervals of pooled rates are Wilson's. ";
   const bool anova = std::any_of(page.anova.begin(), page.anova.end(),
                                  [](const PartAnova& part) { return part.result.has_value(); });
   if (anova)
@@ -284,7 +286,7 @@ std::string analyses(const StudyPage& page) {
            "(Hautus 1995)" +
            (yesNo ? " and 95 % intervals of observers after Gourevitch and Galanter (1967)" : "") +
            "; means over observers have t intervals. ";
-  out += fitMethods(page) + scaleMethods(page);
+  out += thresholdMethods(page) + fitMethods(page) + scaleMethods(page);
   if (page.validation) {
     const ValidationSetting& setting = page.validationSetting;
     out += fmt::format(

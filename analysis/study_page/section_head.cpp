@@ -20,6 +20,8 @@ void addHead(const StudyPage& page, PageWriter& out) {
   std::string html = "<header>\n<h1>" + escapeHtml(study.plan.title) + "</h1>\n";
   if (!page.text.question.empty())
     html += "<p class=\"question\">" + escapeHtml(page.text.question) + "</p>\n";
+  if (const std::string answer = answerText(page); !answer.empty())
+    html += "<p class=\"answer\">" + escapeHtml(answer) + "</p>\n";
   out.html(html);
   if (simulated)
     out.notice("Simulated observers: a program gave these answers. They say nothing about people.", true);

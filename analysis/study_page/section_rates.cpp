@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
@@ -79,7 +80,7 @@ void setAxis(Figure& figure, const RateAxis& axis, const StudyFactor& factor) {
   std::vector<std::pair<double, std::string>> labels;
   size_t longest = 0;
   for (size_t i = 0; i < factor.levels.size(); ++i) {
-    labels.emplace_back(axis.places[i], factor.levels[i]);
+    labels.emplace_back(axis.places[i], levelTitle(factor.levels[i]));
     longest = std::max(longest, factor.levels[i].size());
   }
   const bool turned = longest * factor.levels.size() > 44;
@@ -93,8 +94,6 @@ void setAxis(Figure& figure, const RateAxis& axis, const StudyFactor& factor) {
                   shortestNumber(axis.shifted(lowAt, -0.6)), shortestNumber(axis.shifted(highAt, 0.6)));
   if (turned) figure.heightPx += 30 + static_cast<int>(std::min<size_t>(longest, 24)) * 3;
 }
-
-double percentWithin(double share) { return 100.0 * std::clamp(share, 0.0, 1.0); }
 
 }  // namespace
 
@@ -118,30 +117,32 @@ std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part) {
   if (series.empty()) return {};
   Figure figure;
   figure.name = "rates_" + page.stem(part.name);
-  figure.xTitle = factor.name;
+  figure.xTitle = part.titleOf(factor.name);
   figure.yTitle = part.asksYesNo() ? "reported a change (%)" : "right answers (%)";
-  figure.description = figure.yTitle + " against " + factor.name + ", part " + part.name;
+  figure.description = figure.yTitle + " against " + figure.xTitle + ", part " + part.name;
   figure.heightPx += static_cast<int>((series.size() + 1) / 2) * 18;
   setAxis(figure, axis, factor);
   const auto last = static_cast<double>(series.size() - 1);
   const double apart = std::min(kApart, kMostSpread / std::max(last, 1.0));
   size_t number = 0;
+  int64_t least = std::numeric_limits<int64_t>::max(), most = 0;
   for (auto& [others, rows] : series) {
     std::sort(rows.begin(), rows.end(),
               [&](const auto& a, const auto& b) { return axis.places[a.first] < axis.places[b.first]; });
     std::vector<std::string> words;
     for (const auto& [name, level] : rows.front().second->condition)
-      if (name != factor.name) words.push_back(level);
+      if (name != factor.name) words.push_back(levelTitle(level));
     const double shift = (static_cast<double>(number) - 0.5 * last) * apart;
     std::vector<std::vector<double>> data;
     for (const auto& [level, row] : rows) {
       const MeanOverSubjects& mean = row->overObservers;
       const Interval interval = mean.interval.value_or(Interval{mean.mean, mean.mean});
-      data.push_back({axis.shifted(level, shift), 100.0 * mean.mean, percentWithin(interval.low),
-                      percentWithin(interval.high), axis.places[level]});
+      data.push_back({axis.shifted(level, shift), 100.0 * mean.mean, 100.0 * interval.low,
+                      100.0 * interval.high, axis.places[level], static_cast<double>(row->pooled.trials)});
+      least = std::min(least, row->pooled.trials), most = std::max(most, row->pooled.trials);
     }
     const std::string block =
-        addBlock(figure, join(words) + ": drawn at, mean in %, interval from, to, level", data);
+        addBlock(figure, join(words) + ": drawn at, mean in %, interval from, to, level, trials", data);
     figure.plots.push_back(block + " using 1:2:3:4 with yerrorbars notitle pt 0 lw 1.2 " +
                            seriesColour(number));
     figure.plots.push_back(
@@ -149,6 +150,8 @@ std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part) {
         (words.empty() ? "notitle" : "title " + gnuplotQuoted(join(words))) + " " + seriesLook(number));
     ++number;
   }
+  figure.xTitle += ", " + (least == most ? std::to_string(most) : fmt::format("{} to {}", least, most)) +
+                   " trials a point";
   const auto [low, high] = std::minmax_element(axis.places.begin(), axis.places.end());
   for (const RateRow& row : page.rates.rows)
     if (row.part == part.name && row.scope == RateScope::Part && !row.change) {
@@ -167,18 +170,19 @@ std::optional<Figure> rateFigure(const StudyPage& page, const StudyPart& part) {
 
 namespace {
 
-/// The rows of one scope; catch trials only of the whole part.
+/// The rows of one scope; catch trials only of the whole part and by what they showed.
 ResultTable rowsOf(const ResultTable& rates, const std::string& scope) {
   ResultTable out = rates;
   for (Column& column : out.columns) column.cells.clear();
   for (size_t row = 0; row < rates.rows(); ++row) {
     std::string own;
-    bool change = true;
+    bool change = true, byCatch = false;
     for (const Column& column : rates.columns) {
+      if (column.name == "catch_shows") byCatch = !column.cells[row].empty();
       if (column.name == "scope") own = cellText(column, column.cells[row]);
       if (column.name == "change") change = std::get<bool>(column.cells[row].value());
     }
-    if (own != scope || !(change || scope == "part")) continue;
+    if (own != scope || !(change || byCatch || scope == "part")) continue;
     for (size_t i = 0; i < out.columns.size(); ++i)
       out.columns[i].cells.push_back(rates.columns[i].cells[row]);
   }
@@ -207,9 +211,9 @@ void addRates(const StudyPage& page, PageWriter& out) {
     if (page.study.plan.parts.size() > 1) out.heading("Part " + part.name);
     if (std::optional<Figure> figure = rateFigure(page, part)) {
       const std::string caption = fmt::format(
-          "Part {}: {} by {}. Mean over {} of their own rates; bars are 95 % t intervals over observers, cut "
-          "to 0 and 100 % in the drawing.",
-          part.name, part.asksYesNo() ? "reported changes" : "right answers", figure->xTitle,
+          "Part {}: {} by {}. Mean over {} of their own rates; bars are 95 % intervals over observers.",
+          part.name, part.asksYesNo() ? "reported changes" : "right answers",
+          part.titleOf(part.factors[axisFactor(part.factors)].name),
           counted(page.study.observers.size(), "observer"));
       out.figure(std::move(*figure), caption);
     }
@@ -219,8 +223,13 @@ void addRates(const StudyPage& page, PageWriter& out) {
   }
   if (!page.rates.rows.empty()) {
     out.paragraph(
-        "Mean, SD and t interval are over observers, of their own rates; the intervals are not cut to 0 and "
-        "100 % in the tables. Pooled trials of one observer are not independent, so that the interval of "
+        "Mean, SD and 95 % interval are over observers, of their own rates; intervals are t intervals on the "
+        "logit "
+        "scale, which stay between 0 and 100 %. Those within observers (Cousineau-Morey) are for comparing "
+        "levels or "
+        "conditions and say nothing of the mean itself; next to 0 and 100 % they may be the wider ones. "
+        "Pooled trials of one observer are not independent, "
+        "so that the interval of "
         "pooled trials is too narrow. A dash: cannot be told, or of no width, which is no certainty.");
     out.file("tables/rates.csv", toCsv(result.sections),
              "detection rates by part, level, condition and observer");

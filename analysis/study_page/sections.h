@@ -8,6 +8,7 @@
 
 #include "analysis/study/analyses.h"
 #include "analysis/study/rates.h"
+#include "analysis/study/thresholds.h"
 #include "analysis/study/validation.h"
 #include "analysis/study_page/page_writer.h"
 #include "analysis/study_page/session_facts.h"
@@ -27,6 +28,7 @@ struct StudyPage {
   std::vector<PartAnova> anova;
   std::vector<PartSensitivity> sensitivity;
   std::vector<PartFit> fits;
+  std::vector<PartThresholds> thresholds;  ///< of adaptive parts
   std::vector<PartScale> scales;
   std::optional<StudyValidation> validation;
   std::string validationNote;  ///< why there is none although predictions are stored
@@ -42,6 +44,7 @@ void addExclusions(const StudyPage& page, PageWriter& out);
 void addRates(const StudyPage& page, PageWriter& out);
 void addAnova(const StudyPage& page, PageWriter& out);
 void addSensitivity(const StudyPage& page, PageWriter& out);
+void addThresholds(const StudyPage& page, PageWriter& out);
 void addFits(const StudyPage& page, PageWriter& out);
 void addScales(const StudyPage& page, PageWriter& out);
 void addValidation(const StudyPage& page, PageWriter& out);
@@ -56,7 +59,12 @@ void addValidationFigures(const StudyPage& page, const PartValidation& part, Pag
 
 // What the methods say of them, "" if there are none.
 std::string fitMethods(const StudyPage& page);
+std::string thresholdMethods(const StudyPage& page);
 std::string scaleMethods(const StudyPage& page);
+
+/// One sentence that answers the protocol's question: thresholds of adaptive parts, rates and thresholds of
+/// others, the best and worst items of pairs. "" if there is nothing to say.
+std::string answerText(const StudyPage& page);
 
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& items);

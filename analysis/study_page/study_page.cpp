@@ -69,6 +69,7 @@ StudyPage readPage(const StudyChoice& choice) {
   page.anova = studyAnova(page.study);
   page.sensitivity = studySensitivity(page.study);
   page.fits = studyFits(page.study, choice.store);
+  page.thresholds = adaptiveThresholds(page.study);
   page.scales = studyScales(page.study);
   readValidation(page, choice);
   return page;
@@ -78,10 +79,14 @@ StudyPageResult writePage(const StudyPage& page, const fs::path& folder, const f
   PageWriter out;
   addHead(page, out);
   addExclusions(page, out);
+  // What a procedure was for comes before rates, which say more of it than of observers.
+  const bool adaptive = !page.thresholds.empty();
+  addThresholds(page, out);
+  if (adaptive) addFits(page, out);
   addRates(page, out);
   addAnova(page, out);
   addSensitivity(page, out);
-  addFits(page, out);
+  if (!adaptive) addFits(page, out);
   addScales(page, out);
   addValidation(page, out);
   addAnswers(page, out);

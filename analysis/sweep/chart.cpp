@@ -199,7 +199,10 @@ std::string drawChart(const Chart& chart, const ChartAxis& x, const ChartAxis& y
                                     chart.title + ": " + chart.yTitle + " against " + chart.xTitle, "group");
   std::string out = nameMarks(svg, chart, seriesCount);
   const std::string front = fmt::format("id=\"{}_plot_1\"", chart.name);
-  replaceAll(out, front, front + " class=\"front-line\"");
+  if (chart.hasFront)
+    replaceAll(
+        out, front,
+        fmt::format("{} class=\"front-line\" data-better=\"{}\"", front, chart.yUpsideDown ? "high" : "low"));
   return out;
 }
 

@@ -33,6 +33,7 @@ struct Chart {
   bool yUpsideDown = false;  ///< linear and reversed, so that better is always below
   std::vector<ChartMark> marks;
   std::vector<size_t> front;  ///< indices of marks, from fast to exact; empty: no line
+  bool hasFront = true;       ///< a page that hides marks draws the front of the others
 };
 
 /// Range and ticks that the panels of a figure share.
@@ -44,8 +45,14 @@ struct ChartAxis {
   std::vector<double> minorTicks;
 
   double place(double value) const;
+  /// Of what it shows; in logarithms on a logarithmic axis.
+  double length() const;
   bool isAtFoot(double value) const { return foot && place(value) == *foot; }
 };
+
+/// Round numbers within [low, high], in steps of 1, 2 or 5 times a power of ten; one more than
+/// `steps` at most.
+std::vector<double> roundLevels(double low, double high, int steps = 4);
 
 /// An axis wide enough for all values. Not logarithmic only if told so.
 ChartAxis makeChartAxis(const std::vector<double>& values, bool linear);

@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/sweep/chart.h"
 #include "analysis/output/text_output.h"
-#include "analysis/sweep/trade_off.h"
+#include "analysis/sweep/chart.h"
 
 namespace limen::analysis {
 namespace {
 
-constexpr double kLeastLogRatio = 4.0;  // so that at least two labelled ticks are in sight
-constexpr double kPadding = 0.06;       // share of the axis left free at each end
+constexpr double kLeastLogRatio = 1.1;  // equal values still get an axis
+constexpr size_t kFewTicks = 3;
+constexpr double kPadding = 0.06;  // share of the axis left free at each end
 
 void addLogTicks(ChartAxis& axis, double low) {
   const double decades = std::log10(axis.high / low);
@@ -28,9 +28,33 @@ void addLogTicks(ChartAxis& axis, double low) {
       else if (step == 1)
         axis.minorTicks.push_back(value);
     }
+  if (axis.ticks.size() >= kFewTicks || decades > 1.0) return;
+  // Of less than a decade even steps say more.
+  axis.ticks.clear();
+  axis.minorTicks.clear();
+  for (const double level : roundLevels(low, axis.high, 6))
+    axis.ticks.emplace_back(formatNumber(level), level);
+}
+
+double step125(double width) {
+  const double power = std::pow(10.0, std::floor(std::log10(width)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (power * factor >= width * (1.0 - 1e-9)) return power * factor;
+  return power * 10.0;
 }
 
 }  // namespace
+
+std::vector<double> roundLevels(double low, double high, int steps) {
+  std::vector<double> levels;
+  if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) return levels;
+  const double step = step125((high - low) / steps);
+  for (double multiple = std::ceil(low / step); multiple * step <= high; ++multiple)
+    levels.push_back(multiple * step);
+  return levels;
+}
+
+double ChartAxis::length() const { return logarithmic ? std::log(high / low) : high - low; }
 
 double ChartAxis::place(double value) const {
   if (foot && (std::isinf(value) || (logarithmic && value <= 0.0))) return *foot;
@@ -55,7 +79,7 @@ ChartAxis makeChartAxis(const std::vector<double>& values, bool linear) {
     const double span = std::max(high - low, std::max(std::abs(high) * 1e-3, 1e-12));
     axis.low = low - kPadding * span;
     axis.high = high + kPadding * span;
-    for (const double level : roundLevels(axis.low, axis.high, false))
+    for (const double level : roundLevels(axis.low, axis.high))
       axis.ticks.emplace_back(formatNumber(level), level);
     if (needsFoot) {
       axis.foot = axis.high + 0.12 * span;

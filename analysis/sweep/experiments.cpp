@@ -10,7 +10,7 @@ namespace limen::analysis {
 
 std::vector<store::Experiment> chooseExperiments(const store::Store& store, const std::string& wanted) {
   const std::vector<store::Experiment> all = store.experiments();
-  if (all.empty()) throw Error("the store holds no experiment", store.path(), "run limen-sweep first");
+  if (all.empty()) throw Error("the store holds no experiment", store.path(), "run limen sweep first");
   if (wanted.empty()) return all;
   std::vector<store::Experiment> found;
   std::vector<std::string> names;

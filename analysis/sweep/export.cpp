@@ -66,9 +66,10 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
     for (const std::string& name : measurements) row.push_back(number(measurementOf(run, name)));
     if (index < sweep.cells.size() && sweep.cells[index].frame) {
       const Summary& s = *sweep.cells[index].frame;
-      const MedianInterval& i = *sweep.cells[index].interval;
-      row = joined(row, {std::to_string(s.n), number(s.median), number(i.low), number(i.high), number(s.p95),
-                         number(s.minimum), number(s.mean), number(s.standardDeviation)});
+      const std::optional<MedianInterval>& i = sweep.cells[index].interval;
+      row = joined(row,
+                   {std::to_string(s.n), number(s.median), i ? number(i->low) : "", i ? number(i->high) : "",
+                    number(s.p95), number(s.minimum), number(s.mean), number(s.standardDeviation)});
     } else {
       row.resize(row.size() + times.size());
     }

@@ -58,9 +58,12 @@ std::string renderHowToRead(const Sweep& sweep, bool footUsed) {
     return cell.interval && !cell.interval->byRounds;
   });
   std::string out = "<section id=\"reading\"><h2>How the numbers were made</h2>\n<ul class=\"prose\">";
-  out +=
-      "<li>A <b>Pareto front</b> is the list of settings that nothing else beats: whatever is faster has a "
-      "larger error, whatever has a smaller error is slower.</li>";
+  if (sweep.noVerdict.empty())
+    out +=
+        "<li>A <b>Pareto front</b> is the list of settings that nothing else beats by the medians as they "
+        "are: whatever "
+        "is faster has a larger error, whatever has a smaller error is slower.</li>" +
+        renderVerdictRules(sweep);
   if (byRounds || byFrames)
     out += fmt::format(
         "<li>Times are medians over the frames of a run. Bars and brackets are 95 % percentile bootstrap "

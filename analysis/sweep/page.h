@@ -14,7 +14,8 @@ inline constexpr double kBytesPerMiB = 1024.0 * 1024.0;
 /// The charts of a page as inline SVG, by panel; empty text where a panel has nothing to draw.
 struct PageCharts {
   std::vector<std::string> speed, counter;
-  bool footUsed = false;  ///< a mark stands at an axis' foot
+  bool footUsed = false;   ///< a mark stands at an axis' foot
+  bool ownRanges = false;  ///< panels do not share their axes
 };
 
 /// The whole page, self-contained.
@@ -23,6 +24,7 @@ std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictu
 // Its sections, each a piece of HTML or "" if there is nothing to say.
 std::string renderNotices(const Sweep& sweep);
 std::string renderVerdict(const Sweep& sweep);
+std::string renderVerdictRules(const Sweep& sweep);  ///< items of a list
 std::string renderLegend(const Sweep& sweep);
 std::string renderSpeed(const Sweep& sweep, const PageCharts& charts);
 std::string renderCounter(const Sweep& sweep, const PageCharts& charts);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -13,7 +14,6 @@
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kPassColours = 8;
 constexpr size_t kOpenRows = 20;  // with more pictures only the first panel is unfolded
 
 // One setting of each series: its most exact on the Pareto front, or its most exact at all.
@@ -44,21 +44,35 @@ double timeOf(const Cell& cell) {
   return std::max(timeOfPasses(cell), cell.frame ? cell.frame->median : 0.0);
 }
 
+// Each hue is the golden angle from the one before, so that any number of passes differ; after eight, whose
+// hues come close to each other, they get lighter or darker too (the style sheet).
+std::string passColour(const std::vector<std::string>& names, const std::string& pass) {
+  const auto place = static_cast<size_t>(std::find(names.begin(), names.end(), pass) - names.begin());
+  return fmt::format("--hue:{:.0f};--step:{}", std::fmod(210.0 + 137.508 * static_cast<double>(place), 360.0),
+                     place / 8 % 3);
+}
+
+std::string renderPassLegend(const std::vector<std::string>& names) {
+  std::string out = "<ul class=\"pass-legend\" aria-label=\"Passes\">";
+  for (const std::string& name : names)
+    out += fmt::format("<li><i class=\"pass\" style=\"{}\"></i>{}</li>", passColour(names, name),
+                       escapeHtml(name));
+  return out + "<li><i class=\"rest\"></i>between passes</li></ul>\n";
+}
+
 // Shares of the frame, not times: costs of one panel spread over decades, and a short bar shows nothing.
 std::string renderBar(const Cell& cell, const std::vector<std::string>& names) {
   std::string out = "<div class=\"bar\">";
-  const auto segment = [&](const std::string& name, const std::string& look, double ms) {
+  const auto segment = [&](const std::string& name, const char* look, const std::string& colour, double ms) {
     const double percent = 100.0 * ms / timeOf(cell);
     const std::string text = fmt::format("{}: {} ms, {:.0f} %", name, formatNumber(ms), percent);
-    out += fmt::format("<span class=\"{}\" style=\"width:{:.2f}%\" title=\"{}\">{}</span>", look, percent,
-                       escapeHtml(text), percent > 9.0 ? escapeHtml(name) : "");
+    out += fmt::format("<span class=\"{}\" style=\"width:{:.2f}%;{}\" title=\"{}\">{}</span>", look, percent,
+                       colour, escapeHtml(text), percent > 9.0 ? escapeHtml(name) : "");
   };
-  for (const PassTime& pass : cell.passes) {
-    const auto place = static_cast<size_t>(std::find(names.begin(), names.end(), pass.pass) - names.begin());
-    segment(pass.pass, fmt::format("p{}", place % kPassColours), pass.ms.median);
-  }
+  for (const PassTime& pass : cell.passes)
+    segment(pass.pass, "pass", passColour(names, pass.pass), pass.ms.median);
   const double rest = timeOf(cell) - timeOfPasses(cell);
-  if (rest > 0.005 * timeOf(cell)) segment("between passes", "rest", rest);
+  if (rest > 0.005 * timeOf(cell)) segment("between passes", "rest", "", rest);
   return out + "</div>";
 }
 
@@ -73,16 +87,20 @@ std::string renderPicture(const Picture& picture, const PictureRow& row, const s
                                   : fmt::format("<use href=\"#{}\"/>", picture.id);
   return fmt::format(
       "<figure><div class=\"lens\"><svg {} role=\"img\" "
-      "aria-label=\"{}\">{}</svg></div><figcaption>{}</figcaption></figure>\n",
-      box, escapeHtml(alt), content, escapeHtml(picture.caption));
+      "aria-label=\"{}\">{}</svg></div><figcaption>{}{}</figcaption></figure>\n",
+      box, escapeHtml(alt), content, escapeHtml(picture.caption),
+      picture.white.empty()
+          ? ""
+          : "<span class=\"colour-bar\">0 <i></i> " + escapeHtml(picture.white) + "</span>");
 }
 
 }  // namespace
 
 std::string renderPasses(const Sweep& sweep) {
   std::vector<std::string> names;
-  for (const Cell& cell : sweep.cells)
-    for (const PassTime& pass : cell.passes) indexIn(names, pass.pass);
+  for (const Panel& panel : sweep.panels)
+    for (const size_t index : worthShowing(sweep, panel))
+      for (const PassTime& pass : sweep.cells[index].passes) indexIn(names, pass.pass);
   std::string body;
   std::vector<PassRow> rows;
   for (const Panel& panel : sweep.panels) {
@@ -112,10 +130,10 @@ std::string renderPasses(const Sweep& sweep) {
   return "<section id=\"passes\"><h2>Where the time goes</h2>\n<p>Share of each pass in the time of a frame "
          "(medians), for the most exact setting of each series on the Pareto front, or of all if none is "
          "there. "
-         "Point at a piece for its value. All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n"
-         "<div class=\"panels\">\n" +
-         body + "</div>\n<details><summary>As a table, with the memory that passes hold</summary>" +
-         toHtml(table) + "</details></section>\n";
+         "Point at a piece for its value. All runs: <a href=\"passes.csv\">passes.csv</a>.</p>\n" +
+         renderPassLegend(names) + "<div class=\"panels\">\n" + body +
+         "</div>\n<details><summary>As a table, with the memory that passes hold</summary>" + toHtml(table) +
+         "</details></section>\n";
 }
 
 std::string renderPictures(const Sweep& sweep, const Pictures& pictures) {

@@ -28,12 +28,13 @@ void addParameter(TableOf<Cell>& table, const Sweep& sweep, const Axis& paramete
     table.add(text(parameter.name, parameter.label()), value);
 }
 
-/// Times first, then errors, counters and the rest.
+/// Times first, then errors, counters and the rest; without the two that the charts show.
 void addMeasurements(TableOf<Cell>& table, const Sweep& sweep) {
   std::vector<const store::QuantityRow*> seen;
   for (const Cell& cell : sweep.cells)
     for (const store::Measurement& m : cell.run.measurements)
       if (const store::QuantityRow* row = sweep.names.descriptions().quantity(m.name);
+          m.name != sweep.x.name && m.name != sweep.y.name &&
           std::find(seen.begin(), seen.end(), row) == seen.end())
         seen.push_back(row);
   const auto rank = [](const store::QuantityRow* row) {
@@ -43,13 +44,15 @@ void addMeasurements(TableOf<Cell>& table, const Sweep& sweep) {
   for (const store::QuantityRow* row : seen) {
     const bool bytes = row->unit == "byte";
     const std::string title = sweep.names.axis(row->name, sweep.software).title;
-    table.add(rounded(row->name, titleWithUnit(title, bytes ? "MiB" : row->unit)), [&](const Cell& cell) {
-      const std::optional<double> value = measurementOf(cell.run, row->name);
-      return value ? ResultCell(*value * (bytes ? 1.0 / kBytesPerMiB : 1.0)) : ResultCell();
-    });
+    table.add(ifAny(rounded(row->name, titleWithUnit(title, bytes ? "MiB" : row->unit))),
+              [&](const Cell& cell) {
+                const std::optional<double> value = measurementOf(cell.run, row->name);
+                return value ? ResultCell(*value * (bytes ? 1.0 / kBytesPerMiB : 1.0)) : ResultCell();
+              });
   }
 }
 
+/// What tells runs apart and what the charts show come first, so that error stands beside time.
 ResultTable runTable(const Sweep& sweep) {
   TableOf table("runs", "", sweep.cells);
   if (sweep.panels.size() > 1)
@@ -60,16 +63,34 @@ ResultTable runTable(const Sweep& sweep) {
   table.add(technique, [&](const Cell& cell) {
     return markerSvg(cell.series) + breakable(cell.run.technique.substr(sweep.seriesPrefix.size()));
   });
-  for (const Axis& parameter : sweep.varyingColumns) addParameter(table, sweep, parameter);
-  table.add(ifAny(rounded("frame_median_ms", "Median (ms)")), at(&Cell::frame, &Summary::median))
-      .add(ifAny(rounded("frame_low95_ms", "95 % low (ms)")), at(&Cell::interval, &MedianInterval::low))
+  table.add(rounded(sweep.x.name, sweep.x.label()), &Cell::x)
+      .add(rounded(sweep.y.name, sweep.y.label()), &Cell::y)
+      .add(ifAny(rounded("front", "Front")), [](const Cell& cell) {
+        return cell.frontNumber > 0 ? ResultCell(cell.frontNumber) : ResultCell();
+      });
+  for (const Axis& parameter : sweep.varyingColumns)
+    if (parameter.name != sweep.x.name) addParameter(table, sweep, parameter);
+  table.add(ifAny(rounded("frame_low95_ms", "95 % low (ms)")), at(&Cell::interval, &MedianInterval::low))
       .add(ifAny(rounded("frame_high95_ms", "95 % high (ms)")), at(&Cell::interval, &MedianInterval::high))
       .add(ifAny(rounded("frame_p95_ms", "95th percentile (ms)")), at(&Cell::frame, &Summary::p95))
       .add(ifAny(rounded("n_frames", "Frames")), at(&Cell::frame, &Summary::n));
   addMeasurements(table, sweep);
-  return table.add(rounded("", "Front"), [](const Cell& cell) {
-    return cell.frontNumber > 0 ? ResultCell(cell.frontNumber) : ResultCell();
+  return table;
+}
+
+/// Takes out numbers that are the same in all rows, and says them: "Frames 18, Non-finite values 0".
+std::string foldConstants(ResultTable& table) {
+  std::string folded;
+  if (table.rows() < 2) return folded;
+  std::erase_if(table.columns, [&](const Column& column) {
+    if (!column.isNumber() || column.cells.front().empty()) return false;
+    const std::string first = cellText(column, column.cells.front());
+    for (const ResultCell& cell : column.cells)
+      if (cell.empty() || cellText(column, cell) != first) return false;
+    folded += (folded.empty() ? "" : ", ") + escapeHtml(column.title) + " " + escapeHtml(first);
+    return true;
   });
+  return folded;
 }
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
@@ -92,19 +113,21 @@ std::string renderRunTable(const Sweep& sweep) {
   HtmlOptions options;
   options.attributes = " class=\"sortable\"";
   options.box = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All runs\">";
-  options.caption =
-      counted(sweep.cells.size(), "finished run") +
-      "; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>. “Front”: place on the "
-      "Pareto front of its panel.";
+  options.caption = counted(sweep.cells.size(), "finished run") +
+                    "; numbers to four digits, in full in <a href=\"runs.csv\">runs.csv</a>.";
+  if (sweep.noVerdict.empty()) options.caption += " “Front”: place on the Pareto front of its panel.";
   options.sortable = true;
   options.ofRow = [&](size_t row) {
     return fmt::format(" data-run=\"{}\" data-series=\"{}\"", escapeHtml(sweep.cells[row].run.key),
                        sweep.cells[row].series);
   };
   if (sweep.cells.empty()) return "";
-  return section(
-      "runs", "All runs",
-      "<p>Press a heading to sort by it, again to turn the order.</p>\n" + toHtml(runTable(sweep), options));
+  ResultTable table = runTable(sweep);
+  const std::string folded = foldConstants(table);
+  return section("runs", "All runs",
+                 "<p>Press a heading to sort by it, again to turn the order." +
+                     (folded.empty() ? "" : " <b>The same in all runs:</b> " + folded + ".") + "</p>\n" +
+                     toHtml(table, options));
 }
 
 std::string renderRemarks(const Sweep& sweep) {

@@ -137,7 +137,7 @@ class Cutter {
     const std::string bytes = readFileBytes(temporary);
     const std::string id = sha256(bytes).substr(0, 12);
     fs::rename(temporary, fs::path(folder_) / (id + ".png"));
-    return {caption, "data:image/png;base64," + base64(bytes), "picture-" + id};
+    return {caption, "data:image/png;base64," + base64(bytes), "picture-" + id, ""};
   }
 
  private:
@@ -157,18 +157,12 @@ class Cutter {
   std::map<std::string, Blocks> blocks_;
 };
 
-/// "" if the store names no scale.
-std::string whiteNote(const store::Run& run, const std::string& kind, const std::string& caption) {
+/// What white stands for: "0.25 JND"; "" if the store names no scale.
+std::string whiteOf(const store::Run& run, const std::string& kind) {
   for (const store::Measurement& measurement : run.measurements)
     if (measurement.name == kind + "_white" && measurement.value)
-      return fmt::format("White in the {} stands for {}{}{}.", caption, formatNumber(*measurement.value),
-                         measurement.unit.empty() ? "" : " ", measurement.unit);
+      return formatNumber(*measurement.value) + (measurement.unit.empty() ? "" : " ") + measurement.unit;
   return {};
-}
-
-std::string scaleNote(const store::Run& run, const store::Artefact& map) {
-  if (std::string note = whiteNote(run, map.kind, "error map"); !note.empty()) return note;
-  return "The error map (" + map.kind + ") is shown as the sweep wrote it; the store names no scale for it.";
 }
 
 PictureRow makeRow(const Sweep& sweep, const Chosen& chosen, const Cutter& cutter) {
@@ -187,18 +181,22 @@ PictureRow makeRow(const Sweep& sweep, const Chosen& chosen, const Cutter& cutte
                      : fmt::format("{}×{} pixels from ({}, {}) of {}×{}", window.width, window.height,
                                    window.x, window.y, window.fullWidth, window.fullHeight);
     row.pictures.push_back(cutter.cut(product, window, "product"));
-    if (const std::string note = whiteNote(cell.run, "product_png", "product"); !note.empty()) addNote(note);
+    if (const std::string white = whiteOf(cell.run, "product_png"); !white.empty())
+      addNote("White in the product stands for " + white + ".");
+    if (const store::Artefact* reference = find(cell.run, "reference_png"))
+      row.pictures.push_back(cutter.cut(cutter.load(*reference), window, "reference"));
+    if (const store::Artefact* map = findErrorMap(cell.run, sweep.y.name)) {
+      row.pictures.push_back(cutter.cut(cutter.load(*map), window, "error map"));
+      row.pictures.back().white = whiteOf(cell.run, map->kind);
+      if (row.pictures.back().white.empty())
+        addNote("The error map (" + map->kind +
+                ") is shown as the sweep wrote it; the store names no scale for it.");
+    }
     for (const store::Artefact& artefact : cell.run.artefacts)
       if (artefact.kind.starts_with(kViewPrefix) && artefact.kind.ends_with("_png"))
         row.pictures.push_back(cutter.cut(
             cutter.load(artefact), window,
             artefact.kind.substr(kViewPrefix.size(), artefact.kind.size() - kViewPrefix.size() - 4)));
-    if (const store::Artefact* reference = find(cell.run, "reference_png"))
-      row.pictures.push_back(cutter.cut(cutter.load(*reference), window, "reference"));
-    if (const store::Artefact* map = findErrorMap(cell.run, sweep.y.name)) {
-      row.pictures.push_back(cutter.cut(cutter.load(*map), window, "error map"));
-      addNote(scaleNote(cell.run, *map));
-    }
   } catch (const Error& error) {
     addNote(std::string("A picture cannot be shown: ") + error.what() + ".");
   }

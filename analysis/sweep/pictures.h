@@ -12,7 +12,8 @@ namespace limen::analysis {
 struct Picture {
   std::string caption;  ///< "product", "reference", "absolute error"
   std::string dataUri;
-  std::string id;  ///< equal pictures have the same
+  std::string id;     ///< equal pictures have the same
+  std::string white;  ///< of an error map: what the brightest colour stands for; "": unknown
 };
 
 /// What one run looks like beside its reference.

@@ -43,14 +43,33 @@ std::string hoverText(const Sweep& sweep, const Cell& cell, const Axis& x, doubl
   if (&x == &sweep.x && cell.interval) out += " " + bracketed(*cell.interval);
   out += "\n" + sweep.y.label() + ": " + formatNumber(*cell.y);
   if (cell.frontNumber > 0) out += fmt::format("\nno. {} on the Pareto front", cell.frontNumber);
+  if (cell.beaten) out += "\nbeaten by another setting";
   return out;
 }
 
-// The figure of one x axis: a chart for each panel, all with the same axes so that they can be compared.
+/// Of an axis that several panels share, a panel with three marks or more uses this share at least; else each
+/// panel has a range of its own.
+constexpr double kLeastUse = 0.35;
+
+/// One axis for each panel: the same for all, so that they can be compared, unless they lie too far apart.
+std::vector<ChartAxis> makeAxes(const std::vector<std::vector<double>>& values, bool linear) {
+  std::vector<double> all;
+  std::vector<ChartAxis> own;
+  for (const std::vector<double>& panel : values) {
+    all.insert(all.end(), panel.begin(), panel.end());
+    own.push_back(makeChartAxis(panel, linear));
+  }
+  const ChartAxis shared = makeChartAxis(all, linear);
+  for (size_t panel = 0; panel < values.size(); ++panel)
+    if (values[panel].size() >= 3 && own[panel].length() < kLeastUse * shared.length()) return own;
+  return std::vector<ChartAxis>(values.size(), shared);
+}
+
+// The figure of one x axis: a chart for each panel.
 std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool isCounter,
-                                    const std::string& folder, bool& footUsed) {
+                                    const std::string& folder, PageCharts& page) {
   std::vector<Chart> charts;
-  std::vector<double> xs, ys;
+  std::vector<std::vector<double>> xs, ys;
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
     const Panel& panel = sweep.panels[index];
     Chart chart;
@@ -59,39 +78,41 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
     chart.xTitle = xAxis.label();
     chart.yTitle = sweep.y.label();
     chart.yUpsideDown = sweep.y.higherIsBetter();
+    chart.hasFront = isCounter ? sweep.y.direction != Direction::Neither : sweep.noVerdict.empty();
+    std::vector<double>&x = xs.emplace_back(), &y = ys.emplace_back();
     std::vector<std::pair<double, double>> points;
     for (const size_t cellIndex : panel.cells) {
       const Cell& cell = sweep.cells[cellIndex];
-      const std::optional<double> x = isCounter ? cell.counter : cell.x;
-      if (!x || !cell.y) continue;
-      ChartMark mark{*x,
+      const std::optional<double> at = isCounter ? cell.counter : cell.x;
+      if (!at || !cell.y) continue;
+      ChartMark mark{*at,
                      *cell.y,
-                     std::nullopt,
+                     isCounter ? std::nullopt : cell.interval,
                      cell.series,
                      false,
-                     0,
+                     isCounter ? 0 : cell.frontNumber,
                      cell.run.key,
                      sweep.label(cell),
-                     hoverText(sweep, cell, xAxis, *x)};
-      if (!isCounter) {
-        mark.interval = cell.interval;
-        mark.frontNumber = cell.frontNumber;
-      }
-      xs.push_back(*x);
-      if (mark.interval) xs.insert(xs.end(), {mark.interval->low, mark.interval->high});
-      ys.push_back(*cell.y);
-      points.emplace_back(*x, sweep.y.higherIsBetter() ? -*cell.y : *cell.y);
+                     hoverText(sweep, cell, xAxis, *at)};
+      x.push_back(*at);
+      if (mark.interval) x.insert(x.end(), {mark.interval->low, mark.interval->high});
+      y.push_back(*cell.y);
+      points.emplace_back(*at, sweep.y.higherIsBetter() ? -*cell.y : *cell.y);
       chart.marks.push_back(std::move(mark));
     }
-    chart.front = paretoFront(points);
+    if (chart.hasFront) chart.front = paretoFront(points);
     for (const size_t place : chart.front) chart.marks[place].onFront = true;
     charts.push_back(std::move(chart));
   }
-  const ChartAxis x = makeChartAxis(xs, false), y = makeChartAxis(ys, sweep.y.higherIsBetter());
+  const std::vector<ChartAxis> xAxes = makeAxes(xs, false), yAxes = makeAxes(ys, sweep.y.higherIsBetter());
   std::vector<std::string> out;
-  for (const Chart& chart : charts) {
+  for (size_t index = 0; index < charts.size(); ++index) {
+    const Chart& chart = charts[index];
+    const ChartAxis &x = xAxes[index], &y = yAxes[index];
+    if (!isCounter) page.ownRanges = page.ownRanges || x.low != xAxes[0].low || y.low != yAxes[0].low;
     out.push_back(chart.marks.empty() ? "" : drawChart(chart, x, y, sweep.series.size(), folder));
-    for (const ChartMark& mark : chart.marks) footUsed = footUsed || x.isAtFoot(mark.x) || y.isAtFoot(mark.y);
+    for (const ChartMark& mark : chart.marks)
+      page.footUsed = page.footUsed || x.isAtFoot(mark.x) || y.isAtFoot(mark.y);
   }
   return out;
 }
@@ -105,9 +126,9 @@ ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const
     throw Error("the folder cannot be made: " + error.message(), folder.string(), "choose another with -o");
   exportTables(sweep, folder.string());
   PageCharts charts;
-  charts.speed = drawFigure(sweep, sweep.x, false, (folder / "charts").string(), charts.footUsed);
+  charts.speed = drawFigure(sweep, sweep.x, false, (folder / "charts").string(), charts);
   if (sweep.counter)
-    charts.counter = drawFigure(sweep, *sweep.counter, true, (folder / "charts").string(), charts.footUsed);
+    charts.counter = drawFigure(sweep, *sweep.counter, true, (folder / "charts").string(), charts);
   const Pictures pictures = choosePictures(sweep, storePath, (folder / "pictures").string());
   const std::string page = (folder / "report.html").string();
   writeFileBytes(page, renderPage(sweep, charts, pictures));

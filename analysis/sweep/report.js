@@ -24,14 +24,36 @@
 
   addEventListener("beforeprint", () => { for (const folded of all("details")) folded.open = true; });
 
-  // A series is shown or hidden in all charts and legends at once.
+  // The front of the marks that are shown: the step ends where it began, above and at the right.
+  function drawFront(chart) {
+    const line = chart.querySelector(".front-line"), path = line && line.querySelector("path");
+    if (!path) return;
+    path.dataset.whole ??= path.getAttribute("d");
+    const places = path.dataset.whole.match(/-?[\d.]+,-?[\d.]+/g).map(place => place.split(",").map(Number));
+    const top = places[0][1], right = places[places.length - 1][0], sign = line.dataset.better === "high" ? -1 : 1;
+    const marks = all(".mark", chart).map(mark => ({ mark, x: Number(mark.dataset.x.replace("inf", "Infinity")),
+      y: sign * Number(mark.dataset.y.replace("inf", "Infinity")), hit: mark.querySelector(".hit") }));
+    for (const { mark } of marks) mark.classList.remove("front");
+    let last, d = "";
+    for (const one of marks.filter(m => !m.mark.classList.contains("is-off")).sort((a, b) => a.x - b.x || a.y - b.y)) {
+      if (last && !(one.y < last.y) && !(one.x === last.x && one.y === last.y)) continue;
+      const x = one.hit.getAttribute("cx"), y = one.hit.getAttribute("cy");
+      d += last ? `L${x},${last.hit.getAttribute("cy")} L${x},${y} ` : `M${x},${top} L${x},${y} `;
+      one.mark.classList.add("front");
+      last = one;
+    }
+    path.setAttribute("d", last ? d + `L${right},${last.hit.getAttribute("cy")}` : "M0,0");
+  }
+
+  // A series is shown or hidden in all charts, lists of fronts and legends at once.
   for (const button of all(".legend button"))
     button.addEventListener("click", () => {
       const series = button.dataset.series;
       const on = button.getAttribute("aria-pressed") !== "true";
       for (const other of all(`.legend button[data-series="${series}"]`)) other.setAttribute("aria-pressed", String(on));
-      for (const part of all(`.mark[data-series="${series}"], .bars[data-series="${series}"]`))
+      for (const part of all(`.mark[data-series="${series}"], .bars[data-series="${series}"], .front tr[data-series="${series}"]`))
         part.classList.toggle("is-off", !on);
+      all(".chart").forEach(drawFront);
     });
 
   // Empty cells go last in either order; equal cells keep their order.

@@ -2,11 +2,11 @@
 #include "analysis/sweep/sweep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
-#include "analysis/sweep/trade_off.h"
 
 namespace limen::analysis {
 namespace {
@@ -59,23 +59,59 @@ void addTimes(Cell& cell, const std::string& framePass) {
   const auto frames = ms.find(framePass);
   if (frames == ms.end()) return;
   cell.frame = summarise(frames->second);
+  if (frames->second.size() < 2) return;  // a single frame does not say how far times scatter
   cell.interval = bootstrapMedian(frames->second, rounds);
 }
 
-void findFronts(Sweep& sweep) {
+// Nothing is better or worse where one of the axes has no better side, or the least error no multiples.
+std::string reasonAgainstVerdict(const Sweep& sweep) {
+  const store::QuantityRow* x = sweep.names.descriptions().quantity(sweep.x.name);
+  if (x == nullptr || x->kind == "error" || x->direction != Direction::LowerIsBetter)
+    return "“" + sweep.x.title + "” is neither a time nor a cost";
+  if (sweep.y.parameter || sweep.y.direction == Direction::Neither)
+    return "of “" + sweep.y.title + "” neither less nor more is better";
+  for (const Cell& cell : sweep.cells)
+    if (cell.isDrawn() && *cell.y < 0.0 && !sweep.y.higherIsBetter())
+      return "“" + sweep.y.title + "” has negative values, so its least has no multiples";
+  return {};
+}
+
+void findVerdicts(Sweep& sweep) {
+  const store::QuantityRow* x = sweep.names.descriptions().quantity(sweep.x.name);
+  sweep.xIsTime = x != nullptr && x->kind == "time";
+  sweep.noVerdict = reasonAgainstVerdict(sweep);
+  if (!sweep.noVerdict.empty()) return;
   for (Panel& panel : sweep.panels) {
     std::vector<size_t> drawn;
-    std::vector<std::pair<double, double>> points;
+    std::vector<std::pair<double, double>> places;
+    std::vector<TradeOffPoint> points;
     for (const size_t index : panel.cells) {
       const Cell& cell = sweep.cells[index];
       if (!cell.isDrawn()) continue;
       drawn.push_back(index);
-      points.emplace_back(*cell.x, sweep.y.higherIsBetter() ? -*cell.y : *cell.y);
+      const double error = sweep.comparableError(cell);
+      places.emplace_back(*cell.x, error);
+      const MedianInterval bar = cell.interval.value_or(MedianInterval{*cell.x, *cell.x, false});
+      points.push_back({*cell.x, bar.low, bar.high, error});
+      sweep.exactTimesTaken = sweep.exactTimesTaken || (sweep.xIsTime && !cell.interval);
+      panel.noise = std::max(panel.noise, measurementOf(cell.run, sweep.y.name + "_noise").value_or(0.0));
     }
-    for (const size_t place : paretoFront(points)) {
+    for (const size_t place : paretoFront(places)) {
       panel.front.push_back(drawn[place]);
       sweep.cells[drawn[place]].frontNumber = static_cast<int>(panel.front.size());
     }
+    panel.verdict = weigh(points, panel.noise);
+    const auto toCell = [&](size_t& index) { index = drawn[index]; };
+    for (TradeOffVerdict::Level& level : panel.verdict.levels) {
+      toCell(level.cheapest);
+      for (size_t& tie : level.ties) toCell(tie);
+    }
+    for (size_t& index : panel.verdict.worth) {
+      toCell(index);
+      sweep.cells[index].worth = true;
+    }
+    if (panel.verdict.knee) toCell(*panel.verdict.knee);
+    for (size_t i = 0; i < drawn.size(); ++i) sweep.cells[drawn[i]].beaten = panel.verdict.beaten[i];
   }
 }
 
@@ -118,6 +154,13 @@ void sortRuns(const store::Store& store, Sweep& sweep) {
 }  // namespace
 
 bool isWholeFrame(const std::string& pass) { return pass == "frame" || pass == "wall" || pass == "cpu"; }
+
+double Sweep::comparableError(const Cell& cell) const {
+  if (!y.higherIsBetter()) return *cell.y;
+  // Decibels of an amplitude become that amplitude again; of a share, its inverse.
+  if (y.unit == "dB") return std::pow(10.0, -*cell.y / 20.0);
+  return *cell.y > 0.0 ? 1.0 / *cell.y : INFINITY;
+}
 
 std::string Sweep::label(const Cell& cell) const {
   const std::string& settings = cell.settings;
@@ -181,14 +224,14 @@ Sweep loadSweep(const store::Store& store, const store::Experiment& experiment) 
     std::string panel = grouping.group(cell.run, sweep.panelName);
     if (sweep.severalDevices) panel += " — " + cell.run.device;
     cell.panel = indexIn(panels, panel);
-    if (cell.panel == sweep.panels.size()) sweep.panels.push_back({panel, {}, {}});
+    if (cell.panel == sweep.panels.size()) sweep.panels.push_back({panel, {}, {}, {}, 0.0});
     sweep.panels[cell.panel].cells.push_back(index);
   }
   sweep.seriesPrefix = sharedFolder(sweep.cells);
   if (sweep.seriesName == "technique")
     for (std::string& name : sweep.series) name.erase(0, sweep.seriesPrefix.size());
   sweep.varyingColumns = grouping.columns();
-  findFronts(sweep);
+  findVerdicts(sweep);
   return sweep;
 }
 

@@ -8,6 +8,7 @@
 
 #include "analysis/statistics/summary.h"
 #include "analysis/sweep/names.h"
+#include "analysis/sweep/trade_off.h"
 #include "experiments/store/store.h"
 
 namespace limen::analysis {
@@ -29,12 +30,16 @@ struct Cell {
   std::string settings;  ///< "budget radial, rim 25": what tells it from others of its technique
   std::map<std::string, std::string> varying;  ///< column -> value, of what varies among the runs
   int frontNumber = 0;                         ///< place on the panel's Pareto front, from 1; 0: not on it
+  bool worth = false;                          ///< its cost, by the rules of trade_off.h
+  bool beaten = false;                         ///< by another of its panel, as far as the sweep can tell
   bool isDrawn() const { return x && y; }
 };
 
 struct Panel {
   std::string title;
   std::vector<size_t> cells, front;  ///< indices into Sweep::cells; the front from fast to exact
+  TradeOffVerdict verdict;           ///< of the cells that are drawn, by index into Sweep::cells
+  double noise = 0.0;                ///< errors that differ by no more are not told apart
 };
 
 /// One experiment of a store, sorted for a report.
@@ -54,10 +59,15 @@ struct Sweep {
   std::string seriesPrefix;         ///< folder that all techniques share ("soft_shadows/")
   std::vector<Panel> panels;
   std::vector<Axis> varyingColumns;
-  bool software = false;  ///< at least one run was timed on a software renderer
+  std::string noVerdict;         ///< why nothing is called better: part of a sentence; "": it can be
+  bool xIsTime = false;          ///< else a cost, or none
+  bool exactTimesTaken = false;  ///< drawn times without an interval are compared as if they were exact
+  bool software = false;         ///< at least one run was timed on a software renderer
   bool severalDevices = false;
 
   bool isComplete() const { return missing.empty() && failed.empty(); }
+  /// The error as a verdict weighs it: a positive number of which less is better and ratios mean something.
+  double comparableError(const Cell& cell) const;
   /// "pcss, samples 8": what tells this cell from the others of its panel.
   std::string label(const Cell& cell) const;
 };

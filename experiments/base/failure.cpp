@@ -2,16 +2,25 @@
 #include "experiments/base/failure.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/printable.h"
 
 namespace limen {
+
+std::string calledName(const std::string& program) {
+  constexpr std::string_view kPrefix = "limen-";
+  const char* launcher = std::getenv("LIMEN_LAUNCHER");
+  if (launcher == nullptr || *launcher == '\0' || !program.starts_with(kPrefix)) return program;
+  return "limen " + program.substr(kPrefix.size());
+}
 
 int reportFailure(const std::string& program) {
   std::string text;

@@ -6,6 +6,10 @@
 
 namespace limen {
 
+/// The program's name as the user called it: "limen sweep" for "limen-sweep" that the launcher runs (which
+/// says so in the environment variable LIMEN_LAUNCHER), else the name itself.
+std::string calledName(const std::string& program);
+
 /// Called in a handler: says on standard error, printable(), what the exception is about, after the program's
 /// name, and returns the exit code. Interrupted says nothing.
 int reportFailure(const std::string& program);

@@ -18,7 +18,7 @@ std::string gnuplotFile(const std::string& name);
 
 /// Okabe and Ito's colours, distinguishable with any colour vision; further series differ in their dashes.
 inline constexpr std::array<const char*, 7> kChartColours = {"#0072B2", "#D55E00", "#009E73", "#A6408A",
-                                                             "#B07C00", "#2E86C1", "#444444"};
+                                                             "#B07C00", "#7F4F24", "#444444"};
 
 /// Terminal and size of a chart in its own file: ".svg", ".png", anything else PDF. `width` and `height` are
 /// multiples of the usual size.

@@ -71,6 +71,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const int& exitCode) {
 }  // namespace
 
 int runProgram(CLI::App& app, int argc, char** argv, const int& exitCode) {
+  app.name(calledName(app.get_name()));
   return afterStandardOutput(app.get_name(), parseAndRun(app, argc, argv, exitCode));
 }
 

@@ -8,6 +8,7 @@
 
 #include "experiments/base/build_facts.h"
 #include "experiments/base/error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/printable.h"
 #include "experiments/base/program.h"
@@ -15,6 +16,7 @@
 #include "experiments/viewer/export_descriptor.h"
 #include "experiments/viewer/screenshot.h"
 #include "experiments/viewer/viewer.h"
+#include "renderer/gl/devices.h"
 #include "renderer/gl/shader_source.h"
 #include "renderer/window/ui_window.h"
 
@@ -203,7 +205,7 @@ int view(const ViewOptions& options) {
   std::string wrong = shown.error;
   for (const Rendered& one : shown.rendered) wrong += one.error + one.failure;
   if (wrong.empty()) return 0;
-  std::fprintf(stderr, "limen-view: %s\n", printable(wrong).c_str());
+  std::fprintf(stderr, "%s: %s\n", calledName("limen-view").c_str(), printable(wrong).c_str());
   return 1;
 }
 
@@ -235,6 +237,9 @@ int viewMain(int argc, char** argv) {
   app.add_option("--results", options.results, "Folder for exported descriptors, pictures, views and paths")
       ->capture_default_str();
   app.add_option("--shaders", options.shaders, "Source tree to read shaders from and watch for changes");
+  app.add_option_function<std::string>(
+      "--device", [](const std::string& name) { setenv(gl::kDeviceVariable, name.c_str(), 1); },
+      "GPU to render on: a part of its name or its index (limen sweep --list devices)");
   app.add_option("--screenshot", options.screenshot,
                  "Write a picture of the viewer (PNG) and exit; needs no display");
   app.add_option("--frames", options.frames, "With --screenshot: frames after everything is on screen")

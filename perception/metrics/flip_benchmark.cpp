@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
-#include "experiments/base/standard_output.h"
+#include "experiments/base/program.h"
 #include "perception/metrics/flip/flip_gpu.h"
 
 namespace {
@@ -72,7 +72,9 @@ std::vector<double> measure(FlipGpu& flip, const limen::gl::Texture& test,
 
 }  // namespace
 
-int main() {
+namespace {
+
+int measureFlip() {
   try {
     const auto context = limen::gl::createHeadlessContext();
     const limen::gl::DeviceInfo& device = context->device();
@@ -89,9 +91,18 @@ int main() {
         ms.size(), device.software ? " (wall time on a CPU)" : "", flip.mean(),
         static_cast<double>(flip.bytesHeld()) / 1048576.0);
     context->checkDebugMessages();
-    return limen::afterStandardOutput("limen-flip-benchmark", limen::kExitSuccess);
+    return limen::kExitSuccess;
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-flip-benchmark: {}\n", error.what());
     return limen::kExitFailedRuns;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("GPU time of FLIP for a pair of 1920 x 1080 images.", "limen-flip-benchmark");
+  int exitCode = limen::kExitSuccess;
+  app.callback([&] { exitCode = measureFlip(); });
+  return limen::runProgram(app, argc, argv, exitCode);
 }

@@ -56,6 +56,9 @@ struct MetricInfo {
   std::string unit = {};   ///< "" for pure numbers
   Direction direction = Direction::LowerIsBetter;
   bool needsGl = false;
+  /// Changing the reference changes the value by at most the root mean square of its pixels' changes, as for
+  /// means of errors over pixels.
+  bool averagesPixels = false;
   bool needsReference = true;  ///< false: evaluates only the test product (non-finite count)
   ParameterList parameters = {};
   std::function<MetricResult(const ComparisonInput&, const ParameterValues&)> compare = {};

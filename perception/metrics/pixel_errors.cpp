@@ -98,10 +98,12 @@ RegisteredMetric<ComparedRegion> pixelMetric(MetricInfo info, double (*measure)(
           }};
 }
 
-const auto kRmse = pixelMetric({.name = "rmse", .summary = "root mean square error", .title = "RMSE"},
-                               &rootMeanSquare, true);
+const auto kRmse = pixelMetric(
+    {.name = "rmse", .summary = "root mean square error", .title = "RMSE", .averagesPixels = true},
+    &rootMeanSquare, true);
 const auto kMae = pixelMetric(
-    {.name = "mae", .summary = "mean absolute error", .title = "Mean absolute error"}, &meanAbsolute, true);
+    {.name = "mae", .summary = "mean absolute error", .title = "Mean absolute error", .averagesPixels = true},
+    &meanAbsolute, true);
 const auto kSigned =
     pixelMetric({.name = "signed_error",
                  .summary = "mean of test minus reference; below 0: the test is too dark (over-shadowed)",

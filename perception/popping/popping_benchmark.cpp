@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
-#include "experiments/base/standard_output.h"
+#include "experiments/base/program.h"
 #include "perception/popping/popping_gpu.h"
 
 namespace {
@@ -149,10 +149,11 @@ PoppingInput makeInput(glm::ivec2 size, bool isScene) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+int measureAll(bool quick) {
   try {
     const auto context = gl::createHeadlessContext();
-    const bool quick = argc > 1 && std::string(argv[1]) == "quick";
     fmt::print("# {}{}\nwidth,height,content,what,value,least,p95,unit,count\n", context->device().line(),
                context->device().software ? " (wall time on a CPU)" : "");
     const std::vector<glm::ivec2> sizes =
@@ -162,9 +163,21 @@ int main(int argc, char** argv) {
       for (const bool isScene : {true, false})
         measure(*context, size, isScene ? "scene" : "noise", makeInput(size, isScene), size.x <= 1920);
     context->checkDebugMessages();
-    return afterStandardOutput("limen-popping-benchmark", kExitSuccess);
+    return kExitSuccess;
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-popping-benchmark: {}\n", error.what());
     return kExitFailedRuns;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("GPU time of the popping predictor at several image sizes, and its error, as CSV.",
+               "limen-popping-benchmark");
+  int exitCode = kExitSuccess;
+  std::string what;
+  app.add_option("quick", what, "only a small size, to see that it works")->check(CLI::IsMember({"quick"}));
+  app.callback([&] { exitCode = measureAll(what == "quick"); });
+  return runProgram(app, argc, argv, exitCode);
 }

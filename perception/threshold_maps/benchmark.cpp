@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "experiments/base/error.h"
-#include "experiments/base/standard_output.h"
+#include "experiments/base/program.h"
 #include "perception/threshold_maps/reference.h"
 #include "perception/threshold_maps/threshold_map_bindings.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
@@ -193,18 +193,10 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+int measureAll(bool small, glm::ivec2 only) {
   try {
-    const bool small = argc == 2 && std::string(argv[1]) == "--small";
-    glm::ivec2 only(0);
-    if (argc > 1 && !small &&
-        (argc > 2 || std::sscanf(argv[1], "%dx%d", &only.x, &only.y) != 2 || only.x < 1 || only.y < 1)) {
-      fmt::print(
-          stderr,
-          "limen-threshold-benchmark: '{}' is not an argument; give --small, WIDTHxHEIGHT or nothing\n",
-          argv[1]);
-      return kExitBadInput;
-    }
     const auto context = gl::createHeadlessContext();
     const DisplayProfile display = perception::displayPreset("schwarz_2009");
     fmt::print("# {}{}\n# 7 levels; input RGBA32F; {}\n", context->device().line(),
@@ -223,9 +215,29 @@ int main(int argc, char** argv) {
     if (only.x > 0) sizes = {only};
     for (const glm::ivec2 size : sizes) measureSize(*context, size, display, copy, only.x > 0);
     context->checkDebugMessages();
-    return afterStandardOutput("limen-threshold-benchmark", kExitSuccess);
+    return kExitSuccess;
   } catch (const std::exception& error) {
     fmt::print(stderr, "limen-threshold-benchmark: {}\n", error.what());
     return kExitFailedRuns;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("GPU time of threshold maps for all variants and sizes, as CSV.", "limen-threshold-benchmark");
+  int exitCode = kExitSuccess;
+  bool small = false;
+  glm::ivec2 only(0);
+  app.add_flag("--small", small, "only the two smallest sizes");
+  app.add_option_function<std::string>(
+         "SIZE",
+         [&](const std::string& text) {
+           if (std::sscanf(text.c_str(), "%dx%d", &only.x, &only.y) != 2 || only.x < 1 || only.y < 1)
+             throw Error("'" + text + "' is no size", {}, "give WIDTHxHEIGHT: 1920x1080");
+         },
+         "only this size, WIDTHxHEIGHT in pixels")
+      ->excludes("--small");
+  app.callback([&] { exitCode = measureAll(small, only); });
+  return runProgram(app, argc, argv, exitCode);
 }

@@ -20,8 +20,8 @@ float capArea(float radius) {
 // Share of the smaller of two caps, of radius b, that lies in the larger, of radius a up to pi/2; d: angle between
 // their axes. The CPU's two sectors less a kite would lose all digits to the GPU's coarse sines where b is small (the
 // sun). Here: the exact segment of b that the great circle through both crossings cuts off, and the narrow segment
-// between that great circle and a's rim, taken for plane with the rim's geodesic curvature 1 / tan(a): right to 1e-4
-// for 3 degrees, 5e-3 for 20; to a few hundredths where both caps are of about one size.
+// between that great circle and a's rim, taken as plane with the rim's geodesic curvature 1 / tan(a): right to 1e-4
+// for 3 degrees, 5e-3 for 20; to a few hundredths where the caps are of about the same size.
 float smallerCapShare(float a, float b, float d) {
   if (d >= a + b) return 0.0;
   if (d <= a - b) return 1.0;

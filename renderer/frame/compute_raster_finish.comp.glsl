@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves what ComputeRaster gathered into textures and clears the buffers for the next frame.
+// Copies what ComputeRaster gathered into textures and clears the buffers for the next frame.
 #include "renderer/frame/frame_bindings.h"
 
 layout(local_size_x = kRasterGroup) in;

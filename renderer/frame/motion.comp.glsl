@@ -30,7 +30,7 @@ void main() {
                       (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz,
                       (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz, ray)
                 .depth;
-    // A point in the eye itself has no direction; it counts as very near.
+    // A point at the eye itself has no direction; it counts as very near.
     inverse = min(1.0 / max(depth, 0.0), 1e30);
   }
   // The point over its depth, so that a point at infinity is no special case and a camera at rest gives

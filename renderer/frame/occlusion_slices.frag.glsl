@@ -9,6 +9,6 @@ uniform int slices;
 
 void main() {
   const float slice = (linearDepth(gl_FragCoord.z, near) - begin) * slicesPerDepth;
-  // What lies before the first slice by rounding is the near plane's; nothing else gets there.
+  // Rounding may put what lies on the near plane before the first slice; nothing else gets there.
   if (slice < float(slices)) imageAtomicOr(outBits, ivec2(gl_FragCoord.xy), 1u << uint(max(slice, 0.0)));
 }

@@ -12,7 +12,7 @@ uniform float periodShare;  // share of half the series' period that depths from
 float normalisedDepth(float z) { return min(max((z - depthNear) * depthScale, 0.0), 1.0); }
 
 // The depth at which an exponential is 1. In the middle for floats: exp(c / 2) then bounds both ends, and neither c up to
-// 88 nor a sum over 2^24 texels leaves the range of 32 bits. Whole numbers hold values up to 1 only.
+// 88 nor a sum over 2^24 texels leaves the range of 32 bits. Integer formats hold values up to 1 only.
 #ifdef SUMS_FIXED
 const float kUnitDepth = 1.0;
 #else
@@ -50,7 +50,7 @@ vec2 boxMean(vec2 low, vec2 high, int layer) {
 }
 #endif
 
-// Mean of a Fourier term, which whole numbers hold as (x + 1) / 2.
+// Mean of a Fourier term, which integer formats store as (x + 1) / 2.
 vec2 termMean(vec2 low, vec2 high, int layer) {
 #ifdef SUMS_FIXED
   return 2.0 * boxMean(low, high, layer) - 1.0;

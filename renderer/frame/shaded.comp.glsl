@@ -99,7 +99,7 @@ void main() {
 #endif
 #ifdef SMOOTH
     normal = shadingNormal(material, vertices, weights, normal);
-    // Front and back are the triangle's matter; a shading normal bent past the silhouette keeps its side. Terrain
+    // The triangle decides between front and back; a shading normal bent past the silhouette keeps its side. Terrain
     // has but one side: its skirts are lit as the border that they hang from, whichever way they are seen.
     if (material.surface != kSurfaceAperture && dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
 #endif

@@ -3,7 +3,7 @@
 // the function of the slope is left open.
 //
 // On the plane n.q = d the ray along (u, v, 1) has depth z = d / n.(u, v, 1). From a texel's centre to a corner n.(u, v, 1)
-// changes by the share e = (|n_x| du + |n_y| dv) / (2 |n.(u, v, 1)|) at most, and depth from z to z / (1 - e).
+// changes by the fraction e = (|n_x| du + |n_y| dv) / (2 |n.(u, v, 1)|) at most, and depth from z to z / (1 - e).
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 

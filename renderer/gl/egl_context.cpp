@@ -4,13 +4,15 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
-#include "renderer/gl/context.h"
+#include "renderer/gl/devices.h"
 
 namespace limen::gl {
 namespace {
@@ -104,51 +106,94 @@ void requireEgl() {
                 "renderer");
 }
 
-std::optional<int> forcedDevice() {
-  const char* text = std::getenv("LIMEN_EGL_DEVICE");
-  if (!text || !*text) return {};
-  char* end = nullptr;
-  const long index = std::strtol(text, &end, 10);
-  if (*end != '\0' || index < 0)
-    throw Error("LIMEN_EGL_DEVICE is '" + std::string(text) + "'", {},
-                "give the index of an EGL device, from 0");
-  return static_cast<int>(index);
+/// Where a device is named.
+constexpr const char* kWhere = "--device or LIMEN_EGL_DEVICE";
+
+/// Devices of EGL; none where it cannot enumerate them.
+std::vector<EGLDeviceEXT> eglDevices() {
+  requireEgl();
+  std::vector<EGLDeviceEXT> devices(32);
+  EGLint count = 0;
+  if ((epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
+       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) &&
+      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+    eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
+  devices.resize(static_cast<size_t>(count));
+  return devices;
+}
+
+std::unique_ptr<Context> tryDevice(const std::vector<EGLDeviceEXT>& devices, size_t index) {
+  return tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[index], nullptr),
+                    "EGL device " + std::to_string(index));
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// What LIMEN_EGL_DEVICE asks for: an index or a name.
+struct Wish {
+  std::string text;
+  std::optional<size_t> index;
+
+  bool allows(size_t device) const { return !index || *index == device; }
+  bool allows(const DeviceInfo& device) const {
+    return text.empty() || index || lower(device.renderer).find(lower(text)) != std::string::npos;
+  }
+};
+
+Wish readWish() {
+  const char* text = std::getenv(kDeviceVariable);
+  Wish wish{text ? text : "", {}};
+  size_t index = 0;
+  const char* const end = wish.text.data() + wish.text.size();
+  const auto read = std::from_chars(wish.text.data(), end, index);
+  if (read.ec == std::errc{} && read.ptr == end) wish.index = index;
+  return wish;
 }
 
 }  // namespace
 
 const std::vector<std::string>& headlessCandidates() { return candidateLines(); }
 
+std::vector<DeviceInfo> listHeadlessDevices() {
+  const std::vector<EGLDeviceEXT> devices = eglDevices();
+  std::vector<DeviceInfo> out;
+  for (size_t i = 0; i < devices.size(); ++i) {
+    const std::unique_ptr<Context> context = tryDevice(devices, i);
+    out.push_back(context ? context->device() : DeviceInfo{});
+  }
+  return out;
+}
+
 std::unique_ptr<Context> createHeadlessContext() {
   // Several threads may create contexts at the same time; the report is about the latest one.
   static std::mutex guard;
   const std::scoped_lock lock(guard);
   candidateLines().clear();
-  const std::optional<int> forced = forcedDevice();
-  requireEgl();
+  const Wish wish = readWish();
+  const std::vector<EGLDeviceEXT> devices = eglDevices();
   std::unique_ptr<Context> best;
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
-      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
-    std::array<EGLDeviceEXT, 32> devices{};
-    EGLint count = 0;
-    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
-      eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
-    for (int i = 0; i < count; ++i) {
-      if (forced && *forced != i) continue;
-      auto context = tryDisplay(
-          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<size_t>(i)], nullptr),
-          "EGL device " + std::to_string(i));
-      if (context && (!best || (best->device().software && !context->device().software)))
-        best = std::move(context);
-      if (best && !best->device().software) break;
-    }
-    if (forced && !best)
-      throw Error("EGL device " + std::to_string(*forced) + " gives no OpenGL 4.5 context",
-                  "LIMEN_EGL_DEVICE", "there are " + std::to_string(count) + " devices, counted from 0");
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (!wish.allows(i)) continue;
+    auto context = tryDevice(devices, i);
+    if (context && wish.allows(context->device()) &&
+        (!best || (best->device().software && !context->device().software)))
+      best = std::move(context);
+    if (best && !best->device().software) break;
   }
-  if (!best && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+  if (!best && wish.index)
+    throw Error("EGL device " + wish.text + " gives no OpenGL 4.5 context", kWhere,
+                "there are " + std::to_string(devices.size()) + " devices, counted from 0");
+  if (!best && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     best = tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
                       "EGL surfaceless");
+    if (best && !wish.allows(best->device())) best.reset();
+  }
+  if (!best && !wish.text.empty())
+    throw Error("no device with OpenGL 4.5 has '" + wish.text + "' in its name", kWhere,
+                "there are: " + join(candidateLines(), "; "));
   if (!best)
     throw Error(
         "no OpenGL 4.5 core context without a window: " + join(candidateLines(), "; "), {},

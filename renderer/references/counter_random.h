@@ -30,4 +30,8 @@ inline double hoeffdingHalfWidth(int64_t samples) {
   return std::sqrt(std::log(2.0 / 0.001) / (2.0 * double(samples)));
 }
 
+/// Largest possible standard deviation of such a mean: a value in [0, 1] has a variance of at most 1/4
+/// (Popoviciu 1935), and of weights that sum to 1 the squares sum to no more than 1.
+inline double largestDeviation(int64_t samples) { return 0.5 / std::sqrt(double(samples)); }
+
 }  // namespace limen::references

@@ -10,6 +10,7 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
@@ -143,6 +144,11 @@ class RayTracedColours : public techniques::Technique {
   std::optional<gl::Texture> product_;
   Image colour_;
 };
+
+const Registered<SamplingNoise> kColourNoise{{kColours, [](const ParameterValues& values) {
+                                                return largestDeviation(
+                                                    ColoursSettings::table().read(values).samples);
+                                              }}};
 
 double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 

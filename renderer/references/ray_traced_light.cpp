@@ -10,6 +10,7 @@
 #include "renderer/references/embree_scene.h"
 #include "renderer/references/light_shape.h"
 #include "renderer/references/parallel.h"
+#include "renderer/references/sampling_noise.h"
 #include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
@@ -119,6 +120,11 @@ class RayTracedLight : public techniques::Technique {
   std::optional<gl::Texture> product_;
   Image visibility_;
 };
+
+const Registered<SamplingNoise> kVisibilityNoise{
+    {"soft_shadows/ray_traced", [](const ParameterValues& values) {
+       return largestDeviation(RayTracedSettings::table().read(values).samples);
+     }}};
 
 double halfWidth(const RayTracedSettings& settings) { return hoeffdingHalfWidth(settings.samples); }
 

@@ -3,8 +3,14 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <cmath>
+#include <deque>
 #include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "experiments/base/error.h"
 
 namespace limen::window {
 namespace {
@@ -28,26 +34,88 @@ std::string findFont() {
 // Pairs of first and last character, for the scripts that protocols are likely to use.
 const ImWchar kRanges[] = {0x0020, 0x024F, 0x0370, 0x052F, 0x2010, 0x2027, 0x2030, 0x205E, 0x2190, 0x2193, 0};
 
+// Fonts with the scripts of East Asia, by the places where Debian's packages put them.
+std::vector<std::string> wideFonts() {
+  std::vector<std::string> out;
+  for (const char* path :
+       {"/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/opentype/ipafont-gothic/ipag.ttf", "/usr/share/fonts/opentype/unifont/unifont.otf",
+        "/usr/share/fonts/truetype/unifont/unifont.ttf"}) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) out.emplace_back(path);
+  }
+  return out;
+}
+
+/// Dear ImGui ends the program at a file that is no font.
+void requireFont(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, 4> begin{};
+  in.read(begin.data(), begin.size());
+  const std::string tag(begin.data(), begin.size());
+  if (!in || (tag != std::string("\0\1\0\0", 4) && tag != "OTTO" && tag != "ttcf" && tag != "true"))
+    throw Error("is not a TrueType or OpenType font", path, "name a file that ends with .ttf, .otf or .ttc");
+}
+
+/// As Dear ImGui takes them: pairs of first and last, then 0. The atlas reads them when it is built, so they
+/// must live on.
+const ImWchar* rangesOf(const std::u32string& characters) {
+  static std::deque<std::vector<ImWchar>> kept;
+  std::vector<ImWchar>& ranges = kept.emplace_back();
+  for (const char32_t c : characters)
+    if (c >= 0x20 && c <= 0xFFFF) ranges.insert(ranges.end(), 2, static_cast<ImWchar>(c));
+  ranges.push_back(0);
+  return ranges.data();
+}
+
+/// A font of a size with what fonts after the first add to it.
+ImFont* addFont(ImFontAtlas& atlas, const std::string& path, float px, const UiLettering& lettering) {
+  ImFont* font = nullptr;
+  if (path.empty()) {
+    ImFontConfig config;
+    config.SizePixels = px;
+    font = atlas.AddFontDefault(&config);
+  } else {
+    font = atlas.AddFontFromFileTTF(path.c_str(), px, nullptr, kRanges);
+  }
+  const ImWchar* ranges = rangesOf(lettering.characters);
+  if (ranges[0] == 0) return font;
+  std::vector<std::string> more;
+  if (!path.empty()) more.push_back(path);
+  if (!lettering.fontFile.empty()) {
+    requireFont(lettering.fontFile);
+    more.push_back(lettering.fontFile);
+  }
+  for (const std::string& wide : wideFonts()) more.push_back(wide);
+  ImFontConfig config;
+  config.MergeMode = true;  // what is there stays
+  for (const std::string& file : more) atlas.AddFontFromFileTTF(file.c_str(), px, &config, ranges);
+  return font;
+}
+
 }  // namespace
 
-UiFonts loadUiFonts(float scale, UiDensity density) {
+std::u32string lackingCharacters(const UiLettering& lettering) {
+  ImFontAtlas atlas;
+  constexpr float kSmallPx = 8.0F;  // only which there are matters
+  const ImFont* font = addFont(atlas, findFont(), kSmallPx, lettering);
+  atlas.Build();
+  std::u32string out;
+  for (const char32_t c : lettering.characters)
+    if (c > 0xFFFF || (c >= 0x20 && !font->FindGlyphNoFallback(static_cast<ImWchar>(c)))) out += c;
+  return out;
+}
+
+UiFonts loadUiFonts(float scale, UiDensity density, const UiLettering& lettering) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   UiFonts fonts;
   const bool study = density == UiDensity::Study;
   fonts.bodyPx = std::round((study ? kBodyPx : kWorkbenchBodyPx) * scale);
   fonts.titlePx = std::round((study ? kTitlePx : kWorkbenchTitlePx) * scale);
   fonts.path = findFont();
-  if (!fonts.path.empty()) {
-    fonts.body = atlas.AddFontFromFileTTF(fonts.path.c_str(), fonts.bodyPx, nullptr, kRanges);
-    fonts.title = atlas.AddFontFromFileTTF(fonts.path.c_str(), fonts.titlePx, nullptr, kRanges);
-    fonts.arrows = true;
-    return fonts;
-  }
-  ImFontConfig config;
-  config.SizePixels = fonts.bodyPx;
-  fonts.body = atlas.AddFontDefault(&config);
-  config.SizePixels = fonts.titlePx;
-  fonts.title = atlas.AddFontDefault(&config);
+  fonts.body = addFont(atlas, fonts.path, fonts.bodyPx, lettering);
+  fonts.title = addFont(atlas, fonts.path, fonts.titlePx, lettering);
+  fonts.arrows = !fonts.path.empty();
   return fonts;
 }
 

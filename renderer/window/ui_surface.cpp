@@ -16,14 +16,14 @@ UiScope::UiScope(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
 }
 UiScope::~UiScope() { ImGui::SetCurrentContext(before_); }
 
-void UiSurface::startUi(float scale, UiDensity density) {
+void UiSurface::startUi(float scale, UiDensity density, const UiLettering& lettering) {
   scale_ = scale;
   imgui_ = ImGui::CreateContext();
   const UiScope scope(imgui_);
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   ImGui_ImplOpenGL3_Init("#version 450 core");
-  fonts_ = loadUiFonts(scale, density);
+  fonts_ = loadUiFonts(scale, density, lettering);
   styleUi(scale, density);
 }
 

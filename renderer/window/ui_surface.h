@@ -52,7 +52,7 @@ class UiSurface {
  protected:
   UiSurface() = default;
   /// Called by subclasses once the context is current: creates the interface's own context, fonts and style.
-  void startUi(float scale, UiDensity density);
+  void startUi(float scale, UiDensity density, const UiLettering& lettering = {});
   /// Called by destructors of subclasses while the context exists, after their own back end has ended.
   void endUi();
 

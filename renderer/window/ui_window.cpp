@@ -182,7 +182,7 @@ UiWindow::UiWindow(const UiWindowOptions& options) : state_(std::make_unique<Sta
   // Hidden until it is in place, so that nobody sees it move.
   state.context = std::make_unique<gl::WindowContext>(options.title, options.sizePx, false);
   state.place(options);
-  startUi(state.scale, options.density);
+  startUi(state.scale, options.density, options.lettering);
   state.imgui = imgui_;
   {
     const UiScope scope(imgui_);

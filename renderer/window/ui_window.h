@@ -23,6 +23,7 @@ struct UiWindowOptions {
   bool resizable = false;
   bool takesFocus = true;  ///< when it opens
   UiDensity density = UiDensity::Study;
+  UiLettering lettering;
 };
 
 /// Where a window is and which monitor shows it.

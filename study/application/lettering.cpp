@@ -26,6 +26,8 @@ std::vector<std::string> wrapped(const Lettering& lettering, const std::string& 
       const char* to =
           lettering.font->CalcWordWrapPositionA(lettering.px / lettering.font->FontSize, from, end, width);
       if (to == from) ++to;
+      while (to < end && (static_cast<unsigned char>(*to) & 0xC0U) == 0x80U)
+        ++to;  // never within a character
       lines.emplace_back(from, to);
       while (to < end && *to == ' ') ++to;
       from = to;

@@ -46,10 +46,13 @@ void PageScreen::turnTextPage(int step) {
   textPages_ = pages;
 }
 
-PageButton continueButton(int id, const std::string& label) {
-  return {
-      id,  label, "Space", "A", {window::kKeySpace, window::kKeyEnter, window::kPadAccept, window::kPadStart},
-      true};
+PageButton continueButton(int id, const Words& words, const std::string& label) {
+  return {id,
+          label.empty() ? words["continue"] : label,
+          words["key_space"],
+          "A",
+          {window::kKeySpace, window::kKeyEnter, window::kPadAccept, window::kPadStart},
+          true};
 }
 
 }  // namespace limen::study

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/application/page.h"
+#include "study/protocol/words.h"
 
 namespace limen::study {
 
@@ -31,6 +32,8 @@ class PageScreen {
   int turns() const { return turns_; }
   void take(const window::Input& input, const std::vector<TargetRect>& targets);
   bool done() const { return done_; }
+  /// Whether the pointer counts only once it has been moved: where it happened to rest would be a suggestion.
+  virtual bool ignoresRestingPointer() const { return false; }
 
  protected:
   /// Everything but focus and text pages.
@@ -54,6 +57,6 @@ class PageScreen {
 };
 
 /// "Continue", with the keys that people try first.
-PageButton continueButton(int id, const std::string& label = "Continue");
+PageButton continueButton(int id, const Words& words, const std::string& label = {});
 
 }  // namespace limen::study

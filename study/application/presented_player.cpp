@@ -101,6 +101,7 @@ PlayResult PresentedPlayer::play(const std::function<bool()>& goOn) {
   setting.stop = [](const ScreenEvent& event) {
     return event.kind == ScreenEvent::Kind::Close ? std::string("stopped") : std::string();
   };
+  if (markers_) setting.mark = [this](MarkerKind kind, int64_t swapNs) { markers_->send(kind, swapNs); };
   screen_.setWatch(goOn);
   if (capture_) prepared_->captureNext = [this] { screen_.captureNext(capture_); };
   Shown shown = present(prepared_->schedule, *prepared_, screen_, setting);

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "study/protocol/design.h"
+
 namespace limen::study {
 namespace {
 
@@ -68,27 +70,37 @@ double secondsBetween(int64_t from, int64_t to) { return static_cast<double>(to 
 
 }  // namespace
 
-std::vector<PageButton> answerButtons(const TaskSetting& task) {
-  std::vector<PageButton> buttons = digitButtons(task.answers);
+std::vector<PageButton> answerButtons(const TaskSetting& task, const AskedHow& how) {
+  const Words& words = how.words;
+  const std::vector<std::string>& labels = task.labels.empty() ? task.answers : task.labels;
+  std::vector<std::string> shown;
+  const std::vector<size_t> order = answersShown(task, how.mirrored);
+  for (const size_t i : order) shown.push_back(labels[i]);
+  std::vector<PageButton> buttons = digitButtons(shown);
+  for (size_t i = 0; i < buttons.size(); ++i) buttons[i].id = static_cast<int>(order[i]);
   if (task.type == Task::Rating || buttons.size() != 2) return buttons;
+  const std::string arrows[] = {"\u2190", "\u2192"};
+  const auto orArrow = [&](const std::string& key, size_t side) {
+    std::string hint = words.filled("key_or_arrow", {{"key", key}, {"arrow", arrows[side]}});
+    for (size_t at = hint.find(' '); at != std::string::npos; at = hint.find(' ', at))
+      hint.replace(at, 1, "\u00A0");
+    return hint;
+  };
   buttons[0].keys.insert(buttons[0].keys.end(), {window::kKeyLeft, window::kPadLeft});
   buttons[1].keys.insert(buttons[1].keys.end(), {window::kKeyRight, window::kPadRight});
-  buttons[0].padHint = "Left";
-  buttons[1].padHint = "Right";
+  buttons[0].padHint = words["pad_left"];
+  buttons[1].padHint = words["pad_right"];
+  const int left = firstLetter(shown[0]), right = firstLetter(shown[1]);
   if (isLeftRight(task)) {
-    buttons[0].hint = "\u2190";
-    buttons[1].hint = "\u2192";
-  }
-  const int first = firstLetter(task.answers[0]), second = firstLetter(task.answers[1]);
-  if (task.type == Task::YesNo && first != window::kKeyNone && second != window::kKeyNone &&
-      first != second) {
-    buttons[0].keys.push_back(first);
-    buttons[1].keys.push_back(second);
-    buttons[0].hint = upper(first) + "\u00A0or\u00A0\u2190";
-    buttons[1].hint = upper(second) + "\u00A0or\u00A0\u2192";
-  } else if (!isLeftRight(task)) {
-    buttons[0].hint += "\u00A0or\u00A0\u2190";
-    buttons[1].hint += "\u00A0or\u00A0\u2192";
+    for (size_t side = 0; side < 2; ++side) buttons[side].hint = arrows[side];
+  } else if (task.type == Task::YesNo && left != window::kKeyNone && right != window::kKeyNone &&
+             left != right) {
+    buttons[0].keys.push_back(left);
+    buttons[1].keys.push_back(right);
+    buttons[0].hint = orArrow(upper(left), 0);
+    buttons[1].hint = orArrow(upper(right), 1);
+  } else {
+    for (size_t side = 0; side < 2; ++side) buttons[side].hint = orArrow(buttons[side].hint, side);
   }
   return buttons;
 }
@@ -112,34 +124,20 @@ bool asksSeverity(const TaskSetting& task, int answer) {
   return task.severity && (task.severityAlways || (task.type == Task::YesNo && answer == 0));
 }
 
-std::string questionOf(const TaskSetting& task) {
-  if (!task.question.empty()) return task.question;
-  switch (task.type) {
-    case Task::YesNo:
-      return "Did you notice a change?";
-    case Task::Interval:
-      return "Which one had the change?";
-    case Task::Alternative:
-      return "Where was the change?";
-    case Task::Rating:
-      return "How do you rate it?";
-    case Task::Pairwise:
-      return "Which one is better?";
-  }
-  return "";
+std::string questionOf(const TaskSetting& task, const Words& words) {
+  return task.question.empty() ? words["question_" + std::string(limen::toText(task.type))] : task.question;
 }
 
-std::string answerHelp(const TaskSetting& task) {
-  std::string help = "You can answer with the mouse or with the keys shown on the buttons:";
-  const std::vector<PageButton> buttons = answerButtons(task);
-  for (size_t i = 0; i < buttons.size(); ++i)
-    help += (i == 0 ? " " : ", ") + buttons[i].label +
-            (buttons[i].hint.empty() ? "" : " (" + buttons[i].hint + ")");
-  return help + ". Wait for the question before you answer. Press Esc to pause.";
+std::string answerHelp(const TaskSetting& task, const AskedHow& how) {
+  std::string answers;
+  for (const PageButton& button : answerButtons(task, how))
+    answers +=
+        (answers.empty() ? "" : ", ") + button.label + (button.hint.empty() ? "" : " (" + button.hint + ")");
+  return how.words.filled("answer_help", {{"answers", answers}});
 }
 
-QuestionScreen::QuestionScreen(const TaskSetting& task, int64_t stimulusEndNs)
-    : task_(task), stimulusEndNs_(stimulusEndNs) {}
+QuestionScreen::QuestionScreen(const TaskSetting& task, int64_t stimulusEndNs, const AskedHow& how)
+    : task_(task), how_(how), stimulusEndNs_(stimulusEndNs) {}
 
 std::string QuestionScreen::name() const {
   return step_ == Step::Answer ? "question" : step_ == Step::Severity ? "severity" : "confidence";
@@ -153,8 +151,8 @@ Page QuestionScreen::build(int64_t) const {
   Page page;
   switch (step_) {
     case Step::Answer:
-      page.question = questionOf(task_);
-      page.buttons = answerButtons(task_);
+      page.question = questionOf(task_, how_.words);
+      page.buttons = answerButtons(task_, how_);
       page.columns = answerColumns(task_);
       break;
     case Step::Severity:

@@ -8,13 +8,13 @@ namespace {
 
 enum ButtonId { kGoOn = 100, kBack, kAgree, kDecline, kStop, kLater, kEnd };
 
-PageButton backButton(int id, const std::string& label) {
-  return {id, label, "Backspace", "B", {window::kKeyBackspace, window::kPadBack}, true};
+PageButton backButton(int id, const Words& words, const std::string& label) {
+  return {id, label, words["key_backspace"], "B", {window::kKeyBackspace, window::kPadBack}, true};
 }
 
-void addTextTurning(Page& page, bool first) {
-  if (!first) page.buttons.push_back(backButton(kBack, "Previous page"));
-  page.buttons.push_back(continueButton(kGoOn, "Next page"));
+void addTextTurning(Page& page, const Words& words, bool first) {
+  if (!first) page.buttons.push_back(backButton(kBack, words, words["previous_page"]));
+  page.buttons.push_back(continueButton(kGoOn, words, words["next_page"]));
 }
 
 std::string paragraphs(const std::string& first, const std::string& second) {
@@ -29,18 +29,20 @@ Page TextScreen::build(int64_t nowNs) const {
   page.text = setting_.text;
   page.progress = setting_.progress;
   page.footer = setting_.footer;
-  page.reserved = {backButton(kBack, "Previous page"), continueButton(kGoOn, setting_.button)};
+  page.reserved = {backButton(kBack, words_, words_["previous_page"]),
+                   continueButton(kGoOn, words_, setting_.button)};
   if (!onLastTextPage()) {
-    addTextTurning(page, textPage() == 0);
+    addTextTurning(page, words_, textPage() == 0);
     return page;
   }
-  if (textPage() > 0) page.buttons.push_back(backButton(kBack, "Previous page"));
-  page.buttons.push_back(continueButton(kGoOn, setting_.button));
+  if (textPage() > 0) page.buttons.push_back(backButton(kBack, words_, words_["previous_page"]));
+  page.buttons.push_back(continueButton(kGoOn, words_, setting_.button));
   const int64_t since = firstShownNs() ? nowNs - *firstShownNs() : 0;
   const double leftS = setting_.atLeastS - static_cast<double>(since) * 1e-9;
   if (leftS > 0) {
     page.buttons.back().enabled = false;
-    page.status = "You can continue in " + std::to_string(static_cast<int>(std::ceil(leftS))) + " s";
+    page.status =
+        words_.filled("wait_seconds", {{"seconds", std::to_string(static_cast<int>(std::ceil(leftS)))}});
   }
   return page;
 }
@@ -57,19 +59,20 @@ void TextScreen::pressed(int id, const window::Input&) {
 Page ConsentScreen::build(int64_t) const {
   Page page;
   if (declining_) {
-    page.title = "You do not agree";
-    page.text = "Then the session ends here, and no answers are requested or kept. Thank you for your time.";
-    page.buttons = {backButton(kBack, "Go back"),
-                    {kDecline, "End the session", "E", "Start", {'e', window::kPadStart}, true}};
+    page.title = words_["declined_title"];
+    page.text = words_["declined_text"];
+    page.buttons = {backButton(kBack, words_, words_["go_back"]),
+                    {kDecline, words_["declined_end"], "E", "Start", {'e', window::kPadStart}, true}};
     return page;
   }
-  page.title = "Taking part";
+  page.title = words_["consent_title"];
   page.text = text_;
-  page.reserved = {backButton(kBack, "Previous page"),
-                   {kDecline, "I do not agree", "N", "Left", {'n', window::kPadLeft}, true},
-                   {kAgree, "I agree", "Y", "Right", {'y', window::kPadRight}, true}};
+  page.reserved = {
+      backButton(kBack, words_, words_["previous_page"]),
+      {kDecline, words_["consent_decline"], "N", words_["pad_left"], {'n', window::kPadLeft}, true},
+      {kAgree, words_["consent_agree"], "Y", words_["pad_right"], {'y', window::kPadRight}, true}};
   if (!onLastTextPage())
-    addTextTurning(page, textPage() == 0);
+    addTextTurning(page, words_, textPage() == 0);
   else
     page.buttons.assign(page.reserved.begin() + (textPage() > 0 ? 0 : 1), page.reserved.end());
   return page;
@@ -94,20 +97,22 @@ void ConsentScreen::pressed(int id, const window::Input&) {
 
 Page FormScreen::build(int64_t) const {
   Page page;
-  page.title = "About you";
-  const std::string promise = "Your name is not asked for, and nothing that names you is kept.";
+  page.title = words_["form_title"];
+  const std::string& promise = words_["form_promise"];
   if (fields_.empty() || reviewing()) {
-    page.text = fields_.empty() ? promise : "Is this right?";
+    page.text = fields_.empty() ? promise : words_["form_review"];
     for (size_t i = 0; i < chosen_.size(); ++i)
       page.text += "\n\n" + fields_[i].label + "  " + fields_[i].choices[chosen_[i]];
-    if (!fields_.empty()) page.buttons.push_back(backButton(kBack, "Choose again"));
-    page.buttons.push_back(continueButton(kGoOn, fields_.empty() ? "Continue" : "Yes, continue"));
+    if (!fields_.empty()) page.buttons.push_back(backButton(kBack, words_, words_["form_again"]));
+    page.buttons.push_back(
+        continueButton(kGoOn, words_, fields_.empty() ? std::string() : words_["form_accept"]));
     return page;
   }
   const FormField& field = fields_[chosen_.size()];
   if (chosen_.empty()) page.text = promise;
   page.question = field.label;
-  page.footer = "Question " + std::to_string(chosen_.size() + 1) + " of " + std::to_string(fields_.size());
+  page.footer = words_.filled("form_progress", {{"number", std::to_string(chosen_.size() + 1)},
+                                                {"count", std::to_string(fields_.size())}});
   for (size_t i = 0; i < field.choices.size(); ++i) {
     PageButton button{static_cast<int>(i), field.choices[i], "", "", {}, true};
     if (i < 9) {
@@ -137,21 +142,17 @@ nlohmann::json FormScreen::answers() const {
 Page PauseScreen::build(int64_t) const {
   Page page;
   if (stopping_) {
-    page.title = "Stop the session?";
-    page.text =
-        "All your answers so far are kept. The session can be resumed later where you left off, or "
-        "be "
-        "ended for good.";
-    page.buttons = {continueButton(kGoOn, "No, continue"),
-                    {kLater, "Stop, continue another time", "L", "Left", {'l', window::kPadLeft}, true},
-                    {kEnd, "End for good", "E", "Right", {'e', window::kPadRight}, true}};
+    page.title = words_["stop_title"];
+    page.text = words_["stop_text"];
+    page.buttons = {continueButton(kGoOn, words_, words_["stop_continue"]),
+                    {kLater, words_["stop_later"], "L", words_["pad_left"], {'l', window::kPadLeft}, true},
+                    {kEnd, words_["stop_end"], "E", words_["pad_right"], {'e', window::kPadRight}, true}};
     return page;
   }
-  page.title = "Pause";
-  page.text =
-      paragraphs(reason_, text_.empty() ? "Take your time. The last picture will be shown again." : text_);
-  page.buttons = {{kStop, "Stop the session", "S", "B", {'s', window::kPadBack}, true},
-                  continueButton(kGoOn)};
+  page.title = words_["pause_title"];
+  page.text = paragraphs(reason_, text_.empty() ? words_["pause_text"] : text_);
+  page.buttons = {{kStop, words_["pause_stop"], "S", "B", {'s', window::kPadBack}, true},
+                  continueButton(kGoOn, words_)};
   return page;
 }
 

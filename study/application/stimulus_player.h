@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "study/presentation/markers.h"
 #include "study/session/front_end.h"
 
 namespace limen::study {
@@ -28,11 +29,14 @@ class StimulusPlayer {
   /// Called once in each trial with a frame of its first stimulus in the window's back buffer, for a picture
   /// of it; costs that frame its time.
   void setCapture(std::function<void()> capture) { capture_ = std::move(capture); }
+  /// Told of stimuli and changes as they come on screen.
+  void setMarkers(Markers* markers) { markers_ = markers; }
   /// For FrontEnd::environment().
   virtual nlohmann::json environment() const { return nlohmann::json::object(); }
 
  protected:
   std::function<void()> capture_;
+  Markers* markers_ = nullptr;
 };
 
 }  // namespace limen::study

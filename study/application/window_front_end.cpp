@@ -10,6 +10,7 @@
 #include "experiments/base/interrupt.h"
 #include "renderer/gl/window_context.h"
 #include "study/application/question.h"
+#include "study/application/resting_pointer.h"
 #include "study/application/screens.h"
 
 namespace limen::study {
@@ -26,7 +27,7 @@ constexpr double kFeedbackS = 1.0;
 // One word or two in the middle for a moment.
 class FeedbackPage : public PageScreen {
  public:
-  explicit FeedbackPage(bool correct) : correct_(correct) {}
+  FeedbackPage(bool correct, const Words& words) : correct_(correct), words_(words) {}
   std::string name() const override { return "feedback"; }
   bool over(int64_t nowNs) const {
     return shownNs() && static_cast<double>(nowNs - *shownNs()) * 1e-9 >= kFeedbackS;
@@ -35,13 +36,14 @@ class FeedbackPage : public PageScreen {
  protected:
   Page build(int64_t) const override {
     Page page;
-    page.question = correct_ ? "Right" : "Not right";
+    page.question = correct_ ? words_["feedback_right"] : words_["feedback_wrong"];
     return page;
   }
   void pressed(int, const window::Input&) override {}
 
  private:
   bool correct_;
+  const Words& words_;
 };
 
 }  // namespace
@@ -53,6 +55,7 @@ WindowFrontEnd::WindowFrontEnd(window::UiWindow& window, StimulusPlayer& player,
       watch_(watch),
       experimenter_(experimenter),
       setting_(std::move(setting)) {
+  player_.setMarkers(setting_.markers);
   if (setting_.screenshots.empty()) return;
   std::filesystem::create_directories(setting_.screenshots);
   player_.setCapture([this] { screenshot("stimulus"); });
@@ -77,16 +80,18 @@ bool WindowFrontEnd::stopAsked() {
   if (!stopReason_.empty()) return true;
   if (interruptSignal() != 0) stopReason_ = "asked to stop by a signal";
   if (window_.contextLost()) stopReason_ = "the graphics driver was reset";
+  if (setting_.markers && !setting_.markers->failure().empty()) stopReason_ = setting_.markers->failure();
   return !stopReason_.empty();
 }
 
 WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function<bool()>& timedOut) {
-  window_.hideCursor(false);
   screen.hidden();
   watch_.setScreen(screen.name());
   PageLayout layout;
   glm::vec2 cursor(0);
+  RestingPointer pointer;
   int64_t drawnNs = 0;
+  int marked = 0;
   bool draw = true;
   while (!screen.done()) {
     if (stopAsked()) return Left::StopForNow;
@@ -96,10 +101,14 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     // Nothing is drawn while nothing changes, so that no input waits for a frame before it is time-stamped.
     const Page page = screen.page(window::steadyNs());
     const bool fresh = screen.isNew(), moved = window_.cursorPx() != cursor, counts = !page.status.empty();
+    if (fresh) pointer = RestingPointer(window_.cursorPx(), screen.ignoresRestingPointer());
+    window_.hideCursor(!pointer.counts(window_.cursorPx()));
     if (draw || fresh || moved || counts || window::steadyNs() - drawnNs > kRedrawAnywayNs) {
       cursor = window_.cursorPx();
-      window_.draw(setting_.background,
-                   [&] { layout = drawPage(page, glm::vec2(window_.sizePx()), cursor, style()); });
+      window_.draw(setting_.background, [&] {
+        const glm::vec2 nowhere(-1, -1), at = pointer.counts(cursor) ? cursor : nowhere;
+        layout = drawPage(page, glm::vec2(window_.sizePx()), at, style());
+      });
       if (layout.textPages != page.textPages.count) {
         screen.setTextPages(layout.textPages);
         continue;
@@ -108,6 +117,7 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
       drawnNs = window_.show(fresh ? 1 : 0);
       if (fresh) {
         screen.shown(drawnNs);
+        markQuestion(screen, drawnNs, marked);
         announce(screen.name());
       }
     }
@@ -118,15 +128,20 @@ WindowFrontEnd::Left WindowFrontEnd::run(PageScreen& screen, const std::function
     const int turns = screen.turns();
     for (const window::Input& input : inputs) {
       if (input.key == window::kKeyEscape) return Left::Paused;
+      const bool mouse = input.device == window::Device::Mouse;
+      if (mouse && !pointer.counts({input.xPx, input.yPx})) continue;
       if (screen.turns() == turns) screen.take(input, layout.targets);
     }
+    markQuestion(screen, drawnNs, marked);
     if (window_.takeCloseRequest()) return Left::Paused;
   }
   return Left::Done;
 }
 
+const Words& WindowFrontEnd::words() const { return protocol_ ? protocol_->words : Words::english(); }
+
 WindowFrontEnd::Left WindowFrontEnd::pause(const std::string& reason) {
-  PauseScreen page(pauseText_, reason);
+  PauseScreen page(protocol_ ? protocol_->texts.pause : std::string(), reason, words());
   watch_.rested();
   const Left left = run(page);
   watch_.rested();
@@ -143,7 +158,7 @@ WindowFrontEnd::Left WindowFrontEnd::pause(const std::string& reason) {
 }
 
 ScreenResult WindowFrontEnd::show(const Screen& screen, const Session& session) {
-  pauseText_ = session.protocol().texts.pause;
+  protocol_ = &session.protocol();
   watch_.progress(session.trialsDone(), session.trialsInAll());
   watch_.rested();
   const std::unique_ptr<PageScreen> page = pageFor(screen, session);
@@ -200,7 +215,7 @@ bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
   player_.prepare(trial, session, [&] {
     watchWindow();
     if (told || window::steadyNs() - start < kPatienceNs) return;
-    drawNeutral("One moment, please");
+    drawNeutral(words()["one_moment"]);
     screenshot("wait");
     window_.show(0);
     told = true;
@@ -209,10 +224,12 @@ bool WindowFrontEnd::prepare(const Trial& trial, const Session& session) {
 }
 
 TrialResult WindowFrontEnd::present(const Trial& trial, const Session& session) {
-  pauseText_ = session.protocol().texts.pause;
+  protocol_ = &session.protocol();
   watch_.progress(session.trialsDone(), session.trialsInAll());
   watch_.began(trial, window::steadyNs());
+  if (setting_.markers) setting_.markers->take();
   TrialResult result = attempt(trial, session);
+  if (setting_.markers) result.markers = setting_.markers->take();
   watch_.ended(result, window::steadyNs());
   return result;
 }
@@ -243,7 +260,7 @@ TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) 
     return left == Left::Done ? result : stopped(left, result);
   }
   const TaskSetting& task = session.protocol().parts.at(static_cast<size_t>(trial.plan.part)).task;
-  QuestionScreen question(task, played.endNs);
+  QuestionScreen question(task, played.endNs, {session.design().answersMirrored, words()});
   const double timeoutS = session.protocol().timing.answerTimeoutS;
   Left left = run(question, [&] { return question.timedOut(window::steadyNs(), timeoutS); });
   if (left == Left::Done && played.invalid.empty()) {
@@ -263,6 +280,20 @@ TrialResult WindowFrontEnd::attempt(const Trial& trial, const Session& session) 
   return left == Left::Done || left == Left::TimedOut ? result : stopped(left, result);
 }
 
+void WindowFrontEnd::markQuestion(const PageScreen& screen, int64_t shownNs, int& marked) {
+  const auto* question = dynamic_cast<const QuestionScreen*>(&screen);
+  if (!question || !setting_.markers) return;
+  if (marked == 0) {
+    setting_.markers->send(MarkerKind::Question, shownNs);
+    marked = 1;
+  }
+  const int64_t answeredNs = question->answer().answeredNs;
+  if (marked == 1 && answeredNs != 0) {
+    setting_.markers->send(MarkerKind::Answer, answeredNs);
+    marked = 2;
+  }
+}
+
 void WindowFrontEnd::forget() {
   early_.clear();
   loss_.clear();
@@ -271,7 +302,7 @@ void WindowFrontEnd::forget() {
 
 WindowFrontEnd::Left WindowFrontEnd::afterStop() {
   if (stopAsked()) return Left::StopForNow;
-  return pause(loss_.empty() ? std::string() : "The picture could not be shown: " + loss_ + ".");
+  return pause(loss_.empty() ? std::string() : words()["pause_lost"]);
 }
 
 TrialResult WindowFrontEnd::stopped(Left left, TrialResult result) const {
@@ -291,7 +322,7 @@ std::vector<std::string> WindowFrontEnd::takeNotes() {
 }
 
 void WindowFrontEnd::feedback(bool correct) {
-  FeedbackPage page(correct);
+  FeedbackPage page(correct, words());
   run(page, [&] { return page.over(window::steadyNs()); });
 }
 

@@ -27,7 +27,8 @@ class WindowFrontEnd : public FrontEnd {
     nlohmann::json facts = nlohmann::json::object();  ///< added to environment()
     /// Called with "screen: NAME" when a page is on screen, and with "screen: stimulus" when one begins.
     std::function<void(const std::string& line)> announce;
-    std::string screenshots;  ///< folder for a PNG of every page; "": none
+    Markers* markers = nullptr;  ///< told of stimuli, questions and answers; must outlive it
+    std::string screenshots;     ///< folder for a PNG of every page; "": none
   };
 
   /// All must outlive it; `experimenter` may be null.
@@ -47,6 +48,7 @@ class WindowFrontEnd : public FrontEnd {
   Left run(PageScreen& screen, const std::function<bool()>& timedOut = {});
   Left pause(const std::string& reason);
   bool stopAsked();
+  const Words& words() const;
   std::vector<window::Input> takeInputs();
   /// Processes window events while no question is shown; false: stop the presentation.
   bool watchWindow();
@@ -57,6 +59,8 @@ class WindowFrontEnd : public FrontEnd {
   void drawNeutral(const std::string& status);
   bool prepare(const Trial& trial, const Session& session);
   TrialResult attempt(const Trial& trial, const Session& session);
+  /// Tells a recorder that the question is on screen, and its answer; `marked`: how many of both it was told.
+  void markQuestion(const PageScreen& screen, int64_t shownNs, int& marked);
   PageStyle style() const;
   void announce(const std::string& name);
   void screenshot(const std::string& name);
@@ -66,7 +70,8 @@ class WindowFrontEnd : public FrontEnd {
   SessionWatch& watch_;
   ExperimenterWindow* experimenter_;
   Setting setting_;
-  std::string stopReason_, pauseText_;
+  std::string stopReason_;
+  const Protocol* protocol_ = nullptr;  ///< of the session that is shown
   // Since the current trial began.
   std::string loss_;
   bool pauseAsked_ = false;

@@ -7,6 +7,7 @@
 
 #include "experiments/base/text.h"
 #include "renderer/catalogue.h"
+#include "study/application/protocol_lettering.h"
 #include "study/command/commands.h"
 #include "study/protocol/describe.h"
 
@@ -36,6 +37,7 @@ void showProtocols(const ProtocolOptions& options) {
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& name : options.names) {
     const Protocol protocol = readProtocol(name, catalogue);
+    checkLettering(protocol);
     const Design design = makeDesign(protocol, options.seed, options.participantNumber);
     if (options.check) {
       const size_t trials = trialsOf(design);

@@ -14,8 +14,10 @@
 #include "renderer/gl/window_context.h"
 #include "renderer/gl/window_system.h"
 #include "study/application/presented_player.h"
+#include "study/application/protocol_lettering.h"
 #include "study/application/window_front_end.h"
 #include "study/command/commands.h"
+#include "study/presentation/markers.h"
 #include "study/session/privacy.h"
 #include "study/session/run.h"
 #include "study/session/session_seed.h"
@@ -27,7 +29,7 @@ namespace {
 struct RunOptions {
   std::string protocol, participant, session = "1", store, display, screenshots;
   std::optional<uint64_t> seed;
-  std::string window, photodiode;
+  std::string window, photodiode, markers;
   int monitor = 0;
   double scale = 0.0;
   bool resume = false, fullScreen = false, announce = false, anyTiming = false, experimenter = false;
@@ -67,11 +69,12 @@ void checkMonitor(const std::string& option, int number) {
                 all.empty() ? "none is connected" : fmt::format("connected are 0 to {}", all.size() - 1));
 }
 
-std::unique_ptr<window::UiWindow> openWindow(const RunOptions& options, const std::string& title) {
+std::unique_ptr<window::UiWindow> openWindow(const RunOptions& options, const Protocol& protocol) {
   checkMonitor("--monitor", options.monitor);
   if (options.experimenter) checkMonitor("--experimenter-monitor", options.experimenterMonitor);
   window::UiWindowOptions wanted;
-  wanted.title = title;
+  wanted.title = protocol.title;
+  wanted.lettering = letteringFor(protocol);
   wanted.fullScreen = options.window.empty();
   if (!wanted.fullScreen) wanted.sizePx = sizeOf(options.window);
   wanted.monitor = options.monitor;
@@ -133,16 +136,21 @@ void report(const SessionEnd& end, const WindowFrontEnd& frontEnd, const Session
 
 void runStudy(const RunOptions& options, Run& run) {
   const Protocol protocol = readProtocol(options.protocol, catalogueFromRegistries());
+  checkLettering(protocol);
   checkCode(options.participant, "participant");
   checkCode(options.session, "session");
   const SessionRequest request = requestOf(options, protocol);
   const bool fullScreen = options.window.empty();
+  // Before anything opens: a recorder that hears nothing is noticed now, not after the session.
+  std::unique_ptr<Markers> markers;
+  if (!options.markers.empty())
+    markers = std::make_unique<Markers>(openMarkerPort(options.markers), protocol.markers);
 
   // A session that is stopped is stored as paused, which takes as long as a frame may take to come to the
   // screen.
   constexpr double kGraceS = 3.0;
   installInterruptHandlers(kGraceS);
-  const std::unique_ptr<window::UiWindow> window = openWindow(options, protocol.title);
+  const std::unique_ptr<window::UiWindow> window = openWindow(options, protocol);
   std::unique_ptr<ExperimenterWindow> experimenter;
   if (options.experimenter)
     experimenter = std::make_unique<ExperimenterWindow>(options.experimenterMonitor, window->scale(),
@@ -155,6 +163,7 @@ void runStudy(const RunOptions& options, Run& run) {
       glm::vec3(static_cast<float>(displayCode(request.display, protocol.window.background)) / 255.0F);
   setting.fullScreen = fullScreen;
   setting.screenshots = options.screenshots;
+  setting.markers = markers.get();
   if (options.announce)
     setting.announce = [](const std::string& line) {
       std::puts(line.c_str());
@@ -167,7 +176,16 @@ void runStudy(const RunOptions& options, Run& run) {
   if (options.anyTiming) why.push_back("frame times are not checked (--any-timing)");
   for (const std::string& doubt : why)
     std::fprintf(stderr, "warning: timing is not fit for a lab: %s\n", doubt.c_str());
-  setting.facts = {{"lab_ready", why.empty()}, {"lab_doubts", why}};
+  setting.facts = {{"lab_ready", why.empty()},
+                   {"lab_doubts", why},
+                   {"language", protocol.words["language"]},
+                   {"words_sha256", protocol.words.hash()}};
+  if (markers) {
+    setting.facts["markers"]["port"] = markers->port();
+    for (size_t i = 0; i < markers->codes().size(); ++i)
+      setting.facts["markers"]["codes"][std::string(limen::toText(static_cast<MarkerKind>(i)))] =
+          markers->codes()[i];
+  }
 
   SessionWatch watch;
   WindowFrontEnd frontEnd(*window, player, watch, experimenter.get(), setting);
@@ -214,8 +232,14 @@ void addRunCommand(CLI::App& app, Run& run) {
                     "Trials count even if frames were late: for trying things out, not for data");
   command->add_option(
       "--photodiode", options->photodiode,
-      "A square for a light sensor, CORNER:PIXELS (lower_left:64): white once a stimulus has changed, "
-      "otherwise on every other frame. The sensor must cover it, since it gives answers away");
+      "A square for a light sensor, CORNER:PIXELS (lower_left:64): white while a stimulus shows its state "
+      "after the change, otherwise on every other frame. The sensor must cover it, since it gives answers "
+      "away");
+  command->add_option(
+      "--markers", options->markers,
+      "Port to a recorder that gets a byte when a stimulus begins, changes and ends, at the "
+      "question and the answer: serial:DEVICE[:BAUD] or parallel:DEVICE. Codes: 'markers' of the "
+      "protocol");
   command->add_flag("--experimenter-window", options->experimenter,
                     "A second window: progress, timing, notes");
   command->add_option("--experimenter-monitor", options->experimenterMonitor, "Monitor of that window")

@@ -55,6 +55,25 @@ Files filesOf(ExportFormat format, const std::vector<ExportedSession>& sessions,
   return csvFiles(sessions, frames);
 }
 
+/// Markers of an event's data, whose own time since the start of the session is `eventS`.
+void addMarkers(const store::StudyEvent& event, double eventS, std::vector<ExportedMarker>& out) {
+  const auto markers = event.data.find("markers");
+  if (markers == event.data.end()) return;
+  try {
+    for (const nlohmann::json& marker : *markers) {
+      const auto seconds = [&](const char* key) {
+        return eventS + static_cast<double>(marker.at(key).get<int64_t>() - event.monotonicNs) * 1e-9;
+      };
+      out.push_back({event.data.at("trial").get<int>(), event.data.at("attempt").get<int>(),
+                     marker.at("code").get<int>(), marker.at("marker").get<std::string>(), seconds("due_ns"),
+                     seconds("sent_ns")});
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw Error("the store is damaged: table event, number " + std::to_string(event.number) +
+                ": its markers lack what they must say");
+  }
+}
+
 }  // namespace
 
 std::vector<ExportedSession> loadSessions(const ExportRequest& request) {
@@ -85,6 +104,11 @@ std::vector<ExportedSession> loadSessions(const ExportRequest& request) {
     one.trials = reader.trials(session.id, true);
     const std::vector<store::StudyEvent> events = reader.events(session.id);
     const std::vector<double> times = eventTimesS(events);
+    if (!events.empty())
+      if (const auto sides = events[0].data.find("answers_from_the_left");
+          sides != events[0].data.end() && sides->is_object())
+        one.answersFromTheLeft = *sides;
+    for (size_t i = 0; i < events.size(); ++i) addMarkers(events[i], times[i], one.markers);
     for (const store::StudyTrial& trial : one.trials) {
       const auto start = static_cast<size_t>(trial.event);
       one.startS.push_back(times[start]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -113,6 +114,10 @@ Files csvFiles(const std::vector<ExportedSession>& sessions, bool frames) {
     columns["frames.csv"] = dictionary(table.columns);
     out.emplace_back("frames.csv", toCsv(table));
   }
+  if (const Table markers = markerTable(sessions); !markers.rows.empty()) {
+    columns["markers.csv"] = dictionary(markers.columns);
+    out.emplace_back("markers.csv", toCsv(markers));
+  }
   out.emplace_back("dictionary.json", dump(columns));
   return out;
 }
@@ -130,18 +135,24 @@ Files bidsFiles(const std::vector<ExportedSession>& sessions, bool frames) {
   for (auto& row : participants.rows) row[0] = "sub-" + label(*row[0]);
   out.emplace_back("participants.tsv", toTsv(participants));
   out.emplace_back("participants.json", dump(dictionary(participants.columns)));
+  // Sidecars of events hold columns alone; what is said of a task applies to all of its files.
+  std::map<std::string, json> tasks;
+  for (const ExportedSession& session : sessions)
+    tasks.emplace(label(session.protocolName),
+                  json{{"TaskName", session.protocolName}, {"TaskDescription", session.protocolTitle}});
+  for (const auto& [task, about] : tasks) out.emplace_back("task-" + task + "_beh.json", dump(about));
   for (const ExportedSession& session : sessions) {
     const std::string folder = "sub-" + label(session.subject) + "/ses-" + label(session.name) + "/beh/";
     const Table events = asEvents(trialTable({session}));
     json sidecar = dictionary(events.columns);
-    sidecar["TaskName"] = label(session.protocolName);
-    sidecar["TaskDescription"] = session.protocolTitle;
     sidecar["StimulusPresentation"] = {{"SoftwareName", "Limen"},
                                        {"SoftwareVersion", session.programVersion}};
     out.emplace_back(folder + fileStem(session) + "_events.tsv", toTsv(events));
     out.emplace_back(folder + fileStem(session) + "_events.json", dump(sidecar));
+    // Not BIDS suffixes: such files belong under sourcedata/.
+    if (!session.markers.empty())
+      out.emplace_back("sourcedata/" + fileStem(session) + "_markers.tsv", toTsv(markerTable({session})));
     if (!frames) continue;
-    // Not a BIDS suffix: such files belong under sourcedata/.
     Table swaps = frameTable({session});
     out.emplace_back("sourcedata/" + fileStem(session) + "_frames.tsv", toTsv(swaps));
   }
@@ -173,6 +184,11 @@ Files psychDsFiles(const std::vector<ExportedSession>& sessions, bool frames) {
     const Table table = trialTable({session});
     describe(table.columns);
     out.emplace_back(stem + "_data.csv", toCsv(table));
+    if (!session.markers.empty()) {
+      const Table markers = markerTable({session});
+      describe(markers.columns);
+      out.emplace_back(stem + "_description-markers_data.csv", toCsv(markers));
+    }
     if (!frames) continue;
     const Table swaps = frameTable({session});
     describe(swaps.columns);

@@ -67,6 +67,47 @@ Cell earlyInputs(const store::StudyTrial& trial) {
   return std::to_string(found != trial.response->extra.end() && found->is_array() ? found->size() : 0);
 }
 
+/// What each stimulus showed, in words, separated by blanks; nothing if it was not recorded.
+Cell shownBy(const store::StudyTrial& trial) {
+  std::string out;
+  for (const nlohmann::json& stimulus : trial.stimuli) {
+    if (!stimulus.is_object() || !stimulus.contains("changes") || !stimulus["changes"].is_boolean())
+      return std::nullopt;
+    const auto after = stimulus.find("catch_shows_after");
+    const bool showsAfter = after != stimulus.end() && after->is_boolean() && after->get<bool>();
+    out += out.empty() ? "" : " ";
+    out += stimulus["changes"].get<bool>() ? "change" : showsAfter ? "after" : "before";
+  }
+  return out.empty() ? Cell() : Cell(out);
+}
+
+/// Levels of detail that each stimulus showed, "1>0" where it changed; nothing if none did.
+Cell levelsBy(const store::StudyTrial& trial) {
+  const Cell shown = shownBy(trial);
+  std::string out;
+  for (const nlohmann::json& stimulus : trial.stimuli) {
+    const auto levels = stimulus.find("levels");
+    if (!shown || levels == stimulus.end() || !levels->is_object() || !levels->contains("before") ||
+        !levels->contains("after"))
+      return std::nullopt;
+    const std::string before = (*levels)["before"].dump(), after = (*levels)["after"].dump();
+    out += out.empty() ? "" : " ";
+    out += stimulus["changes"].get<bool>()              ? before + ">" + after
+           : stimulus.value("catch_shows_after", false) ? after
+                                                        : before;
+  }
+  return out.empty() ? Cell() : Cell(out);
+}
+
+Cell answersFromTheLeft(const ExportedSession& session, const std::string& part) {
+  const auto own = session.answersFromTheLeft.find(part);
+  if (own == session.answersFromTheLeft.end() || !own->is_array()) return std::nullopt;
+  std::string out;
+  for (const nlohmann::json& answer : *own)
+    if (answer.is_string()) out += (out.empty() ? "" : " | ") + answer.get<std::string>();
+  return out;
+}
+
 const std::map<std::string, std::string> kYesNo = {{"0", "no"}, {"1", "yes"}};
 
 std::vector<Column> subjectColumns() {
@@ -115,6 +156,15 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
       {"practice", "Whether the trial was practice", "", kYesNo},
       {"change", "Whether something changed; 0 for a catch trial", "", kYesNo},
       {"repetition", "Repetition of the condition, from 0", "", {}},
+      {"shown",
+       "What each stimulus showed, in order: 'change', or the state 'before' or 'after' the change "
+       "throughout",
+       "",
+       {}},
+      {"levels",
+       "Levels of detail that each stimulus showed, 0 the finest: 1>0 for a change from 1 to 0",
+       "",
+       {}},
       {"target", "Interval or position that had the change (pairs: item_b), from 0", "", {}}};
   out.columns.insert(out.columns.end(), first.begin(), first.end());
   for (const std::string& factor : factors)
@@ -132,6 +182,10 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
       {"counts", "Valid, answered and not in a block that was restarted. Results use those with practice = 0",
        "", kYesNo},
       {"answer", "Answer in the protocol's words", "", {}},
+      {"answers_from_the_left",
+       "Answers as they stood on screen, from left to right, separated by |",
+       "",
+       {}},
       {"outcome", "Answer as a number: 1 for yes or correct; rating: step from 0; pairs: position", "", {}},
       {"correct", "Whether the answer was correct", "", kYesNo},
       {"severity", "Step of the severity scale, 1 is the lowest", "", {}},
@@ -166,6 +220,8 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
                                flag(trial.practice),
                                flag(trial.change),
                                std::to_string(trial.repetition),
+                               shownBy(trial),
+                               levelsBy(trial),
                                std::to_string(trial.target)};
       for (const std::string& factor : factors)
         row.push_back(trial.condition.contains(factor) ? text(trial.condition[factor]) : std::nullopt);
@@ -177,6 +233,7 @@ Table trialTable(const std::vector<ExportedSession>& sessions) {
       row.push_back(trial.reason.empty() ? Cell() : Cell(trial.reason));
       row.push_back(flag(trial.counts()));
       row.push_back(response ? Cell(response->answer) : std::nullopt);
+      row.push_back(answersFromTheLeft(session, trial.part));
       row.push_back(response ? Cell(std::to_string(response->outcome)) : std::nullopt);
       row.push_back(response ? flag(response->correct) : std::nullopt);
       row.push_back(response ? number(response->severity) : std::nullopt);
@@ -218,6 +275,27 @@ Table frameTable(const std::vector<ExportedSession>& sessions) {
                  std::to_string(frame.stimulus), std::to_string(frame.showing), std::to_string(frame.frame),
                  toText(static_cast<double>(frame.swapNs - trial.frames.front().swapNs) * 1e-9),
                  std::to_string(frame.missedBlanks)});
+  return out;
+}
+
+Table markerTable(const std::vector<ExportedSession>& sessions) {
+  Table out;
+  out.columns = subjectColumns();
+  const std::vector<Column> more = {
+      {"trial", "Number of the trial in the session's plan, from 0", "", {}},
+      {"attempt", "Presentation of the trial, from 0", "", {}},
+      {"marker", "What happened: stimulus, change, stimulus_end, question or answer", "", {}},
+      {"code", "Byte that was sent", "", {}},
+      {"due_s",
+       "When it happened, since the start of the session; of a frame, when its swap returned",
+       "s",
+       {}},
+      {"sent_s", "When the system had taken the byte, since the start of the session", "s", {}}};
+  out.columns.insert(out.columns.end(), more.begin(), more.end());
+  for (const ExportedSession& session : sessions)
+    for (const ExportedMarker& marker : session.markers)
+      out.add({session.subject, session.name, std::to_string(marker.trial), std::to_string(marker.attempt),
+               marker.marker, std::to_string(marker.code), toText(marker.dueS), toText(marker.sentS)});
   return out;
 }
 

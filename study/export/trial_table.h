@@ -11,6 +11,13 @@
 
 namespace limen::study {
 
+/// A byte that a recorder was sent while a trial ran.
+struct ExportedMarker {
+  int trial = 0, attempt = 0, code = 0;
+  std::string marker;
+  double dueS = 0.0, sentS = 0.0;  ///< from the beginning of the session
+};
+
 /// What is exported of a session: no participant code, nothing made of one, no time of day, no path.
 struct ExportedSession {
   std::string subject;  ///< pseudonym, or the code if that was requested
@@ -22,7 +29,10 @@ struct ExportedSession {
   /// the code can check the guess against them.
   bool ordersTellCode = false;
   nlohmann::json form = nlohmann::json::object();
+  /// Part -> its answers from left to right, as this participant saw them; {} in older stores.
+  nlohmann::json answersFromTheLeft = nlohmann::json::object();
   std::vector<store::StudyTrial> trials;
+  std::vector<ExportedMarker> markers;
   std::vector<double> startS;  ///< of each trial, from the beginning of its session
   std::vector<double> endS;    ///< of each trial: its answer or abandonment; below 0: never
 };
@@ -37,6 +47,9 @@ Table trialTable(const std::vector<ExportedSession>& sessions);
 
 /// One row per swap.
 Table frameTable(const std::vector<ExportedSession>& sessions);
+
+/// One row per marker.
+Table markerTable(const std::vector<ExportedSession>& sessions);
 
 /// One row per subject: form answers (age in bins), sessions.
 Table participantTable(const std::vector<ExportedSession>& sessions);

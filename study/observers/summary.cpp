@@ -12,6 +12,7 @@
 #include "experiments/store/sessions.h"
 #include "study/observers/simulate.h"
 #include "study/observers/true_threshold.h"
+#include "study/procedures/threshold_target.h"
 
 namespace limen::study {
 namespace {
@@ -174,17 +175,14 @@ class Summariser {
       const Estimate estimate = procedure->estimate();
       const auto truth = trueThreshold(observer, firstTrial(design, static_cast<int>(i)), settings, estimate);
       if (!truth) continue;
-      // "mean" is the name of a normal distribution's threshold.
-      for (const ParameterEstimate& parameter : estimate.parameters)
-        if (parameter.name == "threshold" || parameter.name == "mean") {
-          EstimateSums& sums = estimates_[{planned.part, planned.condition}];
-          sums.unit = parameter.unit;
-          sums.interval = estimate.kind;
-          sums.type = settings.type;
-          sums.level = estimate.level;
-          addEstimate(sums, parameter, *truth);
-          break;
-        }
+      if (const ParameterEstimate* threshold = thresholdOf(estimate)) {
+        EstimateSums& sums = estimates_[{planned.part, planned.condition}];
+        sums.unit = threshold->unit;
+        sums.interval = estimate.kind;
+        sums.type = settings.type;
+        sums.level = estimate.level;
+        addEstimate(sums, *threshold, *truth);
+      }
     }
   }
 

@@ -3,37 +3,15 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
+
+#include "study/procedures/threshold_target.h"
 
 namespace limen::study {
-namespace {
-
-struct Target {
-  bool ofF = false;  // F itself rather than the probability of the outcome
-  double value = 0.0;
-};
-
-std::optional<Target> targetOf(const ProcedureSettings& settings, const Estimate& estimate) {
-  const nlohmann::json json = toJson(settings);
-  if (settings.type == "quest") return Target{false, json.at("threshold_probability").get<double>()};
-  if (settings.type == "staircase") {
-    for (const ParameterEstimate& parameter : estimate.parameters)
-      if (parameter.name == "target_probability") return Target{false, parameter.mean};
-    return std::nullopt;
-  }
-  if (!json.contains("model")) return std::nullopt;
-  const std::string model = json["model"].get<std::string>();
-  if (model.rfind("weibull", 0) == 0) return Target{true, -std::expm1(-1.0)};
-  if (model == "logistic" || model == "normal" || model == "sigmoid") return Target{true, 0.5};
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<double> trueThreshold(SimulatedObserver& observer, const Trial& trial,
                                     const ProcedureSettings& settings, const Estimate& estimate) {
   if (settings.stimulus.size() != 1 || observer.usesModel(trial)) return std::nullopt;
-  const std::optional<Target> target = targetOf(settings, estimate);
+  const std::optional<ThresholdTarget> target = thresholdTarget(settings, estimate);
   if (!target) return std::nullopt;
   const StimulusDimension& dimension = settings.stimulus.front();
   const std::function<double(double)> excess = [&](double x) {

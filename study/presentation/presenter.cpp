@@ -48,6 +48,7 @@ class Performance {
     for (int blank = 0; blank < schedule_.blanks() && out_.reason.empty(); ++blank) {
       draw(blank);
       times_.push_back(screen_.swap());
+      if (setting_.mark) mark(static_cast<size_t>(blank));
       if (screen_.lost()) out_.reason = "window lost";
       for (const ScreenEvent& event : screen_.poll()) hear(event, blank);
     }
@@ -74,6 +75,15 @@ class Performance {
       }
     }
     drawPatch(screen_, setting_.patch, due);
+  }
+
+  void mark(size_t blank) {
+    const bool shows = showsStimulus(blank), showed = blank > 0 && showsStimulus(blank - 1);
+    const bool same = shows && showed && schedule_.due[blank].phase == schedule_.due[blank - 1].phase;
+    if (showed && !same) setting_.mark(MarkerKind::StimulusEnd, times_.back());
+    if (shows && !same) setting_.mark(MarkerKind::Stimulus, times_.back());
+    if (same && schedule_.due[blank].after && !schedule_.due[blank - 1].after)
+      setting_.mark(MarkerKind::Change, times_.back());
   }
 
   void hear(const ScreenEvent& event, int blank) {

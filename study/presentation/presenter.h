@@ -43,6 +43,8 @@ struct PresenterSetting {
   /// ... or more of them than this may never have been seen.
   int earlySwapsAtMost = 0;
   SwapSetting swaps;  ///< its nominal rate is the schedule's
+  /// Called right after the swap that began or ended a stimulus or showed its change, with the time of it.
+  std::function<void(MarkerKind, int64_t swapNs)> mark;
   /// Stops the trial at an event, which makes it invalid with the returned text; empty continues. Without it,
   /// closing the window stops it.
   std::function<std::string(const ScreenEvent&)> stop;

@@ -13,6 +13,40 @@ namespace {
 
 using psychometrics::Random;
 
+/// Deals 0 ... choices - 1 to the members of each group, equally often within a group, with the remainder
+/// drawn so that it evens out over the groups. Groups of pointers to trials; `put` receives trial and choice.
+template <class Put>
+void deal(const std::map<std::string, std::vector<PlannedTrial*>>& groups, size_t choices, Random& random,
+          Put put) {
+  std::vector<int> deck;  // the remainder is drawn from here, without replacement until it is empty
+  for (const auto& [name, group] : groups) {
+    std::vector<int> dealt;
+    while (dealt.size() + choices <= group.size())
+      for (size_t a = 0; a < choices; ++a) dealt.push_back(static_cast<int>(a));
+    const size_t full = dealt.size();
+    std::vector<int> later;
+    while (dealt.size() < group.size()) {
+      if (deck.empty()) {
+        deck.resize(choices);
+        std::iota(deck.begin(), deck.end(), 0);
+        random.shuffle(deck);
+      }
+      const int next = deck.back();
+      deck.pop_back();
+      bool fresh = true;  // nothing is in the remainder twice for one group
+      for (size_t i = full; i < dealt.size(); ++i) fresh = fresh && dealt[i] != next;
+      (fresh ? dealt : later).push_back(next);
+    }
+    deck.insert(deck.end(), later.begin(), later.end());
+    random.shuffle(dealt);
+    for (size_t i = 0; i < dealt.size(); ++i) put(*group[i], dealt[i]);
+  }
+}
+
+bool hasTargets(const Part& part) {
+  return part.task.type == Task::Interval || part.task.type == Task::Alternative;
+}
+
 void addAdaptive(PlannedBlock& block, PlannedTrial trial, int mostTrials, int catches) {
   for (trial.repetition = 0; trial.repetition < mostTrials; ++trial.repetition) block.trials.push_back(trial);
   trial.change = false;
@@ -91,34 +125,21 @@ size_t trialCount(const Part& part) {
 }
 
 void setTargets(const Part& part, std::vector<PlannedTrial>& trials, uint64_t seed) {
-  if (part.task.type != Task::Interval && part.task.type != Task::Alternative) return;
-  const auto alternatives = static_cast<size_t>(part.task.alternatives);
+  if (!hasTargets(part)) return;
   Random random(seed);
   std::map<std::string, std::vector<PlannedTrial*>> conditions;
   for (PlannedTrial& trial : trials) conditions[nameOf(part, trial.condition)].push_back(&trial);
-  std::vector<int> deck;  // the remainder is drawn from here, without replacement until it is empty
-  for (auto& [name, ofCondition] : conditions) {
-    std::vector<int> targets;
-    while (targets.size() + alternatives <= ofCondition.size())
-      for (size_t a = 0; a < alternatives; ++a) targets.push_back(static_cast<int>(a));
-    const size_t full = targets.size();
-    std::vector<int> later;
-    while (targets.size() < ofCondition.size()) {
-      if (deck.empty()) {
-        deck.resize(alternatives);
-        std::iota(deck.begin(), deck.end(), 0);
-        random.shuffle(deck);
-      }
-      const int next = deck.back();
-      deck.pop_back();
-      bool fresh = true;  // no alternative is in the remainder twice for one condition
-      for (size_t i = full; i < targets.size(); ++i) fresh = fresh && targets[i] != next;
-      (fresh ? targets : later).push_back(next);
-    }
-    deck.insert(deck.end(), later.begin(), later.end());
-    random.shuffle(targets);
-    for (size_t i = 0; i < targets.size(); ++i) ofCondition[i]->target = targets[i];
-  }
+  deal(conditions, static_cast<size_t>(part.task.alternatives), random,
+       [](PlannedTrial& trial, int choice) { trial.target = choice; });
+}
+
+void setUnchanged(const Part& part, std::vector<PlannedTrial>& trials, uint64_t seed) {
+  Random random(seed);
+  std::map<std::string, std::vector<PlannedTrial*>> conditions;
+  for (PlannedTrial& trial : trials)
+    if (hasTargets(part) || !trial.change) conditions[nameOf(part, trial.condition)].push_back(&trial);
+  deal(conditions, 2, random,
+       [](PlannedTrial& trial, int choice) { trial.unchangedShowsAfter = choice == 1; });
 }
 
 }  // namespace limen::study

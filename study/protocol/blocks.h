@@ -24,4 +24,8 @@ size_t trialCount(const Part& part);
 /// evens out over the trials.
 void setTargets(const Part& part, std::vector<PlannedTrial>& trials, uint64_t seed);
 
+/// Balances what unchanged stimuli show in the same way: catch trials, and all trials of intervals and
+/// alternatives.
+void setUnchanged(const Part& part, std::vector<PlannedTrial>& trials, uint64_t seed);
+
 }  // namespace limen::study

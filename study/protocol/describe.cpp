@@ -13,8 +13,10 @@ namespace {
 using nlohmann::json;
 
 /// The kind of trial, as text for people.
-std::string kindOf(const Part& part, const PlannedTrial& trial) {
+std::string kindOf(const Protocol& protocol, const Part& part, const PlannedTrial& trial) {
   std::string out = trial.change ? "" : "catch";
+  if (!trial.change && trial.procedure < 0)
+    out += stimuliOf(protocol, trial).front().catchShowsAfter ? ": after" : ": before";
   const std::vector<std::string>& answers = part.task.answers;
   if (part.task.type == Task::Interval || part.task.type == Task::Alternative)
     out = "change: " + answers[static_cast<size_t>(trial.target)];
@@ -56,8 +58,11 @@ json trialAsJson(const Protocol& protocol, const PlannedTrial& trial) {
     out["procedure"] = trial.procedure;
   } else {
     out["stimulus_hashes"] = json::array();
-    for (const Stimulus& stimulus : stimuliOf(protocol, trial))
+    out["shown"] = json::array();
+    for (const Stimulus& stimulus : stimuliOf(protocol, trial)) {
       out["stimulus_hashes"].push_back(stimulusHash(stimulus));
+      out["shown"].push_back(stimulus.changes ? "change" : stimulus.catchShowsAfter ? "after" : "before");
+    }
   }
   return out;
 }
@@ -76,14 +81,21 @@ std::string describe(const Protocol& protocol, const Design& design, uint64_t se
   if (!protocol.source.empty()) out += "  source: " + protocol.source + "\n";
   out += fmt::format("  display {}, window {} x {} px; sha256 {}\n\n", protocol.display,
                      protocol.window.widthPx, protocol.window.heightPx, protocol.hash);
-  for (const Part& part : protocol.parts) out += describePart(part);
+  for (const Part& part : protocol.parts) {
+    out += describePart(part);
+    if (part.task.type != Task::YesNo) continue;
+    std::vector<std::string> answers;
+    for (const size_t i : answersShown(part.task, design.answersMirrored))
+      answers.push_back(part.task.answers[i]);
+    out += fmt::format("  answers from the left: {} ({})\n", join(answers), toText(part.task.answerSides));
+  }
   out += fmt::format("\nparticipant {}, seed {}: {} trials{}\n", participantNumber, seed, trialsOf(design),
                      design.procedures.empty() ? "" : " at most");
   for (const PlannedBlock& block : design.blocks) {
     const Part& part = protocol.parts[static_cast<size_t>(block.part)];
     out += fmt::format("block {} ({} trials)\n", block.name, block.trials.size());
     for (const PlannedTrial& trial : block.trials)
-      out += fmt::format("  {:4}  {:<24}  {}\n", trial.number, kindOf(part, trial),
+      out += fmt::format("  {:4}  {:<24}  {}\n", trial.number, kindOf(protocol, part, trial),
                          nameOf(part, trial.condition));
   }
   return out;
@@ -102,6 +114,7 @@ json describeAsJson(const Protocol& protocol, const Design& design, uint64_t see
               {"seed", seed},
               {"participant_number", participantNumber},
               {"trials", trialsOf(design)},
+              {"answers_mirrored", design.answersMirrored},
               {"parts", json::array()},
               {"blocks", json::array()},
               {"procedures", json::array()}};

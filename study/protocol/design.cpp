@@ -19,7 +19,7 @@ using psychometrics::Random;
 /// so that the orders of parts, blocks and trials are crossed.
 class Rows {
  public:
-  explicit Rows(int participantNumber) : left_(participantNumber) {}
+  explicit Rows(int participantNumber) : number_(participantNumber), left_(participantNumber) {}
 
   /// Positions 0 ... n - 1 in the order of `kind`.
   std::vector<size_t> order(OrderKind kind, size_t n, uint64_t seed) {
@@ -33,11 +33,21 @@ class Rows {
     const std::vector<int> row =
         williams ? williamsRow(treatments, left_ % period) : latinRow(treatments, left_ % period);
     left_ /= period;
+    // All that is asked for is its parity and whether a participant may be beyond it.
+    period_ = std::min<int64_t>(period_ * period, int64_t{1} << 40);
     return {row.begin(), row.end()};
   }
 
+  /// Alternates from participant to participant, and comes with each combination of rows once each way: where
+  /// these have come up an even number of times, the next round begins the other way.
+  bool mirrored() const {
+    const int64_t round = period_ % 2 == 0 ? number_ / period_ : 0;
+    return (number_ + round) % 2 == 1;
+  }
+
  private:
-  int left_;
+  int number_, left_;
+  int64_t period_ = 1;  ///< participants after which all rows of the squares so far come again
 };
 
 template <class T>
@@ -86,6 +96,7 @@ std::vector<PlannedBlock> planPart(const Part& part, int number, int firstProced
       rows.order(part.blockOrder.kind, blocks.size(), childSeed(seed, seedText("blocks", part.name)));
   for (PlannedBlock& block : blocks) {
     setTargets(part, block.trials, childSeed(seed, seedText("targets", block.name)));
+    setUnchanged(part, block.trials, childSeed(seed, seedText("unchanged", block.name)));
     const uint64_t orderSeed = childSeed(seed, seedText("order", block.name));
     const OrderKind kind = part.trialOrder.kind;
     block.trials =
@@ -162,6 +173,8 @@ PlannedBlock makePracticeRound(const Protocol& protocol, int number, uint64_t se
           merged(std::move(trial.variables), part.practice.stimuli[static_cast<size_t>(stimuli[i])]);
   }
   random.shuffle(out.trials);
+  setUnchanged(part, out.trials,
+               childSeed(seed, seedText("unchanged practice", part.name + "/" + std::to_string(round))));
 
   // Further rounds come after everything planned, those of earlier parts first.
   int first = 0;
@@ -199,6 +212,7 @@ Design makeDesign(const Protocol& protocol, uint64_t seed, int participantNumber
           {number, condition.levels, part.procedure->settings,
            childSeed(seed, seedText("procedure", part.name + "/" + nameOf(part, condition.levels)))});
   }
+  out.answersMirrored = rows.mirrored();
   int trialNumber = 0;
   for (const size_t p : parts)
     for (PlannedBlock& block : ofParts[p]) {
@@ -208,6 +222,25 @@ Design makeDesign(const Protocol& protocol, uint64_t seed, int participantNumber
       }
       out.blocks.push_back(std::move(block));
     }
+  return out;
+}
+
+void asPlannedBefore(PlannedBlock& block, int version) {
+  if (version >= 2) return;
+  for (PlannedTrial& trial : block.trials) trial.unchangedShowsAfter.reset();
+}
+
+void asPlannedBefore(Design& design, int version) {
+  for (PlannedBlock& block : design.blocks) asPlannedBefore(block, version);
+  if (version < 2) design.answersMirrored = false;
+}
+
+std::vector<size_t> answersShown(const TaskSetting& task, bool mirrored) {
+  std::vector<size_t> out(task.answers.size());
+  std::iota(out.begin(), out.end(), size_t{0});
+  const bool reversed = task.answerSides == AnswerSides::Reversed ||
+                        (task.answerSides == AnswerSides::Counterbalanced && mirrored);
+  if (reversed && task.type == Task::YesNo) std::reverse(out.begin(), out.end());
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct PlannedTrial {
   bool change = true;                            ///< false: catch trial (YesNo and Rating)
   int repetition = 0;
   int target = 0;  ///< Interval, Alternative: which one has the change; Pairwise: which one shows item_b
+  /// Where `catch_shows` is balanced: whether what does not change shows the state after the change. Of
+  /// several unchanged stimuli in a trial the first one does, the next one does not, and so on. Nothing:
+  /// plans of version 1, which show the state before the change.
+  std::optional<bool> unchangedShowsAfter;
   /// Index into Design::procedures, or -1. A catch trial of an adaptive part has one too: it is shown at the
   /// stimulus that the procedure requests next, and its answer is not fed back.
   int procedure = -1;
@@ -47,7 +52,18 @@ struct PlannedProcedure {
 struct Design {
   std::vector<PlannedBlock> blocks;
   std::vector<PlannedProcedure> procedures;
+  /// Whether this participant sees counterbalanced answers from right to left.
+  bool answersMirrored = false;
 };
+
+/// Version of plans, stored with each session. 2: catch trials and sides of answers are balanced.
+inline constexpr int kPlanVersion = 2;
+/// What an earlier version planned with the same arguments: sessions are resumed and checked as they began.
+void asPlannedBefore(Design& design, int version);
+void asPlannedBefore(PlannedBlock& block, int version);
+
+/// Indices of a task's answers from left to right.
+std::vector<size_t> answersShown(const TaskSetting& task, bool mirrored);
 
 /// The plan of one session: a pure function of protocol, seed and the participant's number (from 0; picks
 /// rows of Latin squares). Same arguments, same plan, on every machine.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/yaml_json.h"
 #include "study/protocol/protocol.h"
 
 namespace limen::study {
@@ -18,8 +19,6 @@ std::set<std::string> namesIn(const std::string& text);
 /// A letter or "_", then letters, digits and "_".
 bool isVariableName(const std::string& name);
 
-/// A tree as JSON: unquoted numbers, true and false as such, all other scalars as text, empty nodes as null.
-nlohmann::json toJson(const YamlNode& node);
 /// The tree for which toJson() gives this value, all of it at `mark`.
 YamlNode toYaml(const nlohmann::json& value, Mark mark);
 

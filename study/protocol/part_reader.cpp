@@ -18,7 +18,7 @@ using Kind = YamlNode::Kind;
 const std::vector<std::string>& partKeys() {
   static const std::vector<std::string> kKeys = {"task",   "stimulus",  "variables", "factors",
                                                  "trials", "procedure", "blocks",    "order",
-                                                 "breaks", "practice",  "items"};
+                                                 "breaks", "practice",  "items",     "titles"};
   return kKeys;
 }
 
@@ -125,6 +125,20 @@ void PartReader::readFactors(const YamlNode& node, Part& out) {
     }
     if (!factor.levels.empty()) out.factors.push_back(std::move(factor));
   }
+}
+
+void PartReader::checkTitles(const YamlNode& node, const Part& part) {
+  const char* example = "{distance: distance (m)}";
+  if (!reader_.isMap(node, "'titles'", example)) return;
+  std::vector<std::string> names;
+  for (const Factor& factor : part.factors) names.push_back(factor.name);
+  if (procedure_)
+    for (const StimulusDimension& dimension : procedure_->stimulus) names.push_back(dimension.name);
+  reader_.checkKeys(node, "titles", names);
+  for (const auto& [name, title] : node.members)
+    if (title.kind != Kind::Scalar || title.text.empty())
+      reader_.problems().add(title.mark, "the title of '" + name.text + "' is " + title.describe(),
+                             std::string("give words, with the unit in brackets: ") + example);
 }
 
 void PartReader::readTrials(const YamlNode& map, Part& out) {
@@ -320,6 +334,7 @@ Part PartReader::read(const YamlNode& map, const std::string& defaultName,
     reader_.take(*node, "every_trials", {0, 100000}, "", out.breakEveryTrials);
   }
   if (const YamlNode* node = map.find("practice")) readPractice(*node, out);
+  if (const YamlNode* node = map.find("titles")) checkTitles(*node, out);
   checkNames(out, map.mark);
   out.variables["refresh_hz"] = refreshHz_;
   if (const YamlNode* node = map.find("stimulus"))

@@ -13,8 +13,8 @@ const std::vector<std::string>& partKeys();
 /// Reads one part of a protocol, and checks that all its conditions give stimuli and its orders exist.
 class PartReader {
  public:
-  PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz)
-      : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz) {}
+  PartReader(NodeReader& reader, const Catalogue& catalogue, double refreshHz, const Words& words)
+      : reader_(reader), catalogue_(catalogue), refreshHz_(refreshHz), words_(words) {}
 
   /// `otherKeys`: keys of the map that do not belong to the part, if a single part is at the top level.
   Part read(const YamlNode& map, const std::string& defaultName, const std::vector<std::string>& otherKeys);
@@ -26,6 +26,8 @@ class PartReader {
   void readVariables(const YamlNode& node, const std::string& what, Variables& out);
   void readFactors(const YamlNode& node, Part& out);
   FactorLevel readLevel(const std::string& factor, const YamlMember* named, const YamlNode& value);
+  /// Words for factors and axes, which the analysis reads.
+  void checkTitles(const YamlNode& node, const Part& part);
   void readTrials(const YamlNode& map, Part& out);
   void readProcedure(const YamlNode& node, Part& out);
   void readBlocks(const YamlNode& node, Part& out);
@@ -39,6 +41,7 @@ class PartReader {
   NodeReader& reader_;
   const Catalogue& catalogue_;
   double refreshHz_;
+  const Words& words_;
   std::optional<ProcedureSettings> procedure_;
 };
 

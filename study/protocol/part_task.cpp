@@ -42,6 +42,8 @@ void PartReader::readAnswers(const YamlNode& map, Part& out) {
   } else {
     for (size_t i = 0; i < count; ++i) task.answers.push_back(std::to_string(i + 1));
   }
+  for (const std::string& answer : task.answers)
+    task.labels.push_back(words_.all().count(answer) ? words_[answer] : answer);
   const YamlNode* node = map.find("answers");
   if (!node) return;
   const size_t expected = task.answers.size();
@@ -51,6 +53,7 @@ void PartReader::readAnswers(const YamlNode& map, Part& out) {
     reader_.problems().add(
         node->mark, fmt::format("{} answers to a task '{}'", task.answers.size(), limen::toText(task.type)),
         rating ? "a scale has two to eleven steps, the lowest first" : fmt::format("give {}", expected));
+  task.labels = task.answers;
 }
 
 void PartReader::readTask(const YamlNode& map, Part& out) {
@@ -70,7 +73,9 @@ void PartReader::readTask(const YamlNode& map, Part& out) {
   const bool several = task.type == Task::Interval || task.type == Task::Alternative;
   if (several) keys.emplace_back("alternatives");
   if (task.type == Task::Pairwise) keys.emplace_back("layout");
+  if (task.type == Task::YesNo) keys.emplace_back("answer_sides");
   reader_.checkKeys(*node, fmt::format("task '{}'", limen::toText(task.type)), keys);
+  if (task.type == Task::YesNo) reader_.take(*node, "answer_sides", task.answerSides);
   if (several) reader_.take(*node, "alternatives", {2, 9}, "", task.alternatives);
   if (task.type == Task::Pairwise) {
     const YamlNode* layout = node->find("layout");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "experiments/base/catalogue.h"
 #include "experiments/base/enum_names.h"
 #include "experiments/base/yaml_tree.h"
+#include "study/protocol/words.h"
 
 namespace limen {
 class FileFinder;
@@ -40,6 +42,18 @@ struct Scale {
   std::vector<std::string> labels;
 };
 
+/// Which answer stands on the left. Only YesNo: other answers are places, times or steps.
+enum class AnswerSides {
+  Counterbalanced,  ///< as written for one half of the participants, reversed for the other
+  AsWritten,
+  Reversed
+};
+constexpr EnumNames<AnswerSides, 3> enumNames(AnswerSides) {
+  return {{{{AnswerSides::Counterbalanced, "counterbalanced"},
+            {AnswerSides::AsWritten, "as_written"},
+            {AnswerSides::Reversed, "reversed"}}}};
+}
+
 struct TaskSetting {
   Task type = Task::YesNo;
   int alternatives = 2;    ///< Interval and Alternative
@@ -48,6 +62,9 @@ struct TaskSetting {
   /// Words of the answers in their order: YesNo {yes, no}, Interval {first, second}, Alternative and Pairwise
   /// {left, right}, Rating the scale's labels.
   std::vector<std::string> answers;
+  /// What stands on the buttons: `answers`, or where the protocol gives none their translation.
+  std::vector<std::string> labels;
+  AnswerSides answerSides = AnswerSides::Counterbalanced;  ///< YesNo only
   std::optional<Scale> severity;  ///< asked after "yes" (or after every answer with severityAlways)
   bool severityAlways = false;
   std::optional<Scale> confidence;  ///< asked after every answer
@@ -169,6 +186,24 @@ struct Exclusion {
   double value = 0.0;
 };
 
+/// What is told to a recorder (EEG, eye tracker) while a trial runs.
+enum class MarkerKind {
+  Stimulus,     ///< first frame of a stimulus, at each of its showings
+  Change,       ///< first frame after the change
+  StimulusEnd,  ///< the first frame without it
+  Question,     ///< on screen
+  Answer        ///< given
+};
+constexpr EnumNames<MarkerKind, 5> enumNames(MarkerKind) {
+  return {{{{MarkerKind::Stimulus, "stimulus"},
+            {MarkerKind::Change, "change"},
+            {MarkerKind::StimulusEnd, "stimulus_end"},
+            {MarkerKind::Question, "question"},
+            {MarkerKind::Answer, "answer"}}}};
+}
+/// Bytes, indexed by kind; 0: not sent.
+using MarkerCodes = std::array<int, 5>;
+
 struct Texts {
   std::string consent, instructions, practice, pause, debrief;
 };
@@ -194,7 +229,10 @@ struct Protocol {
   Texts texts;
   std::vector<FormField> form;
   std::vector<Exclusion> exclusions;
-  nlohmann::json simulation;  ///< how simulated observers respond to its conditions (see observers/)
+  MarkerCodes markers = {1, 2, 3, 4, 5};
+  Words words = Words::english();  ///< of the interface
+  std::string font;                ///< path of a font file for characters that the usual fonts lack; "": none
+  nlohmann::json simulation;       ///< how simulated observers respond to its conditions (see observers/)
   std::map<std::string, std::string> fileHashes;  ///< path of each file that a stimulus names -> SHA-256
   /// The catalogue that its stimuli were checked against and are made with.
   std::shared_ptr<const Catalogue> catalogue;

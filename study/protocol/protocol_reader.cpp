@@ -23,9 +23,9 @@ using Kind = YamlNode::Kind;
 const char* const kProtocolFolder = LIMEN_SOURCE_DIR "/study/protocols";
 
 const std::vector<std::string>& protocolKeys() {
-  static const std::vector<std::string> kKeys = {"title",  "question", "source",     "features",  "display",
-                                                 "window", "parts",    "part_order", "timing",    "session",
-                                                 "texts",  "form",     "exclusions", "simulation"};
+  static const std::vector<std::string> kKeys = {
+      "title",   "question", "source", "features",   "display",    "window", "parts", "part_order", "timing",
+      "session", "texts",    "form",   "exclusions", "simulation", "words",  "font",  "markers"};
   return kKeys;
 }
 
@@ -54,7 +54,8 @@ class ProtocolReader {
       problems_.add(root.mark, "the file holds " + root.describe(),
                     "a protocol is a map: 'title: ...', 'parts: ...'");
     problems_.throwIfAny();
-    readWords(root);
+    readHead(root);
+    readLanguage(root);
     readWindow(root);
     readParts(root);
     if (const YamlNode* node = root.find("part_order"))
@@ -63,6 +64,7 @@ class ProtocolReader {
       out_.partOrder.kind = OrderKind::Fixed;
     if (const YamlNode* node = root.find("timing")) readTiming(*node);
     if (const YamlNode* node = root.find("session")) readSession(*node);
+    if (const YamlNode* node = root.find("markers")) readMarkers(*node);
     readTexts(root);
     if (const YamlNode* node = root.find("form")) readForm(*node);
     if (const YamlNode* node = root.find("exclusions")) readExclusions(*node);
@@ -77,7 +79,29 @@ class ProtocolReader {
   }
 
  private:
-  void readWords(const YamlNode& root) {
+  /// Words of the interface and a font for them.
+  void readLanguage(const YamlNode& root) {
+    const std::string folder = fs::path(out_.path).parent_path().string();
+    if (const YamlNode* node = root.find("words")) {
+      const auto name = reader_.values().text(*node, "words");
+      try {
+        if (name) out_.words = study::readWords(*name, folder);
+      } catch (const Error& error) {
+        problems_.add(node->mark, (error.where().empty() ? "" : error.where() + ": ") + error.message(),
+                      error.hint());
+      }
+    }
+    const YamlNode* node = root.find("font");
+    const auto name = node ? reader_.values().text(*node, "font") : std::nullopt;
+    if (!name) return;
+    std::error_code code;
+    const fs::path beside = fs::path(folder) / *name;
+    out_.font = fs::is_regular_file(beside, code) ? beside.string() : *name;
+    if (!fs::is_regular_file(out_.font, code))
+      problems_.add(node->mark, "no font file '" + *name + "'", "name a TrueType or OpenType file");
+  }
+
+  void readHead(const YamlNode& root) {
     reader_.takeText(root, "title", true, out_.title);
     reader_.takeText(root, "question", true, out_.question);
     reader_.takeText(root, "source", false, out_.source);
@@ -119,7 +143,7 @@ class ProtocolReader {
   }
 
   void readParts(const YamlNode& root) {
-    PartReader parts(reader_, *out_.catalogue, refreshHz_);
+    PartReader parts(reader_, *out_.catalogue, refreshHz_, out_.words);
     const YamlNode* list = root.find("parts");
     if (!list) {
       out_.parts.push_back(parts.read(root, "main", protocolKeys()));
@@ -160,6 +184,21 @@ class ProtocolReader {
     reader_.take(node, "resume", session.resume);
     reader_.take(node, "maximum_age_h", {0, 87600}, "h", session.maximumAgeH);
     reader_.take(node, "repeat_invalid_at_most", {0, 1000}, "", session.repeatInvalidAtMost);
+  }
+
+  void readMarkers(const YamlNode& node) {
+    if (!reader_.isMap(node, "'markers'", "{stimulus: 1, change: 2}")) return;
+    const std::vector<std::string> names = namesOf<MarkerKind>();
+    reader_.checkKeys(node, "markers", names);
+    for (size_t i = 0; i < names.size(); ++i) {
+      reader_.take(node, names[i], {0, 255}, "", out_.markers[i]);
+      for (size_t other = 0; other < i; ++other)
+        if (out_.markers[i] != 0 && out_.markers[i] == out_.markers[other])
+          problems_.add(
+              node.mark,
+              fmt::format("'{}' and '{}' have the code {}", names[other], names[i], out_.markers[i]),
+              "a recorder could not tell them apart; 0 sends none");
+    }
   }
 
   void readTexts(const YamlNode& root) {

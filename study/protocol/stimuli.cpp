@@ -29,13 +29,20 @@ std::vector<Stimulus> stimuliOf(const Protocol& protocol, const PlannedTrial& tr
     return out;
   }
   Stimulus stimulus = read(variables);
-  const bool changes = stimulus.changes;
+  const bool changes = stimulus.changes, balanced = stimuli.balancesUnchanged();
+  bool showsAfter = trial.unchangedShowsAfter.value_or(false);
+  const auto setChange = [&](Stimulus& one, bool due) {
+    one.changes = changes && due;
+    if (!changes || due || !balanced) return;
+    one.catchShowsAfter = showsAfter;
+    if (trial.unchangedShowsAfter) showsAfter = !showsAfter;
+  };
   if (part.task.type == Task::YesNo || part.task.type == Task::Rating) {
-    stimulus.changes = changes && trial.change;
+    setChange(stimulus, trial.change);
     return {stimulus};
   }
   std::vector<Stimulus> out(static_cast<size_t>(part.task.alternatives), stimulus);
-  for (size_t i = 0; i < out.size(); ++i) out[i].changes = changes && static_cast<int>(i) == trial.target;
+  for (size_t i = 0; i < out.size(); ++i) setChange(out[i], static_cast<int>(i) == trial.target);
   return out;
 }
 

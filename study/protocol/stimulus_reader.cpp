@@ -184,6 +184,22 @@ void StimulusReader::readCue(const YamlNode& node, Stimulus& out) {
       problems.add(map->mark, fmt::format("'{}' of cue is missing", key), "say where and how long it shows");
 }
 
+void StimulusReader::readCatchShows(const YamlNode& node, Stimulus& out) {
+  const std::optional<YamlNode> plain = resolved(node);
+  if (!plain) return;
+  const auto shows = reader_.choice(*plain, "catch_shows", {"balanced", "before", "after", "coarse", "fine"});
+  if (!shows) return;
+  balancesUnchanged_ = *shows == "balanced";
+  const bool byLevel = *shows == "coarse" || *shows == "fine";
+  if (byLevel && !out.levels)
+    reader_.problems().add(node.mark, "'catch_shows: " + *shows + "' of a stimulus without levels",
+                           "techniques have no order: write before, after or balanced");
+  if (byLevel && out.levels)
+    out.catchShowsAfter = (out.levels->after > out.levels->before) == (*shows == "coarse");
+  else
+    out.catchShowsAfter = *shows == "after";
+}
+
 std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, const Variables& variables) {
   Problems& problems = reader_.problems();
   const size_t before = problems.size();
@@ -201,9 +217,8 @@ std::optional<Stimulus> StimulusReader::read(const StimulusTemplate& source, con
   }
   readChange(map, out);
   take(map, "presentation", out.presentation);
-  if (const YamlNode* catchShows = map.find("catch_shows"))
-    if (const auto plain = resolved(*catchShows))
-      out.catchShowsAfter = reader_.choice(*plain, "catch_shows", {"before", "after"}) == "after";
+  balancesUnchanged_ = true;
+  if (const YamlNode* catchShows = map.find("catch_shows")) readCatchShows(*catchShows, out);
   take(map, "duration_s", Range{0.02, 600}, "s", out.durationS);
   out.changeAtS = 0.5 * out.durationS;
   take(map, "change_at_s", Range{0, 600}, "s", out.changeAtS);

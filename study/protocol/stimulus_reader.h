@@ -15,11 +15,14 @@ class StimulusReader {
 
   /// The stimulus with these variables; `changes` as if a change is due. Nothing after a problem.
   std::optional<Stimulus> read(const StimulusTemplate& source, const Variables& variables);
+  /// Whether the plan decides what the stimulus read last shows where it does not change.
+  bool balancesUnchanged() const { return balancesUnchanged_; }
 
  private:
   void readChange(const YamlNode& map, Stimulus& out);
   void readLevels(const YamlNode& node, Stimulus& out);
   void readCue(const YamlNode& node, Stimulus& out);
+  void readCatchShows(const YamlNode& node, Stimulus& out);
   std::optional<NamedEntry> readEntry(const YamlNode& node, const char* kind, const CatalogueKind& known);
   ParameterValues readValues(const YamlNode& map, const std::string& what,
                              const std::vector<Parameter>& declared, bool named,
@@ -35,6 +38,7 @@ class StimulusReader {
   NodeReader& reader_;
   const Catalogue& catalogue_;
   const Variables* variables_ = nullptr;
+  bool balancesUnchanged_ = true;
 };
 
 }  // namespace limen::study

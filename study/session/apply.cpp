@@ -69,6 +69,9 @@ void Session::apply(const Event& event) {
         if (event.data.at("seed") != std::to_string(seed_)) refuse(event, "has another seed");
         if (event.data.at("participant_number") != participantNumber_)
           refuse(event, "is of another participant");
+        if (planVersionOf(event.data) != planVersion_) refuse(event, "has another version of the plan");
+        if (planVersion_ >= 2 && event.data.at("answers_from_the_left") != answersFromTheLeft())
+          refuse(event, "has the answers on other sides");
         break;
       case EventKind::ScreenDone:
         leaveScreen(event);

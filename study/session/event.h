@@ -10,12 +10,12 @@ namespace limen::study {
 /// What happened in a session, in order. A session's state is a replay of its events; nothing else affects
 /// it.
 enum class EventKind {
-  Started,       ///< {protocol_hash, seed, participant_number, display_hash, environment ...}
+  Started,       ///< {protocol_hash, seed, participant_number, plan_version, answers_from_the_left ...}
   Continued,     ///< after a kill or a quit: {policy, gap_s, environment}
   ScreenDone,    ///< {screen, answers}: consent, form, instructions, break ... left
   TrialStarted,  ///< {trial, attempt, procedure_stimulus, stimulus_hashes}
-  Answered,      ///< {trial, attempt, answer, correct, severity, confidence, reaction_time_s, device}
-  TrialInvalid,  ///< {trial, attempt, reason}: frames late, window lost, paused in the middle
+  Answered,  ///< {trial, attempt, answer, correct, severity, confidence, reaction_time_s, device, markers}
+  TrialInvalid,  ///< {trial, attempt, reason, markers}: frames late, window lost, paused in the middle
   Paused,        ///< {}
   Note,          ///< {by, text}
   ClockJump,     ///< {wall_s, monotonic_s}: the wall clock was set

@@ -19,6 +19,14 @@ struct ShownFrame {
   int missedBlanks = 0;  ///< vertical blanks for which its predecessor stayed on too long
 };
 
+/// A byte sent to a recorder.
+struct SentMarker {
+  MarkerKind kind = MarkerKind::Stimulus;
+  int code = 0;
+  int64_t dueNs = 0;   ///< steady clock when it happened: of a frame, when its swap returned
+  int64_t sentNs = 0;  ///< steady clock when the system had taken the byte
+};
+
 struct Answer {
   std::string answer;                       ///< one of TaskSetting::answers
   std::optional<int> severity, confidence;  ///< steps from 1
@@ -43,6 +51,7 @@ struct TrialResult {
   Outcome outcome = Outcome::Done;
   std::string reason;  ///< why Invalid: "2 missed frames", "window lost", "answered during the blank"
   std::vector<ShownFrame> frames;
+  std::vector<SentMarker> markers;
   std::optional<Answer> answer;    ///< with Done
   std::string by = "participant";  ///< as in ScreenResult
 };

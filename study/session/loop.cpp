@@ -50,6 +50,14 @@ nlohmann::json answerData(const Trial& trial, const Part& part, const TrialResul
   return data;
 }
 
+void addMarkers(const std::vector<SentMarker>& markers, nlohmann::json& data) {
+  for (const SentMarker& marker : markers)
+    data["markers"].push_back({{"marker", limen::toText(marker.kind)},
+                               {"code", marker.code},
+                               {"due_ns", marker.dueNs},
+                               {"sent_ns", marker.sentNs}});
+}
+
 }  // namespace
 
 Loop::Loop(Session& session, FrontEnd& frontEnd, Clock& clock, Sink sink,
@@ -172,12 +180,14 @@ bool Loop::presentTrial() {
   if (result.outcome == Outcome::Done) {
     nlohmann::json data = answerData(trial, part, result);
     const nlohmann::json correct = data["correct"];
+    addMarkers(result.markers, data);
     record(EventKind::Answered, std::move(data), result.frames);
     if (trial.plan.practice && part.practice.feedback && correct.is_boolean())
       frontEnd_.feedback(correct.get<bool>());
     return true;
   }
   nlohmann::json data = {{"trial", trial.number}, {"attempt", trial.attempt}, {"reason", result.reason}};
+  addMarkers(result.markers, data);
   if (result.outcome == Outcome::Invalid) {
     record(EventKind::TrialInvalid, std::move(data), result.frames);
     return true;

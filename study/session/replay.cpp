@@ -137,9 +137,13 @@ Verification verifySession(const store::SessionReader& reader, const store::Stud
   const store::StudyProtocol stored = reader.protocol(session.protocol);
   if (sha256(stored.text) != stored.hash || protocol.hash != stored.hash)
     differences.push_back("protocol: its text is not the one with which the session began");
-  Session replayed(protocol, session.seed, session.participantNumber);
+  const std::vector<store::StudyEvent> events = reader.events(session.id);
+  int planVersion = kPlanVersion;
+  if (!events.empty())
+    atEvent(events.front(), reader.path(), [&] { planVersion = planVersionOf(events.front().data); });
+  Session replayed(protocol, session.seed, session.participantNumber, planVersion);
   Derived expected;
-  for (const store::StudyEvent& row : reader.events(session.id)) {
+  for (const store::StudyEvent& row : events) {
     atEvent(row, reader.path(), [&] {
       const Event event = eventOf(row);
       expected.take(entryOf(replayed, event));

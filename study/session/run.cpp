@@ -124,6 +124,8 @@ SessionEnd runNew(const Job& job) {
   loop.record(EventKind::Started, {{"protocol_hash", job.protocol.hash},
                                    {"seed", std::to_string(request.seed)},
                                    {"participant_number", row.participantNumber},
+                                   {"plan_version", session.planVersion()},
+                                   {"answers_from_the_left", session.answersFromTheLeft()},
                                    {"display_hash", display.hash},
                                    {"program_version", row.programVersion},
                                    {"boot", job.clock.boot()},
@@ -191,7 +193,9 @@ SessionEnd runAgain(const Job& job, const store::StudySession& row) {
                 job.log.path(),
                 "start a new one: --session " + freeName(job.log, row.participant) + " without --resume");
 
-  Session session(job.protocol, row.seed, row.participantNumber);
+  int planVersion = 1;
+  atEvent(events.front(), job.log.path(), [&] { planVersion = planVersionOf(events.front().data); });
+  Session session(job.protocol, row.seed, row.participantNumber, planVersion);
   int invalid = 0;
   for (const store::StudyEvent& event : events) {
     atEvent(event, job.log.path(), [&] { session.apply(eventOf(event)); });
@@ -243,7 +247,9 @@ SessionEnd runInMemory(const Protocol& protocol, uint64_t seed, int participantN
       [](const std::string&) {});
   loop.record(EventKind::Started, {{"protocol_hash", protocol.hash},
                                    {"seed", std::to_string(seed)},
-                                   {"participant_number", participantNumber}});
+                                   {"participant_number", participantNumber},
+                                   {"plan_version", session.planVersion()},
+                                   {"answers_from_the_left", session.answersFromTheLeft()}});
   return finish(session, loop, 0);
 }
 

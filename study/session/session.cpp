@@ -15,11 +15,13 @@ const Part& partOf(const Protocol& protocol, int part) { return protocol.parts[s
 
 }  // namespace
 
-Session::Session(const Protocol& protocol, uint64_t seed, int participantNumber)
+Session::Session(const Protocol& protocol, uint64_t seed, int participantNumber, int planVersion)
     : protocol_(protocol),
       seed_(seed),
       participantNumber_(participantNumber),
+      planVersion_(planVersion),
       design_(makeDesign(protocol, seed, participantNumber)) {
+  asPlannedBefore(design_, planVersion);
   for (const PlannedProcedure& planned : design_.procedures) {
     settings_.push_back(readProcedure(planned.settings, protocol.path));
     procedures_.push_back(makeProcedure(settings_.back(), planned.seed));
@@ -54,9 +56,27 @@ void Session::makeStretches() {
     for (int round = 1; round < partOf(protocol_, planned.part).practice.rounds; ++round) {
       PlannedBlock& again = rounds_.emplace_back(makePracticeRound(protocol_, planned.part, seed_, round));
       for (PlannedTrial& trial : again.trials) trial.block = static_cast<int>(block);
+      asPlannedBefore(again, planVersion_);
       add(again);
     }
   }
+}
+
+nlohmann::json Session::answersFromTheLeft() const {
+  nlohmann::json out = nlohmann::json::object();
+  for (const Part& part : protocol_.parts)
+    for (const size_t i : answersShown(part.task, design_.answersMirrored))
+      out[part.name].push_back(part.task.answers[i]);
+  return out;
+}
+
+int planVersionOf(const nlohmann::json& started) {
+  const auto found = started.find("plan_version");
+  if (found == started.end()) return 1;
+  if (!found->is_number_integer() || *found < 1 || *found > kPlanVersion)
+    throw Error("the session was planned by a newer version of Limen, or its log is damaged", {},
+                "use the version that it began with");
+  return found->get<int>();
 }
 
 bool Session::isOver(const Slot& slot) const {

@@ -47,7 +47,8 @@ struct Step {
 /// determined by protocol, seed, participant number and the events applied.
 class Session {
  public:
-  Session(const Protocol& protocol, uint64_t seed, int participantNumber);
+  /// `planVersion`: that with which a stored session began (planVersionOf()).
+  Session(const Protocol& protocol, uint64_t seed, int participantNumber, int planVersion = kPlanVersion);
 
   /// Unchanged until an event advances it.
   const Step& step() const { return step_; }
@@ -56,6 +57,9 @@ class Session {
 
   const Protocol& protocol() const { return protocol_; }
   const Design& design() const { return design_; }
+  int planVersion() const { return planVersion_; }
+  /// Part -> its answers from left to right, as they are on screen for this participant.
+  nlohmann::json answersFromTheLeft() const;
   /// Whether an answer is correct: nullopt if there is no correct one (Rating, Pairwise).
   static std::optional<bool> isCorrect(const Part& part, const PlannedTrial& trial,
                                        const std::string& answer);
@@ -131,7 +135,7 @@ class Session {
 
   const Protocol& protocol_;
   uint64_t seed_;
-  int participantNumber_;
+  int participantNumber_, planVersion_;
   Design design_;
   std::vector<PlannedBlock> rounds_;  ///< of practice after the first
   std::vector<Stretch> stretches_;
@@ -153,5 +157,8 @@ class Session {
   std::vector<size_t> fedBefore_;
   Step step_;
 };
+
+/// Version of the plan of a stored session, whose first event has these data.
+int planVersionOf(const nlohmann::json& started);
 
 }  // namespace limen::study

@@ -41,13 +41,40 @@ const char* const kProbe = R"js(<script>
   mark.dispatchEvent(new Event("pointerleave"));
   out.tipAfter = tip.hidden;
 
+  // Of the marks shown, those that no other beats.
+  const frontIsRight = () => all("#speed .chart").every(chart => {
+    const here = all(".mark:not(.is-off)", chart).map(m => ({ m, x: +m.dataset.x, y: +m.dataset.y }));
+    return here.every(a => a.m.classList.contains("front") ===
+      !here.some(b => b.x <= a.x && b.y <= a.y && (b.x < a.x || b.y < a.y)));
+  });
+  const lines = () => all("#speed .front-line path").map(p => p.getAttribute("d").replace(/\s+/g, " ").trim());
+  const corners = d => d.match(/[\d.]+,[\d.]+/g).map(c => c.split(",").map(Number));
   const button = all("#speed .legend button")[1];
+  out.frontBefore = frontIsRight();
+  const linesBefore = lines();
   out.ofSeries = all('.mark[data-series="1"]').length;
   button.click();
   out.shownOfSeries = shown(all('.mark[data-series="1"]'));
   out.shownOthers = shown(all('.mark:not([data-series="1"])')) === all('.mark:not([data-series="1"])').length;
   out.pressed = all('.legend button[data-series="1"]').map(b => b.getAttribute("aria-pressed"));
+  out.frontWithout = frontIsRight();
+  out.lineMoved = lines().some((d, i) => d !== linesBefore[i]);
+  out.listedWithout = shown(all('.front tr[data-series="1"]'));
   button.click();
+  out.frontAfter = frontIsRight();
+  out.lineEnds = lines().every((d, i) => {
+    const now = corners(d), before = corners(linesBefore[i]);
+    return Math.hypot(now[0][0] - before[0][0], now[0][1] - before[0][1]) < 0.1
+      && Math.hypot(now.at(-1)[0] - before.at(-1)[0], now.at(-1)[1] - before.at(-1)[1]) < 0.1;
+  });
+  const legend = all("#passes .pass-legend li").slice(0, -1);
+  out.passes = legend.length;
+  out.passColours = new Set(legend.map(l => getComputedStyle(l.firstElementChild).backgroundColor)).size;
+  out.colourBars = all(".colour-bar").length;
+  const chart = document.querySelector("#speed .panels").getBoundingClientRect();
+  out.usedWidth = all("#speed .panel").map(p => p.getBoundingClientRect().right).reduce((a, b) => Math.max(a, b)) / chart.right;
+  const second = document.querySelector(".trio").querySelectorAll("figcaption")[1].textContent;
+  out.besideProduct = second;
   out.shownAgain = shown(all('.mark[data-series="1"]'));
 
   const headings = all("#runs thead th"), column = headings.findIndex(h => h.textContent.startsWith("RMSE"));
@@ -113,6 +140,17 @@ TEST(ReportPage, WorksInABrowserAndDoesNotScrollSidewaysOnAPhone) {
   EXPECT_EQ(found.at("shownOthers"), true);
   for (const nlohmann::json& pressed : found.at("pressed")) EXPECT_EQ(pressed, "false");
   EXPECT_EQ(found.at("shownAgain"), found.at("ofSeries"));
+  EXPECT_EQ(found.at("frontBefore"), true);
+  EXPECT_EQ(found.at("frontWithout"), true) << "the front is that of the marks that are shown";
+  EXPECT_EQ(found.at("lineMoved"), true);
+  EXPECT_EQ(found.at("listedWithout"), 0);
+  EXPECT_EQ(found.at("frontAfter"), true);
+  EXPECT_EQ(found.at("lineEnds"), true);
+  EXPECT_EQ(found.at("passes"), 3);
+  EXPECT_EQ(found.at("passColours"), 3);
+  EXPECT_EQ(found.at("colourBars"), 6 * 3 * 3) << "one below each error map";
+  EXPECT_GT(found.at("usedWidth"), 0.99);
+  EXPECT_EQ(found.at("besideProduct"), "reference");
 
   const std::vector<double> ascending = found.at("ascending"), descending = found.at("descending");
   EXPECT_EQ(found.at("rows"), runs);

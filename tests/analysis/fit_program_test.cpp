@@ -51,6 +51,41 @@ class FitProgram : public testing::Test {
   const std::string columns_ = " --x level --k correct --n trials ";
 };
 
+TEST_F(FitProgram, WordsAreAnswersAndProfileIntervalsTheDefault) {
+  std::string numbers = "x,seen\n", words = numbers;
+  const std::pair<const char*, const char*> pairs[] = {
+      {"yes", "no"}, {"Correct", "wrong"}, {"TRUE", "False"}};
+  for (int level = 1; level <= 5; ++level)
+    for (int trial = 0; trial < 12; ++trial) {
+      const bool seen = trial < 2 * level;
+      numbers += std::to_string(level) + (seen ? ",1\n" : ",0\n");
+      const auto& [yes, no] = pairs[trial % 3];
+      words += std::to_string(level) + "," + (seen ? yes : no) + "\n";
+    }
+  const std::string call = " --x x --outcome seen --task yesno --json";
+  const json a = json::parse(fit(write("n.csv", numbers) + call).text),
+             b = json::parse(fit(write("w.csv", words) + call).text);
+  EXPECT_EQ(a.at("sections"), b.at("sections"));
+  EXPECT_EQ(a.at("sections").at(0).at("interval_method"), "profile");
+  EXPECT_LT(a.at("sections").at(0).at("parameters").at(0).at("low").get<double>(), 3.0);
+  EXPECT_FALSE(json::parse(fit(write("n.csv", numbers) + call + " --intervals none").text)
+                   .at("sections")
+                   .at(0)
+                   .contains("interval_method"));
+  const ProgramRun other = fit(write("o.csv", "x,seen\n1,yes\n2,maybe\n") + call);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.text, HasSubstr("'maybe' is neither 0 nor 1"));
+  EXPECT_THAT(other.text, HasSubstr("yes and no"));
+}
+
+TEST_F(FitProgram, PrintsFourDigits) {
+  // 0.004647817 in full, as CSV has it.
+  const ProgramRun run = fit(write("classic.csv", classicTable({"a"})) + columns_);
+  EXPECT_THAT(run.text, HasSubstr("0.004648  "));
+  EXPECT_THAT(run.text, testing::Not(HasSubstr("0.0046478")));
+  EXPECT_EQ(fit(write("classic.csv", classicTable({"a"})) + columns_ + "--intervals observers").code, 2);
+}
+
 TEST_F(FitProgram, SaysTheClassicAnswerInJson) {
   const std::string file = write("classic.csv", classicTable({"a"}));
   const ProgramRun outcome = fit(
@@ -122,7 +157,7 @@ TEST_F(FitProgram, RepeatsItselfAndWritesTablesForPeopleAndPrograms) {
   const ProgramRun one = fit(call + "--threads 1"), two = fit(call + "--threads 2");
   ASSERT_EQ(one.code, 0) << one.text;
   EXPECT_EQ(one.text, two.text);
-  EXPECT_THAT(one.text, testing::ContainsRegex("threshold +0.004647817"));
+  EXPECT_THAT(one.text, testing::ContainsRegex("threshold +0.004648"));
   EXPECT_THAT(one.text, HasSubstr("residuals with order"));
   const std::string csv = folder_.path("out.csv");
   EXPECT_EQ(fit(file + columns_ + "--csv " + csv).code, 0);

@@ -51,7 +51,6 @@ TEST(AnalyseProgram, RefusesBadInputWithCodeTwoAndOneLine) {
       {"report " + folder.path("s.sqlite") + " -o " + folder.path("out"), "--force"},
       {"report " + folder.path("empty.sqlite") + " -o " + folder.path("out"), "no experiment"},
       {"report " + folder.path("s.sqlite") + " -o /proc/nowhere --force", "/proc/nowhere"},
-      {"report " + folder.path("s.sqlite"), "--output"},
       {"reprot x", "reprot"},
       {"", "subcommand"}};
   for (const auto& [arguments, words] : cases) {

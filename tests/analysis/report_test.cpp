@@ -197,6 +197,57 @@ TEST_F(ReportTest, SeveralExperimentsGetAFolderEachAndOneCanBeChosen) {
   EXPECT_THAT(errorOf("secnd"), HasSubstr("did you mean 'second'"));
 }
 
+TEST_F(ReportTest, NamesASettingOnceWhereSeveralLevelsHaveIt) {
+  write({makeRun("a", "s", 1, {1, 1}, 0.5), makeRun("b", "s", 1, {2, 2}, 0.1)});
+  const std::string page = report();
+  EXPECT_EQ(count(page, "<td data-level="), 1U);
+  EXPECT_THAT(page, HasSubstr("up to 2 ×"));
+}
+
+TEST_F(ReportTest, DoesNotCallALittleLessErrorForMuchMoreTimeWorthIt) {
+  write({makeRun("a", "s", 1, {1, 1}, 0.1), makeRun("b", "s", 1, {9.4, 9.4}, 0.095)});
+  EXPECT_THAT(report(), HasSubstr("worth its time is 1 of 2 settings: 1 of a"));
+}
+
+TEST_F(ReportTest, SaysWhyThereIsNoVerdictAndDrawsNoFront) {
+  {
+    store::Store store(folder_.path("s.sqlite"), store::Access::ReadWrite);
+    store::Experiment experiment;
+    experiment.title = "t";
+    experiment.report = {{"x", "samples"}, {"y", "rmse"}};
+    writeExperiment(store, experiment,
+                    {makeRun("a", "s", 1, {1, 1}, 0.5), makeRun("a", "s", 2, {2, 2}, 0.1)});
+  }
+  const std::string page = report();
+  EXPECT_THAT(page, HasSubstr("“Samples” is neither a time nor a cost"));
+  for (const char* word : {"class=\"front-line\"", "worth", "Pareto", "faster"})
+    EXPECT_THAT(page.substr(page.find("<main>"), page.find("<script>") - page.find("<main>")),
+                Not(HasSubstr(word)));
+}
+
+TEST_F(ReportTest, TwoDevicesAreTwoPanelsAndThePageSaysSo) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1, 1}, 0.5), makeRun("b", "s", 1, {2, 2}, 0.1)};
+  runs[1].device = "slow GPU";
+  write(runs);
+  const std::string page = report();
+  EXPECT_THAT(page, HasSubstr("The runs come from several devices."));
+  EXPECT_THAT(page, HasSubstr("<h3>s — Test GPU</h3>"));
+  EXPECT_THAT(page, HasSubstr("<h3>s — slow GPU</h3>"));
+}
+
+TEST_F(ReportTest, ErrorStandsBesideTimeAndWhatIsTheSameInAllRunsAboveTheTable) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1, 1}, 0.5), makeRun("b", "s", 1, {2, 2}, 0.1)};
+  for (store::Run& run : runs) run.measurements.push_back({"timed_frames", 7, "", "fact"});
+  write(runs);
+  const std::string page = report(), table = page.substr(page.find("<section id=\"runs\">"));
+  const size_t body = table.find("<thead>");
+  const size_t time = table.find("GPU time (ms)", body), error = table.find("RMSE", body);
+  ASSERT_NE(time, std::string::npos);
+  EXPECT_EQ(count(table.substr(time, error - time), "<th"), 1U) << "the next heading";
+  EXPECT_THAT(table.substr(0, body), HasSubstr("Timed frames 7"));
+  EXPECT_EQ(table.find("Timed frames", body), std::string::npos);
+}
+
 TEST_F(ReportTest, AMissingPictureIsANoteAndNotAnError) {
   std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.5)};
   runs[0].artefacts = {{"product_png", "gone.png", std::string(64, '0')}};

@@ -8,12 +8,12 @@
 #include <random>
 #include <set>
 
+#include "analysis/sweep/chart.h"
 #include "analysis/sweep/trade_off.h"
 
 namespace limen::analysis {
 namespace {
 
-using testing::DoubleNear;
 using testing::ElementsAre;
 
 TEST(Quantile, InterpolatesBetweenOrderStatistics) {
@@ -131,19 +131,13 @@ TEST(ParetoFront, HoldsExactlyThePointsThatNothingBeats) {
 
 TEST(ParetoFront, OfNothingIsEmpty) { EXPECT_TRUE(paretoFront({}).empty()); }
 
-TEST(RoundLevels, ArePowersOfTenAndTheirTriplesInAWideRange) {
-  EXPECT_THAT(roundLevels(0.0005, 0.2, true),
-              ElementsAre(DoubleNear(0.001, 1e-12), DoubleNear(0.003, 1e-12), DoubleNear(0.01, 1e-12),
-                          DoubleNear(0.03, 1e-12), DoubleNear(0.1, 1e-12)));
-}
-
-TEST(RoundLevels, AreEvenStepsInANarrowOrLinearRange) {
+TEST(RoundLevels, AreEvenSteps) {
   // A quarter of 25 is 6.25; the next of 1, 2, 5, 10 is 10.
-  EXPECT_THAT(roundLevels(20.0, 45.0, false), ElementsAre(20.0, 30.0, 40.0));
-  EXPECT_THAT(roundLevels(1.0, 3.0, true), ElementsAre(1.0, 1.5, 2.0, 2.5, 3.0));
+  EXPECT_THAT(roundLevels(20.0, 45.0), ElementsAre(20.0, 30.0, 40.0));
+  EXPECT_THAT(roundLevels(1.0, 3.0), ElementsAre(1.0, 1.5, 2.0, 2.5, 3.0));
 }
 
-TEST(RoundLevels, OfAPointAreNone) { EXPECT_TRUE(roundLevels(1.0, 1.0, true).empty()); }
+TEST(RoundLevels, OfAPointAreNone) { EXPECT_TRUE(roundLevels(1.0, 1.0).empty()); }
 
 }  // namespace
 }  // namespace limen::analysis

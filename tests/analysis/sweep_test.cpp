@@ -116,6 +116,92 @@ TEST_F(SweepTest, TimesOfTwoDevicesAreNotCompared) {
   EXPECT_EQ(sweep.panels[1].front.size(), 1U);
 }
 
+TEST_F(SweepTest, EachDeviceHasAVerdictOfItsOwn) {
+  // Within ten times the time of the other's device, and with more error, yet the best of its own.
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("b", "s", 1, {10}, 0.2)};
+  runs[1].device = "slow GPU";
+  const Sweep sweep = load(runs);
+  ASSERT_EQ(sweep.panels.size(), 2U);
+  EXPECT_THAT(sweep.panels[1].verdict.worth, ElementsAre(1));
+  EXPECT_FALSE(sweep.cells[1].beaten);
+}
+
+TEST_F(SweepTest, ATimeOfOneFrameHasNoIntervalAndIsTakenAsExact) {
+  const Sweep sweep = load({makeRun("a", "s", 1, {1}, 0.1), makeRun("b", "s", 1, {2, 2}, 0.2)});
+  EXPECT_FALSE(sweep.cells[0].interval);
+  EXPECT_TRUE(sweep.cells[1].interval);
+  EXPECT_TRUE(sweep.exactTimesTaken);
+  EXPECT_FALSE(load({makeRun("c", "s", 1, {1, 1}, 0.1)}).exactTimesTaken);
+}
+
+TEST_F(SweepTest, TimesWhoseIntervalsOverlapAreNotCalledBeaten) {
+  // Medians 2 and 2.1; the rounds of both go from 1 to 3.1. The third is slower in every frame.
+  const Sweep sweep = load({makeRun("a", "s", 1, {1, 1, 1, 2, 2, 2, 3, 3, 3}, 0.1),
+                            makeRun("b", "s", 1, {1.1, 1.1, 1.1, 2.1, 2.1, 2.1, 3.1, 3.1, 3.1}, 0.1),
+                            makeRun("c", "s", 1, {9, 9, 9, 9, 9, 9, 9, 9, 9}, 0.1)});
+  EXPECT_FALSE(sweep.cells[1].beaten);
+  EXPECT_TRUE(sweep.cells[2].beaten);
+  EXPECT_THAT(sweep.panels[0].verdict.levels.at(0).ties, ElementsAre(1));
+}
+
+TEST_F(SweepTest, ThereIsNoVerdictWhereXIsNeitherATimeNorACost) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 4, {1}, 0.05)};
+  for (const char* x : {"samples", "rmse"}) {
+    for (store::Run& run : runs) run.key += x;
+    const Sweep sweep = load(runs, {{"x", x}, {"y", "rmse"}});
+    EXPECT_THAT(sweep.noVerdict, testing::HasSubstr("neither a time nor a cost")) << x;
+    EXPECT_TRUE(sweep.panels.at(0).front.empty());
+    EXPECT_TRUE(sweep.panels.at(0).verdict.levels.empty());
+    EXPECT_EQ(sweep.cells[0].frontNumber, 0);
+  }
+}
+
+TEST_F(SweepTest, ACounterIsACostAndHasAVerdict) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {1}, 0.05)};
+  runs[0].measurements.push_back({"nodes_per_px", 10.0, "1/px", "counter"});
+  runs[1].measurements.push_back({"nodes_per_px", 20.0, "1/px", "counter"});
+  const Sweep sweep = load(runs, {{"x", "nodes_per_px"}, {"y", "rmse"}});
+  EXPECT_EQ(sweep.noVerdict, "");
+  EXPECT_FALSE(sweep.xIsTime);
+  EXPECT_FALSE(sweep.exactTimesTaken);
+  EXPECT_THAT(sweep.panels[0].verdict.worth, ElementsAre(0, 1));
+}
+
+TEST_F(SweepTest, ThereIsNoVerdictWhereNeitherLessNorMoreErrorIsBetter) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1)};
+  runs[0].measurements.push_back({"signed_error", -0.1, "", "error"});
+  EXPECT_THAT(load(runs, {{"x", "gpu_ms"}, {"y", "signed_error"}}).noVerdict,
+              testing::HasSubstr("neither less nor more is better"));
+}
+
+TEST_F(SweepTest, TheNoiseOfTheReferenceIsThatOfTheRunsOwnMetric) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1, 1}, 0.102), makeRun("b", "s", 1, {2, 2}, 0.1)};
+  EXPECT_EQ(load(runs).panels[0].verdict.levels[0].cheapest, 1U);
+  for (store::Run& run : runs) {
+    run.key += "with noise";
+    run.measurements.push_back({"rmse_noise", 0.003, "", "fact"});
+  }
+  const Sweep sweep = load(runs, {{"x", "gpu_ms"}, {"y", "rmse"}});
+  EXPECT_EQ(sweep.panels[0].noise, 0.003);
+  EXPECT_EQ(sweep.panels[0].verdict.levels[0].cheapest, 0U);
+  EXPECT_THAT(sweep.panels[0].verdict.worth, ElementsAre(0));
+}
+
+TEST_F(SweepTest, MultiplesOfDecibelsAreThoseOfTheAmplitude) {
+  // 20 lg 1.1 = 0.83 dB, 20 lg 2 = 6.02 dB: 39.5 dB is within 1.1 of 40 dB, 34 dB within twice, 33.9 dB is
+  // not.
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0), makeRun("b", "s", 1, {2}, 0),
+                                  makeRun("c", "s", 1, {3}, 0), makeRun("d", "s", 1, {4}, 0)};
+  const double psnr[] = {33.9, 34.0, 39.5, 40.0};
+  for (size_t i = 0; i < 4; ++i) runs[i].measurements.push_back({"psnr", psnr[i], "dB", "error"});
+  const auto& levels = load(runs, {{"x", "gpu_ms"}, {"y", "psnr"}}).panels[0].verdict.levels;
+  ASSERT_EQ(levels.size(), 3U);
+  EXPECT_EQ(levels[0].cheapest, 3U);
+  EXPECT_EQ(levels[1].cheapest, 2U);
+  EXPECT_EQ(levels[1].last, 1.5);
+  EXPECT_EQ(levels[2].cheapest, 1U);
+}
+
 TEST_F(SweepTest, TheCounterThatMostRunsHaveIsTheSecondAxis) {
   std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {1}, 0.2),
                                   makeRun("a", "s", 3, {1}, 0.2)};

@@ -67,7 +67,7 @@ const std::vector<Module>& modules() {
       {"analysis/study",
        {"experiments/base", "perception/psychometrics", "experiments/store", "analysis/statistics",
         "analysis/psychometric", "analysis/output", "analysis/answer_tables", "analysis/answer_fits",
-        "analysis/observer_statistics", "analysis/correlations", "analysis/pair_scales"},
+        "analysis/observer_statistics", "analysis/correlations", "analysis/pair_scales", "study/procedures"},
        false},
       {"analysis/study_page",
        {"experiments/base", "experiments/store", "analysis/statistics", "analysis/psychometric",

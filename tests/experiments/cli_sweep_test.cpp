@@ -182,8 +182,9 @@ TEST_F(SweepCli, ReportIsLeftToTheSiblingProgram) {
   EXPECT_THAT(read("arguments"), HasSubstr("results/d.sqlite --sweeps -o results/d_report --force"));
   write("limen-report", "#!/bin/sh\nexit 3\n");
   const CallResult failing = call({"d.yaml"});
-  EXPECT_EQ(failing.exitCode, 0);
-  EXPECT_THAT(failing.out, HasSubstr("limen-report ended with 3"));
+  EXPECT_EQ(failing.exitCode, 1);
+  EXPECT_THAT(failing.err, AllOf(HasSubstr("limen-report ended with 3"), HasSubstr("runs are kept in")));
+  EXPECT_THAT(failing.out, HasSubstr("0 measured, 10 done before, 0 failed"));
 }
 
 }  // namespace

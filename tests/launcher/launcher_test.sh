@@ -71,7 +71,7 @@ case $1 in
     [[ -e $STATE/build_fails ]] && { echo "error: expected ';'"; exit 1; }
     mkdir -p "$2/bin"
     for name in sweep analyse report; do
-      printf '#!%s\n[[ $0$* == *-report*study* ]] && exit 3\necho "%s:$PWD:$*"\nexit 7\n' "$(type -P bash)" $name >"$2/bin/limen-$name"
+      printf '#!%s\n[[ $0$* == *-report*study* ]] && exit 3\necho "%s:$PWD:$*"\necho "${LIMEN_LAUNCHER:-}" >"$STATE/launcher"\nexit 7\n' "$(type -P bash)" $name >"$2/bin/limen-$name"
       chmod +x "$2/bin/limen-$name"
     done ;;
 esac
@@ -113,6 +113,7 @@ check "it configures the release preset" called 'cmake --preset release'
 check "it builds the program and the one that writes its report" called '--target limen-sweep limen-report$'
 check "the program gets the arguments and the caller's folder" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:a.yaml b c"
 check "the exit code is the program's" is $status 7
+check "the program is told how it was called" is "$(<"$state/launcher")" 1
 
 run sweep
 check "a second call asks nothing of anybody" is "$(calls)" ""
@@ -158,10 +159,18 @@ check "that of a study by analyse report" is "$(<"$scratch/out")" "analyse:$scra
 run help sweep
 check "help of a command is that of its program" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:--help"
 run view
-check "a program that this version lacks is named, with those it has" told "no 'view'; it has: analyse report sweep test"
+check "a program that this version lacks is named, with those it has" told "no 'view'; it has: sweep analyse report test"
 check "and is bad input" is $status 2
 run sweeep
 check "an unknown command is bad input" is $status 2
+check "and the nearest one is named, with those there are" told "did you mean 'sweep'? commands: sweep analyse report test"
+run reprot
+check "swapped letters are one mistake" told "did you mean 'report'?"
+run xylophone
+check "a word unlike any is not guessed" not told "did you mean"
+run --help
+check "help names the commands that this version has" grep -q '^  sweep ' "$scratch/out"
+check "and none that it lacks" not grep -qE '^  (view|study) |benchmark' "$scratch/out"
 run --version
 check "the version is the project's" is "$(<"$scratch/out")" "limen 9.8.7"
 mkdir -p "$scratch/decoy/tree"

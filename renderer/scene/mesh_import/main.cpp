@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 
 #include "experiments/base/error.h"
 #include "renderer/scene/mesh_import/import_process.h"
@@ -50,8 +51,10 @@ void send(const void* data, size_t bytes) {
 int main(int argc, char** argv) {
   using namespace limen;
   if (argc != 5) {
-    std::fprintf(stderr, "limen_import_mesh reads meshes for the other programs; it is not called by hand\n");
-    return kExitBadInput;
+    const bool asked = argc == 2 && std::string_view(argv[1]) == "--help";
+    std::fprintf(asked ? stdout : stderr,
+                 "limen_import_mesh reads meshes for the other programs; it is not called by hand\n");
+    return asked ? kExitSuccess : kExitBadInput;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Ctrl-C reaches all processes of a terminal; the one that asked for the mesh decides.

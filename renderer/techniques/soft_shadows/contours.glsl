@@ -42,7 +42,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
       }
       bvec4 blocking;
       for (int i = 0; i < 4; ++i) blocking[i] = blocks(depths[i], ivec2(x, y) + offsets[i], level, p, depth);
-      // Windows that nothing blocks are looked at for nothing; the inside of a contour is not.
+      // Windows without a blocking texel count as wasted work; the inside of a contour does not.
       ++examinedCount;
       if (any(blocking)) ++usedCount;
       if (all(blocking) || !any(blocking)) continue;

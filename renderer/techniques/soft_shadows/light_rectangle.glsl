@@ -7,7 +7,7 @@ void accumulate(vec2 low, vec2 high);
 // Gathers the part of an occluder's rectangle that lies on the light.
 void accumulateOnLight(vec2 start, vec2 end) {
   ++occluderCount;
-  // Clamped in an order that turns a NaN, were there one, into a bound.
+  // Clamped in an order that turns a NaN into a bound.
   const vec2 low = min(max(start, vec2(0.0)), vec2(1.0)), high = min(max(end, vec2(0.0)), vec2(1.0));
   if (low.x < high.x && low.y < high.y) {
     ++usedCount;

@@ -73,8 +73,8 @@ float gatherOccluders(vec4 p, Area area, int level) {
     }
     if (isSaturated()) return 0.0;
   }
-  // A driver that grants a limited number of iterations has left the loops early; how many it takes off for those of the
-  // masks is its own affair.
+  // A driver that grants a limited number of iterations has left the loops early; how many it subtracts for those of the
+  // masks is not known.
   if (visited < (count.x + 1) * rowsToGather(count.y)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one

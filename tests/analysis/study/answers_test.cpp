@@ -82,6 +82,21 @@ TEST_F(StudyAnswersTest, RatesByHand) {
   EXPECT_EQ(rates.observers[1].catches->trials, 4);
 }
 
+// Somebody who says yes whenever the last frame is fine: false alarms in the catch trials that end with it.
+TEST_F(StudyAnswersTest, FalseAlarmsAreToldApartByWhatCatchTrialsShowed) {
+  std::vector<HandMadeTrial> before = trials({{"distance", "near"}}, 0, 4, false),
+                             after = trials({{"distance", "near"}}, 3, 4, false);
+  for (HandMadeTrial& trial : before) trial.catchShows = "before";
+  for (HandMadeTrial& trial : after) trial.catchShows = "after";
+  addHandMadeSession(store(), "a", kProtocol, trials({{"distance", "near"}}, 4, 4) + before + after);
+  const StudyRates rates = studyRates(read(false));
+  EXPECT_EQ(row(rates, "catch_shows=before", false).pooled.successes, 0);
+  EXPECT_EQ(row(rates, "catch_shows=before", false).pooled.trials, 4);
+  EXPECT_EQ(row(rates, "catch_shows=after", false).pooled.successes, 3);
+  EXPECT_EQ(row(rates, "catch_shows=after", false).pooled.trials, 4);
+  EXPECT_EQ(row(rates, "all", false).pooled.trials, 8);
+}
+
 TEST(PublishedRates, AreThoseOfWholeNumbersOfAnswers) {
   // 8 observers x 84 and 28 trials; 12 observers x 16 of each kind and part (Schwarz 2009, section 10.4).
   EXPECT_NEAR(publishedRate("experiment_1", "main", true)->mean, 455.0 / 672.0, 5.1e-5);

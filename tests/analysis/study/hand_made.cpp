@@ -15,6 +15,7 @@ store::StudyEntry entryOf(const HandMadeTrial& trial, int number, int event) {
   row.part = trial.part;
   row.condition = trial.condition;
   row.stimuli = {{{"presentation", trial.presentation}}};
+  if (!trial.catchShows.empty()) row.stimuli[0]["catch_shows_after"] = trial.catchShows == "after";
   row.stimulusHashes = {handMadeHash(trial)};
   row.change = trial.change;
   row.procedureStimulus = trial.axes;

@@ -20,6 +20,7 @@ struct HandMadeTrial {
   std::string part = "main", presentation = "dynamic", hash = {};  ///< hash "": one for each condition
   bool practice = false, valid = true, superseded = false;
   std::vector<double> axes = {};  ///< what a procedure asked for
+  std::string catchShows = {};    ///< "before" or "after"; "" as in older stores
 };
 
 /// `count` trials alike, the first `yes` of them answered with yes.

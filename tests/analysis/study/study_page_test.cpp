@@ -65,11 +65,13 @@ TEST_F(StudyPageTest, RatesAreThoseOfTheRows) {
       const Moments own = momentsOf(ratesOf([&](const AnswerRow& row) {
         return row.change && row.distance == distance && row.presentation == presentation;
       }));
-      const double half = kT3 * own.sd / 2.0;  // sqrt(4) observers
+      // t over 4 observers on the logit scale.
+      const double logit = std::log(own.mean / (1.0 - own.mean)),
+                   reach = kT3 * own.sd / 2.0 / (own.mean * (1.0 - own.mean));
       EXPECT_EQ(drawn[i].at(4), std::stod(distance));
       EXPECT_NEAR(drawn[i].at(1), 100.0 * own.mean, 1e-9);
-      EXPECT_NEAR(drawn[i].at(2), 100.0 * std::max(0.0, own.mean - half), 1e-6);
-      EXPECT_NEAR(drawn[i].at(3), 100.0 * std::min(1.0, own.mean + half), 1e-6);
+      EXPECT_NEAR(drawn[i].at(2), 100.0 / (1.0 + std::exp(reach - logit)), 1e-6);
+      EXPECT_NEAR(drawn[i].at(3), 100.0 / (1.0 + std::exp(-reach - logit)), 1e-6);
       // Beside their own place, nearer to it than to any other.
       EXPECT_NEAR(std::log2(drawn[i].at(0)), std::log2(drawn[i].at(4)), 0.5);
       EXPECT_THAT(page, HasSubstr("<td class=\"num\">" + percent(own.mean) + "</td>"));

@@ -39,7 +39,7 @@ class SummedAreaTableTest : public gl::GlTest {
                         form == SumForm::Fixed ? GL_UNSIGNED_INT : GL_FLOAT, map.values.data());
     table.build();
     const gl::Program& program = context().programs().compute(
-        "tests/renderer/frame/summed_area_probe.comp.glsl", SummedAreaTable::defines(form));
+        "tests/renderer/frame/summed_area_readback.comp.glsl", SummedAreaTable::defines(form));
     const int count = static_cast<int>(windows.size());
     const gl::Buffer in(windows), out(int64_t{8} * count * map.layers, nullptr);
     table.bind(kSumsReadbackSumsUnit);

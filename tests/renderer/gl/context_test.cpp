@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "experiments/base/error.h"
+#include "renderer/gl/devices.h"
 #include "tests/renderer/gl/gl_fixture.h"
 
 namespace limen::gl {
@@ -54,9 +55,28 @@ class ForcedDevice : public ContextTest {
   }
 };
 
-TEST_F(ForcedDevice, ANonNumberIsRefused) {
-  for (const char* text : {"first", "-1", "1x"})
-    EXPECT_NE(messageFor(text).find("give the index of an EGL device"), std::string::npos) << text;
+TEST_F(ForcedDevice, ANameThatNoDeviceHasIsRefusedWithThoseThereAre) {
+  for (const char* text : {"voodoo", "-1", "1x"}) {
+    const std::string message = messageFor(text);
+    EXPECT_NE(message.find(std::string("'") + text + "' in its name"), std::string::npos) << message;
+    EXPECT_NE(message.find(context().device().renderer), std::string::npos) << message;
+  }
+}
+
+TEST_F(ForcedDevice, APartOfItsNameInAnyCaseChoosesADevice) {
+  std::string part = context().device().renderer.substr(1, 5);
+  for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  setenv(kDeviceVariable, part.c_str(), 1);
+  EXPECT_EQ(createHeadlessContext()->device().renderer, context().device().renderer);
+}
+
+TEST_F(ForcedDevice, ListedDevicesHaveTheIndicesThatChooseThem) {
+  const std::vector<DeviceInfo> devices = listHeadlessDevices();
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i].renderer.empty()) continue;
+    setenv(kDeviceVariable, std::to_string(i).c_str(), 1);
+    EXPECT_EQ(createHeadlessContext()->device().renderer, devices[i].renderer);
+  }
 }
 
 TEST_F(ForcedDevice, AnIndexPastTheLastSaysHowManyThereAre) {

@@ -41,7 +41,7 @@ class DepthBounds : public TechniqueTest {
     const frame::DepthPyramid pyramid(map);
     const gl::Buffer in(areas), out(static_cast<int64_t>(areas.size()) * 8, nullptr);
     const gl::Program& program = context().programs().compute(
-        "tests/renderer/techniques/depth_bounds_probe.comp.glsl", structure.defines);
+        "tests/renderer/techniques/depth_bounds_readback.comp.glsl", structure.defines);
     // A hybrid whose layers have a quarter of the map's resolution.
     const int baseLevel = structure.isHybrid ? std::min(2, pyramid.levels() - 1) : 0;
     std::unique_ptr<frame::MultiScaleLayers> layers;

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "tests/renderer/techniques/readback_bindings.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -14,7 +15,7 @@ namespace {
 constexpr int kRectangles = 20000;
 
 struct Pattern {
-  const char* define;
+  LightPattern pattern;
   int side;
   bool jittered;
 };
@@ -64,15 +65,22 @@ std::vector<glm::vec4> rectangles(const Pattern& pattern) {
   return out;
 }
 
-class OcclusionMask : public TechniqueTest, public testing::WithParamInterface<Pattern> {};
+class OcclusionMask : public TechniqueTest, public testing::WithParamInterface<Pattern> {
+ protected:
+  static const gl::Program& maskReadback(const Pattern& pattern) {
+    gl::ShaderDefines defines;
+    defineSamples(defines, pattern.pattern);
+    return context().programs().compute("tests/renderer/techniques/occlusion_mask_readback.comp.glsl",
+                                        defines);
+  }
+};
 
 TEST_P(OcclusionMask, EqualsTestingEverySample) {
   const Pattern pattern = GetParam();
   const int samples = pattern.side * pattern.side, words = samples / 32;
   const std::vector<glm::vec4> given = rectangles(pattern);
   const gl::Buffer in(given), out(int64_t{kRectangles} * words * 4, nullptr);
-  const gl::Program& program = context().programs().compute(
-      "tests/renderer/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
+  const gl::Program& program = maskReadback(pattern);
   in.bindStorage(kMaskReadbackRectanglesBuffer);
   out.bindStorage(kMaskReadbackMasksBuffer);
   program.set("count", kRectangles);
@@ -109,8 +117,7 @@ TEST_P(OcclusionMask, RectanglesThatShareAnEdgeShareNoSample) {
   std::vector<glm::vec4> given;
   for (size_t i = 0; i + 1 < cuts.size(); ++i) given.emplace_back(cuts[i], 0.0F, cuts[i + 1], 1.0F);
   const gl::Buffer in(given), out(static_cast<int64_t>(given.size()) * words * 4, nullptr);
-  const gl::Program& program = context().programs().compute(
-      "tests/renderer/techniques/occlusion_mask_probe.comp.glsl", {{"PATTERN", pattern.define}});
+  const gl::Program& program = maskReadback(pattern);
   in.bindStorage(kMaskReadbackRectanglesBuffer);
   out.bindStorage(kMaskReadbackMasksBuffer);
   program.set("count", static_cast<int>(given.size()));
@@ -123,10 +130,11 @@ TEST_P(OcclusionMask, RectanglesThatShareAnEdgeShareNoSample) {
   for (int i = 0; i < samples; ++i) ASSERT_EQ(timesSet[static_cast<size_t>(i)], 1) << "sample " << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, OcclusionMask,
-                         testing::Values(Pattern{"8", 8, false}, Pattern{"16", 16, false},
-                                         Pattern{"32", 32, false}, Pattern{"160", 16, true}),
-                         [](const auto& instance) { return std::string("Pattern") + instance.param.define; });
+INSTANTIATE_TEST_SUITE_P(
+    Patterns, OcclusionMask,
+    testing::Values(Pattern{LightPattern::Regular8, 8, false}, Pattern{LightPattern::Regular16, 16, false},
+                    Pattern{LightPattern::Regular32, 32, false}, Pattern{LightPattern::Jittered16, 16, true}),
+    [](const auto& instance) { return std::string(limen::toText(instance.param.pattern)); });
 
 }  // namespace
 }  // namespace limen::techniques

@@ -47,7 +47,7 @@ TEST_F(Prefiltered, FormulasHoldForAnyWindowOfTwoDepths) {
     moments.emplace_back(w.z * w.x + (1.0 - w.z) * w.y, w.z * w.x * w.x + (1.0 - w.z) * w.y * w.y);
   }
   const gl::Program& program =
-      context().programs().compute("tests/renderer/techniques/prefiltered_probe.comp.glsl");
+      context().programs().compute("tests/renderer/techniques/prefiltered_readback.comp.glsl");
   const gl::Buffer in(windows), averages(moments),
       out(static_cast<int64_t>(windows.size() * sizeof(glm::vec2)), nullptr);
   in.bindStorage(kPrefilteredReadbackWindowsBuffer);

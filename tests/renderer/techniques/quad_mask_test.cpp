@@ -64,7 +64,7 @@ class QuadMasks : public TechniqueTest, public testing::WithParamInterface<Sampl
     }
     const gl::Buffer in(corners), out(static_cast<int64_t>(quads.size()) * results * 4, nullptr);
     const gl::Program& program =
-        context().programs().compute("tests/renderer/techniques/quad_mask_probe.comp.glsl", defines);
+        context().programs().compute("tests/renderer/techniques/quad_mask_readback.comp.glsl", defines);
     in.bindStorage(kQuadMaskReadbackQuadsBuffer);
     out.bindStorage(kQuadMaskReadbackResultsBuffer);
     program.set("count", static_cast<int>(quads.size()));
@@ -76,11 +76,12 @@ class QuadMasks : public TechniqueTest, public testing::WithParamInterface<Sampl
                                  int tableSize = 64) {
     std::optional<gl::Texture> table;
     if (mask == QuadMask::HalfSpaceTable) {
-      table.emplace(makeHalfSpaceTable(lightSamples(fromText<LightPattern>(pattern.name)), tableSize));
+      table.emplace(makeHalfSpaceTable(lightSamples(pattern.pattern), tableSize));
       table->bindTexture(kHalfSpacesUnit);
     }
     const int words = pattern.samples() / 32;
-    gl::ShaderDefines defines = {{"PATTERN", pattern.define}, {"TABLE_SIZE", std::to_string(tableSize)}};
+    gl::ShaderDefines defines = {{"TABLE_SIZE", std::to_string(tableSize)}};
+    defineSamples(defines, pattern.pattern);
     defineEnum(defines, "QUAD_MASK", mask);
     const std::vector<int> raw = probe(quads, defines, words);
     std::vector<Bits> out(quads.size(), Bits(static_cast<size_t>(pattern.samples())));
@@ -99,7 +100,7 @@ class QuadMasks : public TechniqueTest, public testing::WithParamInterface<Sampl
 
 TEST_P(QuadMasks, LightSamplesLieWhereThePatternSays) {
   const SamplePattern pattern = GetParam();
-  const std::vector<glm::dvec2> samples = lightSamples(fromText<LightPattern>(pattern.name));
+  const std::vector<glm::dvec2> samples = lightSamples(pattern.pattern);
   ASSERT_EQ(samples.size(), static_cast<size_t>(pattern.samples()));
   for (int j = 0; j < pattern.side; ++j)
     for (int i = 0; i < pattern.side; ++i)
@@ -258,7 +259,7 @@ TEST_P(QuadMasks, TableErrsOnlyWithinItsQuantisation) {
     EXPECT_EQ(outside, 0) << "size " << size;
     means.push_back(wrongShare.mean());
     std::printf("table %d, %s: share of samples wrong for a cell of 1/12 of the light: %s\n", size,
-                pattern.name, wrongShare.text().c_str());
+                limen::toText(pattern.pattern), wrongShare.text().c_str());
     RecordProperty("wrong_share_" + std::to_string(size), wrongShare.text());
   }
   // Lines known twice as well on either axis leave half of the wrong samples; the smallest table against the
@@ -300,7 +301,7 @@ TEST_P(QuadMasks, ApproximateStaysWithinTheClampedQuadsBounds) {
     }
     std::printf(
         "approximate, %s, cells of 1/%d of the light: share of samples that differ: %s; excess: mean %f\n",
-        pattern.name, perLight, differing.text().c_str(), excess.mean());
+        limen::toText(pattern.pattern), perLight, differing.text().c_str(), excess.mean());
     RecordProperty("differing_share_" + std::to_string(perLight), differing.text());
     quads.insert(quads.end(), mesh.begin(), mesh.end());
   }
@@ -337,15 +338,17 @@ TEST_P(QuadMasks, ApproximateNeighboursShareNoSampleAcrossAnEdge) {
     ASSERT_EQ(countSet(unite(a[n], b[n])), countSet(a[n]) + countSet(b[n])) << n;
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, QuadMasks, testing::ValuesIn(kSamplePatterns),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(Patterns, QuadMasks, testing::ValuesIn(kSamplePatterns), [](const auto& instance) {
+  return std::string(limen::toText(instance.param.pattern));
+});
 
 using ConvexHull = QuadMasks;
 
 TEST_P(ConvexHull, EqualsTheMonotoneChain) {
   const SamplePattern pattern = GetParam();
   const std::vector<Quad> quads = hardQuads(pattern, 9000);
-  gl::ShaderDefines defines = {{"PATTERN", "16"}, {"TABLE_SIZE", "64"}, {"HULL", "1"}};
+  gl::ShaderDefines defines = {{"TABLE_SIZE", "64"}, {"HULL", "1"}};
+  defineSamples(defines, LightPattern::Regular16);
   defineEnum(defines, "QUAD_MASK", QuadMask::Arithmetic);
   const std::vector<int> raw = probe(quads, defines, 9);
   std::array<int, 5> sizes{};

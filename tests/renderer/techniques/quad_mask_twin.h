@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
+
 namespace limen::techniques {
 
-/// A pattern of light samples as shader and parameter name it, with its samples as the thesis defines them.
+/// A pattern of light samples, with its samples as the thesis defines them.
 struct SamplePattern {
-  const char *define, *name;
+  LightPattern pattern;
   int side;
   bool jittered;
 
@@ -24,10 +26,10 @@ struct SamplePattern {
   }
   glm::dvec2 place(int i, int j) const { return glm::dvec2(quarters(i, j)) / (4.0 * side); }
 };
-inline const std::array<SamplePattern, 4> kSamplePatterns{{{"8", "regular_8", 8, false},
-                                                           {"16", "regular_16", 16, false},
-                                                           {"32", "regular_32", 32, false},
-                                                           {"160", "jittered_16", 16, true}}};
+inline const std::array<SamplePattern, 4> kSamplePatterns{{{LightPattern::Regular8, 8, false},
+                                                           {LightPattern::Regular16, 16, false},
+                                                           {LightPattern::Regular32, 32, false},
+                                                           {LightPattern::Jittered16, 16, true}}};
 
 using Quad = std::array<glm::vec2, 4>;
 using Step = glm::i64vec2;  ///< 1/4096 of the distance between two samples

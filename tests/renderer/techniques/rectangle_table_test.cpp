@@ -26,11 +26,11 @@ class RectangleTable : public TechniqueTest, public testing::WithParamInterface<
     table.bindTexture(kRectangleMasksUnit);
     const auto count = static_cast<int>(given.size());
     const gl::Buffer in(given), out(int64_t{count} * static_cast<int64_t>(samples.size()) / 8, nullptr);
+    gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples.size())},
+                                 {"RECTANGLES", std::to_string(size)}};
+    defineEnum(defines, "SAMPLE_PLACES", SamplePlaces::Anywhere);
     const gl::Program& program =
-        context().programs().compute("tests/renderer/techniques/occlusion_mask_probe.comp.glsl",
-                                     {{"PATTERN", "0"},
-                                      {"SAMPLES", std::to_string(samples.size())},
-                                      {"RECTANGLES", std::to_string(size)}});
+        context().programs().compute("tests/renderer/techniques/occlusion_mask_readback.comp.glsl", defines);
     in.bindStorage(kMaskReadbackRectanglesBuffer);
     out.bindStorage(kMaskReadbackMasksBuffer);
     program.set("count", count);

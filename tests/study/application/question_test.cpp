@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "study/application/resting_pointer.h"
+
 namespace limen::study {
 namespace {
 
@@ -33,6 +35,54 @@ TEST(Question, YesAndNoHaveLettersArrowsAndDigits) {
   EXPECT_EQ(pressedBy(yesNo(), window::kPadLeft, window::Device::Gamepad), 0);
   EXPECT_EQ(pressedBy(yesNo(), window::kPadRight, window::Device::Gamepad), 1);
   EXPECT_FALSE(pressedBy(yesNo(), window::kKeySpace));
+}
+
+TEST(Question, OnTheOtherSideKeysGoWithWhatIsShown) {
+  const AskedHow mirrored{true};
+  Page page;
+  page.buttons = answerButtons(yesNo(), mirrored);
+  ASSERT_EQ(page.buttons.size(), 2U);
+  EXPECT_EQ(page.buttons[0].label, "no");
+  EXPECT_EQ(page.buttons[1].label, "yes");
+  EXPECT_EQ(page.buttons[0].hint, "N\u00A0or\u00A0\u2190");
+  const auto pressed = [&](int code, window::Device device = window::Device::Keyboard) {
+    return pressedButton(page, {device, code, 0, 0, 0}, {});
+  };
+  for (const int code : {int{'n'}, int{window::kKeyLeft}, int{'1'}}) EXPECT_EQ(pressed(code), 1) << code;
+  for (const int code : {int{'y'}, int{window::kKeyRight}, int{'2'}}) EXPECT_EQ(pressed(code), 0) << code;
+  EXPECT_EQ(pressed(window::kPadLeft, window::Device::Gamepad), 1);
+  EXPECT_THAT(answerHelp(yesNo(), mirrored), testing::HasSubstr("no (N\u00A0or\u00A0\u2190), yes (Y"));
+
+  const TaskSetting task = yesNo();
+  QuestionScreen screen(task, 0, mirrored);
+  screen.shown(0);
+  screen.take(key(window::kKeyLeft, kMs), {});
+  ASSERT_TRUE(screen.done());
+  EXPECT_EQ(screen.answer().answer, "no");
+}
+
+TEST(Question, StoredAnswersAreTheProtocolsAndShownOnesTheLanguages) {
+  const Words german = readWords("german", "");
+  TaskSetting task = yesNo();
+  task.labels = {german["yes"], german["no"]};
+  const std::vector<PageButton> buttons = answerButtons(task, {false, german});
+  EXPECT_EQ(buttons[0].label, "ja");
+  EXPECT_EQ(buttons[0].hint, "J\u00A0oder\u00A0\u2190");
+  QuestionScreen screen(task, 0, {false, german});
+  screen.shown(0);
+  screen.take(key('j', kMs), {});
+  EXPECT_EQ(screen.answer().answer, "yes");
+}
+
+TEST(Question, AnswersIgnoreAPointerThatRests) {
+  const TaskSetting task = yesNo();
+  EXPECT_TRUE(QuestionScreen(task, 0).ignoresRestingPointer());
+  RestingPointer pointer({100, 100}, true);
+  EXPECT_FALSE(pointer.counts({100, 100}));
+  EXPECT_FALSE(pointer.counts({102, 99})) << "the jolt of a click";
+  EXPECT_TRUE(pointer.counts({120, 100}));
+  EXPECT_TRUE(pointer.counts({100, 100})) << "once moved it may come back";
+  EXPECT_TRUE(RestingPointer({100, 100}, false).counts({100, 100}));
 }
 
 TEST(Question, LettersFollowTheWords) {

@@ -51,6 +51,7 @@ class Export : public testing::Test {
         block{1, "main", "main", false, 1};
     store::StudyEntry started;
     started.event = {0, "started", "2026-03-01T12:00:00.000Z", 10 * kSecond, json::object()};
+    started.event.data["answers_from_the_left"] = {{"main", {"no", "yes"}}};
     started.form = json{{"age", "34"}, {"vision", "normal"}};
     const int64_t id = log.start(session, {"p0", "quick", "quick.yaml", "A title", "title: A title"},
                                  {"d0", "desk", "name: desk", json::object()},
@@ -68,7 +69,10 @@ class Export : public testing::Test {
       row.part = "main";
       row.block = isPractice ? 0 : 1;
       row.condition = {{"distance", "4"}};
-      row.stimuli = json::array({json::object()});
+      // Practice changed, the others showed either level throughout.
+      row.stimuli = json::array({{{"changes", isPractice},
+                                  {"catch_shows_after", attempt == 1},
+                                  {"levels", {{"before", 3}, {"after", 0}}}}});
       row.stimulusHashes = {"abc"};
       row.practice = isPractice;
       row.seed = 7417417417;
@@ -76,6 +80,14 @@ class Export : public testing::Test {
       begun.begun = row;
       ended.event = {++number, valid ? "answered" : "trial_invalid", "2026-03-01T12:00:02.000Z",
                      endS * kSecond, json::object()};
+      if (markers_)
+        ended.event.data = {{"trial", trial},
+                            {"attempt", attempt},
+                            {"markers",
+                             {{{"marker", "stimulus"},
+                               {"code", 1},
+                               {"due_ns", startS * kSecond + kSecond / 2},
+                               {"sent_ns", startS * kSecond + kSecond / 2 + kSecond / 1000}}}}};
       store::StudyTrialEnd end{trial, attempt, valid, valid ? "" : "2 missed frames", {}, {}};
       if (valid) {
         store::StudyResponse response;
@@ -145,6 +157,7 @@ class Export : public testing::Test {
   fs::path folder_;
   std::string store_;
   uint64_t seed_ = 18446744073709551615U;
+  bool markers_ = false;  ///< sessions were run with a recorder
 };
 
 TEST_F(Export, CsvHasARowForEveryShowing) {
@@ -170,6 +183,9 @@ TEST_F(Export, CsvHasARowForEveryShowing) {
   EXPECT_THAT(cells("reaction_time_s"), ElementsAre("0.25", "", "0.25"));
   EXPECT_THAT(cells("missed_blanks"), ElementsAre("0", "2", "0"));
   EXPECT_THAT(cells("condition_distance"), ElementsAre("4", "4", "4"));
+  EXPECT_THAT(cells("shown"), ElementsAre("change", "before", "after"));
+  EXPECT_THAT(cells("levels"), ElementsAre("3>0", "3", "0"));
+  EXPECT_THAT(cells("answers_from_the_left"), ElementsAre("no | yes", "no | yes", "no | yes"));
   const auto frames = parse(read(folder_ / "out/frames.csv"), ',');
   ASSERT_EQ(frames.size(), 6u);
   EXPECT_EQ(frames[3].at("swap_s"), "0.25");
@@ -180,7 +196,34 @@ TEST_F(Export, CsvHasARowForEveryShowing) {
   EXPECT_EQ(people[0].at("vision"), "normal");
 }
 
+TEST_F(Export, MarkersComeWithTheirTimes) {
+  addSession("anna", "1");
+  writeExport(request("without", {ExportFormat::Csv}));
+  EXPECT_FALSE(fs::exists(folder_ / "without/markers.csv"));
+  markers_ = true;
+  addSession("anna", "2");
+  writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
+  const auto rows = parse(read(folder_ / "out/csv/markers.csv"), ',');
+  ASSERT_EQ(rows.size(), 3u);
+  // The session began at 10 s of the clock, its trials at 11, 14 and 16 s.
+  const double due[] = {1.5, 4.5, 6.5};
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(std::stod(rows[i].at("due_s")), due[i], 1e-9);
+    EXPECT_NEAR(std::stod(rows[i].at("sent_s")), due[i] + 0.001, 1e-9);
+    EXPECT_EQ(rows[i].at("marker"), "stimulus");
+    EXPECT_EQ(rows[i].at("code"), "1");
+    EXPECT_EQ(rows[i].at("session"), "2");
+  }
+  EXPECT_EQ(rows[2].at("attempt"), "1");
+  const std::string subject = subjectOf("anna");
+  EXPECT_TRUE(
+      fs::exists(folder_ / "out/bids/sourcedata" / ("sub-" + subject + "_ses-2_task-quick_markers.tsv")));
+  EXPECT_TRUE(fs::exists(folder_ / "out/psych_ds/data" /
+                         ("study-quick_subject-" + subject + "_session-2_description-markers_data.csv")));
+}
+
 TEST_F(Export, EveryColumnIsInTheDictionaries) {
+  markers_ = true;
   addSession("anna", "1");
   addSession("bert", "1");
   writeExport(request("out", {ExportFormat::Csv, ExportFormat::Bids, ExportFormat::PsychDs}));
@@ -226,7 +269,11 @@ TEST_F(Export, BidsHasWhatTheStandardRequires) {
   const auto rows = parse(events, '\t');
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[1].at("answer"), "n/a");
-  EXPECT_EQ(json::parse(read(folder_ / "out" / (stem + ".json")))["TaskName"], "quick");
+  // BIDS 1.9, "Task events": a sidecar of events describes columns, each by an object; what is said of a task
+  // is in a file for all that has its label.
+  for (const auto& [column, about] : json::parse(read(folder_ / "out" / (stem + ".json"))).items())
+    EXPECT_TRUE(about.is_object()) << column;
+  EXPECT_EQ(json::parse(read(folder_ / "out/task-quick_beh.json"))["TaskName"], "quick");
   EXPECT_EQ(parse(read(folder_ / "out/participants.tsv"), '\t')[0].at("participant_id"), sub);
 }
 

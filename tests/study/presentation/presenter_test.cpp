@@ -100,6 +100,22 @@ TEST(Presenter, AFrameThatStaysTooLongMakesTheTrialInvalid) {
   EXPECT_EQ(showOn(display).reason, "1 frame shown too briefly");
 }
 
+TEST(Presenter, MarksStimuliAndTheChangeAtTheirSwaps) {
+  std::vector<std::pair<MarkerKind, int64_t>> marks;
+  PresenterSetting setting;
+  setting.mark = [&](MarkerKind kind, int64_t swapNs) { marks.emplace_back(kind, swapNs); };
+  const Shown shown = showOn({}, setting);
+  ASSERT_EQ(shown.frames.size(), 24U);
+  ASSERT_EQ(marks.size(), 5U);
+  const MarkerKind kinds[] = {MarkerKind::Stimulus, MarkerKind::StimulusEnd, MarkerKind::Stimulus,
+                              MarkerKind::Change, MarkerKind::StimulusEnd};
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(marks[i].first, kinds[i]) << i;
+  EXPECT_EQ(marks[0].second, shown.frames[0].swapNs);
+  EXPECT_EQ(marks[2].second, shown.frames[12].swapNs);
+  EXPECT_EQ(marks[3].second, shown.frames[18].swapNs) << "the seventh frame of the second interval";
+  EXPECT_EQ(marks[4].second, shown.endNs) << "the frame that takes the last picture away";
+}
+
 TEST(Presenter, AnotherRateThanTheSchedulesIsInvalid) {
   VirtualDisplay display;
   display.refreshHz = 75.0;

@@ -9,10 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "experiments/base/program.h"
 #include "perception/psychometrics/random.h"
 #include "study/procedures/procedure.h"
 
-int main() {
+namespace {
+
+int measureSteps() {
   using Clock = std::chrono::steady_clock;
   const auto milliseconds = [](Clock::time_point from) {
     return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
@@ -47,4 +50,15 @@ int main() {
         "(medians of {}; worst {:.3f} and {:.3f} ms)\n",
         nuisance, tables, choices[n / 2], updates[n / 2], n, choices.back(), updates.back());
   }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Time of one QUEST+ trial: choosing the stimulus and taking the answer.",
+               "procedures_benchmark");
+  int exitCode = 0;
+  app.callback([&] { exitCode = measureSteps(); });
+  return limen::runProgram(app, argc, argv, exitCode);
 }

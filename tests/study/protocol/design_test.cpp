@@ -231,6 +231,44 @@ TEST(Design, CrossesOrdersOfPartsAndBlocks) {
   EXPECT_EQ(orderOf(18), orderOf(0));
 }
 
+TEST(Design, SidesOfAnswersAlternateAndAreCrossedWithLatinOrders) {
+  // Six rows, an even number: sides by the parity of the participant would always go with the same rows.
+  for (const std::string levels : {"[a, b, c, d, e, f]", "[a, b, c]", "[a]"}) {
+    const Protocol protocol = exampleProtocol(kYesNo + kBox + "factors: {kind: " + levels +
+                                              "}\nblocks: {by: kind, order: latin}\n");
+    const int rows = static_cast<int>(protocol.parts[0].blockLevels.size());
+    std::set<std::pair<std::string, bool>> combinations;
+    int mirrored = 0;
+    for (int participant = 0; participant < 2 * rows; ++participant) {
+      const Design design = makeDesign(protocol, 1, participant);
+      combinations.emplace(design.blocks[0].name, design.answersMirrored);
+      mirrored += design.answersMirrored ? 1 : 0;
+      if (participant < rows) {
+        EXPECT_EQ(design.answersMirrored, participant % 2 == 1) << levels;
+      }
+    }
+    EXPECT_EQ(mirrored, rows) << levels;
+    EXPECT_EQ(combinations.size(), static_cast<size_t>(2 * rows)) << levels;
+  }
+}
+
+TEST(Design, SidesOfAnswersAreAsTheProtocolDeclares) {
+  const auto left = [](const std::string& setting, int participant) {
+    const Protocol protocol =
+        exampleProtocol("task: {type: yes_no, question: \"Seen?\"" + setting + "}\n" + kBox);
+    return answersShown(protocol.parts[0].task, makeDesign(protocol, 1, participant).answersMirrored).front();
+  };
+  EXPECT_EQ(left("", 0), 0U);
+  EXPECT_EQ(left("", 1), 1U) << "counterbalanced is the default";
+  for (int participant = 0; participant < 2; ++participant) {
+    EXPECT_EQ(left(", answer_sides: as_written", participant), 0U);
+    EXPECT_EQ(left(", answer_sides: reversed", participant), 1U);
+  }
+  // Left and right, first and second stay where they belong.
+  const Protocol places = exampleProtocol("task: {type: alternative, question: \"Where?\"}\n" + kBox);
+  EXPECT_EQ(answersShown(places.parts[0].task, true), (std::vector<size_t>{0, 1}));
+}
+
 TEST(Design, WilliamsOrderOfTrials) {
   const Protocol protocol =
       exampleProtocol(kYesNo + kBox + "factors: {distance: [1, 2, 3, 4]}\norder: williams\n");

@@ -217,5 +217,18 @@ TEST(Mistakes, ALiteralMistakeIsSaidOnceHoweverManyConditions) {
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 2) << message;
 }
 
+TEST(ProtocolMarkers, AreBytesThatDiffer) {
+  const MarkerCodes given = {10, 2, 0, 0, 255};
+  EXPECT_EQ(
+      exampleProtocol(kYesNo + kBox + "markers: {stimulus: 10, stimulus_end: 0, question: 0, answer: 255}\n")
+          .markers,
+      given);
+  EXPECT_THAT(refusal(protocolText(kYesNo + kBox + "markers: {stimulus: 2}\n")),
+              testing::HasSubstr("'stimulus' and 'change' have the code 2"));
+  EXPECT_THAT(refusal(protocolText(kYesNo + kBox + "markers: {stimulus: 256}\n")), testing::HasSubstr("255"));
+  EXPECT_THAT(refusal(protocolText(kYesNo + kBox + "markers: {stimuli: 1}\n")),
+              testing::HasSubstr("'stimulus'"));
+}
+
 }  // namespace
 }  // namespace limen::study

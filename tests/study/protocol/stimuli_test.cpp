@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -84,6 +87,123 @@ TEST(Stimuli, TheTargetAloneChanges) {
     ASSERT_EQ(stimuli.size(), 3U);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(stimuli[static_cast<size_t>(i)].changes, i == trial.target);
   }
+}
+
+/// Unchanged stimuli of the session's trials by what they show: {before, after}.
+std::pair<int, int> unchanged(const Protocol& protocol, const std::vector<PlannedTrial>& trials) {
+  std::pair<int, int> out;
+  for (const PlannedTrial& trial : trials)
+    for (const Stimulus& stimulus : stimuliOf(protocol, trial))
+      if (!stimulus.changes) ++(stimulus.catchShowsAfter ? out.second : out.first);
+  return out;
+}
+
+TEST(Stimuli, HalfOfTheCatchTrialsShowEachLevelInEveryCondition) {
+  const Protocol protocol =
+      exampleProtocol(kYesNo + kBox + "factors: {kind: [a, b, c]}\ntrials: {change: 2, catch: 4}\n");
+  std::set<std::string> orders;
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    std::map<std::string, std::vector<PlannedTrial>> conditions;
+    std::string order;
+    const Design design = makeDesign(protocol, seed, 0);
+    for (const PlannedTrial& trial : design.blocks[0].trials) {
+      conditions[trial.condition.at("kind")].push_back(trial);
+      if (!trial.change) order += stimuliOf(protocol, trial)[0].catchShowsAfter ? 'a' : 'b';
+    }
+    for (const auto& [name, trials] : conditions)
+      EXPECT_EQ(unchanged(protocol, trials), std::pair(2, 2)) << name << ", seed " << seed;
+    orders.insert(order);
+  }
+  EXPECT_GT(orders.size(), 8U) << "which ones is not to be foreseen";
+}
+
+TEST(Stimuli, SingleCatchTrialsOfConditionsAreBalancedWithinTheBlock) {
+  const Protocol protocol = exampleProtocol(kYesNo + kBox +
+                                            "factors: {kind: [a, b, c, d, e], where: [x, y]}\nblocks: {by: "
+                                            "where, order: fixed}\ntrials: {catch: 1}\n");
+  std::set<std::string> sidesOfFirst;
+  for (uint64_t seed = 0; seed < 20; ++seed)
+    for (const PlannedBlock& block : makeDesign(protocol, seed, 0).blocks) {
+      const auto [before, after] = unchanged(protocol, block.trials);
+      EXPECT_EQ(before + after, 5);
+      EXPECT_LE(std::abs(before - after), 1);
+      sidesOfFirst.insert(before > after ? "before" : "after");
+    }
+  EXPECT_EQ(sidesOfFirst.size(), 2U) << "the odd one is drawn";
+}
+
+TEST(Stimuli, CatchTrialsOfProceduresAndPracticeAreBalancedToo) {
+  const Protocol protocol = exampleProtocol(kYesNo + R"(stimulus:
+  scene: {name: box, distance: = 1 / nearness}
+  levels: {before: 1, after: 0}
+procedure: {type: constant, stimulus: {name: nearness, values: [0.05, 0.25]}, repetitions: 10}
+trials: {catch: 6}
+practice: {trials: 8, stimuli: [{nearness: 0.1}]}
+)");
+  const Design design = makeDesign(protocol, 5, 0);
+  ASSERT_EQ(design.blocks.size(), 2U);
+  for (const PlannedBlock& block : design.blocks) {
+    int before = 0, after = 0;
+    for (const PlannedTrial& trial : block.trials)
+      if (!trial.change)
+        ++(stimuliOf(protocol, trial, {{"nearness", 0.1}})[0].catchShowsAfter ? after : before);
+    EXPECT_LE(std::abs(before - after), 1) << block.name;
+    EXPECT_EQ(before + after, block.practice ? 2 : 6);
+  }
+}
+
+TEST(Stimuli, UnchangedIntervalsShowBothLevelsEquallyOften) {
+  for (const int alternatives : {2, 3}) {
+    const Protocol protocol =
+        exampleProtocol("task: {type: interval, alternatives: " + std::to_string(alternatives) +
+                        ", question: \"Which?\"}\n" + kBox + "trials: {change: 12}\n");
+    const Design design = makeDesign(protocol, 1, 0);
+    const int each = 12 * (alternatives - 1) / 2;
+    EXPECT_EQ(unchanged(protocol, design.blocks[0].trials), std::pair(each, each));
+    // Of several in a trial one shows each, so that the changing one is not the odd one out at either end.
+    if (alternatives == 3) {
+      for (const PlannedTrial& trial : design.blocks[0].trials)
+        EXPECT_EQ(unchanged(protocol, {trial}), std::pair(1, 1));
+    }
+  }
+}
+
+TEST(Stimuli, WhatCatchTrialsShowCanBeChosen) {
+  const auto shown = [](const std::string& levels, const std::string& setting) {
+    const Protocol protocol =
+        exampleProtocol(kYesNo + "stimulus: {scene: {name: box}, levels: " + levels +
+                        ", catch_shows: " + setting + "}\ntrials: {change: 1, catch: 4}\n");
+    return unchanged(protocol, makeDesign(protocol, 1, 0).blocks[0].trials);
+  };
+  const std::pair allBefore(4, 0), allAfter(0, 4);
+  EXPECT_EQ(shown("{before: 1, after: 0}", "before"), allBefore);
+  EXPECT_EQ(shown("{before: 1, after: 0}", "after"), allAfter);
+  // Level 0 is the finest.
+  EXPECT_EQ(shown("{before: 1, after: 0}", "coarse"), allBefore);
+  EXPECT_EQ(shown("{before: 1, after: 0}", "fine"), allAfter);
+  EXPECT_EQ(shown("{before: 0, after: 2}", "coarse"), allAfter);
+  EXPECT_EQ(shown("{before: 0, after: 2}", "fine"), allBefore);
+  EXPECT_EQ(shown("{before: 1, after: 0}", "balanced"), std::pair(2, 2));
+}
+
+TEST(Stimuli, OfTechniquesNoneIsCoarse) {
+  EXPECT_THAT(refusal(protocolText(kYesNo + R"(stimulus:
+  scene: {name: box}
+  before: {name: fast}
+  after: {name: exact}
+  catch_shows: coarse
+)")),
+              testing::AllOf(testing::HasSubstr("test.yaml:6:"), testing::HasSubstr("'catch_shows: coarse'"),
+                             testing::HasSubstr("before, after or balanced")));
+}
+
+TEST(Stimuli, APlanOfAnEarlierVersionShowsWhatItShowed) {
+  const Protocol protocol = exampleProtocol(kYesNo + kBox + "trials: {change: 2, catch: 4}\n");
+  Design design = makeDesign(protocol, 3, 1);
+  EXPECT_TRUE(design.answersMirrored);
+  asPlannedBefore(design, 1);
+  EXPECT_EQ(unchanged(protocol, design.blocks[0].trials), std::pair(4, 0));
+  EXPECT_FALSE(design.answersMirrored);
 }
 
 TEST(Stimuli, ItemsStandWhereThePlanSays) {

@@ -96,6 +96,46 @@ TEST(Replay, EventsThatCannotFollowAreRefusedWithWhatWasDue) {
   EXPECT_THAT(applyAll(early), HasSubstr("comes too early"));
 }
 
+// A session of the version before plans had one: its log has neither, and its catch trials showed the state
+// before the change.
+TEST(Replay, ASessionOfAnEarlierPlanIsReplayedAsItBegan) {
+  const Protocol protocol = smallProtocol(3, 4);
+  std::vector<std::string> hashes;
+  const Design design = makeDesign(protocol, 5, 1);
+  for (const PlannedTrial& trial : design.blocks[0].trials) {
+    PlannedTrial old = trial;
+    old.unchangedShowsAfter.reset();
+    hashes.push_back(stimulusHash(stimuliOf(protocol, old)[0]));
+  }
+  TestClock clock;
+  ScriptedFrontEnd frontEnd(protocol);
+  std::vector<Event> events;
+  runInMemory(protocol, 5, 1, frontEnd, clock, events);
+  size_t trial = 0;
+  for (Event& event : events) {
+    if (event.kind == EventKind::TrialStarted) event.data["stimulus_hashes"] = {hashes.at(trial++)};
+    if (event.kind != EventKind::Started) continue;
+    EXPECT_EQ(planVersionOf(event.data), kPlanVersion);
+    EXPECT_EQ(event.data.at("answers_from_the_left").at("main"), (nlohmann::json{"no", "yes"}))
+        << "participant 1";
+    event.data.erase("plan_version");
+    event.data.erase("answers_from_the_left");
+  }
+  const auto applyAll = [&](int version) {
+    return errorOf([&] {
+      Session session(protocol, 5, 1, version);
+      for (const Event& event : events) session.apply(event);
+    });
+  };
+  EXPECT_EQ(planVersionOf(events[0].data), 1);
+  EXPECT_EQ(applyAll(1), "no error");
+  EXPECT_THAT(applyAll(kPlanVersion), HasSubstr("has another version of the plan"));
+  EXPECT_THAT(errorOf([] {
+                planVersionOf({{"plan_version", kPlanVersion + 1}});
+              }),
+              HasSubstr("newer version"));
+}
+
 TEST(Replay, KindsOfEventsHaveNames) {
   for (int kind = 0; kind <= static_cast<int>(EventKind::Finished); ++kind)
     EXPECT_EQ(eventKind(toText(static_cast<EventKind>(kind))), static_cast<EventKind>(kind));

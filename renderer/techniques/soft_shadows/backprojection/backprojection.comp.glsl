@@ -31,7 +31,7 @@ void hideBehindPlane(vec4 p) {}
 #endif
 void accumulate(vec2 low, vec2 high) { occludedArea += (high.x - low.x) * (high.y - low.y); }
 
-// Clamped in an order that turns a NaN, were there one, into a bound.
+// Clamped in an order that turns a NaN into a bound.
 vec2 clampToLight(vec2 s) { return min(max(s, vec2(0.0)), vec2(1.0)); }
 
 // Both triangles' signed areas at once; along which diagonal they are cut does not matter. Clamping moves a corner the

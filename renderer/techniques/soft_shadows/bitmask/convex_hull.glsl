@@ -10,7 +10,7 @@ const int kSteps = 4096;  // between two samples
 const float kFarthest = 2048.0;  // light's extents; 2^28 steps where 32 samples lie along it
 
 ivec2 toSteps(vec2 place, int side) {
-  // In an order that turns a NaN, were there one, into a bound.
+  // In an order that turns a NaN into a bound.
   const vec2 bounded = min(max(place, vec2(-1e30)), vec2(1e30)), fromCentre = bounded - 0.5;
   const float farthest = max(abs(fromCentre.x), abs(fromCentre.y));
   const vec2 pulled = farthest > kFarthest ? fromCentre * (kFarthest / farthest) + 0.5 : bounded;

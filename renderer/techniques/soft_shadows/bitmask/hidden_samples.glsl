@@ -2,7 +2,7 @@
 // Samples of the light behind the receiver's own plane, which shadow maps say nothing of. Needs shadow_lookup.glsl and
 // occlusion_mask.glsl, mask_rows.glsl.
 #ifdef BIAS_PLANE
-#if PATTERN == 0
+#if SAMPLE_PLACES == SAMPLE_PLACES_ANYWHERE
 // As the strips of a table of rectangles that lie behind the plane at their middles.
 void hideSamplesBehind(vec2 perUnit, float limit) {
   const float steps = float(RECTANGLES);
@@ -24,7 +24,7 @@ uint rowBehind(vec2 perUnit, float limit, float y, float offsetX) {
 
 void hideSamplesBehind(vec2 perUnit, float limit) {
   for (int j = 0; j < kSamplesAlong; ++j) {
-#if PATTERN == 160
+#if SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
     const float offsetX = (j & 1) == 0 ? 0.25 : 0.75;
     const uint even = rowBehind(perUnit, limit, (float(j) + 0.75) / 16.0, offsetX),
                odd = rowBehind(perUnit, limit, (float(j) + 0.25) / 16.0, offsetX);

@@ -43,7 +43,7 @@ void addQuadToMask(vec2 cornerA, vec2 cornerB, vec2 cornerC, vec2 cornerD) {
   const ivec2 a = toSteps(cornerA, kSamplesAlong), b = toSteps(cornerB, kSamplesAlong), c = toSteps(cornerC, kSamplesAlong),
               d = toSteps(cornerD, kSamplesAlong);
   const ivec2 low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
-#if PATTERN == 160
+#if SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
   const int kFirst = kSteps / 4, kLast = 3 * kSteps / 4;
 #else
   const int kFirst = kSteps / 2, kLast = kSteps / 2;
@@ -54,7 +54,7 @@ void addQuadToMask(vec2 cornerA, vec2 cornerB, vec2 cornerC, vec2 cornerD) {
   if (!convexHull(a, b, c, d, hull)) return;
   for (int j = firstRow; j < endRow; ++j) {
     const int height = j * kSteps;
-#if PATTERN == 160
+#if SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
     const int offset = (j & 1) == 0 ? kFirst : kLast;
     const uint even = rowWithin(hull, height + kLast, offset), odd = rowWithin(hull, height + kFirst, offset);
     addRow(j, joinedColumns(even, odd));

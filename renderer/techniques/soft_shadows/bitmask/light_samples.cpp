@@ -2,7 +2,9 @@
 #include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 
 #include <bit>
+#include <cmath>
 #include <random>
+#include <string>
 
 #include "experiments/base/error.h"
 
@@ -58,19 +60,15 @@ std::vector<glm::dvec2> stratified(int side, int64_t seed) {
 
 bool isGridPattern(LightPattern pattern) { return pattern <= LightPattern::Jittered16; }
 
-std::string patternDefine(LightPattern pattern) {
-  switch (pattern) {
-    case LightPattern::Regular8:
-      return "8";
-    case LightPattern::Regular16:
-      return "16";
-    case LightPattern::Regular32:
-      return "32";
-    case LightPattern::Jittered16:
-      return "160";
-    default:
-      return "0";
-  }
+void defineSamples(gl::ShaderDefines& defines, LightPattern pattern) {
+  const size_t samples = lightSamples(pattern).size();
+  defines["SAMPLES"] = std::to_string(samples);
+  if (isGridPattern(pattern))
+    defines["SAMPLES_ALONG"] = std::to_string(std::lround(std::sqrt(static_cast<double>(samples))));
+  defineEnum(defines, "SAMPLE_PLACES",
+             !isGridPattern(pattern)               ? SamplePlaces::Anywhere
+             : pattern == LightPattern::Jittered16 ? SamplePlaces::JitteredGrid
+                                                   : SamplePlaces::Grid);
 }
 
 std::vector<glm::dvec2> lightSamples(LightPattern pattern, int64_t seed) {

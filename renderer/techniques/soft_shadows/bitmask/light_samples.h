@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <string>
 #include <vector>
 
 #include "experiments/base/enum_names.h"
+#include "renderer/gl/shader_source.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::techniques {
@@ -36,6 +36,18 @@ constexpr EnumNames<LightPattern, 9> enumNames(LightPattern) {
             {LightPattern::Halton256, "halton_256"}}}};
 }
 
+/// Where the samples lie, which decides how masks of rectangles are made.
+enum class SamplePlaces {
+  Grid,          ///< at the centres of a grid's cells
+  JitteredGrid,  ///< on a grid, rotated in pairs
+  Anywhere       ///< masks come from a table
+};
+constexpr EnumNames<SamplePlaces, 3> enumNames(SamplePlaces) {
+  return {{{{SamplePlaces::Grid, "grid"},
+            {SamplePlaces::JitteredGrid, "jittered_grid"},
+            {SamplePlaces::Anywhere, "anywhere"}}}};
+}
+
 /// Patterns on grids, for techniques without tables.
 enum class GridPattern { Regular8, Regular16, Regular32, Jittered16 };
 constexpr EnumNames<GridPattern, 4> enumNames(GridPattern) {
@@ -50,8 +62,8 @@ inline LightPattern lightPattern(GridPattern pattern) {
 
 /// True if masks of rectangles are computed; for other patterns they come from a table.
 bool isGridPattern(LightPattern pattern);
-/// PATTERN of occlusion_mask.glsl.
-std::string patternDefine(LightPattern pattern);
+/// What occlusion_mask.glsl has to know of a pattern: SAMPLE_PLACES, SAMPLES and, on grids, SAMPLES_ALONG.
+void defineSamples(gl::ShaderDefines& defines, LightPattern pattern);
 
 /// Positions of a pattern's light samples in unit light coordinates, in the order of the mask's bits; a
 /// multiple of 32, at most 1024. Grids come in rows of ascending y, each with ascending x. `seed` applies to

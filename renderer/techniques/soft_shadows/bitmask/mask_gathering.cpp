@@ -18,10 +18,9 @@ constexpr const char *kTables = "soft_shadows/mask_tables", *kKept = "soft_shado
 
 /// Number and positions of the samples.
 gl::ShaderDefines sampleDefines(const SampleChoice& samples) {
-  gl::ShaderDefines defines = {{"PATTERN", patternDefine(samples.pattern)}};
-  if (isGridPattern(samples.pattern)) return defines;
-  defines["SAMPLES"] = std::to_string(lightSamples(samples.pattern).size());
-  defines["RECTANGLES"] = std::to_string(samples.rectangleTable);
+  gl::ShaderDefines defines;
+  defineSamples(defines, samples.pattern);
+  if (!isGridPattern(samples.pattern)) defines["RECTANGLES"] = std::to_string(samples.rectangleTable);
   return defines;
 }
 

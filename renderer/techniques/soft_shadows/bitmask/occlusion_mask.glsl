@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bit for each light sample, set once an occluder covers the sample. Schwarz 2009, section 4.2.
-// PATTERN: 8, 16 or 32 for a regular grid of that many samples a side; 160 for the jittered 16 x 16 grid; 0 for SAMPLES
-// that lie anywhere, whose masks stand in a table of RECTANGLES steps on either axis (rectangle_table.h).
+// SAMPLE_PLACES: a grid of SAMPLES_ALONG samples a side, the jittered 16 x 16 grid, or SAMPLES that lie anywhere, whose
+// masks are read from a table of RECTANGLES steps on either axis (rectangle_table.h).
 //
 // A rectangle (x0, y0, x1, y1) covers the samples with x0 < s <= x1 and likewise in y, so rectangles that share an
 // edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4); here the fraction is compared instead,
 // because that sum rounds, and a bound just below a sample would then count as on it.
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
-#if PATTERN == 0
 #define MASK_WORDS (SAMPLES / 32)
-#elif PATTERN == 8
-#define MASK_WORDS 2
-#define SAMPLES 64
-#elif PATTERN == 32
-#define MASK_WORDS 32
-#define SAMPLES 1024
-#else
-#define MASK_WORDS 8
-#define SAMPLES 256
-#endif
 
 uint mask[MASK_WORDS];
 
@@ -53,7 +42,7 @@ ivec2 samplesUpTo(vec2 v, float n, float offset) {
   return ivec2(whole) + ivec2(greaterThanEqual(scaled - whole, vec2(offset)));
 }
 
-#if PATTERN == 0
+#if SAMPLE_PLACES == SAMPLE_PLACES_ANYWHERE
 layout(binding = kRectangleMasksUnit) uniform usampler2DArray rectangleMasks;
 
 // Bounds are rounded to the table's steps, those of two rectangles at one edge alike.
@@ -66,37 +55,36 @@ void addToMask(vec2 low, vec2 high) {
     for (int i = 0; i < 4; ++i) mask[4 * layer + i] |= inside[i];
   }
 }
-#elif PATTERN == 160
+#elif SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
 // Sample (i, j) at x = (i + (j even ? 1/4 : 3/4)) / 16, y = (j + (i even ? 3/4 : 1/4)) / 16.
 void addToMask(vec2 low, vec2 high) {
   const ivec2 lowQuarter = samplesUpTo(low, 16.0, 0.25), highQuarter = samplesUpTo(high, 16.0, 0.25);
   const ivec2 lowThird = samplesUpTo(low, 16.0, 0.75), highThird = samplesUpTo(high, 16.0, 0.75);
   // Even rows have x offset 1/4, odd rows 3/4: one word holds an even row and the odd row above it.
   const uint columns = bitRange(lowQuarter.x, highQuarter.x) | (bitRange(lowThird.x, highThird.x) << 16);
-  const uint rowsEvenColumn = bitRange(lowThird.y, highThird.y), rowsOddColumn = bitRange(lowQuarter.y, highQuarter.y);
+  // Two bits a row: whether its even columns' samples lie within, then its odd ones'.
+  const uint rows = (bitRange(2 * lowThird.y, 2 * highThird.y) & 0x55555555u) |
+                    (bitRange(2 * lowQuarter.y, 2 * highQuarter.y) & 0xaaaaaaaau);
   for (int k = 0; k < 8; ++k) {
-    const uint even = rowsEvenColumn >> (2 * k), odd = rowsOddColumn >> (2 * k);
-    const uint pair = (even & 1u) | ((odd & 1u) << 1) | ((even & 2u) << 15) | ((odd & 2u) << 16);
+    // Of rows 2 k and 2 k + 1: each one's two bits to the lowest of its half, then to all columns of their kind.
+    const uint pair = (bitfieldExtract(rows, 4 * k, 4) * 0x4001u) & 0x00030003u;
     mask[k] |= (pair * 0x5555u) & columns;
   }
 }
 #else
 void addToMask(vec2 low, vec2 high) {
-  const ivec2 first = samplesUpTo(low, float(PATTERN), 0.5), end = samplesUpTo(high, float(PATTERN), 0.5);
+  const ivec2 first = samplesUpTo(low, float(SAMPLES_ALONG), 0.5), end = samplesUpTo(high, float(SAMPLES_ALONG), 0.5);
   const uint columns = bitRange(first.x, end.x), rows = bitRange(first.y, end.y);
-#if PATTERN == 32
-  for (int j = 0; j < 32; ++j) mask[j] |= columns & (0u - ((rows >> j) & 1u));
-#elif PATTERN == 16
-  for (int k = 0; k < 8; ++k) {
-    const uint pair = rows >> (2 * k);
-    mask[k] |= columns * ((pair & 1u) | ((pair & 2u) << 15));
-  }
+#if SAMPLES_ALONG == 32
+  for (int j = 0; j < 32; ++j) mask[j] |= columns & (0u - bitfieldExtract(rows, j, 1));
+#elif SAMPLES_ALONG == 16
+  // Spreads two bits to the lowest of either half.
+  for (int k = 0; k < 8; ++k)
+    mask[k] |= columns * ((bitfieldExtract(rows, 2 * k, 2) * 0x8001u) & 0x00010001u);
 #else
-  for (int k = 0; k < 2; ++k) {
-    const uint four = (rows >> (4 * k)) & 15u;
-    // Spreads bits 0..3 to the lowest bit of each byte.
-    mask[k] |= columns * ((four * 0x00204081u) & 0x01010101u);
-  }
+  // Spreads four bits to the lowest of each byte.
+  for (int k = 0; k < 2; ++k)
+    mask[k] |= columns * ((bitfieldExtract(rows, 4 * k, 4) * 0x00204081u) & 0x01010101u);
 #endif
 }
 #endif

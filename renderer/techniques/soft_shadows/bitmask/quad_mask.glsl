@@ -4,7 +4,7 @@
 #if QUAD_MASK == QUAD_MASK_APPROXIMATE
 // Bounds at the middles of the edges of the quad clamped to the light. Neighbours that share an edge share that bound.
 void addQuadToMask(vec2 a, vec2 b, vec2 c, vec2 d) {
-  // Clamped in an order that turns a NaN, were there one, into a bound.
+  // Clamped in an order that turns a NaN into a bound.
   a = min(max(a, vec2(0.0)), vec2(1.0));
   b = min(max(b, vec2(0.0)), vec2(1.0));
   c = min(max(c, vec2(0.0)), vec2(1.0));

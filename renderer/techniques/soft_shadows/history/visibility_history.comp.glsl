@@ -43,7 +43,7 @@ Past findPast(ivec2 pixel, vec3 normal, float depth) {
 #endif
   const vec2 corner = floor(then), share = then - corner;
   Past past = Past(0.0, false);
-  // Beside or behind the eye of that time.
+  // Beside or behind the eye at that time.
   if (hasPast == 0 || expectedDepth <= 0.0) return past;
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {

@@ -35,7 +35,7 @@ void addTile(vec2 low, vec2 high, float z, vec4 p) {
   const float projectionScaleOfTile = z / (p.z - z) * p.z;
   const vec2 centre = p.xy / p.z;
   const vec2 from = projectionScaleOfTile * (low - centre) / lightSize + 0.5, to = projectionScaleOfTile * (high - centre) / lightSize + 0.5;
-  // In an order that turns a NaN, were there one, into a bound.
+  // In an order that turns a NaN into a bound.
   const vec2 a = min(max(from, vec2(0.0)), vec2(1.0)), b = min(max(to, vec2(0.0)), vec2(1.0));
   ++occluderCount;
   if (!(a.x < b.x && a.y < b.y)) return;

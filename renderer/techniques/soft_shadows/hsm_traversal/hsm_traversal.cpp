@@ -78,7 +78,7 @@ gl::ShaderDefines traversalDefines(const TraversalSettings& settings) {
   gl::ShaderDefines defines;
   if (const auto* mask = std::get_if<JoinedMask>(&settings.accumulation)) {
     defines["BITMASK"] = "1";
-    defines["PATTERN"] = patternDefine(lightPattern(mask->pattern));
+    defineSamples(defines, lightPattern(mask->pattern));
   }
   if (settings.blocks != BlockDepth::None) {
     defines["BLOCKS"] = "1";

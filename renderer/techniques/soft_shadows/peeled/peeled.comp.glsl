@@ -83,7 +83,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
       const vec2 low = tangentLow + vec2(x, y) * perTexel;
       const vec2 thrown = z / (p.z - z) * p.z / lightSize;
       const vec2 start = thrown * (low - centre) + 0.5, end = thrown * (low + perTexel - centre) + 0.5;
-      // In an order that turns a NaN, were there one, into a bound.
+      // In an order that turns a NaN into a bound.
       const vec2 a = min(max(start, vec2(0.0)), vec2(1.0)), b = min(max(end, vec2(0.0)), vec2(1.0));
       if (!(a.x < b.x && a.y < b.y)) continue;
       ++usedCount;

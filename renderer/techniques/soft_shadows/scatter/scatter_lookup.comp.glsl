@@ -53,7 +53,7 @@ void main() {
   float visibility = 1.0;
   uint pixelClass = kNotReceiver;
   if (p.w >= 0.0) {
-    // Casters receive nothing: that is the method's price.
+    // Casters receive no shadow: a limit of the method.
     pixelClass = kOutside;
     const uint id = texelFetch(triangleIds, pixel, 0).x;
     const vec2 at = (p.xy / p.z - softLow) / softSize * float(softResolution);

@@ -62,8 +62,8 @@ float penumbraWidth(vec4 p) {
 
 vec3 pointAt(ivec2 pixel) { return pixelRay(pixel, rayScale, sizePx) * texelFetch(depths, pixel, 0).x; }
 
-// Coarsest level up to `level` at which the corners of the pixel's square lie on its surface: across an edge, nobody stands
-// for anybody.
+// Coarsest level up to `level` at which the corners of the pixel's square lie on its surface: across an edge, no pixel stands
+// for another.
 int levelWithinSurface(ivec2 pixel, int level) {
   const vec3 point = pointAt(pixel), normal = cameraNormal(texelFetch(normals, pixel, 0));
   for (; level > 0; --level) {

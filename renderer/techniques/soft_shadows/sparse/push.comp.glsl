@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Push: each pixel without a visibility of its own takes it from the pyramid, from the level of its own spacing on until
-// what it found weighs 1. Interpolated straight at the pixel instead of level by level, so that each pixel judges by its own
+// what it found weighs 1. Interpolated straight at the pixel instead of level by level, so that each pixel decides by its own
 // surface what it takes; Schwarz 2009, section 5.1.3, names the reconstruction without details. Weights are a tent as wide
 // as a texel's side about the place that the texel's samples have, not about the texel's middle: samples at regular
 // distances then interpolate linearly, wherever in their texels they lie.

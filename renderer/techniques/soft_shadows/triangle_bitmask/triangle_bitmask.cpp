@@ -107,8 +107,9 @@ const SettingsTable<TriangleBitmaskSettings>& TriangleBitmaskSettings::table() {
   return kTable;
 }
 
-TriangleBitmask::TriangleBitmask(const TriangleBitmaskSettings& settings)
-    : pattern_(settings.pattern), defines_({{"PATTERN", patternDefine(lightPattern(pattern_))}}) {}
+TriangleBitmask::TriangleBitmask(const TriangleBitmaskSettings& settings) : pattern_(settings.pattern) {
+  defineSamples(defines_, lightPattern(pattern_));
+}
 
 void TriangleBitmask::prepare(frame::Frame& frame) {
   program_ = &frame.context().programs().compute(kTriangleShader, defines_);

@@ -63,7 +63,7 @@ uint rowWithinAll(HalfSpaceOfLight bounds[4], float y, float offset) {
 // Enters the samples of rows [first, end) that lie within all bounds.
 void addToMaskWithin(HalfSpaceOfLight bounds[4], int first, int end) {
   for (int j = first; j < end; ++j) {
-#if PATTERN == 160
+#if SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
     const float offset = (j & 1) == 0 ? 0.25 : 0.75;
     const uint even = rowWithinAll(bounds, (float(j) + 0.75) / 16.0 - 0.5, offset),
                odd = rowWithinAll(bounds, (float(j) + 0.25) / 16.0 - 0.5, offset);

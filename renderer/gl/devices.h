@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "renderer/gl/context.h"
+
+namespace limen::gl {
+
+/// Environment variable that chooses the device of createHeadlessContext(): its index, or a part of its
+/// renderer's name in any case ("nvidia").
+inline constexpr const char* kDeviceVariable = "LIMEN_EGL_DEVICE";
+
+/// The devices that give an OpenGL 4.5 context without a window, in the order of their indices; one that
+/// gives none has an empty renderer. Throws Error if there is no EGL.
+std::vector<DeviceInfo> listHeadlessDevices();
+
+}  // namespace limen::gl
