@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "analysis/psychometric/likelihood.h"
-#include "analysis/statistics/detail/log_math.h"
+#include "analysis/statistics/log_math.h"
 #include "analysis/statistics/rank_correlation.h"
 #include "experiments/base/error.h"
 #include "perception/psychometrics/random.h"

@@ -10,8 +10,8 @@
 
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detail/draw.h"
-#include "analysis/statistics/detail/log_math.h"
 #include "analysis/statistics/distributions.h"
+#include "analysis/statistics/log_math.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/statistics/detail/log_math.h"
+#include "analysis/statistics/log_math.h"
 
 #include <algorithm>
 #include <array>
