@@ -147,7 +147,8 @@ void addNotes(const PartAnova& part, Section& out) {
   if (part.transform != RateTransform::None)
     out.notes.push_back("rates p are transformed, asin(sqrt(p)): means and differences are in radians");
   else if (part.rates)
-    out.notes.push_back("rates are not transformed");
+    out.notes.push_back(
+        "rates are not transformed; intervals of their means are t intervals on the logit scale");
   std::string source;
   for (size_t i = 0; i < part.result->effects.size(); ++i) {
     const AnovaEffect& effect = part.result->effects[i];
@@ -169,7 +170,7 @@ Section sectionOf(const PartAnova& part) {
   out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(text("measure")), part.measure);
   out.fact(forData(text("rate_of")), part.rates ? ResultCell(part.of) : ResultCell());
-  out.fact(text("transform"), part.transform == RateTransform::Arcsine ? "arcsine" : "none");
+  out.fact(text("transform"), toText(part.transform));
   out.fact(integer("observers"), part.result ? part.result->subjects : 0);
   out.fact(
       part.rates && part.transform == RateTransform::None ? share("grand_mean") : significant("grand_mean"),

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/output/text_output.h"
+#include "analysis/study/observer_names.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 
@@ -106,12 +107,15 @@ StudyAnswers readStudyAnswers(const StudyChoice& choice) {
   const store::SessionReader reader(choice.store);
   const store::StudyProtocol protocol = chooseProtocol(reader, choice);
   StudyAnswers out;
-  out.plan = readStudyPlan(protocol);
-  for (const store::StudySession& session : reader.sessions()) {
+  out.plan = readStudyPlan(protocol, choice.store);
+  const std::vector<store::StudySession> sessions = reader.sessions();
+  const ObserverNames names(sessions, choice.codes);
+  for (const store::StudySession& session : sessions) {
     if (session.protocol != protocol.hash) continue;
     const nlohmann::json frontEnd = frontEndOf(reader.environment(session.environment));
     const bool simulated = frontEnd.value("simulated", false);
     if (isOther(choice.observers, simulated)) continue;
+    const std::string name = names.of(session.participant, simulated);
     std::vector<StudyAnswer> own;
     for (const store::StudyTrial& trial : reader.trials(session.id)) {
       if (!trial.counts() || trial.practice) continue;
@@ -123,11 +127,11 @@ StudyAnswers readStudyAnswers(const StudyChoice& choice) {
       own.push_back(std::move(answer));
     }
     if (session.state != "finished" && !choice.unfinished) {
-      out.leftOut.push_back({"unfinished session", session.participant, own.size(),
+      out.leftOut.push_back({"unfinished session", name, own.size(),
                              fmt::format("session {} is {}", session.name, session.state)});
       continue;
     }
-    const size_t observer = indexIn(out.observers, session.participant);
+    const size_t observer = indexIn(out.observers, name);
     indexIn(out.displays, reader.display(session.display).name);
     ++out.sessions;
     out.simulated += simulated ? 1 : 0;

@@ -52,7 +52,7 @@ struct AppliedRule {
 /// The answers to one protocol in one store.
 struct StudyAnswers {
   StudyPlan plan;
-  std::vector<std::string> observers;  ///< participant codes, in order of their first session
+  std::vector<std::string> observers;  ///< as ObserverNames calls them, in order of their first session
   std::vector<StudyAnswer> answers;
   size_t sessions = 0;
   size_t simulated = 0;               ///< sessions of simulated observers: all of them or none
@@ -74,6 +74,7 @@ struct StudyChoice {
   bool exclusions = true;                   ///< apply the rules that the protocol declares
   bool unfinished = false;                  ///< take sessions that were broken off too
   Observers observers = Observers::Either;  ///< Either: whichever the store has, but not both
+  bool codes = false;                       ///< name people by their codes
 };
 
 /// Reads, then applies the protocol's rules in the order in which it declares them, those on single answers

@@ -183,12 +183,12 @@ size_t StudyPlan::partNamed(const std::string& part) {
   return parts.size() - 1;
 }
 
-StudyPlan readStudyPlan(const store::StudyProtocol& protocol) {
+StudyPlan readStudyPlan(const store::StudyProtocol& protocol, const std::string& store) {
   StudyPlan out;
   out.name = protocol.name;
   out.hash = protocol.hash;
   out.title = protocol.title;
-  const YamlNode root = parseYaml(protocol.text, protocol.path);
+  const YamlNode root = parseYaml(protocol.text, store + " (protocol " + protocol.name + ")");
   if (const YamlNode* window = root.find("window")) {
     out.widthPx = wholeOf(window->find("width_px"), out.widthPx);
     out.heightPx = wholeOf(window->find("height_px"), out.heightPx);

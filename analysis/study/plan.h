@@ -72,7 +72,7 @@ std::string levelTitle(const std::string& level);
 /// Levels of the part's factors in their order: "2 to 3, static".
 std::string conditionTitle(const StudyPart& part, const std::map<std::string, std::string>& condition);
 
-/// Throws Error on text that is no YAML.
-StudyPlan readStudyPlan(const store::StudyProtocol& protocol);
+/// Throws Error, which names the store that holds it, on text that is no YAML.
+StudyPlan readStudyPlan(const store::StudyProtocol& protocol, const std::string& store);
 
 }  // namespace limen::analysis

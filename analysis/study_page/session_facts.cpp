@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "analysis/output/text_output.h"
+#include "analysis/study/observer_names.h"
 #include "experiments/base/yaml_tree.h"
 #include "experiments/store/sessions.h"
 
@@ -24,12 +25,12 @@ std::optional<double> itemAt(const YamlNode& node, const char* key, size_t index
   return found && index < found->items.size() ? finiteNumber(found->items[index].text) : std::nullopt;
 }
 
-DisplayFacts displayOf(const store::StudyDisplay& display) {
+DisplayFacts displayOf(const store::StudyDisplay& display, const std::string& store) {
   DisplayFacts out;
   out.hash = display.hash;
   out.name = display.name;
   out.calibration = display.calibration;
-  const YamlNode root = parseYaml(display.profile, "display " + display.name);
+  const YamlNode root = parseYaml(display.profile, store + " (display " + display.name + ")");
   out.widthPx = itemAt(root, "resolution_px", 0);
   out.heightPx = itemAt(root, "resolution_px", 1);
   out.widthM = itemAt(root, "size_m", 0);
@@ -138,13 +139,15 @@ SessionFacts readSessionFacts(const StudyChoice& choice, const std::string& hash
   SessionFacts out;
   std::map<std::string, std::map<std::string, Tally>> tallies;  // part, participant
   std::set<std::string> participants, displays;
-  for (const store::StudySession& session : reader.sessions()) {
+  const std::vector<store::StudySession> sessions = reader.sessions();
+  const ObserverNames names(sessions, choice.codes);
+  for (const store::StudySession& session : sessions) {
     if (session.protocol != hash) continue;
     const store::Environment environment = reader.environment(session.environment);
     const bool simulated = isSimulated(environment);
     if (isOther(choice.observers, simulated)) continue;
     const store::StudyDisplay display = reader.display(session.display);
-    SessionRow row{session.participant,
+    SessionRow row{names.of(session.participant, simulated),
                    session.name,
                    session.state,
                    display.name,
@@ -169,7 +172,7 @@ SessionFacts readSessionFacts(const StudyChoice& choice, const std::string& hash
     }
     if (row.used) {
       if (participants.insert(session.participant).second) addForm(out, session.form);
-      if (displays.insert(session.display).second) out.displays.push_back(displayOf(display));
+      if (displays.insert(session.display).second) out.displays.push_back(displayOf(display, choice.store));
       addEnvironment(out, environment, simulated);
       add(out.programVersions, session.programVersion);
       // The clock of simulated observers runs in a time of its own.

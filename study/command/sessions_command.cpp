@@ -137,11 +137,21 @@ void printTrial(const store::StudyTrial& trial) {
     fmt::print("  {}\n  {}\n", trial.stimulusHashes[i], trial.stimuli[i].dump());
 }
 
+/// Its file may have changed or gone since; a mistake in the stored text is the store's.
+Protocol storedProtocol(const store::StudyProtocol& stored, const std::string& store) {
+  try {
+    return parseProtocol(stored.text, stored.path, catalogueFromRegistries());
+  } catch (const Error& error) {
+    throw Error("the protocol that it holds cannot be read: " + std::string(error.what()), store,
+                "was the store written by another version of Limen, or is it damaged?");
+  }
+}
+
 void replay(const SessionsOptions& options, Run& run) {
   const store::SessionReader reader(options.store);
   const store::StudySession session = findSession(reader, options);
   const store::StudyProtocol stored = reader.protocol(session.protocol);
-  const Protocol protocol = parseProtocol(stored.text, stored.path, catalogueFromRegistries());
+  const Protocol protocol = storedProtocol(stored, options.store);
   const Verification verification = verifySession(reader, session, protocol);
   const std::vector<store::StudyTrial> trials = reader.trials(session.id);
   const bool good = verification.differences.empty();

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kLeastGamma = 0.4, kMostGamma = 6.0;  ///< of photometer readings
 constexpr double kDarkestShare = 1e-4;  ///< of the brightest reading, down to which readings are meaningful
-constexpr double kLargestFall = 0.02;   ///< drop of luminance with rising level, as a share of the range
+constexpr double kDimmestWhiteCdM2 = 1e-3, kBrightestCdM2 = 1e7;  ///< of anything that is a display
+constexpr double kLargestFall = 0.02;  ///< drop of luminance with rising level, as a share of the range
 const char* const kPhotometer = "photometer readings";
 
 void check(const std::vector<Reading>& readings) {
@@ -41,6 +42,9 @@ void check(const std::vector<Reading>& readings) {
                    [](const Reading& a, const Reading& b) { return a.level < b.level; });
   const auto [least, most] = std::minmax_element(
       rising.begin(), rising.end(), [](const Reading& a, const Reading& b) { return a.cdM2 < b.cdM2; });
+  if (!(most->cdM2 >= kDimmestWhiteCdM2 && most->cdM2 <= kBrightestCdM2))
+    throw Error(fmt::format("a white of {} cd/m2", most->cdM2), kPhotometer,
+                "no display has that; luminances are in cd/m2");
   const double range = most->cdM2 - least->cdM2;
   if (!(range > 0.0)) throw Error("all levels have the same luminance", kPhotometer, "is the display on?");
   for (size_t i = 1; i < rising.size(); ++i)

@@ -52,7 +52,7 @@ class Performance {
       if (screen_.lost()) out_.reason = "window lost";
       for (const ScreenEvent& event : screen_.poll()) hear(event, blank);
     }
-    judge();
+    evaluate();
     return std::move(out_);
   }
 
@@ -102,7 +102,7 @@ class Performance {
     return schedule_.phaseOf(static_cast<int>(blank)).kind == PhaseKind::Stimulus;
   }
 
-  void judge() {
+  void evaluate() {
     SwapSetting swaps = setting_.swaps;
     swaps.nominalHz = schedule_.refreshHz;
     out_.swaps = classifySwaps(times_, swaps);

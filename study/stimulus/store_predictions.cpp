@@ -2,6 +2,7 @@
 #include "study/stimulus/store_predictions.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,14 +42,22 @@ struct Shown {
 };
 
 // The protocol was checked when its session began; only its window is needed here.
-glm::ivec2 windowOf(const store::StudyProtocol& protocol) {
-  WindowSetting window;
-  const YamlNode root = parseYaml(protocol.text, protocol.path);
-  if (const YamlNode* node = root.find("window")) {
-    if (const YamlNode* width = node->find("width_px")) window.widthPx = std::stoi(width->text);
-    if (const YamlNode* height = node->find("height_px")) window.heightPx = std::stoi(height->text);
-  }
-  return {window.widthPx, window.heightPx};
+glm::ivec2 windowOf(const store::StudyProtocol& protocol, const std::string& store) {
+  const std::string where = store + " (protocol " + protocol.name + ")";
+  const YamlNode root = parseYaml(protocol.text, where), *window = root.find("window");
+  const auto length = [&](const char* key, int otherwise) {
+    const YamlNode* node = window ? window->find(key) : nullptr;
+    if (!node) return otherwise;
+    int value = 0;
+    const char* const end = node->text.data() + node->text.size();
+    const auto read = std::from_chars(node->text.data(), end, value);
+    if (read.ec != std::errc() || read.ptr != end || value < 1)
+      throw Error("the store is damaged: " + std::string(key) + " of its window is " + node->describe(),
+                  where, "put back a copy");
+    return value;
+  };
+  const WindowSetting usual;
+  return {length("width_px", usual.widthPx), length("height_px", usual.heightPx)};
 }
 
 bool hasChange(const json& stimulus) {
@@ -76,7 +85,7 @@ Shown readShown(const StorePredictionRequest& request) {
     found = true;
     const store::StudyDisplay display = other ? *other : reader.display(session.display);
     out.displays[display.hash] = display;
-    const glm::ivec2 window = windowOf(protocol);
+    const glm::ivec2 window = windowOf(protocol, request.store);
     auto& stimuli = out.stimuli[{display.hash, window.x, window.y}];
     for (const store::StudyTrial& trial : reader.trials(session.id)) {
       if (trial.practice) continue;

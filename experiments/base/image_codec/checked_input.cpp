@@ -49,6 +49,8 @@ void checkHeader(const OIIO::ImageSpec& spec, const std::string& path, const Ima
 std::string oneLine(std::string words) {
   while (!words.empty() && words.back() == '\n') words.pop_back();
   std::replace(words.begin(), words.end(), '\n', ' ');
+  constexpr size_t kLongest = 300;  // a reader may complain of every row
+  if (words.size() > kLongest) words = words.substr(0, kLongest) + " ...";
   return words;
 }
 
@@ -66,6 +68,18 @@ std::unique_ptr<OIIO::ImageInput> openChecked(const std::string& path, const Ima
                 "use PNG, JPEG, TIFF, EXR or HDR and check the path");
   checkHeader(in->spec(), path, limits);
   return in;
+}
+
+Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path) {
+  Image raw(spec.width, spec.height, spec.nchannels);
+  bool whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data.data());
+  // Some readers fill in missing data and only leave a message.
+  const std::string words = oneLine(in.geterror());
+  whole = whole && words.empty();
+  if (!whole)
+    throw Error("cannot read image '" + path + "'" + (words.empty() ? "" : ": " + words), {},
+                "is the file complete?");
+  return raw;
 }
 
 }  // namespace limen::codec

@@ -15,7 +15,10 @@ namespace limen::codec {
 std::unique_ptr<OIIO::ImageInput> openChecked(const std::string& path, const ImageLimits& limits,
                                               const OIIO::ImageSpec& wish = {});
 
-/// Words of a library in one line.
+/// The whole stored picture, all channels. Throws Error naming the file where anything of it is missing.
+Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path);
+
+/// Words of a library in one line, cut where they are many.
 std::string oneLine(std::string words);
 
 }  // namespace limen::codec

@@ -38,11 +38,7 @@ std::vector<uint8_t> inBytes(const Image& image) {
 
 Image readImage(const std::string& path, const ImageLimits& limits) {
   const auto in = openChecked(path, limits);
-  const OIIO::ImageSpec spec = in->spec();
-  Image image(spec.width, spec.height, spec.nchannels);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
-    throw Error("cannot read image '" + path + "': " + oneLine(in->geterror()), {}, "is the file complete?");
-  return image;
+  return readPixels(*in, in->spec(), path);
 }
 
 std::string encodeExr(const Image& image, const std::string& description) {

@@ -101,19 +101,6 @@ std::vector<std::string> remarksOn(const OIIO::ImageSpec& spec, bool integer) {
   return remarks;
 }
 
-/// The whole stored picture, all channels.
-Image readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::string& path) {
-  Image raw(spec.width, spec.height, spec.nchannels);
-  bool whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data.data());
-  // Some readers fill in missing data and only leave a message.
-  const std::string words = oneLine(in.geterror());
-  whole = whole && words.empty();
-  if (!whole)
-    throw Error("cannot read image '" + path + "'" + (words.empty() ? "" : ": " + words), {},
-                "is the file complete?");
-  return raw;
-}
-
 }  // namespace
 
 ImageFile readImageFile(const std::string& path, const ImageLimits& limits) {

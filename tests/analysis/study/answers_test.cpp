@@ -28,6 +28,7 @@ class StudyAnswersTest : public testing::Test {
   std::string store() const { return folder_.path("s.sqlite"); }
   StudyAnswers read(bool exclusions = true) const {
     StudyChoice choice;
+    choice.codes = true;
     choice.store = store();
     choice.exclusions = exclusions;
     return readStudyAnswers(choice);
@@ -164,6 +165,7 @@ TEST_F(StudyAnswersTest, OneProtocolAtATime) {
   addHandMadeSession(store(), "b", "task: {type: rating}\n", trials({}, 1, 3));
   expectError([&] { read(); }, "--protocol");
   StudyChoice choice;
+  choice.codes = true;
   choice.store = store();
   choice.protocol = "task: {type: rating}";
   EXPECT_EQ(readStudyAnswers(choice).answers.size(), 3U);
@@ -178,6 +180,7 @@ TEST_F(StudyAnswersTest, PeopleAndSimulatedObserversAreNotMixed) {
   addHandMadeSession(store(), "b", kProtocol, trials({}, 1, 3), "finished", "1", {{"simulated", true}});
   expectError([&] { read(); }, "--observers");
   StudyChoice choice;
+  choice.codes = true;
   choice.store = store();
   choice.observers = Observers::People;
   EXPECT_THAT(readStudyAnswers(choice).observers, ElementsAre("a"));

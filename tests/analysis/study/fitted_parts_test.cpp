@@ -30,6 +30,7 @@ class FittedPartsTest : public testing::Test {
   std::string store() const { return folder_.path("s.sqlite"); }
   StudyAnswers read() const {
     StudyChoice choice;
+    choice.codes = true;
     choice.store = store();
     return readStudyAnswers(choice);
   }
@@ -189,6 +190,7 @@ TEST_F(FittedPartsTest, LapseRateIsTheShareOfMissesWhereAllIsSeen) {
   addHandMadeSession(store(), "often", kLapsing, observer(40, 9));
   addHandMadeSession(store(), "short", kLapsing, observer(3, 1));
   StudyChoice choice;
+  choice.codes = true;
   choice.store = store();
   choice.exclusions = false;
   const std::vector<ObserverLapse> rates = lapseRates(readStudyAnswers(choice), 0.1).observers;

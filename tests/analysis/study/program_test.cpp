@@ -166,14 +166,15 @@ TEST(AnalyseStudyProgram, ListsWhatWasLeftOut) {
   for (const char* command : {"rates", "anova", "sdt"}) {
     const ProgramRun outcome = runProgram(std::string("limen-analyse ") + command + " " + store);
     ASSERT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_THAT(outcome.text, testing::ContainsRegex("guesser +catch_rate_above +4")) << command;
+    EXPECT_THAT(outcome.text, testing::ContainsRegex("O02 +catch_rate_above +4")) << command;
   }
   const std::string csv = folder.path("rates.csv");
   ASSERT_EQ(runProgram("limen-analyse rates --no-exclusions --csv " + csv + " " + store).code, 0);
   std::ifstream stream(csv);
   const std::string table{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_THAT(table, HasSubstr("\nrates,main,part,all,,1,yes,2,0.5,"));
-  EXPECT_THAT(table, HasSubstr("guesser"));
+  EXPECT_THAT(table, HasSubstr("O02"));
+  EXPECT_THAT(table, testing::Not(HasSubstr("guesser")));
 
   EXPECT_EQ(runProgram("limen-analyse rates " + folder.path("none.sqlite")).code, 2);
   const ProgramRun guess = runProgram("limen-analyse validate --guess often " + store);

@@ -32,6 +32,7 @@ TEST(StudyAnova, TableByHand) {
   addHandMadeSession(store, "p3", protocol,
                      trials({{"distance", "a"}}, 1, 2) + trials({{"distance", "b"}}, 1, 2));
   StudyChoice choice;
+  choice.codes = true;
   choice.store = store;
   const std::vector<PartAnova> parts = studyAnova(readStudyAnswers(choice));
   ASSERT_EQ(parts.size(), 1U);

@@ -99,6 +99,7 @@ void StudyPageTest::addPredictions() {
 
 StudyPageOptions StudyPageTest::options() const {
   StudyPageOptions out;
+  out.choice.codes = true;
   out.choice.store = store();
   out.folder = folder_.path("out");
   return out;

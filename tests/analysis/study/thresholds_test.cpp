@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 StudyAnswers studyOf(const std::string& protocol, size_t observers) {
   StudyAnswers out;
-  out.plan = readStudyPlan({"hash", "p", "p.yaml", "By hand", protocol});
+  out.plan = readStudyPlan({"hash", "p", "p.yaml", "By hand", protocol}, "s.sqlite");
   for (size_t i = 0; i < observers; ++i) out.observers.push_back("p" + std::to_string(i));
   return out;
 }

@@ -208,6 +208,18 @@ TEST_F(ImageFileTest, AHeaderAloneTakesNoMemory) {
   EXPECT_THAT(refusalOf(path("bomb.png")), HasSubstr("16000 x 16000"));
 }
 
+TEST_F(ImageFileTest, ComplaintsAboutEveryRowAreCutShort) {
+  OIIO::ImageSpec spec(16, 4000, 1, OIIO::TypeDesc::UINT8);
+  spec.attribute("compression", "lzw");
+  spec.attribute("tiff:RowsPerStrip", 1);
+  save("rows.tif", spec);
+  // The pictures' rows, which come last.
+  std::filesystem::resize_file(path("rows.tif"), std::filesystem::file_size(path("rows.tif")) / 2);
+  const std::string refusal = refusalOf(path("rows.tif"));
+  EXPECT_THAT(refusal, HasSubstr("rows.tif"));
+  EXPECT_LT(refusal.size(), 1000U);
+}
+
 TEST_F(ImageFileTest, WindowsOfAnExrAreLimited) {
   OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeDesc::HALF);
   spec.full_width = spec.full_height = 30000;

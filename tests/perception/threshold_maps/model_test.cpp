@@ -62,8 +62,7 @@ TEST(ThresholdModel, FrequencyElevationsAreThePublishedOnes) {
 }
 
 TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
-  std::ifstream file(LIMEN_SOURCE_DIR "/../shared/techniques/perception_vectors.csv");
-  if (!file) GTEST_SKIP() << "no reference vectors beside the source tree";
+  std::ifstream file(LIMEN_SOURCE_DIR "/tests/perception/reference/vision_vectors.csv");
   int rows = 0;
   for (std::string line; std::getline(file, line);) {
     const bool original = line.rfind("F_orig,", 0) == 0;

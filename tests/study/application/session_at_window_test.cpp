@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "experiments/base/image.h"
+#include "study/session/session_seed.h"
 #include "tests/study/application/session_at_window.h"
 
 namespace limen {
@@ -132,6 +133,26 @@ TEST_F(SessionAtWindow, DecliningEndsItAndKeepsNoAnswers) {
   EXPECT_EQ(run.finish(), 1);
   EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"aborted"});
   EXPECT_EQ(column("SELECT count(*) FROM trial"), std::vector<std::string>{"0"});
+}
+
+// A seed made of the code would tell it to whoever tries all codes.
+TEST_F(SessionAtWindow, TheSeedIsRandomUnlessItIsGiven) {
+  const test::XServer server(640, 480);
+  std::vector<std::string> words = arguments();
+  words.erase(std::find(words.begin(), words.end(), "--seed"),
+              std::find(words.begin(), words.end(), "--announce"));
+  test::StudyRun run(server.display(), words, path("messages"));
+  ASSERT_TRUE(run.reaches("consent"));
+  run.key("n");
+  ASSERT_TRUE(run.reaches("consent_declined"));
+  run.key("e");
+  EXPECT_EQ(run.finish(), 1);
+  const std::string name = column("SELECT name FROM session").at(0),
+                    seed = column("SELECT seed FROM session").at(0);
+  EXPECT_NE(seed, std::to_string(
+                      study::formerSessionSeed(column("SELECT protocol FROM session").at(0), "p01", name)));
+  EXPECT_NE(seed, "1");
+  EXPECT_NE(seed, "0");
 }
 
 TEST_F(SessionAtWindow, DisplayTakenAwayLosesNothing) {

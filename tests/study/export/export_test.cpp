@@ -271,8 +271,8 @@ TEST_F(Export, BidsHasWhatTheStandardRequires) {
   EXPECT_EQ(rows[1].at("answer"), "n/a");
   // BIDS 1.9, "Task events": a sidecar of events describes columns, each by an object; what is said of a task
   // is in a file for all that has its label.
-  for (const auto& [column, about] : json::parse(read(folder_ / "out" / (stem + ".json"))).items())
-    EXPECT_TRUE(about.is_object()) << column;
+  const json sidecar = json::parse(read(folder_ / "out" / (stem + ".json")));
+  for (const auto& [column, about] : sidecar.items()) EXPECT_TRUE(about.is_object()) << column;
   EXPECT_EQ(json::parse(read(folder_ / "out/task-quick_beh.json"))["TaskName"], "quick");
   EXPECT_EQ(parse(read(folder_ / "out/participants.tsv"), '\t')[0].at("participant_id"), sub);
 }

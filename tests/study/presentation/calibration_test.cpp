@@ -108,6 +108,12 @@ TEST(Calibration, BadReadingsAreRefused) {
   bad = good;
   bad[2].cdM2 = std::nan("");
   EXPECT_TRUE(refused(bad));
+  // Proportional to good ones, but no display's: squares of errors overflow, or vanish.
+  for (const double factor : {1e297, 1e-297}) {
+    bad = good;
+    for (Reading& reading : bad) reading.cdM2 *= factor;
+    EXPECT_TRUE(refused(bad)) << factor;
+  }
 }
 
 TEST(Calibration, MatchesGiveGamma) {

@@ -55,7 +55,7 @@ class DamagedStore : public testing::TestWithParam<Damage> {
     std::string triggers = "PRAGMA foreign_keys = OFF;";
     for (const char* name :
          {"event_update", "event_delete", "trial_update", "response_update", "session_update",
-          "display_update", "session_form", "trial_end", "block_update", "block_delete"})
+          "display_update", "protocol_update", "session_form", "trial_end", "block_update", "block_delete"})
       triggers += "DROP TRIGGER " + std::string(name) + ";";
     // As a disk or another program would do it, past all constraints.
     execute(store_, "PRAGMA ignore_check_constraints = ON;" + triggers + GetParam().sql);
@@ -119,6 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                "table event"},
         Damage{"EventBeforeTheMachine",
                "UPDATE event SET monotonic_ns = -9223372036854775807 WHERE number = 5", "monotonic_ns"},
+        Damage{"ProtocolWithoutItsEnd", "UPDATE protocol SET text = substr(text, 1, 60) || '\"'", "protocol"},
         Damage{"NoReactionTime", "UPDATE response SET reaction_time_s = 'soon'", "reaction_time_s"},
         Damage{"FactsOfAnotherType", "UPDATE environment SET facts = '3'", "table environment, column facts"},
         Damage{"FrontEndOfAnotherType", "UPDATE environment SET facts = '{\"front_end\": []}'", "front_end"}),
