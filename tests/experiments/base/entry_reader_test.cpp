@@ -160,6 +160,34 @@ TEST(EntryReader, AParameterOfAnotherAlternativeIsRefusedWithItsPlace) {
   EXPECT_THAT(Reading("{budget: {kind: radial, rum: 25}}").message, HasSubstr("did you mean 'rim'?"));
 }
 
+// Finding them takes long, and nobody reads thousands.
+TEST(EntryReader, UnknownKeysGetHintsWhileThereAreFewProblems) {
+  const auto messageAfter = [](int earlier, const auto& read) {
+    Problems problems("d.yaml");
+    FileFinder files("d.yaml");
+    NodeReader reader(problems, files);
+    for (int i = 0; i < earlier; ++i) problems.add({100 + i, 1}, "earlier");
+    read(reader, parseYaml("{radios: 1}", "d.yaml"));
+    EXPECT_EQ(problems.size(), static_cast<size_t>(earlier) + 1);
+    try {
+      problems.throwIfAny();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto entry = [](NodeReader& reader, const YamlNode& map) {
+    EntryReader(reader, "").axes(map, Search::table().parameters(), "technique 'search'");
+  };
+  const auto keys = [](NodeReader& reader, const YamlNode& map) {
+    reader.checkKeys(map, "a search", {"radius"});
+  };
+  for (const std::string& few : {messageAfter(10, entry), messageAfter(10, keys)})
+    EXPECT_THAT(few, testing::AllOf(HasSubstr("radios"), HasSubstr("did you mean 'radius'")));
+  for (const std::string& many : {messageAfter(10'000, entry), messageAfter(10'000, keys)})
+    EXPECT_THAT(many, testing::AllOf(HasSubstr("radios"), testing::Not(HasSubstr("did you mean"))));
+}
+
 TEST(EntryReader, BadFormsAreProblemsWithPlaces) {
   EXPECT_THAT(Reading("{budget: {kind: rdial}}").message, HasSubstr("did you mean 'radial'?"));
   EXPECT_THAT(Reading("{budget: {kind: [uniform, radial]}}").message,

@@ -51,7 +51,11 @@ class PresentedPlayerTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { test::openWindowsOnOneServer(); }
 
-  PresentedPlayerTest() : protocol_(readProtocol("quick", catalogueFromRegistries())) {
+  PresentedPlayerTest() : protocol_(readProtocol("quick", catalogueFromRegistries())) { openWindow(); }
+
+  /// A new one, whose context has compiled no program yet.
+  void openWindow() {
+    window_.reset();
     window::UiWindowOptions options;
     options.sizePx = {400, 300};
     window_ = std::make_unique<window::UiWindow>(options);
@@ -81,7 +85,8 @@ TEST_F(PresentedPlayerTest, AStimulusLooksTheSameBesideASecondWindow) {
   const Image expected = picture_;
   const auto [least, most] = std::minmax_element(expected.data.begin(), expected.data.end());
   ASSERT_GT(*most - *least, 0.2F) << "nothing is seen";
-  // Its context is the current one when the player's screen is made.
+  openWindow();
+  // Its context is the current one when the player's screen compiles its programs.
   ExperimenterWindow second(0, 1.0F, {{"noise", "noise or light"}});
   const PlayResult beside = play();
   EXPECT_EQ(beside.invalid, "");

@@ -96,7 +96,7 @@ class Export : public testing::Test {
         response.outcome = 1;
         response.correct = true;
         response.severity = 3;
-        response.reactionTimeS = 0.25;
+        response.reactionTimeS = reactionTimeS_;
         response.device = "keyboard";
         for (const char* key : {"s", "m", "i"})
           response.extra["early_inputs"].push_back({{"key", key}, {"device", "keyboard"}});
@@ -157,6 +157,7 @@ class Export : public testing::Test {
   fs::path folder_;
   std::string store_;
   uint64_t seed_ = 18446744073709551615U;
+  double reactionTimeS_ = 0.25;
   bool markers_ = false;  ///< sessions were run with a recorder
 };
 
@@ -401,7 +402,12 @@ TEST_F(Export, WithCodesOnlyTheOwnerReadsIt) {
 }
 
 TEST_F(Export, TwoAtOnceAgreeOnPseudonymsAndMixNothing) {
-  for (int i = 0; i < 6; ++i) addSession("code" + std::to_string(i), "1");
+  std::map<std::string, double> reactionTimesS;  // which tell the participants apart
+  for (int i = 0; i < 6; ++i) {
+    const std::string code = "code" + std::to_string(i);
+    reactionTimeS_ = reactionTimesS[code] = 0.25 * (i + 1);
+    addSession(code, "1");
+  }
   for (int round = 0; round < 10; ++round) {
     fs::remove(keyFileOf(store_));
     const std::string suffix = std::to_string(round);
@@ -426,16 +432,36 @@ TEST_F(Export, TwoAtOnceAgreeOnPseudonymsAndMixNothing) {
     EXPECT_EQ(codes[1], 0);
     EXPECT_EQ(codes[0] + codes[2], 2) << "one of both is refused";
     // The same person has the same name in both, and only the table tells who it is.
-    std::map<std::string, std::string> key;
+    std::map<std::string, std::string> key;  // code by pseudonym
     for (const auto& row : parse(read(keyFileOf(store_)), ','))
-      key[row.at("participant")] = row.at("pseudonym");
+      key[row.at("pseudonym")] = row.at("participant");
     EXPECT_EQ(key.size(), 6u);
+    for (const char* folder : {"a", "b"})
+      for (const auto& row : parse(read(folder_ / (folder + suffix) / "trials.csv"), ','))
+        if (!row.at("reaction_time_s").empty()) {
+          EXPECT_EQ(std::stod(row.at("reaction_time_s")), reactionTimesS[key[row.at("subject")]]) << folder;
+        }
     EXPECT_EQ(read(folder_ / ("a" + suffix) / "trials.csv"), read(folder_ / ("b" + suffix) / "trials.csv"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / ("a" + suffix)), fs::directory_iterator()), 5)
         << "trials, frames, participants, dictionary, README";
   }
   for (const auto& entry : fs::directory_iterator(folder_))
     EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+}
+
+TEST_F(Export, PseudonymsThatAnotherProcessGaveMeanwhileStay) {
+  std::vector<std::string> codes;
+  for (int i = 0; i < 8; ++i) codes.push_back("code" + std::to_string(i));
+  Pseudonyms first(keyFileOf(store_)), second(keyFileOf(store_));
+  first.assign(codes);
+  codes.push_back("late");
+  second.assign(codes);
+  codes.pop_back();
+  for (const std::string& code : codes) {
+    EXPECT_EQ(second.of(code), first.of(code));
+    EXPECT_EQ(subjectOf(code), first.of(code));
+  }
+  EXPECT_EQ(second.of("late"), "P009");
 }
 
 TEST_F(Export, PseudonymsStayAndNewOnesAreAdded) {
