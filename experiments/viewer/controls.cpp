@@ -165,9 +165,17 @@ class ParameterRows {
   const std::optional<ParameterChange>& change() const { return change_; }
 
  private:
+  /// Groups within others are rarely needed, unless something in them is not at its default.
+  bool startsOpen(const std::string& path) const {
+    if (path.find('.') == std::string::npos) return true;
+    return std::any_of(entry_.given.begin(), entry_.given.end(),
+                       [&](const auto& given) { return given.first.rfind(path + ".", 0) == 0; });
+  }
+
   void group(const Parameter& parameter, const std::string& path) {
-    const bool open = ImGui::TreeNodeEx(parameter.name.c_str(),
-                                        ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth);
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanFullWidth;
+    if (startsOpen(path)) flags |= ImGuiTreeNodeFlags_DefaultOpen;
+    const bool open = ImGui::TreeNodeEx(parameter.name.c_str(), flags);
     places_.note(joinPath(prefix_, path));
     tooltip(path, parameter, nullptr);
     if (!open) return;

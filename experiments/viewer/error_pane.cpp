@@ -7,19 +7,33 @@
 namespace limen::viewer {
 namespace {
 
+/// A word for each row: which way is better.
+void directionCell(Direction direction) {
+  const std::string text = directionText(direction);
+  ImGui::TextDisabled("%s", text.substr(0, text.find(' ')).c_str());
+  if (!text.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
 void errorTable(const EvaluationResult& evaluated) {
   const bool two = std::any_of(evaluated.figures.begin(), evaluated.figures.end(),
                                [](const ErrorFigure& figure) { return !std::isnan(figure.second); });
-  if (!numberTable("errors", two ? 3 : 2)) return;
+  if (!numberTable("errors", two ? 4 : 3)) return;
+  ImGui::TableSetupColumn(two ? "first" : "value");
+  if (two) ImGui::TableSetupColumn("second");
+  ImGui::TableSetupColumn("better");
+  ImGui::TableHeadersRow();
   for (const ErrorFigure& figure : evaluated.figures) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     label(figure.metric);
     ImGui::TableNextColumn();
-    ImGui::Text("%s %s", numberText(figure.value).c_str(), figure.unit.c_str());
-    if (!two) continue;
+    numberCell(figure.value, figure.unit);
+    if (two) {
+      ImGui::TableNextColumn();
+      numberCell(figure.second, figure.unit);
+    }
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", numberText(figure.second).c_str());
+    directionCell(figure.direction);
   }
   ImGui::EndTable();
 }
@@ -38,7 +52,6 @@ void errorMapChooser(const PaneContext& pane, const EvaluationResult& evaluated)
           "map", names, shown, [](const std::string&) { return std::string("where the errors are"); },
           pane.controls))
     pane.commands.push(command::ChooseErrorMap{*name});
-  ImGui::TextDisabled("brightest: %s", numberText(evaluated.maps.at(shown).white).c_str());
 }
 
 void predictionControls(const PaneContext& pane) {

@@ -6,7 +6,9 @@
 
 #include <string>
 
+#include "experiments/base/quantity.h"
 #include "experiments/viewer/controls.h"
+#include "experiments/viewer/number_text.h"
 #include "experiments/viewer/viewer_command.h"
 #include "experiments/viewer/viewer_state.h"
 
@@ -33,8 +35,9 @@ void errorText(const std::string& text);
 bool numberTable(const char* id, int columns);
 /// A name that may be too long for its column.
 void label(const std::string& text);
-/// Enough digits to compare by eye; "" for NaN.
-std::string numberText(double value);
-std::string bytesText(int64_t bytes);
+/// A number as numberText() prints it; more digits in the tooltip.
+void numberCell(double value, const std::string& unit);
+/// "lower is better"; "" for neither.
+std::string directionText(Direction direction);
 
 }  // namespace limen::viewer

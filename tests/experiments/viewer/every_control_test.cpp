@@ -65,9 +65,27 @@ class EveryControl : public ViewerTest {
     return valueAt(viewer_->state().setup.technique, at.path, *at.parameter);
   }
 
+  /// Groups within others start closed.
+  void openGroups(const std::string& control) {
+    for (size_t dot = control.find('.'); dot != std::string::npos; dot = control.find('.', dot + 1))
+      if (!viewer_->controls().find(control) && viewer_->controls().find(control.substr(0, dot)))
+        openGroup(control.substr(0, dot), control);
+  }
+  /// A group without this control, which the next group may hold.
+  void openGroup(const std::string& group, const std::string& control) {
+    const auto within = [&] {
+      const auto& all = viewer_->controls().all();
+      return std::any_of(all.begin(), all.end(),
+                         [&](const auto& one) { return one.first.rfind(group + ".", 0) == 0; });
+    };
+    if (viewer_->controls().find(control) || within()) return;
+    click(group);
+  }
+
   void dragToEnds(const DeclaredAt& at, const std::string& what) {
     const Parameter& parameter = *at.parameter;
     const std::string control = "technique." + at.path;
+    openGroups(control);
     for (const float end : {0.0F, 1.0F}) {
       if (end > 0.5F && costly(parameter)) continue;
       // From one end to the other, and past it.
@@ -103,6 +121,7 @@ class EveryControl : public ViewerTest {
       if (!chooseAlternatives(at)) continue;
       switch (parameter.type) {
         case ParameterType::Boolean:
+          openGroups("technique." + at.path);
           click("technique." + at.path);
           EXPECT_EQ(toText(now(at)), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
           rest();
