@@ -18,9 +18,10 @@ std::string numberText(double value) {
   std::snprintf(text.data(), text.size(), "%.4g", value);
   std::string out = text.data();
   // A single digit says less than is known: 0.5 is 0.50 here.
-  if (const std::string two = (std::snprintf(text.data(), text.size(), "%#.2g", value), text.data());
-      two.back() != '.' && two.size() > out.size() && two.find('e') == out.find('e'))
-    out = two;
+  std::snprintf(text.data(), text.size(), "%#.2g", value);
+  const std::string two = text.data();
+  const auto hasExponent = [](const std::string& number) { return number.find('e') != std::string::npos; };
+  if (two.back() != '.' && two.size() > out.size() && hasExponent(two) == hasExponent(out)) return two;
   return out;
 }
 

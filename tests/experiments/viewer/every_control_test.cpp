@@ -65,21 +65,23 @@ class EveryControl : public ViewerTest {
     return valueAt(viewer_->state().setup.technique, at.path, *at.parameter);
   }
 
-  /// Groups within others start closed.
+  /// Parameters within others may start folded.
   void openGroups(const std::string& control) {
-    for (size_t dot = control.find('.'); dot != std::string::npos; dot = control.find('.', dot + 1))
-      if (!viewer_->controls().find(control) && viewer_->controls().find(control.substr(0, dot)))
-        openGroup(control.substr(0, dot), control);
+    const std::string first = "technique.";
+    for (size_t dot = control.find('.', first.size()); dot != std::string::npos;
+         dot = control.find('.', dot + 1)) {
+      const std::string above = control.substr(0, dot);
+      const bool choice = viewer_->controls().find(above + ".fold") != nullptr;
+      if (!isOpen(above)) click(choice ? above + ".fold" : above);
+      draw();
+    }
   }
-  /// A group without this control, which the next group may hold.
-  void openGroup(const std::string& group, const std::string& control) {
-    const auto within = [&] {
-      const auto& all = viewer_->controls().all();
-      return std::any_of(all.begin(), all.end(),
-                         [&](const auto& one) { return one.first.rfind(group + ".", 0) == 0; });
-    };
-    if (viewer_->controls().find(control) || within()) return;
-    click(group);
+  bool isOpen(const std::string& group) {
+    const auto& all = viewer_->controls().all();
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) {
+      return one.first.rfind(group + ".", 0) == 0 && one.first != group + ".fold" &&
+             one.first != group + ".default";
+    });
   }
 
   void dragToEnds(const DeclaredAt& at, const std::string& what) {

@@ -481,6 +481,27 @@ TEST_F(ViewerUse, GroupsFold) {
   EXPECT_TRUE(viewer_->controls().find("technique.gain.factor"));
 }
 
+TEST_F(ViewerUse, LongListsOfDetailsStartFoldedUnlessChanged) {
+  ViewSetup setup = smallSetup("soft_shadows/bitmask");
+  open(setup);
+  rest();
+  const auto has = [&](const std::string& control) {
+    return viewer_->controls().find("technique." + control) != nullptr;
+  };
+  EXPECT_TRUE(has("budget.limit"));
+  EXPECT_TRUE(has("bias"));
+  EXPECT_FALSE(has("bias.slope"));
+  click("technique.bias.fold");
+  EXPECT_TRUE(has("bias.slope"));
+  click("technique.bias.fold");
+  EXPECT_FALSE(has("bias.slope"));
+  // What is not at its default is in sight from the start.
+  setup.technique.given = {{"bias.slope", 0.75}};
+  open(setup);
+  rest();
+  EXPECT_TRUE(has("bias.slope"));
+}
+
 TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {
   ViewSetup setup = smallSetup("test/alternatives");
   setup.technique.given = {{"source", "stepped"}};
