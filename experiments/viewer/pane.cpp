@@ -13,6 +13,12 @@ void errorText(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void dimText(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 bool numberTable(const char* id, int columns) {
   if (!ImGui::BeginTable(id, columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);

@@ -30,6 +30,8 @@ const ImVec4 kInProgressColour(1.0F, 0.8F, 0.4F, 1.0F);
 /// The heading of a collapsible section; true if it is open.
 bool heading(const char* text);
 void errorText(const std::string& text);
+/// Of secondary importance; wraps where the pane is narrow, so that no figure is cut.
+void dimText(const std::string& text);
 /// A table with names in the first column, which shrinks, and numbers in the others, which do not. If it
 /// returns true (visible), call ImGui::EndTable().
 bool numberTable(const char* id, int columns);

@@ -58,11 +58,9 @@ void timePane(const PaneContext& pane, float widthPx) {
   if (first->frameMs >= 0.0) {
     ImGui::Text("%s ms %s", numberText(first->frameMs).c_str(), first->onCpu ? "wall" : "GPU");
     if (const Rendered* second = state.rendered(1); second && second->frameMs >= 0.0) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("second %s ms", numberText(second->frameMs).c_str());
+      dimText("second " + numberText(second->frameMs) + " ms");
     }
-    if (first->onCpu && state.device.software)
-      ImGui::TextDisabled("rendered on a CPU: compare techniques only");
+    if (first->onCpu && state.device.software) dimText("rendered on a CPU: compare techniques only");
   }
   timeChart(state, "frame", 3.0F);
   passTable(pane, *first, widthPx > 22.0F * ImGui::GetFontSize());
