@@ -18,7 +18,7 @@ void metricCell(const ErrorFigure& figure) {
 void errorTable(const EvaluationResult& evaluated) {
   const bool two = std::any_of(evaluated.figures.begin(), evaluated.figures.end(),
                                [](const ErrorFigure& figure) { return !std::isnan(figure.second); });
-  const bool wide = ImGui::GetContentRegionAvail().x > (two ? 22.0F : 16.0F) * ImGui::GetFontSize();
+  const bool wide = ImGui::GetContentRegionAvail().x > (two ? 20.0F : 12.0F) * ImGui::GetFontSize();
   if (!numberTable("errors", (two ? 3 : 2) + (wide ? 1 : 0))) return;
   ImGui::TableSetupColumn(two ? "first" : "value");
   if (two) ImGui::TableSetupColumn("second");
