@@ -5,7 +5,7 @@
 set(limen_separate_targets limen_metrics_cpu limen_ui)
 # Files that share a name of their own with a neighbour, and may.
 set(limen_separate_files
-    analysis/psychometric/log_math.cpp analysis/psychometric/objective.cpp
+    analysis/statistics/log_math.cpp analysis/psychometric/objective.cpp
     analysis/study/scenario_spread.cpp analysis/sweep/switch_distances.cpp experiments/expectation_reader.cpp
     perception/popping/gpu/regions_gpu.cpp perception/popping/weights_gpu.cpp
     perception/threshold_maps/threshold_tables.cpp perception/vision/csf.cpp perception/vision/csf_models.cpp

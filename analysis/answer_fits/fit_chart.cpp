@@ -71,19 +71,6 @@ FitSeries seriesOf(const FitAnswer& answer, size_t c, const FitChart& chart) {
   return out;
 }
 
-}  // namespace
-
-FitChart chartOf(const FitAnswer& answer) {
-  FitChart out;
-  out.logarithmic = answer.fit.settings.logarithmic();
-  out.falling = answer.fit.settings.falling;
-  setEdges(answer, out);
-  for (size_t c = 0; c < answer.data.size(); ++c) out.series.push_back(seriesOf(answer, c, out));
-  return out;
-}
-
-namespace {
-
 /// Three data blocks a condition: answers, curve, threshold.
 std::string dataOf(const FitChart& chart) {
   std::string out;
@@ -100,6 +87,15 @@ std::string dataOf(const FitChart& chart) {
 }
 
 }  // namespace
+
+FitChart chartOf(const FitAnswer& answer) {
+  FitChart out;
+  out.logarithmic = answer.fit.settings.logarithmic();
+  out.falling = answer.fit.settings.falling;
+  setEdges(answer, out);
+  for (size_t c = 0; c < answer.data.size(); ++c) out.series.push_back(seriesOf(answer, c, out));
+  return out;
+}
 
 std::string pointSize(const FitChart& chart) {
   int64_t most = 1;

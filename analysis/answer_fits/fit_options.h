@@ -10,23 +10,35 @@
 
 namespace limen::analysis {
 
-/// What a user asks of `limen analyse fit`, as typed. Empty: the default.
+enum class Resampling {
+  Parametric,    ///< answers drawn from the fit
+  Nonparametric  ///< from the answers themselves
+};
+constexpr EnumNames<Resampling, 2> enumNames(Resampling) {
+  return {{{{Resampling::Parametric, "parametric"}, {Resampling::Nonparametric, "nonparametric"}}}};
+}
+
+/// What a user asks of `limen analyse fit`. Empty: the default, or of a study what its protocol says.
 struct FitOptions {
   std::string file;
   std::string level, correct, trials, outcome, order;  ///< names of columns
   std::vector<std::string> by;                         ///< columns whose values make conditions
-  std::string task, sigmoid, axis, direction;          ///< 2afc, normal, linear, rising unless set
-  std::string method = "ml", intervals;
-  std::string resample = "parametric";
-  std::vector<std::string> fixed, shared;  ///< "lapse=0.01"; "lapse"
+  std::string sigmoid, axis, direction;                ///< normal, linear, rising unless set
+  std::optional<double> thresholdLevel;                ///< 0.5 unless set
   std::vector<double> range;
-  std::optional<double> thresholdLevel;  ///< 0.5 unless set
-  double confidence = 0.95, lapseMost = 0.1, guessMost = 0.5;
-  bool overdispersion = false, goodness = false;
-  int64_t samples = 2000;
+  FitSettings settings;  ///< the rest
+  std::optional<IntervalMethod> intervals;
+  Resampling resampling = Resampling::Parametric;
+  double confidence = 0.95;
+  bool goodness = false;
+  size_t samples = 2000;
   uint64_t seed = 1;
   unsigned threads = 2;
 };
+/// Holds a parameter at a value: "lapse=0.01". Throws Error.
+void fixParameter(FitSettings& settings, const std::string& text);
+/// Lets all conditions have a parameter in common, by its name. Throws Error.
+void shareParameter(FitSettings& settings, const std::string& name);
 
 /// `data`: what direction "auto" is told from. Throws Error.
 FitSettings readFitSettings(const FitOptions& options, const std::vector<Condition>& data);

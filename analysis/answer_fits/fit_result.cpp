@@ -97,7 +97,7 @@ ResultTable parameterTable(const FitAnswer& answer) {
                                                                 : ""; })
       .add(forData(text("interval_method")),
            [&](const ParameterRow& row) {
-             return row.interval ? ResultCell(nameOf(answer.intervals->method)) : ResultCell();
+             return row.interval ? ResultCell(toText(answer.intervals->method)) : ResultCell();
            })
       .add(forData(number("level")),
            [&](const ParameterRow& row) {
@@ -226,7 +226,7 @@ void addSettings(const FitAnswer& answer, Section& out) {
   out.fact(text("sigmoid"), psychometrics::nameOf(settings.sigmoid));
   out.fact(text("axis"), settings.logarithmic() ? "log" : "linear");
   out.fact(text("direction"), settings.falling ? "falling" : "rising");
-  out.fact(text("method"), settings.method == FitMethod::MaximumLikelihood ? "ml" : "map");
+  out.fact(text("method"), toText(settings.method));
   out.fact(significant("threshold_level", "threshold at F ="), settings.thresholdLevel);
   out.fact(significant("width_from", settings.logarithmic() ? "width in ln x, from F =" : "width from F ="),
            0.05);
@@ -234,7 +234,7 @@ void addSettings(const FitAnswer& answer, Section& out) {
   out.fact(forData(flag("overdispersion")), settings.overdispersion);
   if (!answer.intervals) return;
   const FitIntervals& intervals = *answer.intervals;
-  out.fact(text("interval_method", "intervals"), nameOf(intervals.method));
+  out.fact(text("interval_method", "intervals"), toText(intervals.method));
   out.fact(significant("level"), intervals.confidence);
   if (intervals.method != IntervalMethod::Bootstrap && intervals.method != IntervalMethod::Bca) return;
   out.fact(text("resampling"), answer.parametric ? "parametric" : "nonparametric");

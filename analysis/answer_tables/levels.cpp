@@ -20,21 +20,18 @@ Levels namesIn(const std::vector<std::string>& column) {
 
 Levels levelsIn(const std::vector<std::string>& column) {
   const Levels plain = namesIn(column);
-  std::map<double, std::string> numbers;  // growing
-  std::vector<double> values;
-  for (const std::string& name : plain.names) {
-    const auto value = finiteNumber(name);
+  std::map<double, size_t> places;  // of equal numbers the first, growing
+  for (size_t i = 0; i < plain.names.size(); ++i) {
+    const auto value = finiteNumber(plain.names[i]);
     if (!value) return plain;
-    numbers.emplace(*value, name);
-    values.push_back(*value);
+    places.emplace(*value, i);
   }
   Levels out;
-  std::map<double, size_t> places;
-  for (const auto& [value, name] : numbers) {
-    places[value] = out.names.size();
-    out.names.push_back(name);
+  for (auto& [value, place] : places) {
+    out.names.push_back(plain.names[place]);
+    place = out.names.size() - 1;
   }
-  for (const size_t level : plain.ofRow) out.ofRow.push_back(places.at(values[level]));
+  for (const std::string& name : column) out.ofRow.push_back(places.at(*finiteNumber(name)));
   return out;
 }
 

@@ -137,6 +137,16 @@ size_t Table::column(const std::string& name, const std::string& option) const {
               suggest(name, header_));
 }
 
+std::vector<size_t> Table::columns(const std::vector<std::string>& names, const std::string& option) const {
+  std::vector<size_t> out;
+  for (const std::string& name : names) out.push_back(column(name, option));
+  return out;
+}
+
+std::optional<size_t> Table::optionalColumn(const std::string& name, const std::string& option) const {
+  return name.empty() ? std::nullopt : std::optional(column(name, option));
+}
+
 std::string Table::place(size_t row) const { return fmt::format("{}:{}", name_, rows_[row].line); }
 
 std::string Table::place(size_t row, size_t column) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ class Table {
   size_t rows() const { return rows_.size(); }
   /// Index of a column; throws Error with the nearest name. `option` says who asks.
   size_t column(const std::string& name, const std::string& option = {}) const;
+  std::vector<size_t> columns(const std::vector<std::string>& names, const std::string& option) const;
+  std::optional<size_t> optionalColumn(const std::string& name,
+                                       const std::string& option) const;  ///< "": none
 
   const std::string& text(size_t row, size_t column) const { return rows_[row].fields[column]; }
   double number(size_t row, size_t column) const;  ///< finite

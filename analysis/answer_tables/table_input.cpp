@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "analysis/answer_tables/choice.h"
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
@@ -27,10 +28,8 @@ bool isDatabase(const std::string& path) {
 Table filterRows(const Table& table, const std::vector<std::string>& conditions, const std::string& option) {
   std::map<size_t, std::vector<std::string>> wanted;
   for (const std::string& condition : conditions) {
-    const size_t equals = condition.find('=');
-    if (equals == std::string::npos)
-      throw Error("'" + condition + "' has no value", option, "write COLUMN=VALUE");
-    wanted[table.column(condition.substr(0, equals), option)].push_back(condition.substr(equals + 1));
+    const auto [name, value] = splitAssignment(condition, "has no value", option, "write COLUMN=VALUE");
+    wanted[table.column(name, option)].push_back(value);
   }
   const auto equal = [](const std::string& a, const std::string& b) {
     const auto x = finiteNumber(a), y = finiteNumber(b);

@@ -35,7 +35,7 @@ void fitStore(FitCall& call) {
 
 void fitTable(const FitCall& call) {
   FitOptions options = call.options;
-  if (options.intervals.empty()) options.intervals = "profile";
+  if (!options.intervals) options.intervals = IntervalMethod::Profile;
   const FitAnswer answer = answerFit(options, readConditions(options));
   if (!call.plot.empty()) drawFit(answer, call.plot);
   Section head;
@@ -67,14 +67,14 @@ void addFitCommand(CLI::App& app) {
   fit->add_option("--order", options.order,
                   "column that says when a row was measured; otherwise the file's order");
   fit->add_option("--part", call->parts.part, "of a store: the part to fit (default: all that can be)");
-  fit->add_option("--guess", call->guess,
-                  "of a store, yes/no: free, fitted with the catch trials as trials without a stimulus, or "
-                  "catch, held at their rate")
-      ->capture_default_str()
+  addDefaulted(*fit, "--guess", call->guess,
+               "of a store, yes/no: free, fitted with the catch trials as trials without a stimulus, or "
+               "catch, held at their rate")
       ->check(CLI::IsMember({"free", "catch"}));
   addStudyChoice(*fit, call->study);
-  fit->add_option(
-      "--task", options.task,
+  FitSettings& settings = options.settings;
+  fit->add_option_function<std::string>(
+      "--task", [&](const std::string& task) { settings.task = readFitTask(task, "--task"); },
       "yesno, 2afc, mafc:M, equal (guess rate = lapse rate); 2afc if not given, of a store its own");
   fit->add_option(
       "--sigmoid", options.sigmoid,
@@ -85,38 +85,43 @@ void addFitCommand(CLI::App& app) {
                   "rising, falling (F of -x, on a log axis of 1/x) or auto, as the answers go; rising if not "
                   "given, of a store auto");
   fit->add_option("--level", options.thresholdLevel, "F at which the threshold is; 0.5 if not given");
-  fit->add_option("--method", options.method, "ml: maximum likelihood, map: with priors")
-      ->capture_default_str();
-  fit->add_option("--fix", options.fixed, "parameter that is known: lapse=0.01; may be repeated");
-  fit->add_option("--share", options.shared, "parameters that all conditions have in common: lapse,width")
+  addChoice<FitMethod>(*fit, "--method", settings.method, "maximum likelihood (default), or with priors");
+  fit->add_option_function<std::vector<std::string>>(
+      "--fix",
+      [&](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) fixParameter(settings, text);
+      },
+      "parameter that is known: lapse=0.01; may be repeated");
+  fit->add_option_function<std::vector<std::string>>(
+         "--share",
+         [&](const std::vector<std::string>& names) {
+           for (const std::string& name : names) shareParameter(settings, name);
+         },
+         "parameters that all conditions have in common: lapse,width")
       ->delimiter(',');
-  fit->add_option("--lapse-most", options.lapseMost, "upper bound of the lapse rate")->capture_default_str();
-  fit->add_option("--guess-most", options.guessMost, "upper bound of a guess rate that is fitted")
-      ->capture_default_str();
+  addDefaulted(*fit, "--lapse-most", settings.lapseMost, "upper bound of the lapse rate");
+  addDefaulted(*fit, "--guess-most", settings.guessMost, "upper bound of a guess rate that is fitted");
   fit->add_option("--range", options.range,
                   "LOW,HIGH: levels between which the threshold is expected; bounds and "
                   "priors go by them and not by the data's")
       ->delimiter(',');
-  fit->add_flag("--overdispersion", options.overdispersion, "fit eta: beta-binomial answers");
-  fit->add_option(
-      "--intervals", options.intervals,
-      "profile, bootstrap, bca, laplace, posterior, none; of a store whose observers are pooled also "
-      "observers, which takes them as the unit and is the default there (default: profile)");
-  fit->add_option("--confidence", options.confidence, "of the intervals")->capture_default_str();
-  fit->add_option("--resample", options.resample,
-                  "parametric (from the fit) or nonparametric (from the answers)")
-      ->capture_default_str();
-  fit->add_option("--samples", options.samples, "of bootstrap and goodness of fit")->capture_default_str();
-  fit->add_option("--seed", options.seed, "of bootstrap and goodness of fit")->capture_default_str();
-  fit->add_option("--threads", options.threads, "of the bootstrap; no result depends on them")
-      ->capture_default_str()
+  fit->add_flag("--overdispersion", settings.overdispersion, "fit eta: beta-binomial answers");
+  addChoice<IntervalMethod>(
+      *fit, "--intervals", options.intervals,
+      "profile unless given; of a store whose observers are pooled observers, which takes "
+      "them as the unit",
+      "intervals");
+  addDefaulted(*fit, "--confidence", options.confidence, "of the intervals");
+  addChoice<Resampling>(*fit, "--resample", options.resampling,
+                        "from the fit (parametric, the default) or from the answers");
+  addDefaulted(*fit, "--samples", options.samples, "of bootstrap and goodness of fit");
+  addDefaulted(*fit, "--seed", options.seed, "of bootstrap and goodness of fit");
+  addDefaulted(*fit, "--threads", options.threads, "of the bootstrap; no result depends on them")
       ->check(CLI::Range(1u, 64u));
   fit->add_flag("--goodness", options.goodness,
                 "deviance and residuals against samples drawn from the fit; influence of each block");
   fit->add_option("--plot", call->plot, "draw into FILE.svg, .pdf or .png");
-  fit->add_flag("--json", call->study.asJson, "One JSON object");
-  fit->add_option("--csv", call->study.csv, "Writes all tables of the result to this file")
-      ->type_name("FILE");
+  addOutput(*fit, call->study);
   fit->callback([call, fit] {
     call->study.choice.store = call->options.file;
     if (!isStudyStore(*fit, call->study, {"--k", "--n", "--outcome", "--order"}, {"--part", "--guess"}))

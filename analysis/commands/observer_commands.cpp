@@ -35,25 +35,17 @@ void addAnovaCommand(CLI::App& app) {
   command->add_option("--value", columns.answers.value, "CSV: column with any measured number");
   command->add_flag("--drop-incomplete", columns.dropIncomplete,
                     "CSV: leave out subjects who miss a cell (of a store they always are)");
-  static const std::map<std::string, RateTransform> kTransforms = {{"none", RateTransform::None},
-                                                                   {"arcsine", RateTransform::Arcsine}};
-  command
-      ->add_option("--transform", call->settings.transform,
-                   "of each cell's rate: none, or arcsine for asin(sqrt(p)) (default: none)")
-      ->transform(CLI::CheckedTransformer(kTransforms))
-      ->option_text("none|arcsine");
+  addChoice<RateTransform>(*command, "--transform", call->settings.transform,
+                           "of each cell's rate: none, or arcsine for asin(sqrt(p)) (default: none)");
   command->add_flag("--ranks", call->settings.ranks,
                     "Friedman's test of each factor and Wilcoxon's signed ranks of its pairs too");
   command->callback([call, command] {
-    if (isStudyStore(*command, call->input,
-                     {"--subject", "--within", "--outcome", "--k", "--n", "--value", "--where"})) {
-      const StudyAnswers study = readStudy(call->input);
-      print(call->input, headOf(study), resultOf(studyAnova(study, call->settings)));
-    } else {
-      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
-      print(call->input, headOf(table),
-            resultOf(std::vector<PartAnova>{tableAnova(table.table, call->columns, call->settings)}));
-    }
+    analyseInput(
+        *command, call->input, {"--subject", "--within", "--outcome", "--k", "--n", "--value", "--where"},
+        [&](const StudyAnswers& study) { return studyAnova(study, call->settings); },
+        [&](const Table& table) {
+          return std::vector<PartAnova>{tableAnova(table, call->columns, call->settings)};
+        });
   });
 }
 
@@ -88,17 +80,16 @@ void addMixedCommand(CLI::App& app) {
           "Columns of numbers of which their mean over rows is taken off");
   addList(*command, "--log", terms.log, "Columns of numbers of which the natural logarithm is taken, first");
   command->callback([call, command] {
-    if (isStudyStore(*command, call->input, {"--outcome", "--k", "--n", "--group", "--where"})) {
-      const StudyAnswers study = readStudy(call->input);
-      print(call->input, headOf(study),
-            resultOf(fitMixedModel(studyMixedRows(study, call->part), call->terms)));
-    } else {
-      if (command->count("--part") > 0)
-        throw Error("means nothing for a table", "--part", "leave it out, or take rows with --where");
-      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
-      print(call->input, headOf(table),
-            resultOf(fitMixedModel(readMixedRows(table.table, call->group, call->answers), call->terms)));
-    }
+    analyseInput(
+        *command, call->input, {"--outcome", "--k", "--n", "--group", "--where"},
+        [&](const StudyAnswers& study) {
+          return fitMixedModel(studyMixedRows(study, call->part), call->terms);
+        },
+        [&](const Table& table) {
+          if (command->count("--part") > 0)
+            throw Error("means nothing for a table", "--part", "leave it out, or take rows with --where");
+          return fitMixedModel(readMixedRows(table, call->group, call->answers), call->terms);
+        });
   });
 }
 
@@ -106,7 +97,6 @@ void addSdtCommand(CLI::App& app) {
   struct Call {
     StudyInput input;
     SensitivityColumns columns;
-    std::string correction = "loglinear";
   };
   auto call = std::make_shared<Call>();
   CLI::App* command = app.add_subcommand(
@@ -117,7 +107,7 @@ void addSdtCommand(CLI::App& app) {
                       "CSV: column that says who answered; means are over subjects");
   addList(*command, "--by", columns.by,
           "CSV: columns of conditions, A,B,...; without --subject means are over their rows");
-  command->add_option("--task", columns.task, "CSV: yesno, 2afc, mafc:M")->capture_default_str();
+  addDefaulted(*command, "--task", columns.task, "CSV: yesno, 2afc, mafc:M");
   addAnswerColumns(*command, columns.answers);
   command->add_option("--signal", columns.signal,
                       "CSV: column with 1 where there was something to see and 0 elsewhere, beside --outcome "
@@ -127,25 +117,21 @@ void addSdtCommand(CLI::App& app) {
   command->add_option("--false-alarms", columns.falseAlarms,
                       "CSV: column with the number of false alarms ...");
   command->add_option("--noises", columns.noises, "CSV: ... of so many trials without");
-  command
-      ->add_option(
-          "--correction", call->correction,
-          "of rates k of n: loglinear for (k + 1/2) / (n + 1), or none, which refuses rates of 0 and 1")
-      ->capture_default_str();
+  addChoice<RateCorrection>(*command, "--correction", columns.correction,
+                            "of rates k of n: loglinear for (k + 1/2) / (n + 1), the default, or none, which "
+                            "refuses rates of 0 and 1",
+                            "correction");
   command->callback([call, command] {
-    const RateCorrection correction = readRateCorrection(call->correction);
-    if (isStudyStore(*command, call->input,
-                     {"--subject", "--by", "--outcome", "--k", "--n", "--signal", "--hits", "--signals",
-                      "--false-alarms", "--noises", "--where"})) {
-      if (command->count("--task") > 0)
-        throw Error("is said by the store's protocol", "--task", "leave it out, or give a CSV file");
-      const StudyAnswers study = readStudy(call->input);
-      print(call->input, headOf(study), resultOf(studySensitivity(study, correction)));
-    } else {
-      const TableInput table = readTableInput(call->input.choice.store, call->input.where);
-      call->columns.correction = correction;
-      print(call->input, headOf(table), resultOf(tableSensitivity(table.table, call->columns)));
-    }
+    analyseInput(
+        *command, call->input,
+        {"--subject", "--by", "--outcome", "--k", "--n", "--signal", "--hits", "--signals", "--false-alarms",
+         "--noises", "--where"},
+        [&](const StudyAnswers& study) {
+          if (command->count("--task") > 0)
+            throw Error("is said by the store's protocol", "--task", "leave it out, or give a CSV file");
+          return studySensitivity(study, call->columns.correction);
+        },
+        [&](const Table& table) { return tableSensitivity(table, call->columns); });
   });
 }
 

@@ -110,9 +110,7 @@ void addPublishedCommand(CLI::App& app) {
   command->add_option("stores", options->stores, "Result stores with sessions of these protocols")
       ->required();
   addStudyChoice(*command, *options);
-  command->add_flag("--json", options->asJson, "One JSON object");
-  command->add_option("--csv", options->csv, "Writes all tables of the result to this file")
-      ->type_name("FILE");
+  addOutput(*command, *options);
   command->callback([options] { comparePublished(*options); });
 }
 

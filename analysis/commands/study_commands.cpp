@@ -100,12 +100,9 @@ void addStudyCommands(CLI::App& app) {
                       "sessions')");
   command->add_option("--settings", setting.settings,
                       "First digits of the SHA-256 of the predictor's settings (default: the newest)");
-  command
-      ->add_option("--guess", options->guess,
-                   "Guess rate of the fitted link: catch (their rate), free, or a number")
-      ->capture_default_str();
-  command->add_option("--lapse", options->lapse, "Lapse rate of the fitted link: free, or a number")
-      ->capture_default_str();
+  addDefaulted(*command, "--guess", options->guess,
+               "Guess rate of the fitted link: catch (their rate), free, or a number");
+  addDefaulted(*command, "--lapse", options->lapse, "Lapse rate of the fitted link: free, or a number");
   command
       ->add_option("--coverage-edges", options->coverageEdges,
                    "Shares of the object from which coverage is small, large, huge (default: 0.01,0.05,0.2)")
@@ -114,12 +111,12 @@ void addStudyCommands(CLI::App& app) {
       ->add_option("--rating-edges", options->ratingEdges,
                    "R from which a rating is low, high, very high (default: 1,2,3)")
       ->delimiter(',');
-  command->add_option("--samples", setting.samples, "Samples of observers for the link's intervals; 0: none")
-      ->capture_default_str()
+  addDefaulted(*command, "--samples", setting.samples,
+               "Samples of observers for the link's intervals; 0: none")
       ->check(CLI::Range(0, 100000));
-  command->add_option("--seed", setting.seed, "Of these samples")->capture_default_str();
-  command->add_option("--top-regions", setting.bins.topRegions, "Regions whose mean R is the rating score")
-      ->capture_default_str();
+  addDefaulted(*command, "--seed", setting.seed, "Of these samples");
+  addDefaulted(*command, "--top-regions", setting.bins.topRegions,
+               "Regions whose mean R is the rating score");
   command->callback([options] { validate(*options); });
 }
 

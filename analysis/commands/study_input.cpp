@@ -31,13 +31,8 @@ CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<std
 void addStudyChoice(CLI::App& command, StudyInput& input) {
   command.add_option("--protocol", input.choice.protocol,
                      "Name, or first digits of the SHA-256, if the store has several");
-  static const std::map<std::string, Observers> kObservers = {{"people", Observers::People},
-                                                              {"simulated", Observers::Simulated}};
-  command
-      .add_option("--observers", input.choice.observers,
-                  "people or simulated, if the store has sessions of both")
-      ->transform(CLI::CheckedTransformer(kObservers))
-      ->option_text("people|simulated");
+  addChoice<Observers>(command, "--observers", input.choice.observers,
+                       "people or simulated, if the store has sessions of both");
   command.add_flag("--no-exclusions", input.noExclusions,
                    "Do not apply the exclusion rules that the protocol declares");
   command.add_flag("--unfinished", input.choice.unfinished, "Take broken-off sessions too");
@@ -50,12 +45,16 @@ bool choosesSessions(const CLI::App& command) {
                      [&](const std::string& option) { return command.count(option) > 0; });
 }
 
+void addOutput(CLI::App& command, StudyInput& input) {
+  command.add_flag("--json", input.asJson, "One JSON object");
+  command.add_option("--csv", input.csv, "Writes all tables of the result to this file")->type_name("FILE");
+}
+
 void addStudyInput(CLI::App& command, StudyInput& input, const std::string& positional,
                    const std::string& meaning) {
   command.add_option(positional, input.choice.store, meaning)->required();
   addStudyChoice(command, input);
-  command.add_flag("--json", input.asJson, "One JSON object");
-  command.add_option("--csv", input.csv, "Writes all tables of the result to this file")->type_name("FILE");
+  addOutput(command, input);
 }
 
 void addTableInput(CLI::App& command, StudyInput& input) {

@@ -47,41 +47,6 @@ void runSwitchDistances(const SwitchOptions& options, bool json, const std::stri
   if (staged) staged->putInPlace();
 }
 
-}  // namespace
-
-void addSweepCommands(CLI::App& app) {
-  struct Call {
-    SwitchOptions options;
-    bool json = false;
-    std::string csv;
-  };
-  const auto call = std::make_shared<Call>();
-  CLI::App* distances = app.add_subcommand(
-      "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
-  distances->add_option("STORE", call->options.storePath, "result store that limen sweep wrote")->required();
-  distances->add_option("-p,--probability", call->options.probability, "detection that is allowed")
-      ->capture_default_str();
-  distances->add_option("--confidence", call->options.confidence, "of the interval over views")
-      ->capture_default_str();
-  distances->add_option("--experiment", call->options.experiment, "title or hash of one experiment");
-  distances->add_option("--distance", call->options.distance, "parameter that is the distance")
-      ->capture_default_str();
-  distances->add_option("--views", call->options.views, "parameters that make views of the same switch")
-      ->delimiter(',')
-      ->capture_default_str();
-  distances->add_option("--measurement", call->options.measurement, "what falls with distance")
-      ->capture_default_str();
-  distances->add_option("--seed", call->options.seed, "of the bootstrap")->capture_default_str();
-  distances->add_option("-o,--output", call->options.folder, "folder for JSON, CSV and chart");
-  distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
-  distances->add_flag("--json", call->json, "print one JSON line for each experiment");
-  distances->add_option("--csv", call->csv, "Writes all tables of the result to this file")
-      ->type_name("FILE");
-  distances->callback([call] { runSwitchDistances(call->options, call->json, call->csv); });
-}
-
-namespace {
-
 struct ReportCall {
   ReportOptions sweeps;
   StudyInput study;
@@ -121,6 +86,33 @@ void report(const CLI::App& command, ReportCall call) {
 }
 
 }  // namespace
+
+void addSweepCommands(CLI::App& app) {
+  struct Call {
+    SwitchOptions options;
+    bool json = false;
+    std::string csv;
+  };
+  const auto call = std::make_shared<Call>();
+  CLI::App* distances = app.add_subcommand(
+      "switch-distances", "distance at which each level-of-detail switch of a sweep may happen");
+  distances->add_option("STORE", call->options.storePath, "result store that limen sweep wrote")->required();
+  addDefaulted(*distances, "-p,--probability", call->options.probability, "detection that is allowed");
+  addDefaulted(*distances, "--confidence", call->options.confidence, "of the interval over views");
+  distances->add_option("--experiment", call->options.experiment, "title or hash of one experiment");
+  addDefaulted(*distances, "--distance", call->options.distance, "parameter that is the distance");
+  distances->add_option("--views", call->options.views, "parameters that make views of the same switch")
+      ->delimiter(',')
+      ->capture_default_str();
+  addDefaulted(*distances, "--measurement", call->options.measurement, "what falls with distance");
+  addDefaulted(*distances, "--seed", call->options.seed, "of the bootstrap");
+  distances->add_option("-o,--output", call->options.folder, "folder for JSON, CSV and chart");
+  distances->add_flag("--force", call->options.force, "go on although runs are missing or failed");
+  distances->add_flag("--json", call->json, "print one JSON line for each experiment");
+  distances->add_option("--csv", call->csv, "Writes all tables of the result to this file")
+      ->type_name("FILE");
+  distances->callback([call] { runSwitchDistances(call->options, call->json, call->csv); });
+}
 
 void addReportCommand(CLI::App& app) {
   const auto call = std::make_shared<ReportCall>();

@@ -66,42 +66,6 @@ void checkTogether(const CLI::App& command) {
     throw Error("takes rates, and --outcome names 0 and 1", "--clamp", "leave one of both out");
 }
 
-}  // namespace
-
-void addCorrelateCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "correlate", "how columns of a table, or measures and predictors of a study, go together");
-  auto options = std::make_shared<CorrelateOptions>();
-  addStudyInput(*command, *options, "DATA",
-                "CSV or TSV, columns named in the first line; or a result store with sessions");
-  RelationColumns& columns = options->columns;
-  command->add_option("--x", columns.x, "columns, each set against --y or --outcome")->delimiter(',');
-  command->add_option("--y", columns.y, "column with numbers: Kendall, Spearman, Pearson");
-  command->add_option("--outcome", columns.outcome, "column with 0 or 1: areas under ROC curves");
-  command->add_option("--by", columns.by, "columns whose values make groups, each looked at alone")
-      ->delimiter(',');
-  command->add_option("--cluster", columns.cluster,
-                      "column whose rows belong together (participant, scene): bootstrap over its values");
-  command->add_flag("--clamp", options->clamp,
-                    "y are rates: Pearson of clamped x as well (Schwarz 2009, section 10.4.1)");
-  command->add_flag("--probability", options->probability, "x are probabilities of 1: calibration as well");
-  command->add_option("--bins", options->bins, "of the calibration")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--confidence", options->bootstrap.level, "of the intervals")->capture_default_str();
-  command->add_option("--samples", options->bootstrap.samples, "of the bootstrap")->capture_default_str();
-  command->add_option("--seed", options->bootstrap.seed, "of the bootstrap")->capture_default_str();
-  command->add_option("--plot", options->plot, "draw into FILE.svg, .pdf or .png")->type_name("FILE");
-  command->callback([command, options] {
-    const bool store = isStudyStore(*command, *options, {"--x", "--y", "--outcome", "--by", "--cluster"});
-    checkTogether(*command);
-    checkIntervals(options->bootstrap.level, options->bootstrap.samples, false);
-    store ? correlateStore(*options) : correlateTable(*options);
-  });
-}
-
-namespace {
-
 struct ScaleOptions : StudyInput {
   PairColumns columns;
   ScaleSetting setting;
@@ -124,6 +88,36 @@ void scaleTable(const ScaleOptions& options) {
 
 }  // namespace
 
+void addCorrelateCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "correlate", "how columns of a table, or measures and predictors of a study, go together");
+  auto options = std::make_shared<CorrelateOptions>();
+  addStudyInput(*command, *options, "DATA",
+                "CSV or TSV, columns named in the first line; or a result store with sessions");
+  RelationColumns& columns = options->columns;
+  command->add_option("--x", columns.x, "columns, each set against --y or --outcome")->delimiter(',');
+  command->add_option("--y", columns.y, "column with numbers: Kendall, Spearman, Pearson");
+  command->add_option("--outcome", columns.outcome, "column with 0 or 1: areas under ROC curves");
+  command->add_option("--by", columns.by, "columns whose values make groups, each looked at alone")
+      ->delimiter(',');
+  command->add_option("--cluster", columns.cluster,
+                      "column whose rows belong together (participant, scene): bootstrap over its values");
+  command->add_flag("--clamp", options->clamp,
+                    "y are rates: Pearson of clamped x as well (Schwarz 2009, section 10.4.1)");
+  command->add_flag("--probability", options->probability, "x are probabilities of 1: calibration as well");
+  addDefaulted(*command, "--bins", options->bins, "of the calibration")->check(CLI::Range(1, 1000));
+  addDefaulted(*command, "--confidence", options->bootstrap.level, "of the intervals");
+  addDefaulted(*command, "--samples", options->bootstrap.samples, "of the bootstrap");
+  addDefaulted(*command, "--seed", options->bootstrap.seed, "of the bootstrap");
+  command->add_option("--plot", options->plot, "draw into FILE.svg, .pdf or .png")->type_name("FILE");
+  command->callback([command, options] {
+    const bool store = isStudyStore(*command, *options, {"--x", "--y", "--outcome", "--by", "--cluster"});
+    checkTogether(*command);
+    checkIntervals(options->bootstrap.level, options->bootstrap.samples, false);
+    store ? correlateStore(*options) : correlateTable(*options);
+  });
+}
+
 void addScaleCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "scale", "scale values of items that were compared in pairs (Thurstone, Bradley and Terry)");
@@ -144,27 +138,16 @@ void addScaleCommand(CLI::App& app) {
                       "column with who answered: bootstrap over subjects, circular triads");
   command->add_option("--round", columns.round,
                       "column that tells a subject's passes through the pairs apart, for circular triads");
-  static const std::map<std::string, PairwiseModel> kModels = {
-      {"thurstone", PairwiseModel::kThurstoneMaximumLikelihood},
-      {"thurstone-ls", PairwiseModel::kThurstoneLeastSquares},
-      {"bradley-terry", PairwiseModel::kBradleyTerry}};
-  command
-      ->add_option("--model", setting.model,
-                   "thurstone (case V), thurstone-ls (by least squares) or bradley-terry (default)")
-      ->transform(CLI::CheckedTransformer(kModels));
-  static const std::map<std::string, UnboundedScale> kUnbounded = {{"refuse", UnboundedScale::kRefuse},
-                                                                   {"penalise", UnboundedScale::kPenalise}};
-  command
-      ->add_option("--unbounded", setting.unbounded,
-                   "what to do if answers put an item infinitely far away: refuse (default) or penalise")
-      ->transform(CLI::CheckedTransformer(kUnbounded));
-  command->add_option("--prior-sd", setting.priorDeviation, "of values, if they are penalised")
-      ->capture_default_str();
+  addChoice<PairwiseModel>(*command, "--model", setting.model,
+                           "thurstone (case V), thurstone-ls (by least squares) or bradley-terry (default)");
+  addChoice<UnboundedScale>(
+      *command, "--unbounded", setting.unbounded,
+      "what to do if answers put an item infinitely far away: refuse (default) or penalise");
+  addDefaulted(*command, "--prior-sd", setting.priorDeviation, "of values, if they are penalised");
   command->add_option("--reference", setting.reference, "item that is 0 on the scale");
-  command->add_option("--confidence", setting.bootstrap.level, "of the intervals")->capture_default_str();
-  command->add_option("--samples", setting.bootstrap.samples, "of the bootstrap; 0 for none")
-      ->capture_default_str();
-  command->add_option("--seed", setting.bootstrap.seed, "of the bootstrap")->capture_default_str();
+  addDefaulted(*command, "--confidence", setting.bootstrap.level, "of the intervals");
+  addDefaulted(*command, "--samples", setting.bootstrap.samples, "of the bootstrap; 0 for none");
+  addDefaulted(*command, "--seed", setting.bootstrap.seed, "of the bootstrap");
   command->add_option("--plot", options->plot, "draw into FILE.svg, .pdf or .png")->type_name("FILE");
   command->callback([command, options] {
     const bool store = isStudyStore(

@@ -40,21 +40,13 @@ void resample(AreaGroup& group, const RelationRows& rows, const BootstrapSetting
 }
 
 void compare(AreaGroup& group, const RelationRows& rows, const RelationColumns& columns, double level) {
-  std::vector<double> p;
-  std::vector<size_t> with;
   for (size_t i = 0; i < columns.x.size(); ++i)
-    for (size_t j = i + 1; j < columns.x.size(); ++j) {
-      AreaDifference one{
-          columns.x[i], columns.x[j], compareRocAreas(rows.x[i], rows.x[j], rows.outcome, level), {}, {}};
-      if (one.comparison.p) {
-        with.push_back(group.differences.size());
-        p.push_back(*one.comparison.p);
-      }
-      group.differences.push_back(std::move(one));
-    }
+    for (size_t j = i + 1; j < columns.x.size(); ++j)
+      group.differences.push_back(
+          {columns.x[i], columns.x[j], compareRocAreas(rows.x[i], rows.x[j], rows.outcome, level), {}, {}});
   if (group.differences.size() < 2) return;
-  const std::vector<double> adjusted = adjustHolm(p);
-  for (size_t i = 0; i < with.size(); ++i) group.differences[with[i]].holm = adjusted[i];
+  adjustHolm(
+      group.differences, [](const AreaDifference& one) { return one.comparison.p; }, &AreaDifference::holm);
 }
 
 }  // namespace

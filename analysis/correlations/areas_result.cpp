@@ -51,26 +51,6 @@ Section sectionOf(const AreaGroup& group, const Areas& all) {
   return out;
 }
 
-}  // namespace
-
-Result resultOf(const Areas& areas) {
-  Result out;
-  out.command = "correlate";
-  addBootstrapFacts(out.head, areas.cluster, areas.setting.bootstrap);
-  out.head.fact(forData(text("outcome")), areas.outcome);
-  for (const AreaGroup& group : areas.groups) out.sections.push_back(sectionOf(group, areas));
-  out.notes.push_back(
-      "area = P(x of a row with " + areas.outcome +
-      " 1 is above x of a row with 0), ties half; intervals and p after DeLong, DeLong and "
-      "Clarke-Pearson (1988), which takes rows as independent; (logit): better next to 0 and 1; "
-      "p (Holm): adjusted for the pairs of a group");
-  if (!areas.cluster.empty()) out.notes.push_back(bootstrapNote(areas.cluster));
-  out.notes.push_back(kDashNote);
-  return out;
-}
-
-namespace {
-
 /// Adds panels to a script and their points to the data.
 class AreaChart {
  public:
@@ -126,6 +106,22 @@ class AreaChart {
 };
 
 }  // namespace
+
+Result resultOf(const Areas& areas) {
+  Result out;
+  out.command = "correlate";
+  addBootstrapFacts(out.head, areas.cluster, areas.setting.bootstrap);
+  out.head.fact(forData(text("outcome")), areas.outcome);
+  for (const AreaGroup& group : areas.groups) out.sections.push_back(sectionOf(group, areas));
+  out.notes.push_back(
+      "area = P(x of a row with " + areas.outcome +
+      " 1 is above x of a row with 0), ties half; intervals and p after DeLong, DeLong and "
+      "Clarke-Pearson (1988), which takes rows as independent; (logit): better next to 0 and 1; "
+      "p (Holm): adjusted for the pairs of a group");
+  if (!areas.cluster.empty()) out.notes.push_back(bootstrapNote(areas.cluster));
+  out.notes.push_back(kDashNote);
+  return out;
+}
 
 void drawAreas(const Areas& areas, const std::string& path) {
   const ChartFile file(path);

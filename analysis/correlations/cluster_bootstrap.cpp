@@ -90,11 +90,7 @@ void addCalibration(Section& out, const Calibration& calibration, const std::str
           .add(number("uncertainty", "", 4), &Calibration::uncertainty)
           .add(number("within_variance", "", 4), &Calibration::withinVariance)
           .add(number("within_covariance", "", 4), &Calibration::withinCovariance));
-  const auto ifShown = [](double CalibrationBin::*member) {
-    return [member](const CalibrationBin& bin) {
-      return bin.trials > 0 ? ResultCell(bin.*member) : ResultCell();
-    };
-  };
+  const auto ifShown = [](auto member) { return when(&CalibrationBin::trials, member); };
   const Column predicted = interval("bin", "predicted", 2);
   out.add(TableOf("bins", "what was observed where " + x + " was predicted", calibration.bins)
               .add(forData(text("x")), [&](const CalibrationBin&) { return x; })

@@ -109,15 +109,10 @@ void correlate(Relation& relation, const std::vector<size_t>& clusters, const Co
 void adjustGroup(CorrelationGroup& group) {
   if (group.relations.size() < 2) return;
   for (size_t i = 0; i < coefficientNames().size(); ++i) {
-    std::vector<RelationCoefficient*> family;
-    std::vector<double> p;
+    std::vector<std::reference_wrapper<RelationCoefficient>> family;
     for (Relation& relation : group.relations)
-      if (i < relation.coefficients.size() && relation.coefficients[i].p) {
-        family.push_back(&relation.coefficients[i]);
-        p.push_back(*relation.coefficients[i].p);
-      }
-    const std::vector<double> adjusted = adjustHolm(p);
-    for (size_t j = 0; j < family.size(); ++j) family[j]->holm = adjusted[j];
+      if (i < relation.coefficients.size()) family.push_back(relation.coefficients[i]);
+    adjustHolm(family, &RelationCoefficient::p, &RelationCoefficient::holm);
   }
 }
 

@@ -36,8 +36,7 @@ ResultTable coefficientTable(const Relation& relation, const Correlations& all) 
       .add(interval("", level), of(&Coefficient::interval))
       .add(forData(number("standard_error")), of(&Coefficient::standardError))
       .add(probability(), &RelationCoefficient::p)
-      .add(flag("p_exact", "exact"),
-           [](const auto& one) { return one.p ? ResultCell(one.exact) : ResultCell(); })
+      .add(flag("p_exact", "exact"), when(&RelationCoefficient::p, &RelationCoefficient::exact))
       .add(ifAny(probability("p_holm", "p (Holm)")), &RelationCoefficient::holm)
       .add(ifAny(interval("bootstrap", level + " bootstrap")), bootstrap(&ResampledInterval::interval))
       .add(forData(integer("bootstrap_undefined")), bootstrap(&ResampledInterval::undefined))
@@ -82,34 +81,6 @@ Section sectionOf(const CorrelationGroup& group, const Correlations& all) {
   return out;
 }
 
-}  // namespace
-
-Result resultOf(const Correlations& correlations) {
-  Result out;
-  out.command = "correlate";
-  addBootstrapFacts(out.head, correlations.cluster, correlations.setting.bootstrap);
-  out.head.fact(forData(text("unit")), correlations.unit);
-  for (const CorrelationGroup& group : correlations.groups)
-    out.sections.push_back(sectionOf(group, correlations));
-  out.notes = correlations.notes;
-  out.notes.push_back(
-      "intervals: Kendall's value +- z error (tau_a after Samara and Randles 1988, tau_b and tau_c after "
-      "Brown and Benedetti 1977), Spearman's and Pearson's by Fisher's z. They and the two-sided p take " +
-      correlations.unit +
-      " as independent; p (Holm): adjusted for the pairs of a group, each coefficient apart");
-  if (!correlations.cluster.empty()) {
-    out.notes.push_back(bootstrapNote(correlations.cluster));
-    out.notes.push_back("no bootstrap for tau_a and tau_c, which rows drawn twice pull towards 0");
-  }
-  if (correlations.setting.clamp)
-    out.notes.push_back(
-        "clamped: x above the least whose rate is 1 are lowered to it (Schwarz 2009, section 10.4.1)");
-  out.notes.push_back(kDashNote);
-  return out;
-}
-
-namespace {
-
 /// A pair of columns with the groups that have it.
 struct Panel {
   std::string x, y;
@@ -146,6 +117,30 @@ std::string numbersOf(const Relation& relation, bool intervals) {
 }
 
 }  // namespace
+
+Result resultOf(const Correlations& correlations) {
+  Result out;
+  out.command = "correlate";
+  addBootstrapFacts(out.head, correlations.cluster, correlations.setting.bootstrap);
+  out.head.fact(forData(text("unit")), correlations.unit);
+  for (const CorrelationGroup& group : correlations.groups)
+    out.sections.push_back(sectionOf(group, correlations));
+  out.notes = correlations.notes;
+  out.notes.push_back(
+      "intervals: Kendall's value +- z error (tau_a after Samara and Randles 1988, tau_b and tau_c after "
+      "Brown and Benedetti 1977), Spearman's and Pearson's by Fisher's z. They and the two-sided p take " +
+      correlations.unit +
+      " as independent; p (Holm): adjusted for the pairs of a group, each coefficient apart");
+  if (!correlations.cluster.empty()) {
+    out.notes.push_back(bootstrapNote(correlations.cluster));
+    out.notes.push_back("no bootstrap for tau_a and tau_c, which rows drawn twice pull towards 0");
+  }
+  if (correlations.setting.clamp)
+    out.notes.push_back(
+        "clamped: x above the least whose rate is 1 are lowered to it (Schwarz 2009, section 10.4.1)");
+  out.notes.push_back(kDashNote);
+  return out;
+}
 
 void drawCorrelations(const Correlations& correlations, const std::string& path) {
   const ChartFile file(path);

@@ -31,20 +31,16 @@ std::vector<size_t> scoreColumns(const Table& table, const RelationColumns& colu
     throw Error(both ? "both were given" : "neither was given", "--y, --outcome",
                 "--y for numbers, --outcome for 0 and 1");
   std::set<std::string> seen{columns.y.empty() ? columns.outcome : columns.y};
-  std::vector<size_t> out;
-  for (const std::string& name : columns.x) {
+  for (const std::string& name : columns.x)
     if (!seen.insert(name).second)
       throw Error("column '" + name + "' is set against itself or named twice", "--x");
-    out.push_back(table.column(name, "--x"));
-  }
-  return out;
+  return table.columns(columns.x, "--x");
 }
 
 }  // namespace
 
 RowGroups groupRows(const Table& table, const std::vector<std::string>& by, const std::string& option) {
-  std::vector<size_t> columns;
-  for (const std::string& name : by) columns.push_back(table.column(name, option));
+  const std::vector<size_t> columns = table.columns(by, option);
   RowGroups out;
   std::map<std::vector<std::string>, size_t> known;
   for (size_t row = 0; row < table.rows(); ++row) {
@@ -65,8 +61,7 @@ std::vector<RelationRows> readRelations(const Table& table, const RelationColumn
   const std::vector<size_t> x = scoreColumns(table, columns);
   const bool binary = !columns.outcome.empty();
   const size_t y = binary ? table.column(columns.outcome, "--outcome") : table.column(columns.y, "--y");
-  std::optional<size_t> cluster;
-  if (!columns.cluster.empty()) cluster = table.column(columns.cluster, "--cluster");
+  const std::optional<size_t> cluster = table.optionalColumn(columns.cluster, "--cluster");
   const RowGroups groups = groupRows(table, columns.by, "--by");
   if (table.rows() < kLeastRows)
     throw Error(fmt::format("{} row(s), and a relation needs {} at least", table.rows(), kLeastRows), file);

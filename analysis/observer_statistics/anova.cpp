@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/observer_statistics/anova.h"
 
-#include <fmt/format.h>
-
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "analysis/statistics/multiple_comparisons.h"
-#include "experiments/base/error.h"
 
 namespace limen::analysis {
 namespace {
@@ -38,9 +36,7 @@ std::vector<size_t> firstMissing(const std::vector<NamedFactor>& factors,
 
 void transformRates(RepeatedMeasures& data) {
   for (double& value : data.values) {
-    if (!(value >= 0.0 && value <= 1.0))
-      throw Error(fmt::format("{} is no rate, which the arcsine transform is for", value), "--transform",
-                  "transform rates from 0 to 1 only");
+    assert(value >= 0.0 && value <= 1.0);
     value = std::asin(std::sqrt(value));
   }
 }
@@ -56,14 +52,11 @@ FactorComparison compareLevels(const RepeatedMeasures& data, size_t factor, bool
   for (size_t subject = 0; subject < data.subjects; ++subject)
     for (const std::vector<double>& level : means) bySubject.push_back(level[subject]);
   out.friedman = friedmanTest(bySubject, data.subjects, means.size());
-  std::vector<double> p;
   for (size_t first = 0; first < means.size(); ++first)
-    for (size_t second = first + 1; second < means.size(); ++second) {
+    for (size_t second = first + 1; second < means.size(); ++second)
       out.rankPairs.push_back({first, second, signedRankTest(means[first], means[second]), 1.0});
-      p.push_back(out.rankPairs.back().test.p);
-    }
-  const std::vector<double> adjusted = adjustHolm(p);
-  for (size_t i = 0; i < adjusted.size(); ++i) out.rankPairs[i].pHolm = adjusted[i];
+  adjustHolm(
+      out.rankPairs, [](const RankComparison& pair) { return pair.test.p; }, &RankComparison::pHolm);
   return out;
 }
 

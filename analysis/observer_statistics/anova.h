@@ -10,6 +10,7 @@
 #include "analysis/statistics/detection_rates.h"
 #include "analysis/statistics/rank_tests.h"
 #include "analysis/statistics/repeated_measures_anova.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -43,6 +44,9 @@ enum class RateTransform {
   /// 1991, chapter 5).
   Arcsine
 };
+constexpr EnumNames<RateTransform, 2> enumNames(RateTransform) {
+  return {{{{RateTransform::None, "none"}, {RateTransform::Arcsine, "arcsine"}}}};
+}
 
 struct AnovaSettings {
   RateTransform transform = RateTransform::None;

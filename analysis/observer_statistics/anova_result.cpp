@@ -170,7 +170,7 @@ Section sectionOf(const PartAnova& part) {
   out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(text("measure")), part.measure);
   out.fact(forData(text("rate_of")), part.rates ? ResultCell(part.of) : ResultCell());
-  out.fact(text("transform"), part.transform == RateTransform::Arcsine ? "arcsine" : "none");
+  out.fact(text("transform"), toText(part.transform));
   out.fact(integer("observers"), part.result ? part.result->subjects : 0);
   out.fact(
       part.rates && part.transform == RateTransform::None ? share("grand_mean") : significant("grand_mean"),

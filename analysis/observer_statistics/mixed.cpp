@@ -90,22 +90,19 @@ Result resultOf(const MixedModel& model) {
   out.fact(forData(flag("singular")), fit.singular);
   out.fact(forData(text("slope")), model.slope.empty() ? ResultCell() : ResultCell(model.slope));
   out.fact(forData(text("note")), fit.note);
-  out.add(
-      TableOf("columns", "", model.columns)
-          .add(text("name", "column"), &ModelColumn::name)
-          .add(forData(flag("numeric")), &ModelColumn::numeric)
-          .add(ifAny(list("levels")), &ModelColumn::levels)
-          .add(ifAny(text("reference")),
-               [](const ModelColumn& one) { return one.numeric ? ResultCell() : ResultCell(one.levels[0]); })
-          .add(
-              forData(flag("logarithm")),
-              [](const ModelColumn& one) { return one.numeric ? ResultCell(one.logarithmic) : ResultCell(); })
-          .add(ifAny(significant("centre", "minus (mean over rows)", 6)),
-               [](const ModelColumn& one) { return one.centred ? ResultCell(one.centre) : ResultCell(); })
-          .add(forPeople(text("", "coded as")), [](const ModelColumn& one) {
-            return one.numeric ? std::string(one.logarithmic ? "numbers, natural logarithm" : "numbers")
-                               : one.levels[0] + " is 0";
-          }));
+  out.add(TableOf("columns", "", model.columns)
+              .add(text("name", "column"), &ModelColumn::name)
+              .add(forData(flag("numeric")), &ModelColumn::numeric)
+              .add(ifAny(list("levels")), &ModelColumn::levels)
+              .add(ifAny(text("reference")),
+                   [](const ModelColumn& one) { return one.numeric ? ResultCell() : one.levels[0]; })
+              .add(forData(flag("logarithm")), when(&ModelColumn::numeric, &ModelColumn::logarithmic))
+              .add(ifAny(significant("centre", "minus (mean over rows)", 6)),
+                   when(&ModelColumn::centred, &ModelColumn::centre))
+              .add(forPeople(text("", "coded as")), [](const ModelColumn& one) {
+                return one.numeric ? std::string(one.logarithmic ? "numbers, natural logarithm" : "numbers")
+                                   : one.levels[0] + " is 0";
+              }));
   const auto ratio = [](double logOdds) { return std::exp(logOdds); };
   out.add(TableOf("fixed", "fixed effects", fit.fixed)
               .add(text("name", "effect"), &FixedEffect::name)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/answer_tables/choice.h"
 #include "analysis/answer_tables/levels.h"
 #include "analysis/output/text_output.h"
 #include "experiments/base/error.h"
@@ -29,8 +30,7 @@ Term parseTerm(const std::string& text, const MixedRows& rows) {
   std::vector<std::string> known;
   for (const auto& [name, values] : rows.columns) known.push_back(name);
   for (const std::string& name : out) {
-    if (rows.columns.count(name) == 0)
-      throw Error("no column '" + name + "'", "--fixed", suggest(name, known));
+    placeOf(name, known, "column", "--fixed");
     if (std::count(out.begin(), out.end(), name) > 1)
       throw Error("'" + text + "' has '" + name + "' twice", "--fixed");
   }
@@ -183,11 +183,9 @@ std::map<std::string, std::string> parseReferences(const std::vector<std::string
                                                    const std::set<std::string>& used) {
   std::map<std::string, std::string> out;
   for (const std::string& text : texts) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos)
-      throw Error("'" + text + "' names no level", "--reference", "write COLUMN=LEVEL");
-    requireUsed({text.substr(0, equals)}, used, "--reference");
-    out[text.substr(0, equals)] = text.substr(equals + 1);
+    const auto [column, level] = splitAssignment(text, "names no level", "--reference", "write COLUMN=LEVEL");
+    requireUsed({column}, used, "--reference");
+    out[column] = level;
   }
   return out;
 }

@@ -23,31 +23,6 @@ void analyseRow(SensitivityRow& row, const PartSensitivity& part) {
   }
 }
 
-}  // namespace
-
-void analyseSensitivity(PartSensitivity& part) {
-  std::vector<double> dPrimes, criteria, lnBetas, aPrimes;
-  for (SensitivityRow& row : part.rows) {
-    analyseRow(row, part);
-    if (row.observer.empty()) continue;
-    if (row.mAfc) dPrimes.push_back(row.mAfc->dPrime);
-    if (!row.yesNo) continue;
-    dPrimes.push_back(row.yesNo->dPrime);
-    criteria.push_back(row.yesNo->criterion);
-    lnBetas.push_back(row.yesNo->lnBeta);
-    aPrimes.push_back(row.yesNo->aPrime);
-  }
-  const auto mean = [](const std::vector<double>& values) {
-    return values.empty() ? std::nullopt : std::optional(meanOverSubjects(values));
-  };
-  part.dPrime = mean(dPrimes);
-  part.criterion = mean(criteria);
-  part.lnBeta = mean(lnBetas);
-  part.aPrime = mean(aPrimes);
-}
-
-namespace {
-
 /// Columns of an estimate of yes/no answers and of its interval.
 void addEstimate(TableOf<SensitivityRow>& table, const std::string& name, const std::string& title,
                  double YesNoSensitivity::*value, Interval YesNoSensitivity::*bounds) {
@@ -120,13 +95,34 @@ ResultTable meanTable(const PartSensitivity& part) {
 
 }  // namespace
 
+void analyseSensitivity(PartSensitivity& part) {
+  std::vector<double> dPrimes, criteria, lnBetas, aPrimes;
+  for (SensitivityRow& row : part.rows) {
+    analyseRow(row, part);
+    if (row.observer.empty()) continue;
+    if (row.mAfc) dPrimes.push_back(row.mAfc->dPrime);
+    if (!row.yesNo) continue;
+    dPrimes.push_back(row.yesNo->dPrime);
+    criteria.push_back(row.yesNo->criterion);
+    lnBetas.push_back(row.yesNo->lnBeta);
+    aPrimes.push_back(row.yesNo->aPrime);
+  }
+  const auto mean = [](const std::vector<double>& values) {
+    return values.empty() ? std::nullopt : std::optional(meanOverSubjects(values));
+  };
+  part.dPrime = mean(dPrimes);
+  part.criterion = mean(criteria);
+  part.lnBeta = mean(lnBetas);
+  part.aPrime = mean(aPrimes);
+}
+
 Section sectionOf(const PartSensitivity& part) {
   Section out;
   out.title = part.title;
   out.fact(key(text("part")), part.part.empty() ? ResultCell() : ResultCell(part.part));
   out.fact(forData(flag("yes_no")), part.yesNo);
   out.fact(forData(integer("alternatives")), part.alternatives);
-  out.fact(forData(text("correction")), part.correction == RateCorrection::kLogLinear ? "loglinear" : "none");
+  out.fact(forData(text("correction")), toText(part.correction));
   out.add(rowTable(part));
   out.add(meanTable(part));
   if (!part.rows.empty()) {

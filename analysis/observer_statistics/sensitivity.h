@@ -55,9 +55,6 @@ struct SensitivityColumns {
   RateCorrection correction = RateCorrection::kLogLinear;
 };
 
-/// "loglinear" or "none"; Error otherwise.
-RateCorrection readRateCorrection(const std::string& text);
-
 /// Rows of the same names are added up. Throws Error with row and column as the readers of columns do, and
 /// for columns that do not fit the task.
 std::vector<PartSensitivity> tableSensitivity(const Table& table, const SensitivityColumns& columns);

@@ -101,20 +101,13 @@ std::string conditionTitle(const Table& table, size_t row, const std::vector<siz
 
 }  // namespace
 
-RateCorrection readRateCorrection(const std::string& text) {
-  if (text == "loglinear") return RateCorrection::kLogLinear;
-  if (text == "none") return RateCorrection::kNone;
-  throw Error("no correction '" + text + "'", "--correction", suggest(text, {"loglinear", "none"}));
-}
-
 std::vector<PartSensitivity> tableSensitivity(const Table& table, const SensitivityColumns& columns) {
   const int alternatives = alternativesOf(columns.task);
   const Count count = counterOf(table, columns, alternatives == 0);
   if (columns.by.empty() && columns.subject.empty())
     throw Error("the columns that tell answers apart are not named", table.name(),
                 "give --subject, --by with columns of conditions, or both");
-  std::vector<size_t> by;
-  for (const std::string& name : columns.by) by.push_back(table.column(name, "--by"));
+  const std::vector<size_t> by = table.columns(columns.by, "--by");
   const bool subjects = !columns.subject.empty();
   const std::vector<size_t> own =
       subjects ? std::vector<size_t>{table.column(columns.subject, "--subject")} : by;

@@ -141,6 +141,12 @@ auto at(Members... members) {
   return [=](const auto& row) { return reach(row, members...); };
 }
 
+/// The same, or none where the condition, a member or a function of the row, is false, 0 or empty.
+template <class Condition, class... Members>
+auto when(Condition condition, Members... members) {
+  return [=](const auto& row) { return std::invoke(condition, row) ? reach(row, members...) : ResultCell(); };
+}
+
 /// For columns made by count().
 template <class Number, class Of>
 auto countOf(Number number, Of of) {

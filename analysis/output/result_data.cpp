@@ -74,7 +74,13 @@ class CsvWriter {
     addColumn(column.name);
     if (!column.second.empty()) addColumn(column.second);
   }
-  void addRow() { rows_.emplace_back(); }
+  void addColumns(const ResultTable& table) {
+    for (const Column& column : table.columns) addColumns(column);
+  }
+  void addRow(const ResultTable& table, size_t row) {
+    rows_.emplace_back();
+    for (const Column& column : table.columns) set(column, column.cells[row]);
+  }
   void set(const std::string& name, const std::string& value) {
     rows_.back().resize(header_.size());
     rows_.back()[places_.at(name)] = value;
@@ -126,31 +132,27 @@ std::string jsonLine(const Result& result) {
 std::string toCsv(const std::vector<Section>& sections) {
   CsvWriter out;
   out.addColumn("table");
-  for (const Section& section : sections)
+  const auto eachKey = [](const Section& section, const auto& take) {
     for (const Column& fact : section.facts)
-      if (fact.identifies) out.addColumns(fact);
+      if (fact.identifies) take(fact);
+  };
+  for (const Section& section : sections) eachKey(section, [&](const Column& fact) { out.addColumns(fact); });
   for (const Section& section : sections)
-    for (const ResultTable& table : section.tables)
-      for (const Column& column : table.columns) out.addColumns(column);
+    for (const ResultTable& table : section.tables) out.addColumns(table);
   for (const Section& section : sections)
     for (const ResultTable& table : section.tables)
       for (size_t row = 0; row < table.rows(); ++row) {
-        out.addRow();
+        out.addRow(table, row);
         out.set("table", table.name);
-        for (const Column& fact : section.facts)
-          if (fact.identifies) out.set(fact, fact.cells.front());
-        for (const Column& column : table.columns) out.set(column, column.cells[row]);
+        eachKey(section, [&](const Column& fact) { out.set(fact, fact.cells.front()); });
       }
   return out.text();
 }
 
 std::string toCsv(const ResultTable& table) {
   CsvWriter out;
-  for (const Column& column : table.columns) out.addColumns(column);
-  for (size_t row = 0; row < table.rows(); ++row) {
-    out.addRow();
-    for (const Column& column : table.columns) out.set(column, column.cells[row]);
-  }
+  out.addColumns(table);
+  for (size_t row = 0; row < table.rows(); ++row) out.addRow(table, row);
   return out.text();
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/pair_scales/pair_table.h"
 
-#include <optional>
-
 #include "analysis/answer_tables/answer_columns.h"
 #include "analysis/correlations/relation_table.h"
 #include "analysis/output/text_output.h"
@@ -10,11 +8,6 @@
 
 namespace limen::analysis {
 namespace {
-
-std::optional<size_t> optionalColumn(const Table& table, const std::string& name, const std::string& option) {
-  if (name.empty()) return {};
-  return table.column(name, option);
-}
 
 /// Which of both ways the columns are named.
 bool isOrdered(const PairColumns& columns) {
@@ -35,19 +28,16 @@ bool isOrdered(const PairColumns& columns) {
 
 }  // namespace
 
-size_t PairGroup::item(const std::string& wanted) { return indexIn(items, wanted); }
-size_t PairGroup::subject(const std::string& wanted) { return indexIn(subjects, wanted); }
-
 std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns) {
   const bool ordered = isOrdered(columns);
   const size_t first =
       ordered ? table.column(columns.first, "--first") : table.column(columns.winner, "--winner");
   const size_t second =
       ordered ? table.column(columns.second, "--second") : table.column(columns.loser, "--loser");
-  const auto chosen = optionalColumn(table, columns.chosen, "--chosen");
-  const auto count = optionalColumn(table, columns.count, "--n");
-  const auto subject = optionalColumn(table, columns.subject, "--subject");
-  const auto round = optionalColumn(table, columns.round, "--round");
+  const auto chosen = table.optionalColumn(columns.chosen, "--chosen");
+  const auto count = table.optionalColumn(columns.count, "--n");
+  const auto subject = table.optionalColumn(columns.subject, "--subject");
+  const auto round = table.optionalColumn(columns.round, "--round");
   const RowGroups groups = groupRows(table, columns.by, "--by");
 
   std::vector<PairGroup> out(groups.names.size());
@@ -61,7 +51,7 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
     const std::string &a = readLabel(table, row, first), &b = readLabel(table, row, second);
     if (a == b)
       throw Error("'" + a + "' is compared with itself", table.place(row, second), "leave the row out");
-    const size_t itemA = group.item(a), itemB = group.item(b);
+    const size_t itemA = indexIn(group.items, a), itemB = indexIn(group.items, b);
     PairJudgement one{itemA, itemB, 1, 0, 0};
     if (chosen) {
       const std::string& choice = readLabel(table, row, *chosen);
@@ -71,7 +61,7 @@ std::vector<PairGroup> readPairs(const Table& table, const PairColumns& columns)
       if (choice == b) std::swap(one.winner, one.loser);
     }
     if (count) one.count = table.count(row, *count);
-    if (subject) one.subject = group.subject(readLabel(table, row, *subject));
+    if (subject) one.subject = indexIn(group.subjects, readLabel(table, row, *subject));
     if (round) one.round = indexIn(rounds[groups.of[row]], readLabel(table, row, *round));
     group.judged += one.count;
     if (ordered && one.winner == itemA) group.firstChosen += one.count;

@@ -27,10 +27,6 @@ struct PairGroup {
   bool ordered = false;     ///< which item was shown first is known
   int64_t firstChosen = 0;  ///< judgements for it
   int64_t judged = 0;       ///< all judgements
-
-  /// Index of an item, which is added if it is new.
-  size_t item(const std::string& name);
-  size_t subject(const std::string& name);
 };
 
 /// Columns by name; "" or empty for none.

@@ -87,7 +87,6 @@ class GroupScale {
     options.model = setting.model;
     options.unbounded = setting.unbounded;
     options.priorDeviation = setting.priorDeviation;
-    options.level = setting.bootstrap.level;
     options.seed = psychometrics::childSeed(setting.bootstrap.seed, group.name);
     options.resamples = group.subjects.empty() ? static_cast<int>(setting.bootstrap.samples) : 0;
     options.names = group.items;
@@ -102,7 +101,7 @@ class GroupScale {
     out_.bootstrap = draws_.of;
     out_.penalised = draws_.penalised;
     out_.skipped = draws_.skipped;
-    z_ = -normalQuantile((1.0 - setting.bootstrap.level) / 2.0);
+    z_ = criticalZ(setting.bootstrap.level);
   }
 
   ItemScale scale() {
@@ -112,7 +111,7 @@ class GroupScale {
                      [&](size_t a, size_t b) { return out_.fit.values[a] > out_.fit.values[b]; });
     for (const size_t item : order) out_.items.push_back(describeItem(item));
     for (size_t i = 0; i + 1 < order.size(); ++i) out_.steps.push_back(describeStep(order[i], order[i + 1]));
-    adjustSteps();
+    if (out_.steps.size() > 1) adjustHolm(out_.steps, &ItemStep::p, &ItemStep::holm);
     out_.subjects = group_.subjects.size();
     out_.judgements = group_.judged;
     out_.consistency = subjectConsistencies(group_);
@@ -127,8 +126,6 @@ class GroupScale {
     const size_t n = group_.items.size();
     return std::sqrt(std::max(0.0, c[a * n + a] + c[b * n + b] - 2.0 * c[a * n + b]));
   }
-
-  Interval around(double value, double error) const { return {value - z_ * error, value + z_ * error}; }
 
   ScaledItem describeItem(size_t item) const {
     const size_t n = group_.items.size();
@@ -150,7 +147,7 @@ class GroupScale {
       out.preferred.reset();
       return out;
     }
-    out.interval = around(out.value, *out.standardError);
+    out.interval = around(out.value, z_ * *out.standardError);
     out.bootstrap = drawnInterval(draws_, setting_.bootstrap, [&](const std::vector<double>& sample) {
       return sample[item] - (reference_ ? sample[*reference_] : 0.0);
     });
@@ -170,7 +167,7 @@ class GroupScale {
     out.lower = group_.items[lower];
     out.difference = out_.fit.values[upper] - out_.fit.values[lower];
     out.standardError = errorOfDifference(upper, lower);
-    out.interval = around(out.difference, out.standardError);
+    out.interval = around(out.difference, z_ * out.standardError);
     if (!out_.fit.penalised && out.standardError > 0.0) {
       out.z = out.difference / out.standardError;
       out.p = normalTwoSided(*out.z);
@@ -184,17 +181,6 @@ class GroupScale {
     return out;
   }
 
-  void adjustSteps() {
-    if (out_.steps.size() < 2) return;
-    std::vector<double> p;
-    for (const ItemStep& step : out_.steps)
-      if (step.p) p.push_back(*step.p);
-    const std::vector<double> adjusted = adjustHolm(p);
-    size_t next = 0;
-    for (ItemStep& step : out_.steps)
-      if (step.p) step.holm = adjusted[next++];
-  }
-
   const PairGroup& group_;
   const ScaleSetting& setting_;
   std::vector<int64_t> wins_;
@@ -205,18 +191,6 @@ class GroupScale {
 };
 
 }  // namespace
-
-const char* modelName(PairwiseModel model) {
-  switch (model) {
-    case PairwiseModel::kThurstoneMaximumLikelihood:
-      return "thurstone";
-    case PairwiseModel::kThurstoneLeastSquares:
-      return "thurstone-ls";
-    case PairwiseModel::kBradleyTerry:
-      break;
-  }
-  return "bradley-terry";
-}
 
 Scales scaleItems(const std::vector<PairGroup>& groups, const ScaleSetting& setting) {
   Scales out{setting, {}, {}};

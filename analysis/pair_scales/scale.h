@@ -78,8 +78,6 @@ struct Scales {
 /// joins; an item infinitely far away, unless the setting asks for a penalty.
 Scales scaleItems(const std::vector<PairGroup>& groups, const ScaleSetting& setting);
 
-const char* modelName(PairwiseModel model);  ///< "thurstone", "thurstone-ls", "bradley-terry"
-
 /// Tables "items", "steps" and "consistency".
 Section sectionOf(const ItemScale& scale, const ScaleSetting& setting);
 Result resultOf(const Scales& scales);

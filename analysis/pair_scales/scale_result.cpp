@@ -58,11 +58,7 @@ ResultTable stepTable(const ItemScale& scale, const ScaleSetting& setting) {
 
 ResultTable consistencyTable(const ItemScale& scale) {
   const auto items = static_cast<int64_t>(scale.items.size());
-  const auto ifJudged = [](double SubjectConsistency::*member) {
-    return [member](const SubjectConsistency& one) {
-      return one.rounds > 0 ? ResultCell(one.*member) : ResultCell();
-    };
-  };
+  const auto ifJudged = [](auto member) { return when(&SubjectConsistency::rounds, member); };
   return TableOf(
              "consistency",
              scale.consistency.empty()
@@ -91,6 +87,20 @@ void addNotes(const ItemScale& scale, Section& out) {
                    [](const SubjectConsistency& one) { return one.rounds > 0; }))
     out.notes.push_back("nobody judged each pair exactly once: no circular triads");
   out.notes.insert(out.notes.end(), scale.notes.begin(), scale.notes.end());
+}
+
+/// What the bars are.
+std::string barsText(const ItemScale& scale, const ScaleSetting& setting) {
+  const std::string level = levelText(setting.bootstrap.level);
+  switch (scale.bootstrap) {
+    case ScaleBootstrap::Subjects:
+      return level + " bootstrap over subjects";
+    case ScaleBootstrap::Judgements:
+      return level + " bootstrap over judgements";
+    case ScaleBootstrap::None:
+      break;
+  }
+  return level + ", value +- z error";
 }
 
 }  // namespace
@@ -136,7 +146,7 @@ Result resultOf(const Scales& scales) {
   const ScaleSetting& setting = scales.setting;
   Result out;
   out.command = "scale";
-  out.head.fact(forData(text("model")), modelName(setting.model));
+  out.head.fact(forData(text("model")), toText(setting.model));
   out.head.fact(forData(number("level")), setting.bootstrap.level);
   out.head.fact(forData(text("reference")),
                 setting.reference.empty() ? ResultCell() : ResultCell(setting.reference));
@@ -153,24 +163,6 @@ Result resultOf(const Scales& scales) {
   out.notes.push_back(kDashNote);
   return out;
 }
-
-namespace {
-
-/// What the bars are.
-std::string barsText(const ItemScale& scale, const ScaleSetting& setting) {
-  const std::string level = levelText(setting.bootstrap.level);
-  switch (scale.bootstrap) {
-    case ScaleBootstrap::Subjects:
-      return level + " bootstrap over subjects";
-    case ScaleBootstrap::Judgements:
-      return level + " bootstrap over judgements";
-    case ScaleBootstrap::None:
-      break;
-  }
-  return level + ", value +- z error";
-}
-
-}  // namespace
 
 void drawScales(const Scales& scales, const std::string& path) {
   const ChartFile file(path);
@@ -198,7 +190,7 @@ void drawScales(const Scales& scales, const std::string& path) {
           "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#999999'\n",
           low - margin, high + margin);
   const std::string zero = setting.reference.empty() ? "values sum to 0" : setting.reference + " is 0";
-  const std::string kind = fmt::format("{}; {}", modelName(setting.model), zero);
+  const std::string kind = fmt::format("{}; {}", toText(setting.model), zero);
   if (!single)
     script += fmt::format("set multiplot layout {},{} title {} noenhanced\n", grid.rows, grid.columns,
                           gnuplotQuoted(kind));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <boost/math/special_functions/beta.hpp>
-#include <cassert>
 #include <cmath>
 #include <exception>
 #include <mutex>
@@ -14,7 +13,8 @@
 #include <utility>
 
 #include "analysis/psychometric/likelihood.h"
-#include "analysis/psychometric/log_math.h"
+#include "analysis/statistics/log_math.h"
+#include "analysis/statistics/rank_correlation.h"
 #include "experiments/base/error.h"
 #include "perception/psychometrics/random.h"
 
@@ -24,20 +24,11 @@ using psychometrics::Random;
 
 namespace {
 
+/// 0 if either does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double meanA = 0.0, meanB = 0.0;
-  const double n = static_cast<double>(a.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    meanA += a[i] / n;
-    meanB += b[i] / n;
-  }
-  double ab = 0.0, aa = 0.0, bb = 0.0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - meanA) * (b[i] - meanB);
-    aa += (a[i] - meanA) * (a[i] - meanA);
-    bb += (b[i] - meanB) * (b[i] - meanB);
-  }
-  return aa > 0.0 && bb > 0.0 ? std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0) : 0.0;
+  if (a.size() < 2) return 0.0;
+  const std::optional<Correlation> found = pearson(a, b);
+  return found ? found->coefficient.value : 0.0;
 }
 
 AxisValues axisValues(const ConditionFit& fit, const SigmoidShape& shape) {
@@ -128,33 +119,7 @@ int64_t drawBinomial(Random& random, int64_t n, double p, double q) {
     return static_cast<int64_t>(
         std::clamp(std::round(static_cast<double>(n) * p + random.normal() * std::sqrt(variance)), 0.0,
                    std::nextafter(static_cast<double>(n), 0.0)));
-  const double u = random.uniform();
-  if (n == 0 || p <= 0.0) return 0;
-  if (q <= 0.0) return n;
-  const double dn = static_cast<double>(n);
-  const int64_t mode = std::min(n, static_cast<int64_t>(std::floor((dn + 1.0) * p)));
-  const double logN = std::log(dn), dm = static_cast<double>(mode);
-  const double atMode = std::exp(logSaturatedChance(mode, n) - halfDeviance(dm, dn * p, logN + std::log(p)) -
-                                 halfDeviance(dn - dm, dn * q, logN + std::log(q)));
-  double left = u - atMode;
-  if (left < 0.0) return mode;
-  int64_t down = mode, up = mode;
-  double chanceDown = atMode, chanceUp = atMode;
-  const double odds = p / q;
-  while (true) {
-    const bool canDown = down > 0 && chanceDown > 0.0, canUp = up < n && chanceUp > 0.0;
-    if (!canDown && !canUp) return mode;  // what rounding leaves over
-    if (canUp) {
-      chanceUp *= odds * static_cast<double>(n - up) / static_cast<double>(up + 1);
-      ++up;
-      if ((left -= chanceUp) < 0.0) return up;
-    }
-    if (canDown) {
-      chanceDown *= static_cast<double>(down) / (odds * static_cast<double>(n - down + 1));
-      --down;
-      if ((left -= chanceDown) < 0.0) return down;
-    }
-  }
+  return binomialAt(random.uniform(), n, p, q);
 }
 
 FitQuantities quantitiesOf(const ConditionFit& fit) {
@@ -219,14 +184,6 @@ std::vector<double> sortedQuantity(const std::vector<Replicate>& replicates, siz
     if (replicate.fitted) values.push_back(replicate.conditions[condition].quantities[quantity]);
   std::sort(values.begin(), values.end());
   return values;
-}
-
-double sortedQuantile(const std::vector<double>& sorted, double p) {
-  assert(!sorted.empty());
-  const double at = std::clamp(p, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-  const size_t below = static_cast<size_t>(at);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
 }
 
 }  // namespace limen::analysis

@@ -61,7 +61,5 @@ std::vector<Replicate> bootstrap(const std::vector<Condition>& conditions, const
 /// Quantity of a condition in every fitted replicate, ascending.
 std::vector<double> sortedQuantity(const std::vector<Replicate>& replicates, size_t condition,
                                    size_t quantity);
-/// The p quantile of sorted values, with linear interpolation (Hyndman and Fan's type 7).
-double sortedQuantile(const std::vector<double>& sorted, double p);
 
 }  // namespace limen::analysis

@@ -6,8 +6,8 @@
 
 #include "analysis/psychometric/intervals.h"
 #include "analysis/statistics/distributions.h"
+#include "analysis/statistics/summary.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -72,23 +72,6 @@ double partBelow(const std::vector<double>& sorted, double estimate) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& intervalMethodNames() {
-  static const std::vector<std::string> kNames = {"bootstrap", "bca",       "profile",
-                                                  "laplace",   "posterior", "observers"};
-  return kNames;
-}
-
-IntervalMethod readIntervalMethod(const std::string& name, const std::string& where) {
-  const auto& names = intervalMethodNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error("no intervals '" + name + "'", where, suggest(name, names));
-  return static_cast<IntervalMethod>(found - names.begin());
-}
-
-const std::string& nameOf(IntervalMethod method) {
-  return intervalMethodNames()[static_cast<size_t>(method)];
-}
 
 std::optional<FitInterval> slopeOfWidth(const ConditionFit& fit, const FitSettings& settings,
                                         const ConditionIntervals& intervals) {

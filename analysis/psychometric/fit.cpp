@@ -25,21 +25,10 @@ void settle(const Objective& objective, Optimum& optimum) {
   if (!std::isfinite(optimum.value)) return;
   for (size_t j = 0; j < objective.size(); ++j) {
     const FreeParameter& free = objective.free()[j];
-    if (optimum.atBound[j] != 0) {
-      // What is as good as there is there.
-      std::vector<double> x = optimum.x;
-      x[j] = optimum.atBound[j] < 0 ? free.low : free.high;
-      const double value = objective.evaluate(x.data(), nullptr);
-      if (value <= optimum.value + kFlat) {
-        optimum.x = x;
-        optimum.value = value;
-      }
-      continue;
-    }
-    // Rates that tell nothing are 0, never as large as they may be.
-    const bool rate = free.parameter != FitParameter::Threshold && free.parameter != FitParameter::Width;
+    // What is as good as at a bound is there. Rates that tell nothing are 0, never as large as they may be.
+    const int reached = optimum.atBound[j];
     for (const int side : {-1, 1}) {
-      if (rate && side > 0) continue;
+      if (reached != 0 ? side != reached : isRate(free.parameter) && side > 0) continue;
       std::vector<double> x = optimum.x;
       x[j] = side < 0 ? free.low : free.high;
       const double value = objective.evaluate(x.data(), nullptr);
@@ -66,10 +55,6 @@ Optimum best(const Objective& objective, const std::vector<std::vector<double>>&
 Optimum optimumOfOne(const Condition& condition, const FitSettings& settings) {
   const Objective objective({condition}, settings);
   return best(objective, startsOf(objective, kStarts));
-}
-
-bool anyShared(const FitSettings& settings) {
-  return std::any_of(settings.shared.begin(), settings.shared.end(), [](bool shared) { return shared; });
 }
 
 /// Starts of a design: each condition is fitted by itself; then what is shared takes the value of each of
@@ -125,14 +110,9 @@ std::vector<std::vector<double>> startsOfDesign(const std::vector<Condition>& co
     for (size_t c = 0; c < conditions.size(); ++c) {
       const Objective objective({conditions[c]}, held);
       const Optimum optimum = best(objective, startsOf(objective, 2));
-      for (size_t i = 0; i < kFitParameters; ++i) {
-        const FitParameter parameter = static_cast<FitParameter>(i);
-        const int from = objective.place(0, parameter), to = joint.place(c, parameter);
-        if (from >= 0 && !optimum.x.empty())
-          x[static_cast<size_t>(to)] =
-              std::clamp(optimum.x[static_cast<size_t>(from)], joint.free()[static_cast<size_t>(to)].low,
-                         joint.free()[static_cast<size_t>(to)].high);
-      }
+      if (optimum.x.empty()) continue;
+      for (const auto& [from, to] : commonPlaces(objective, 0, joint, c))
+        x[to] = std::clamp(optimum.x[from], joint.free()[to].low, joint.free()[to].high);
     }
     starts.push_back(std::move(x));
   }
@@ -250,7 +230,7 @@ Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings&
   checkFit(conditions, settings, where);
   const Objective objective(conditions, settings);
   Optimum optimum;
-  if (conditions.size() > 1 && anyShared(settings)) {
+  if (conditions.size() > 1 && settings.sharesAny()) {
     optimum = best(objective, startsOfDesign(conditions, objective));
   } else {
     // Conditions that share nothing: one after the other.
@@ -260,13 +240,10 @@ Fit fitPsychometric(const std::vector<Condition>& conditions, const FitSettings&
       const Optimum one = optimumOfOne(conditions[c], settings);
       optimum.value = one.value;
       if (!std::isfinite(one.value)) break;
-      const Objective own({conditions[c]}, settings);
-      for (size_t i = 0; i < kFitParameters; ++i) {
-        const int from = own.place(0, static_cast<FitParameter>(i));
-        const int to = objective.place(c, static_cast<FitParameter>(i));
-        if (from < 0 || one.x.empty()) continue;
-        optimum.x[static_cast<size_t>(to)] = one.x[static_cast<size_t>(from)];
-        optimum.atBound[static_cast<size_t>(to)] = one.atBound[static_cast<size_t>(from)];
+      if (one.x.empty()) continue;
+      for (const auto& [from, to] : commonPlaces(Objective({conditions[c]}, settings), 0, objective, c)) {
+        optimum.x[to] = one.x[from];
+        optimum.atBound[to] = one.atBound[from];
       }
     }
     if (std::isfinite(optimum.value)) optimum.value = objective.evaluate(optimum.x.data(), nullptr);

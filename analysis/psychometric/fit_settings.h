@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "perception/psychometrics/sigmoid.h"
 
 namespace limen::analysis {
@@ -35,6 +37,9 @@ enum class FitParameter { Threshold, Width, Guess, Lapse, Eta };
 inline constexpr size_t kFitParameters = 5;
 const std::array<std::string, kFitParameters>& fitParameterNames();  ///< "threshold", ...
 inline size_t indexOf(FitParameter parameter) { return static_cast<size_t>(parameter); }
+inline bool isRate(FitParameter parameter) {
+  return parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+}
 
 /// The guess rate: a separate rate (yes/no), 1/M for forced choice, or equal to the lapse rate.
 struct FitTask {
@@ -50,6 +55,9 @@ enum class FitMethod {
   MaximumLikelihood,
   MaximumPosterior  ///< the mode of likelihood times priors (prior.h)
 };
+constexpr EnumNames<FitMethod, 2> enumNames(FitMethod) {
+  return {{{{FitMethod::MaximumLikelihood, "ml"}, {FitMethod::MaximumPosterior, "map"}}}};
+}
 
 struct FitSettings {
   psychometrics::SigmoidFamily sigmoid = psychometrics::SigmoidFamily::Normal;
@@ -72,6 +80,7 @@ struct FitSettings {
   /// set.
   std::optional<std::array<double, 2>> range;
 
+  bool sharesAny() const { return std::find(shared.begin(), shared.end(), true) != shared.end(); }
   bool logarithmic() const {
     return axis == psychometrics::StimulusAxis::Logarithmic ||
            sigmoid == psychometrics::SigmoidFamily::Weibull;

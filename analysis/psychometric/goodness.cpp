@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/statistics/summary.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {

@@ -9,6 +9,7 @@
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit.h"
 #include "analysis/statistics/interval.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -18,11 +19,18 @@ enum class IntervalMethod {
   Profile,    ///< where the maximum over all others has dropped by half the chi-squared quantile
   Laplace,    ///< normal by the curvature at the optimum, on the scales of t, ln w and the rates
   Posterior,  ///< equal-tailed, of the marginals of a grid posterior with the priors of prior.h
-  Observers   ///< jackknife over the observers whose answers were pooled (analysis/study)
+  Observers,  ///< jackknife over the observers whose answers were pooled (analysis/study)
+  None        ///< asked for none
 };
-const std::vector<std::string>& intervalMethodNames();  ///< "bootstrap", "bca", ...
-IntervalMethod readIntervalMethod(const std::string& name, const std::string& where);  ///< throws Error
-const std::string& nameOf(IntervalMethod method);
+constexpr EnumNames<IntervalMethod, 7> enumNames(IntervalMethod) {
+  return {{{{IntervalMethod::Bootstrap, "bootstrap"},
+            {IntervalMethod::Bca, "bca"},
+            {IntervalMethod::Profile, "profile"},
+            {IntervalMethod::Laplace, "laplace"},
+            {IntervalMethod::Posterior, "posterior"},
+            {IntervalMethod::Observers, "observers"},
+            {IntervalMethod::None, "none"}}}};
+}
 
 struct FitInterval : Interval {
   bool lowOpen = false, highOpen = false;  ///< ends at a bound of the fit: the data set no limit on that side

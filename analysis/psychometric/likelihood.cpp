@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/psychometric/log_math.h"
+#include "analysis/statistics/log_math.h"
 
 namespace limen::analysis {
 

@@ -95,6 +95,17 @@ Objective::Objective(const std::vector<Condition>& conditions, const FitSettings
   }
 }
 
+std::vector<std::pair<size_t, size_t>> commonPlaces(const Objective& one, size_t c, const Objective& other,
+                                                    size_t d) {
+  std::vector<std::pair<size_t, size_t>> out;
+  for (size_t i = 0; i < kFitParameters; ++i) {
+    const int from = one.place(c, static_cast<FitParameter>(i));
+    const int to = other.place(d, static_cast<FitParameter>(i));
+    if (from >= 0 && to >= 0) out.emplace_back(from, to);
+  }
+  return out;
+}
+
 AxisValues Objective::valuesOf(size_t condition, const double* x) const {
   AxisValues values = fixed_;
   for (size_t i = 0; i < kFitParameters; ++i)
@@ -106,11 +117,14 @@ AxisValues Objective::valuesOf(size_t condition, const double* x) const {
   return values;
 }
 
-double Objective::logPriorAt(const double* x) const {
+double Objective::logPriorAt(const double* x, double* gradient) const {
   double sum = 0.0;
   for (size_t j = 0; j < free_.size(); ++j) {
     const bool width = free_[j].parameter == FitParameter::Width;
-    sum += logPrior(free_[j].parameter, width ? std::exp(x[j]) : x[j], free_[j].spread).value;
+    const double value = width ? std::exp(x[j]) : x[j];
+    const LogPrior prior = logPrior(free_[j].parameter, value, free_[j].spread);
+    sum += prior.value;
+    if (gradient) gradient[j] -= prior.slope * (width ? value : 1.0);
   }
   return sum;
 }
@@ -132,15 +146,7 @@ double Objective::evaluate(const double* x, double* gradient) const {
       if (const int place = places_[c][indexOf(FitParameter::Lapse)]; place >= 0)
         gradient[place] += slope[indexOf(FitParameter::Guess)];
   }
-  if (settings_.method == FitMethod::MaximumPosterior) {
-    for (size_t j = 0; j < free_.size(); ++j) {
-      const bool width = free_[j].parameter == FitParameter::Width;
-      const double value = width ? std::exp(x[j]) : x[j];
-      const LogPrior prior = logPrior(free_[j].parameter, value, free_[j].spread);
-      sum -= prior.value;
-      if (gradient) gradient[j] -= prior.slope * (width ? value : 1.0);
-    }
-  }
+  if (settings_.method == FitMethod::MaximumPosterior) sum -= logPriorAt(x, gradient);
   return std::isfinite(sum) ? sum : kInfinity;
 }
 

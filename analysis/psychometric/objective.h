@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "analysis/psychometric/likelihood.h"
@@ -39,8 +40,8 @@ class Objective {
   double evaluate(const double* x, double* gradient) const;
 
   AxisValues valuesOf(size_t condition, const double* x) const;
-  /// ln of the priors' density at x, up to a constant.
-  double logPriorAt(const double* x) const;
+  /// ln of the priors' density at x, up to a constant; with `gradient`, its derivatives are taken off there.
+  double logPriorAt(const double* x, double* gradient = nullptr) const;
 
  private:
   SigmoidShape shape_;
@@ -51,5 +52,9 @@ class Objective {
   std::vector<std::array<int, kFitParameters>> places_;
   AxisValues fixed_{};
 };
+
+/// Places of the parameters that condition `c` of one objective and `d` of another both vary.
+std::vector<std::pair<size_t, size_t>> commonPlaces(const Objective& one, size_t c, const Objective& other,
+                                                    size_t d);
 
 }  // namespace limen::analysis

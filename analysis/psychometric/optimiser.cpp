@@ -104,19 +104,15 @@ void newton(const Objective& objective, const std::vector<bool>& held, Optimum& 
     }
     if (!inside.empty()) {
       const Eigen::MatrixXd h = curvature(objective, optimum.x, inside);
-      Eigen::VectorXd g(h.rows());
-      for (size_t i = 0; i < inside.size(); ++i) g[static_cast<Eigen::Index>(i)] = gradient[inside[i]];
+      Eigen::VectorXd move(h.rows());
+      for (size_t i = 0; i < inside.size(); ++i) move[static_cast<Eigen::Index>(i)] = gradient[inside[i]];
       const Eigen::LLT<Eigen::MatrixXd> cholesky(h);
-      if (!h.allFinite() || cholesky.info() != Eigen::Success) {
-        inside.clear();
-      } else {
-        const Eigen::VectorXd move = cholesky.solve(g);
-        if (!move.allFinite()) inside.clear();
-        for (size_t i = 0; i < inside.size(); ++i) {
-          const FreeParameter& free = objective.free()[inside[i]];
-          next[inside[i]] =
-              std::clamp(next[inside[i]] - move[static_cast<Eigen::Index>(i)], free.low, free.high);
-        }
+      cholesky.solveInPlace(move);
+      const bool usable = h.allFinite() && cholesky.info() == Eigen::Success && move.allFinite();
+      for (size_t i = 0; usable && i < inside.size(); ++i) {
+        const FreeParameter& free = objective.free()[inside[i]];
+        next[inside[i]] =
+            std::clamp(next[inside[i]] - move[static_cast<Eigen::Index>(i)], free.low, free.high);
       }
     }
     if (next == optimum.x) return;

@@ -26,10 +26,9 @@ struct Span {
 
 /// As many as a grid of so many dimensions affords.
 size_t pointsOf(FitParameter parameter, size_t dimensions) {
-  const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
   if (dimensions <= 3) return 48;
-  if (dimensions == 4) return rate ? 20 : 40;
-  return rate ? 12 : 24;
+  if (dimensions == 4) return isRate(parameter) ? 20 : 40;
+  return isRate(parameter) ? 12 : 24;
 }
 
 /// Values in the middle of equal parts of the span: on the axis, of widths in their logarithm.
@@ -100,9 +99,7 @@ void narrow(const GridPosterior& posterior, size_t d, Span& span) {
 }  // namespace
 
 FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const Fit& fit, double confidence) {
-  const bool shared =
-      std::any_of(fit.settings.shared.begin(), fit.settings.shared.end(), [](bool s) { return s; });
-  if (shared && conditions.size() > 1)
+  if (fit.settings.sharesAny() && conditions.size() > 1)
     throw Error("a posterior of conditions that share parameters has too many dimensions for a grid",
                 "intervals", "choose bootstrap, bca, profile or laplace");
   FitIntervals intervals{IntervalMethod::Posterior, confidence, {}, {}};
@@ -133,7 +130,7 @@ FitIntervals posteriorIntervals(const std::vector<Condition>& conditions, const 
       if (spans.size() > 3) {
         std::string cells;
         for (const Span& span : spans)
-          if (span.parameter != FitParameter::Threshold && span.parameter != FitParameter::Width)
+          if (isRate(span.parameter))
             cells += fmt::format("{}{} {:.2g}", cells.empty() ? "" : ", ",
                                  fitParameterNames()[indexOf(span.parameter)],
                                  (span.high - span.low) / static_cast<double>(span.count));

@@ -22,16 +22,10 @@ struct Own {
 
 Own ownOf(const std::vector<Condition>& conditions, const Fit& fit, size_t c) {
   Objective joint(conditions, fit.settings);
-  const bool shared =
-      std::any_of(fit.settings.shared.begin(), fit.settings.shared.end(), [](bool s) { return s; });
-  if (shared || conditions.size() == 1) return {std::move(joint), fit.x, c};
+  if (fit.settings.sharesAny() || conditions.size() == 1) return {std::move(joint), fit.x, c};
   Objective alone({conditions[c]}, fit.settings);
   std::vector<double> x(alone.size());
-  for (size_t i = 0; i < kFitParameters; ++i) {
-    const FitParameter parameter = static_cast<FitParameter>(i);
-    if (const int to = alone.place(0, parameter); to >= 0)
-      x[static_cast<size_t>(to)] = fit.x[static_cast<size_t>(joint.place(c, parameter))];
-  }
+  for (const auto& [from, to] : commonPlaces(joint, c, alone, 0)) x[to] = fit.x[from];
   return {std::move(alone), std::move(x), 0};
 }
 
@@ -68,9 +62,7 @@ Limit profileLimit(const Objective& objective, const std::vector<double>& optimu
   double outside = inside, above = below;
   while (above < 0.0) {
     // That rates end at 0 is no limit of the fit.
-    if (outside == bound)
-      return {bound,
-              side > 0 || free.parameter == FitParameter::Threshold || free.parameter == FitParameter::Width};
+    if (outside == bound) return {bound, side > 0 || !isRate(free.parameter)};
     inside = outside;
     below = above;
     outside = side < 0 ? std::max(bound, outside - step) : std::min(bound, outside + step);
@@ -149,7 +141,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
     if (fit.conditions[c].atBound[indexOf(FitParameter::Threshold)] != 0 ||
         fit.conditions[c].atBound[indexOf(FitParameter::Width)] != 0) {
       intervals.warnings.push_back(
-          (conditions[c].name.empty() ? "" : conditions[c].name + ": ") +
+          fit.conditions[c].prefix() +
           std::string("no Laplace intervals, as the fit is at a bound; 'profile' and "
                       "'posterior' say what the answers leave open"));
       intervals.conditions.emplace_back();
@@ -159,22 +151,19 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
     const std::vector<double> all = secondDerivatives(own.objective, own.x);
     const size_t size = own.x.size();
     // What is at a bound has no curvature to go by and is held there.
-    std::vector<size_t> inside;
+    std::vector<Eigen::Index> inside;
     std::vector<int> place(size, -1);
     for (size_t j = 0; j < size; ++j) {
       const FreeParameter& free = own.objective.free()[j];
       const double near = 1e-6 * (free.high - free.low);
       if (own.x[j] <= free.low + near || own.x[j] >= free.high - near) continue;
       place[j] = static_cast<int>(inside.size());
-      inside.push_back(j);
+      inside.push_back(static_cast<Eigen::Index>(j));
     }
-    const auto n = static_cast<Eigen::Index>(inside.size());
-    Eigen::MatrixXd h(n, n);
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b < n; ++b)
-        h(a, b) = all[inside[static_cast<size_t>(a)] * size + inside[static_cast<size_t>(b)]];
+    const auto n = static_cast<Eigen::Index>(inside.size()), whole = static_cast<Eigen::Index>(size);
+    const Eigen::MatrixXd h = Eigen::Map<const Eigen::MatrixXd>(all.data(), whole, whole)(inside, inside);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(h);
-    const std::string of = conditions[c].name.empty() ? "" : conditions[c].name + ": ";
+    const std::string of = fit.conditions[c].prefix();
     ConditionIntervals found;
     if (!h.allFinite() || cholesky.info() != Eigen::Success) {
       intervals.warnings.push_back(of +
@@ -201,7 +190,7 @@ FitIntervals laplaceIntervals(const std::vector<Condition>& conditions, const Fi
         continue;
       }
       // Rates stay rates.
-      const bool rate = parameter != FitParameter::Threshold && parameter != FitParameter::Width;
+      const bool rate = isRate(parameter);
       const double low = rate ? std::max(middle - half, 0.0) : middle - half;
       const double high = rate ? std::min(middle + half, free.high) : middle + half;
       found[i] = offScale(own.objective, parameter, {{low, high}});

@@ -8,20 +8,11 @@
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
-namespace {
-
-Rate rateOf(int64_t successes, int64_t trials, double level) {
-  return {successes, trials, static_cast<double>(successes) / static_cast<double>(trials),
-          wilsonInterval(successes, trials, level), clopperPearsonInterval(successes, trials, level)};
-}
-
-}  // namespace
-
 Interval wilsonInterval(int64_t successes, int64_t trials, double level) {
   requireCounts(successes, trials, "successes", true);
   requireLevel(level);
   const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
-  const double z = -normalQuantile((1.0 - level) / 2.0), z2 = z * z;
+  const double z = criticalZ(level), z2 = z * z;
   const double centre = k + z2 / 2.0, reach = z * std::sqrt(k * (n - k) / n + z2 / 4.0);
   Interval interval{(centre - reach) / (n + z2), (centre + reach) / (n + z2)};
   if (successes == 0) interval.low = 0.0;
@@ -42,20 +33,9 @@ Interval clopperPearsonInterval(int64_t successes, int64_t trials, double level)
 }
 
 Rate detectionRate(int64_t successes, int64_t trials, double level) {
-  requireCounts(successes, trials, "successes", true);
-  return rateOf(successes, trials, level);
-}
-
-std::vector<Rate> detectionRates(const std::vector<int64_t>& successes, const std::vector<int64_t>& trials,
-                                 double level) {
-  requireSameLength(successes.size(), "successes", trials.size(), "trials");
-  std::vector<Rate> rates;
-  rates.reserve(trials.size());
-  for (size_t i = 0; i < trials.size(); ++i) {
-    requireCounts(successes[i], trials[i], indexed("successes", i), true);
-    rates.push_back(rateOf(successes[i], trials[i], level));
-  }
-  return rates;
+  const Interval wilson = wilsonInterval(successes, trials, level);
+  return {successes, trials, static_cast<double>(successes) / static_cast<double>(trials), wilson,
+          clopperPearsonInterval(successes, trials, level)};
 }
 
 MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double level) {
@@ -74,7 +54,7 @@ MeanOverSubjects meanOverSubjects(const std::vector<double>& values, double leve
   result.standardDeviation = std::sqrt(squares / (n - 1.0));
   result.standardError = *result.standardDeviation / std::sqrt(n);
   const double reach = tCritical(1.0 - level, n - 1.0) * *result.standardError;
-  result.interval = Interval{result.mean - reach, result.mean + reach};
+  result.interval = around(result.mean, reach);
   return result;
 }
 

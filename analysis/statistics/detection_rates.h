@@ -21,10 +21,6 @@ struct Rate {
 /// limen::Error if a count is negative, successes exceed trials, or there are no trials.
 Rate detectionRate(int64_t successes, int64_t trials, double level = 0.95);
 
-/// One rate for each index; the error names the index.
-std::vector<Rate> detectionRates(const std::vector<int64_t>& successes, const std::vector<int64_t>& trials,
-                                 double level = 0.95);
-
 /// (p + z^2/2n +- z sqrt(p(1-p)/n + z^2/4n^2)) / (1 + z^2/n); bounds are exactly 0 and 1 for no successes and
 /// for all.
 Interval wilsonInterval(int64_t successes, int64_t trials, double level = 0.95);

@@ -57,6 +57,8 @@ double normalQuantile(double p) {
                              boost::math::erfc_inv(2.0L * static_cast<long double>(p), kPolicy));
 }
 
+double criticalZ(double level) { return -normalQuantile((1.0 - level) / 2.0); }
+
 double tTwoSided(double t, double degrees) {
   assert(degrees > 0.0 && !std::isnan(t));
   if (std::isinf(t)) return 0.0;
@@ -96,13 +98,6 @@ double betaQuantile(double p, double a, double b) {
   assert(p >= 0.0 && p <= 1.0 && a > 0.0 && b > 0.0);
   return static_cast<double>(boost::math::ibeta_inv(static_cast<long double>(a), static_cast<long double>(b),
                                                     static_cast<long double>(p), kPolicy));
-}
-
-double fairCoinLower(double k, double trials) {
-  assert(k >= 0.0 && k <= trials);
-  if (k == trials) return 1.0;
-  return static_cast<double>(boost::math::ibetac(static_cast<long double>(k) + 1.0L,
-                                                 static_cast<long double>(trials) - k, 0.5L, kPolicy));
 }
 
 double noncentralityOfF(double f, double degrees1, double degrees2, double p) {

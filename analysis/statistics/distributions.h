@@ -15,6 +15,8 @@ double normalUpper(double z);  ///< P(Z >= z)
 double logNormalLower(double z);
 /// z of the lower tail p; -infinity and +infinity for 0 and 1.
 double normalQuantile(double p);
+/// z within which a standard normal number lies with the probability `level`.
+double criticalZ(double level);
 double normalTwoSided(double z);  ///< P(|Z| >= |z|)
 
 double tTwoSided(double t, double degrees);  ///< P(|T| >= |t|), Student's t
@@ -25,8 +27,6 @@ double fUpper(double f, double degrees1, double degrees2);  ///< P(F >= f); 0 fo
 double chiSquaredUpper(double x, double degrees);           ///< P(X >= x); 0 for infinite x
 
 double betaQuantile(double p, double a, double b);  ///< lower tail p
-/// P(X <= k) of a binomial with probability 1/2.
-double fairCoinLower(double k, double trials);
 
 /// Noncentrality with which F of these degrees is at most `f` with probability `p`, 0 if even the central F
 /// falls short of `p`. Throws std::runtime_error if its series is out of reach: degrees1 f > 1e8.

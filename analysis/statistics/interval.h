@@ -7,5 +7,6 @@ namespace limen::analysis {
 struct Interval {
   double low = 0.0, high = 0.0;
 };
+inline Interval around(double middle, double reach) { return {middle - reach, middle + reach}; }
 
 }  // namespace limen::analysis

@@ -17,67 +17,51 @@ namespace {
 
 constexpr size_t kExactKendall = 50;
 
-Interval cut(double low, double high) { return {std::clamp(low, -1.0, 1.0), std::clamp(high, -1.0, 1.0)}; }
-
 Coefficient withWald(double value, double error, double level) {
-  const double reach = -normalQuantile((1.0 - level) / 2.0) * error;
-  return {value, error, cut(value - reach, value + reach)};
+  const Interval interval = around(value, criticalZ(level) * error);
+  return {value, error, Interval{std::max(interval.low, -1.0), std::min(interval.high, 1.0)}};
 }
 
-/// Of each observation, how many others it is concordant with and how many discordant.
+/// Of each observation, how many others have a smaller x and a smaller y. In O(n log n).
+std::vector<int64_t> countBelow(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<size_t> byX(x.size()), place(x.size());
+  std::iota(byX.begin(), byX.end(), size_t{0});
+  std::vector<double> values = y;
+  std::sort(values.begin(), values.end());
+  for (size_t i = 0; i < y.size(); ++i)  // among the values of y, from 0
+    place[i] = static_cast<size_t>(std::lower_bound(values.begin(), values.end(), y[i]) - values.begin());
+  std::sort(byX.begin(), byX.end(), [&](size_t a, size_t b) { return x[a] < x[b]; });
+  // Binary indexed tree (Fenwick 1994) of the places of those with a smaller x.
+  std::vector<int64_t> tree(x.size() + 1, 0), out(x.size());
+  for (size_t begin = 0, end = 0; begin < x.size(); begin = end) {
+    for (; end < x.size() && x[byX[end]] == x[byX[begin]]; ++end)
+      for (size_t i = place[byX[end]]; i > 0; i -= i & (~i + 1)) out[byX[end]] += tree[i];
+    for (size_t same = begin; same < end; ++same)
+      for (size_t i = place[byX[same]] + 1; i < tree.size(); i += i & (~i + 1)) ++tree[i];
+  }
+  return out;
+}
+
 struct Pairs {
-  std::vector<int64_t> concordant, discordant;
+  /// Of each observation, how many others it is concordant with less those it is discordant with; the sum is
+  /// 2 (P - Q).
+  std::vector<double> surplus;
+  int64_t concordant = 0, discordant = 0;
 };
 
-Pairs countPairs(const std::vector<double>& x, const Ranks& ranksY) {
-  const size_t n = x.size();
-  // Dense ranks of y: index of the group of ties.
-  std::vector<size_t> byX(n), group(n), byY(n);
-  std::iota(byX.begin(), byX.end(), size_t{0});
-  byY = byX;
-  std::sort(byY.begin(), byY.end(), [&](size_t a, size_t b) { return ranksY.ranks[a] < ranksY.ranks[b]; });
-  for (size_t i = 1; i < n; ++i)
-    group[byY[i]] = group[byY[i - 1]] + (ranksY.ranks[byY[i]] != ranksY.ranks[byY[i - 1]] ? 1 : 0);
-  std::sort(byX.begin(), byX.end(), [&](size_t a, size_t b) { return x[a] < x[b]; });
-
-  const size_t groups = ranksY.tieSizes.size();
-  std::vector<int64_t> tree(groups + 1, 0), smaller(groups + 1, 0);
-  for (size_t g = 0; g < groups; ++g) smaller[g + 1] = smaller[g] + static_cast<int64_t>(ranksY.tieSizes[g]);
-  const auto add = [&](size_t g) {
-    for (size_t i = g + 1; i <= groups; i += i & (~i + 1)) ++tree[i];
+Pairs countPairs(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto negative = [](std::vector<double> values) {
+    for (double& value : values) value = -value;
+    return values;
   };
-  const auto below = [&](size_t g) {  // how many were added in groups before g
-    int64_t sum = 0;
-    for (size_t i = g; i > 0; i -= i & (~i + 1)) sum += tree[i];
-    return sum;
-  };
-
-  Pairs pairs{std::vector<int64_t>(n, 0), std::vector<int64_t>(n, 0)};
-  int64_t before = 0;
-  for (size_t begin = 0; begin < n;) {
-    size_t end = begin;
-    while (end < n && x[byX[end]] == x[byX[begin]]) ++end;
-    std::vector<size_t> block(byX.begin() + static_cast<std::ptrdiff_t>(begin),
-                              byX.begin() + static_cast<std::ptrdiff_t>(end));
-    std::sort(block.begin(), block.end(), [&](size_t a, size_t b) { return group[a] < group[b]; });
-    for (size_t i = 0; i < block.size();) {
-      const size_t g = group[block[i]];
-      size_t j = i;
-      while (j < block.size() && group[block[j]] == g) ++j;
-      const int64_t lowBelow = below(g), lowAbove = before - below(g + 1);
-      // Those of larger x are all that are neither of smaller nor of equal x.
-      const int64_t highBelow = smaller[g] - lowBelow - static_cast<int64_t>(i);
-      const int64_t highAbove =
-          static_cast<int64_t>(n) - smaller[g + 1] - lowAbove - static_cast<int64_t>(block.size() - j);
-      for (size_t k = i; k < j; ++k) {
-        pairs.concordant[block[k]] = lowBelow + highAbove;
-        pairs.discordant[block[k]] = lowAbove + highBelow;
-      }
-      i = j;
-    }
-    for (const size_t i : block) add(group[i]);
-    before += static_cast<int64_t>(block.size());
-    begin = end;
+  const std::vector<double> minusX = negative(x), minusY = negative(y);
+  const std::vector<int64_t> both = countBelow(x, y), none = countBelow(minusX, minusY),
+                             onlyX = countBelow(x, minusY), onlyY = countBelow(minusX, y);
+  Pairs pairs;
+  for (size_t i = 0; i < x.size(); ++i) {
+    pairs.surplus.push_back(static_cast<double>(both[i] + none[i] - onlyX[i] - onlyY[i]));
+    pairs.concordant += both[i];
+    pairs.discordant += onlyX[i];
   }
   return pairs;
 }
@@ -125,44 +109,25 @@ double normalKendall(double n, double s, const TieSums& x, const TieSums& y) {
   return variance > 0.0 ? normalTwoSided(s / std::sqrt(variance)) : 1.0;
 }
 
-/// Of each observation, how many share its value, itself included.
-std::vector<double> ownTieSizes(const Ranks& ranks) {
-  std::vector<double> midranks, sizes;
-  double before = 0.0;
-  for (const double size : ranks.tieSizes) {
-    midranks.push_back(before + 0.5 * (size + 1.0));
-    before += size;
-  }
-  for (const double own : ranks.ranks) {
-    const auto at = std::lower_bound(midranks.begin(), midranks.end(), own);
-    sizes.push_back(ranks.tieSizes[static_cast<size_t>(at - midranks.begin())]);
-  }
-  return sizes;
-}
-
 }  // namespace
 
 Kendall kendall(const std::vector<double>& x, const std::vector<double>& y, double level) {
   requireSample(x, "x", y, "y", level);
   const Ranks ranksX = rank(x), ranksY = rank(y);
-  const Pairs pairs = countPairs(x, ranksY);
+  const Pairs pairs = countPairs(x, y);
   const TieSums tiesX = sumTies(ranksX.tieSizes), tiesY = sumTies(ranksY.tieSizes);
   Kendall k;
   k.n = x.size();
-  k.concordant = std::accumulate(pairs.concordant.begin(), pairs.concordant.end(), int64_t{0}) / 2;
-  k.discordant = std::accumulate(pairs.discordant.begin(), pairs.discordant.end(), int64_t{0}) / 2;
+  k.concordant = pairs.concordant;
+  k.discordant = pairs.discordant;
   k.tiedX = static_cast<int64_t>(tiesX.pairs / 2.0);
   k.tiedY = static_cast<int64_t>(tiesY.pairs / 2.0);
   k.distinctX = ranksX.tieSizes.size();
   k.distinctY = ranksY.tieSizes.size();
 
   const auto n = static_cast<double>(k.n), s = static_cast<double>(k.concordant - k.discordant);
-  std::vector<double> surplus(k.n);  // d_i = C_i - D_i; their sum is 2 s
   double squares = 0.0;
-  for (size_t i = 0; i < k.n; ++i) {
-    surplus[i] = static_cast<double>(pairs.concordant[i] - pairs.discordant[i]);
-    squares += std::pow(surplus[i] - 2.0 * s / n, 2.0);
-  }
+  for (const double surplus : pairs.surplus) squares += std::pow(surplus - 2.0 * s / n, 2.0);
   k.tauA.value = 2.0 * s / (n * (n - 1.0));
   if (k.n >= 3) {
     const double variance =
@@ -177,11 +142,10 @@ Kendall kendall(const std::vector<double>& x, const std::vector<double>& y, doub
     const double tauB = std::clamp(2.0 * s / w, -1.0, 1.0);
     // sum of (2 w d + t v)^2 minus n^3 t^2 (wr + wc)^2, whose mean term is that sum's own mean squared times
     // n.
-    const std::vector<double> sizeX = ownTieSizes(ranksX), sizeY = ownTieSizes(ranksY);
     std::vector<double> influence(k.n);
     double mean = 0.0;
     for (size_t i = 0; i < k.n; ++i) {
-      influence[i] = 2.0 * surplus[i] / w + tauB * (sizeX[i] / wr + sizeY[i] / wc);
+      influence[i] = 2.0 * pairs.surplus[i] / w + tauB * (ranksX.sharing[i] / wr + ranksY.sharing[i] / wc);
       mean += influence[i] / n;
     }
     double spread = 0.0;

@@ -8,8 +8,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -287,14 +285,13 @@ MixedLogistic fitMixedLogistic(const MixedLogisticData& data, const MixedLogisti
   const Eigen::MatrixXd inverse = covarianceOfCoefficients(model, best.at);
   const Eigen::VectorXd beta = white.back * best.at.head(p);
   const Eigen::MatrixXd covariance = white.back * inverse * white.back.transpose();
-  const double z = -normalQuantile((1.0 - options.level) / 2.0);
+  const double z = criticalZ(options.level);
   for (Eigen::Index c = 0; c < p; ++c) {
     FixedEffect effect{
         data.columns[static_cast<size_t>(c)], beta(c), std::sqrt(covariance(c, c)), 0.0, 1.0, {}};
     effect.z = effect.estimate / effect.standardError;
     effect.p = normalTwoSided(effect.z);
-    effect.interval = {effect.estimate - z * effect.standardError,
-                       effect.estimate + z * effect.standardError};
+    effect.interval = around(effect.estimate, z * effect.standardError);
     result.fixed.push_back(effect);
   }
   size_t index = 0;

@@ -10,38 +10,17 @@
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
-namespace {
-
-/// Indices by growing p.
-std::vector<size_t> orderOf(const std::vector<double>& p) {
+std::vector<double> adjustHolm(const std::vector<double>& p) {
   for (size_t i = 0; i < p.size(); ++i)
     if (!(p[i] >= 0.0 && p[i] <= 1.0)) throw Error(fmt::format("{} is no p value", p[i]), indexed("p", i));
   std::vector<size_t> order(p.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return p[a] < p[b]; });
-  return order;
-}
-
-}  // namespace
-
-std::vector<double> adjustHolm(const std::vector<double>& p) {
-  const std::vector<size_t> order = orderOf(p);
   std::vector<double> adjusted(p.size());
   double highest = 0.0;
   for (size_t i = 0; i < order.size(); ++i) {
     highest = std::max(highest, std::min(1.0, static_cast<double>(p.size() - i) * p[order[i]]));
     adjusted[order[i]] = highest;
-  }
-  return adjusted;
-}
-
-std::vector<double> adjustBenjaminiHochberg(const std::vector<double>& p) {
-  const std::vector<size_t> order = orderOf(p);
-  std::vector<double> adjusted(p.size());
-  double lowest = 1.0;
-  for (size_t i = order.size(); i-- > 0;) {
-    lowest = std::min(lowest, static_cast<double>(p.size()) / static_cast<double>(i + 1) * p[order[i]]);
-    adjusted[order[i]] = lowest;
   }
   return adjusted;
 }

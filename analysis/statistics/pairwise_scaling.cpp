@@ -5,14 +5,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/statistics/detail/check.h"
 #include "analysis/statistics/detail/draw.h"
 #include "analysis/statistics/distributions.h"
-#include "analysis/statistics/summary.h"
+#include "analysis/statistics/log_math.h"
 #include "experiments/base/error.h"
 
 namespace limen::analysis {
@@ -187,33 +186,6 @@ Fit fit(const std::vector<Pair>& pairs, size_t items, const PairwiseOptions& opt
                        penalise ? 1.0 / (options.priorDeviation * options.priorDeviation) : 0.0);
 }
 
-/// Binomial number by inversion, from the mode outwards: some sqrt(trials) steps.
-double drawBinomial(std::mt19937_64& random, double trials, double chance) {
-  if (chance <= 0.0) return 0.0;
-  if (chance >= 1.0) return trials;
-  const double mode = std::min(trials, std::floor((trials + 1.0) * chance)), odds = chance / (1.0 - chance);
-  const double atMode =
-      std::exp(std::lgamma(trials + 1.0) - std::lgamma(mode + 1.0) - std::lgamma(trials - mode + 1.0) +
-               mode * std::log(chance) + (trials - mode) * std::log1p(-chance));
-  double rest = drawUnit(random) - atMode, up = mode, down = mode, atUp = atMode, atDown = atMode;
-  while (rest > 0.0 && (up < trials || down > 0.0)) {
-    if (up < trials) {
-      atUp *= (trials - up) / (up + 1.0) * odds;
-      up += 1.0;
-      rest -= atUp;
-      if (rest <= 0.0) return up;
-    }
-    if (down > 0.0) {
-      atDown *= down / (trials - down + 1.0) / odds;
-      down -= 1.0;
-      rest -= atDown;
-      if (rest <= 0.0) return down;
-    }
-    if (atUp + atDown < 1e-300) break;
-  }
-  return mode;
-}
-
 std::vector<Pair> pairsOf(const std::vector<int64_t>& wins, size_t items, const PairwiseOptions& options) {
   if (!options.names.empty() && options.names.size() != items)
     throw Error(fmt::format("{} names for {} items", options.names.size(), items), "names");
@@ -268,25 +240,22 @@ void judgeFit(PairwiseScale& scale, const std::vector<Pair>& pairs, PairwiseMode
 void bootstrap(PairwiseScale& scale, const std::vector<Pair>& pairs, size_t items,
                const PairwiseOptions& options) {
   std::mt19937_64 random(options.seed);
-  std::vector<std::vector<double>> draws(items);
   for (int r = 0; r < options.resamples; ++r) {
     std::vector<Pair> sample = pairs;
-    for (Pair& p : sample) p.wins = drawBinomial(random, p.trials, p.wins / p.trials);
+    for (Pair& p : sample)
+      if (p.wins > 0.0 && p.wins < p.trials)
+        p.wins = static_cast<double>(
+            binomialAt(drawUnit(random), std::llround(p.trials), p.wins / p.trials, 1.0 - p.wins / p.trials));
     const bool penalise = scale.penalised || !whyUnbounded(sample, items, options).empty();
     scale.penalisedResamples += penalise ? 1 : 0;
     const Fit again = fit(sample, items, options, penalise);
-    for (size_t i = 0; i < items; ++i) draws[i].push_back(again.values(static_cast<Eigen::Index>(i)));
     scale.bootstrapValues.emplace_back(again.values.begin(), again.values.end());
   }
-  const double tail = (1.0 - options.level) / 2.0;
-  for (const std::vector<double>& values : draws)
-    scale.bootstrapIntervals.push_back({quantile(values, tail), quantile(values, 1.0 - tail)});
 }
 
 }  // namespace
 
 PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const PairwiseOptions& options) {
-  requireLevel(options.level);
   if (!(options.priorDeviation > 0.0 && std::isfinite(options.priorDeviation)))
     throw Error(fmt::format("{} is no standard deviation", options.priorDeviation), "priorDeviation",
                 "give one above 0");
@@ -305,12 +274,10 @@ PairwiseScale scalePairs(const std::vector<int64_t>& wins, size_t items, const P
                    ? "; proportions were taken as (k + 1/2) / (n + 1)"
                    : fmt::format("; held together by a penalty, a normal prior of standard deviation {}",
                                  options.priorDeviation));
-  const double z = -normalQuantile((1.0 - options.level) / 2.0);
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
     const double value = result.values(i), error = std::sqrt(std::max(0.0, result.covariance(i, i)));
     scale.values.push_back(value);
     scale.standardErrors.push_back(error);
-    scale.intervals.push_back({value - z * error, value + z * error});
     for (Eigen::Index j = 0; j < result.values.size(); ++j)
       scale.covariance.push_back(result.covariance(i, j));
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics/interval.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -22,12 +22,21 @@ enum class PairwiseModel {
   kBradleyTerry  ///< P(i over j) = 1 / (1 + exp(s_j - s_i)) (Bradley and Terry 1952), maximum likelihood
 };
 
+constexpr EnumNames<PairwiseModel, 3> enumNames(PairwiseModel) {
+  return {{{{PairwiseModel::kBradleyTerry, "bradley-terry"},
+            {PairwiseModel::kThurstoneMaximumLikelihood, "thurstone"},
+            {PairwiseModel::kThurstoneLeastSquares, "thurstone-ls"}}}};
+}
+
 /// What to do if the data put an item infinitely far away: no chain of preferences leads from each item to
 /// each other (Ford 1957); for least squares, any pair judged unanimously.
 enum class UnboundedScale {
   kRefuse,   ///< limen::Error that names items
   kPenalise  ///< a bounded answer, marked as such, which depends on the penalty
 };
+constexpr EnumNames<UnboundedScale, 2> enumNames(UnboundedScale) {
+  return {{{{UnboundedScale::kRefuse, "refuse"}, {UnboundedScale::kPenalise, "penalise"}}}};
+}
 
 struct PairwiseOptions {
   PairwiseModel model = PairwiseModel::kBradleyTerry;
@@ -35,7 +44,6 @@ struct PairwiseOptions {
   /// Maximum likelihood is penalised as by a normal prior of this standard deviation on each scale value.
   /// Least squares uses (k + 1/2) / (n + 1) for every pair instead.
   double priorDeviation = 2.0;
-  double level = 0.95;
   int resamples = 0;  ///< of the bootstrap; 0 for none
   uint64_t seed = 1;
   std::vector<std::string> names;  ///< of the items, for messages; empty: their indices from 0
@@ -45,12 +53,9 @@ struct PairwiseScale {
   std::vector<double> values;  ///< sum to 0
   /// From the inverse Hessian under that constraint; of least squares by the delta method.
   std::vector<double> standardErrors;
-  std::vector<double> covariance;   ///< items x items, rows; for errors of differences
-  std::vector<Interval> intervals;  ///< value +- z error
-  /// Percentile intervals; each resample redraws every pair's judgements from its observed proportion.
-  /// Empty without resamples. Same seed, same bytes.
-  std::vector<Interval> bootstrapIntervals;
-  /// The samples behind the intervals: for each resample the values of all items.
+  std::vector<double> covariance;  ///< items x items, rows; for errors of differences
+  /// For each resample, which redraws every pair's judgements from its observed proportion, the values of all
+  /// items. Same seed, same bytes.
   std::vector<std::vector<double>> bootstrapValues;
   int penalisedResamples = 0;  ///< resamples that were unbounded, and penalised regardless of `unbounded`
 

@@ -18,19 +18,14 @@ namespace {
 constexpr size_t kExactSpearman = 9;
 constexpr double kSure = 1e-12;  ///< what averaging may take off a rate of 1
 
-double criticalZ(double level) { return -normalQuantile((1.0 - level) / 2.0); }
-
 /// Error on Fisher's scale is `factor` / sqrt(n - 3).
 Coefficient withFisher(double r, double n, double factor, double level) {
   Coefficient c{r, {}, {}};
   if (n < 4.0) return c;
   const double error = factor / std::sqrt(n - 3.0);
   c.standardError = (1.0 - r * r) * error;
-  if (std::abs(r) == 1.0)
-    c.interval = Interval{r, r};
-  else
-    c.interval = Interval{std::tanh(std::atanh(r) - criticalZ(level) * error),
-                          std::tanh(std::atanh(r) + criticalZ(level) * error)};
+  const Interval fisher = around(std::atanh(r), criticalZ(level) * error);
+  c.interval = Interval{std::tanh(fisher.low), std::tanh(fisher.high)};
   return c;
 }
 

@@ -154,29 +154,4 @@ SignedRankTest signedRankTest(const std::vector<double>& first, const std::vecto
   return test;
 }
 
-SignTest mcNemarTest(int64_t onlyFirst, int64_t onlySecond) {
-  if (onlyFirst < 0)
-    throw Error(fmt::format("a count of {}, a count is not negative", onlyFirst), "onlyFirst");
-  if (onlySecond < 0)
-    throw Error(fmt::format("a count of {}, a count is not negative", onlySecond), "onlySecond");
-  SignTest test;
-  test.first = onlyFirst;
-  test.second = onlySecond;
-  const double b = static_cast<double>(onlyFirst), c = static_cast<double>(onlySecond);
-  if (b + c == 0.0) return test;
-  test.p = std::min(1.0, 2.0 * fairCoinLower(std::min(b, c), b + c));
-  test.chiSquared = std::pow(std::max(0.0, std::abs(b - c) - 1.0), 2.0) / (b + c);
-  test.chiSquaredP = chiSquaredUpper(*test.chiSquared, 1.0);
-  return test;
-}
-
-SignTest signTest(const std::vector<double>& first, const std::vector<double>& second) {
-  int64_t above = 0, below = 0;
-  for (const double d : differencesOf(first, second)) {
-    above += d > 0.0 ? 1 : 0;
-    below += d < 0.0 ? 1 : 0;
-  }
-  return mcNemarTest(above, below);
-}
-
 }  // namespace limen::analysis

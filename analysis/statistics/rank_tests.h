@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -41,20 +40,5 @@ struct SignedRankTest {
 
 /// limen::Error for lists that differ in length, are empty, or hold values that are not finite.
 SignedRankTest signedRankTest(const std::vector<double>& first, const std::vector<double>& second);
-
-/// Exact two-sided sign test: min(1, 2 P(X <= min(b, c))) of a fair coin (Arbuthnot 1710; McNemar 1947 for
-/// the two kinds of discordant pairs, "noticed only in the first", "only in the second").
-struct SignTest {
-  int64_t first = 0, second = 0;
-  double p = 1.0;  ///< 1 without discordant pairs
-  /// (|b - c| - 1)^2 / (b + c), Edwards' corrected chi-squared with one degree, and its p; none without
-  /// pairs.
-  std::optional<double> chiSquared, chiSquaredP;
-};
-
-/// Counts of discordant pairs. limen::Error if negative.
-SignTest mcNemarTest(int64_t onlyFirst, int64_t onlySecond);
-/// Counts signs of first - second; equal pairs drop out. Errors as for signedRankTest.
-SignTest signTest(const std::vector<double>& first, const std::vector<double>& second);
 
 }  // namespace limen::analysis

@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -309,7 +308,6 @@ std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t 
 
   const auto n = static_cast<double>(data.subjects);
   std::vector<PairedComparison> comparisons;
-  std::vector<double> p;
   for (size_t first = 0; first < levels; ++first)
     for (size_t second = first + 1; second < levels; ++second) {
       PairedComparison c;
@@ -326,7 +324,7 @@ std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t 
         c.standardisedDifference = c.difference / deviation;
         c.t = c.difference / error;
         c.p = tTwoSided(c.t, c.df);
-        c.interval = {c.difference - reach, c.difference + reach};
+        c.interval = around(c.difference, reach);
       } else {
         c.interval = {c.difference, c.difference};
         if (std::abs(c.difference) > noise) {
@@ -334,11 +332,9 @@ std::vector<PairedComparison> comparePairs(const RepeatedMeasures& data, size_t 
           c.p = 0.0;
         }
       }
-      p.push_back(c.p);
       comparisons.push_back(c);
     }
-  const std::vector<double> adjusted = adjustHolm(p);
-  for (size_t i = 0; i < comparisons.size(); ++i) comparisons[i].pHolm = adjusted[i];
+  adjustHolm(comparisons, &PairedComparison::p, &PairedComparison::pHolm);
   return comparisons;
 }
 

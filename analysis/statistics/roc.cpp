@@ -79,7 +79,7 @@ std::optional<double> covarianceOf(const Placements& a, const Placements& b) {
 RocArea areaOf(const Placements& p, double level) {
   RocArea result{p.positives.size(), p.negatives.size(), p.area, covarianceOf(p, p), {}, {}};
   if (!result.variance) return result;
-  const double reach = -normalQuantile((1.0 - level) / 2.0) * std::sqrt(*result.variance);
+  const double reach = criticalZ(level) * std::sqrt(*result.variance);
   result.interval = Interval{std::max(0.0, p.area - reach), std::min(1.0, p.area + reach)};
   if (p.area > 0.0 && p.area < 1.0) {
     const double logit = std::log(p.area / (1.0 - p.area)), wide = reach / (p.area * (1.0 - p.area));
@@ -135,8 +135,8 @@ RocComparison compareRocAreas(const std::vector<double>& first, const std::vecto
     if (std::abs(c.difference) < 1e-12) c.p = 1.0;
     return c;
   }
-  const double error = std::sqrt(variance), reach = -normalQuantile((1.0 - level) / 2.0) * error;
-  c.interval = Interval{c.difference - reach, c.difference + reach};
+  const double error = std::sqrt(variance);
+  c.interval = around(c.difference, criticalZ(level) * error);
   c.z = c.difference / error;
   c.p = normalTwoSided(*c.z);
   return c;

@@ -125,13 +125,13 @@ YesNoSensitivity analyseYesNo(const YesNoCounts& counts, RateCorrection correcti
   };
   s.aPrimeError = aPrimeErrorOf(s.hitRate, s.falseAlarmRate, binomial(s.hitRate, counts.signalTrials),
                                 binomial(s.falseAlarmRate, counts.noiseTrials));
-  const double z = -normalQuantile((1.0 - level) / 2.0);
-  s.dPrimeInterval = {s.dPrime - z * s.dPrimeError, s.dPrime + z * s.dPrimeError};
-  s.criterionInterval = {s.criterion - z * s.criterionError, s.criterion + z * s.criterionError};
-  s.lnBetaInterval = {s.lnBeta - z * s.lnBetaError, s.lnBeta + z * s.lnBetaError};
+  const double z = criticalZ(level);
+  s.dPrimeInterval = around(s.dPrime, z * s.dPrimeError);
+  s.criterionInterval = around(s.criterion, z * s.criterionError);
+  s.lnBetaInterval = around(s.lnBeta, z * s.lnBetaError);
   s.betaInterval = {std::exp(s.lnBetaInterval.low), std::exp(s.lnBetaInterval.high)};
-  s.aPrimeInterval = {std::max(0.0, s.aPrime - z * s.aPrimeError),
-                      std::min(1.0, s.aPrime + z * s.aPrimeError)};
+  const Interval aPrime = around(s.aPrime, z * s.aPrimeError);
+  s.aPrimeInterval = {std::max(0.0, aPrime.low), std::min(1.0, aPrime.high)};
   return s;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/statistics/interval.h"
+#include "experiments/base/enum_names.h"
 
 namespace limen::analysis {
 
@@ -18,6 +19,9 @@ enum class RateCorrection {
   kNone,      ///< rates as they are; 0 and 1 are refused, since d' would be infinite
   kLogLinear  ///< (k + 1/2) / (n + 1) for both rates, whatever they are (Hautus 1995)
 };
+constexpr EnumNames<RateCorrection, 2> enumNames(RateCorrection) {
+  return {{{{RateCorrection::kLogLinear, "loglinear"}, {RateCorrection::kNone, "none"}}}};
+}
 
 /// Equal-variance Gaussian model (Green and Swets 1966; Macmillan and Creelman 2005, chapters 1, 2 and 13).
 struct YesNoSensitivity {

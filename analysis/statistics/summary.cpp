@@ -27,12 +27,16 @@ double medianOf(std::vector<double>& values) {
 }  // namespace
 
 double quantile(std::vector<double> values, double q) {
-  assert(!values.empty() && q >= 0.0 && q <= 1.0);
   std::sort(values.begin(), values.end());
-  const double position = q * static_cast<double>(values.size() - 1);
+  return sortedQuantile(values, q);
+}
+
+double sortedQuantile(const std::vector<double>& sorted, double q) {
+  assert(!sorted.empty() && q >= 0.0 && q <= 1.0);
+  const double position = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<size_t>(position);
-  const size_t above = std::min(below + 1, values.size() - 1);
-  return std::lerp(values[below], values[above], position - static_cast<double>(below));
+  const size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], position - static_cast<double>(below));
 }
 
 Summary summarise(const std::vector<double>& values) {

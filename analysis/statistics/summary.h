@@ -16,6 +16,8 @@ struct Summary {
 /// Quantile by linear interpolation between order statistics: position q (n - 1), counted from 0 (Hyndman and
 /// Fan 1996, type 7; the default of R and NumPy). `values` is not empty.
 double quantile(std::vector<double> values, double q);
+/// The same of values that are sorted.
+double sortedQuantile(const std::vector<double>& sorted, double q);
 
 /// `values` is not empty.
 Summary summarise(const std::vector<double>& values);

@@ -10,6 +10,7 @@
 #include "analysis/psychometric/bootstrap.h"
 #include "analysis/psychometric/fit.h"
 #include "analysis/psychometric/fit_settings.h"
+#include "analysis/statistics/summary.h"
 #include "experiments/base/error.h"
 #include "perception/psychometrics/random.h"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/output/text_output.h"
 #include "analysis/study/analyses.h"
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
@@ -76,9 +77,9 @@ std::vector<PairGroup> readStudyPairs(const StudyAnswers& study, const std::vect
     group.ordered = true;
     const bool second = answer.outcome == answer.target;
     PairJudgement one;
-    one.winner = group.item(answer.condition.at(kItems[second ? 1 : 0]));
-    one.loser = group.item(answer.condition.at(kItems[second ? 0 : 1]));
-    one.subject = group.subject(study.observers[answer.observer]);
+    one.winner = indexIn(group.items, answer.condition.at(kItems[second ? 1 : 0]));
+    one.loser = indexIn(group.items, answer.condition.at(kItems[second ? 0 : 1]));
+    one.subject = indexIn(group.subjects, study.observers[answer.observer]);
     one.round = place.rounds.emplace(roundOf(answer), place.rounds.size()).first->second;
     ++group.judged;
     group.firstChosen += answer.outcome == 0 ? 1 : 0;

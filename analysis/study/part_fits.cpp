@@ -3,7 +3,6 @@
 
 #include "analysis/study/observer_intervals.h"
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 
 namespace limen::analysis {
 namespace {
@@ -12,8 +11,8 @@ namespace {
 FitOptions optionsOf(const FitOptions& typed, const StudyPart& part, const FittedPart& fitted) {
   FitOptions own = typed;
   own.level = fitted.variable;
-  own.task = nameOf(fitted.task);
-  if (fitted.guess) own.fixed.push_back("guess=" + shortestNumber(*fitted.guess));
+  own.settings.task = fitted.task;
+  if (fitted.guess) own.settings.fixed[indexOf(FitParameter::Guess)] = fitted.guess;
   const auto fill = [](std::string& option, const std::string& value) {
     if (option.empty()) option = value;
   };
@@ -37,10 +36,9 @@ FitAnswer fitPart(const StudyAnswers& study, const FittedPart& part, const FitOp
   const StudyPart& own = study.plan.parts[part.part];
   FitOptions options = optionsOf(typed, own, part);
   const bool pooled = part.pooledObservers > 1;
-  if (options.intervals.empty())
-    options.intervals = nameOf(pooled ? IntervalMethod::Observers : IntervalMethod::Profile);
-  const bool overObservers = pooled && options.intervals == nameOf(IntervalMethod::Observers);
-  if (overObservers) options.intervals = "none";
+  if (!options.intervals) options.intervals = pooled ? IntervalMethod::Observers : IntervalMethod::Profile;
+  const bool overObservers = pooled && options.intervals == IntervalMethod::Observers;
+  if (overObservers) options.intervals = IntervalMethod::None;
   FitAnswer out = answerFit(options, part.conditions);
   if (overObservers) out.intervals = observerIntervals(study, part, out.fit, options.confidence);
   out.part = own.name;

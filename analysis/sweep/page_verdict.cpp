@@ -179,7 +179,7 @@ std::string renderVerdictRules(const Sweep& sweep) {
       "is, and at least {3:.0f} % for each doubling of the {0}. The <b>knee</b> is the one of these farthest "
       "below "
       "the line between the first and the last, both axes logarithmic. <b>Beaten</b> is what another setting "
-      "matches in both and betters in one so far that the two are told apart.</li>",
+      "surely equals in both and betters in one, by intervals and noise.</li>",
       word, 100.0 * kLeastGain, sweep.xIsTime ? "faster" : "cheaper", 100.0 * kGainPerDoubling);
   if (noise > 0.0)
     out += fmt::format(

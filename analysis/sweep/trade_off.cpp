@@ -102,8 +102,10 @@ class Weighing {
 
   bool isBeaten(const TradeOffPoint& point) const {
     return std::any_of(points_.begin(), points_.end(), [&](const TradeOffPoint& other) {
-      return other.cost <= point.cost && other.error <= point.error &&
-             (other.costHigh < point.costLow || point.error - other.error > noise_);
+      const bool clearlyCheaper = other.costHigh < point.costLow;
+      const bool clearlyBetter = point.error - other.error > noise_;
+      return other.costHigh <= point.costLow && other.error + noise_ <= point.error &&
+             (clearlyCheaper || clearlyBetter);
     });
   }
 

@@ -42,7 +42,8 @@ struct TradeOffVerdict {
   std::vector<Level> levels;   ///< from the least error up; empty without points
   std::vector<size_t> worth;   ///< settings worth their cost, from cheap to exact
   std::optional<size_t> knee;  ///< one of these
-  /// By point: another setting is no worse in either and told apart as better in one.
+  /// By point: another setting is surely no worse in either, by intervals and noise, and surely better in
+  /// one.
   std::vector<bool> beaten;
 };
 

@@ -2,6 +2,7 @@
 // What the statistics of groups refuse in a table, with its line and column.
 #include <gtest/gtest.h>
 
+#include "analysis/answer_tables/choice.h"
 #include "analysis/observer_statistics/anova.h"
 #include "analysis/observer_statistics/mixed.h"
 #include "analysis/observer_statistics/sensitivity.h"
@@ -83,7 +84,7 @@ TEST(SensitivityTable, RefusesWhatItCannotAnalyse) {
   alternatives.subject = "who";
   alternatives.answers = {"", "h", "s", ""};
   refusesSdt(alternatives, "--task mafc:M");
-  expectError([] { readRateCorrection("some"); }, "--correction");
+  expectError([] { readChoice<RateCorrection>("some", "--correction"); }, "--correction");
 }
 
 const std::string kModel =

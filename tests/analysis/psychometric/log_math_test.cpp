@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/psychometric/log_math.h"
+#include "analysis/statistics/log_math.h"
 
 #include <gtest/gtest.h>
 

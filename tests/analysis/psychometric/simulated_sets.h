@@ -29,7 +29,7 @@ Condition drawSet(const CoverageExperiment& experiment, int index);
 struct CoverageCount {
   std::array<int, kFitQuantities> held{}, given{};
 };
-/// Of each method, over the sets from `first` on. `methods`: names of intervalMethodNames() or
+/// Of each method, over the sets from `first` on. `methods`: names of IntervalMethod or
 /// "nonparametric" (percentiles). "bootstrap" and "bca" are of the same samples.
 std::vector<CoverageCount> countCoverage(const CoverageExperiment& experiment,
                                          const std::vector<std::string>& methods, int first, int sets,

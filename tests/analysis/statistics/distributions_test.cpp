@@ -69,12 +69,6 @@ TEST(Distributions, ChiSquaredTailsKeepTheirDigitsFarOut) {
   expectRelative(chiSquaredUpper(1200.0, 700.0), 6.703680202694925e-29, kTail);
 }
 
-TEST(Distributions, CoinTailsKeepTheirDigitsFarOut) {
-  expectRelative(fairCoinLower(3.0, 15.0), 0.017578125, kTail);
-  expectRelative(fairCoinLower(0.0, 900.0), 1.1830521861667747e-271, kTail);
-  expectRelative(fairCoinLower(100.0, 1000.0), 6.7017177900062963e-162, kTail);
-}
-
 TEST(Distributions, NoncentralityOfFIsThatOfPublishedMeans) {
   // With one degree over very many, F is the square of a normal deviate: at F = z^2 the upper tail is 1/2 for
   // a mean of z, so the noncentrality is z^2, but for the far side, Phi(-2 z).

@@ -179,7 +179,6 @@ TEST(Thresholds, IntervalsOverObserversHoldTheTruthAsOftenAsTheySay) {
     const StudyAnswers study = drawStudy(seed);
     const FittedPart part = fittedParts(study, {}).at(0);
     const size_t threshold = indexOf(FitParameter::Threshold);
-    typed.intervals = "";
     const FitAnswer fit = fitPart(study, part, typed);
     ASSERT_EQ(fit.intervals->method, IntervalMethod::Observers);
     pooled.count(fit.intervals->conditions[0][threshold]);

@@ -147,10 +147,12 @@ class ViewWindow : public ViewProgram {
     return std::system(("DISPLAY=" + server_.display() + " xdotool " + words + " >/dev/null 2>&1").c_str());
   }
   static bool until(const std::function<bool()>& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!holds() && std::chrono::steady_clock::now() < end)
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (std::chrono::steady_clock::now() < end) {
+      if (holds()) return true;  // asked once: it may press keys
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return holds();
+    }
+    return false;
   }
   bool windowIsThere() const {
     return until([&] { return xdotool("search --name '^Limen$'") == 0; });

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -33,6 +35,15 @@ class StimuliCommand : public gl::GlTest {
  private:
   std::filesystem::path folder_;
 };
+
+/// Values that are not the same of 256 codes; the images divide them by 255 in different ways.
+int64_t differingCodes(const Image& a, const Image& b) {
+  EXPECT_EQ(a.data.size(), b.data.size());
+  int64_t count = 0;
+  for (size_t i = 0; i < std::min(a.data.size(), b.data.size()); ++i)
+    count += std::lround(255.0F * a.data[i]) != std::lround(255.0F * b.data[i]);
+  return count;
+}
 
 TEST_F(StimuliCommand, VideosHoldTheFramesThatSessionsShow) {
   const ProgramRun run = runProgram("limen-study stimuli quick --format .mkv -o " + path("videos"));
@@ -68,7 +79,8 @@ TEST_F(StimuliCommand, VideosHoldTheFramesThatSessionsShow) {
     const int changed = renderer.timeline().changed;
     for (const int frame : {0, changed - 1, changed, renderer.frameCount() - 1}) {
       if (frame < 0 || frame >= renderer.frameCount()) continue;
-      EXPECT_EQ(video.frame(frame).data, renderer.readBack(frame).data) << file << ", frame " << frame;
+      EXPECT_EQ(differingCodes(video.frame(frame), renderer.readBack(frame)), 0)
+          << file << ", frame " << frame;
     }
   }
   EXPECT_EQ(rows, shown.size());
@@ -78,11 +90,7 @@ TEST_F(StimuliCommand, RefusesWhatItCannotShow) {
   const ProgramRun unknown = runProgram("limen-study stimuli quick --format .gif -o " + path("a"));
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.text, testing::HasSubstr("--format"));
-  const ProgramRun adaptive = runProgram("limen-study stimuli threshold_2ifc -o " + path("b"));
-  EXPECT_EQ(adaptive.code, 2);
-  EXPECT_THAT(adaptive.text, testing::HasSubstr("procedure"));
   EXPECT_FALSE(std::filesystem::exists(path("a")));
-  EXPECT_FALSE(std::filesystem::exists(path("b")));
 }
 
 }  // namespace

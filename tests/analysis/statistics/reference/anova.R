@@ -62,7 +62,7 @@ for (i in 1:3) for (j in (i + 1):4) {
   t <- t.test(means[, i], means[, j], paired = TRUE)
   cat(i, j, format(c(t$estimate, t$statistic, t$p.value, t$conf.int), digits = 15), "\n"); p <- c(p, t$p.value)
 }
-cat("holm", format(p.adjust(p, "holm"), digits = 15), "\nBH  ", format(p.adjust(p, "BH"), digits = 15), "\n")
+cat("holm", format(p.adjust(p, "holm"), digits = 15), "\n")
 
 # The F values that are printed in the thesis.
 cat("p", format(c(pf(5.337, 1, 11, lower = FALSE), pf(30.226, 6, 42, lower = FALSE), pf(3.139, 6, 42, lower = FALSE),

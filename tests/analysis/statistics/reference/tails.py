@@ -21,10 +21,6 @@ for x, a, b in ((0.001, 2, 9), (30.226, 6, 42), (1e4, 3, 20), (1e8, 1, 7), (5, 4
     show(f"F upper {x} {a} {b}", f(x, a, b))
 for x, k in ((100, 1), (1000, 10), (3, 8), (1400, 30), (1200, 700)):
     show(f"chi-squared upper {x} {k}", gammainc(mpf(k) / 2, mpf(x) / 2, inf, regularized=True))
-def coin(k, n):
-    return sum(mp.binomial(n, i) for i in range(k + 1)) / mpf(2) ** n
-for k, n in ((3, 15), (0, 900), (100, 1000)):
-    show(f"coin lower {k} {n}", coin(k, n))
 # m-AFC, proportion wrong far out and proportion correct far below chance.
 phi = lambda x: exp(-x * x / 2) / sqrt(2 * pi)
 Phi = lambda x: erfc(-x / sqrt(mpf(2))) / 2

@@ -21,6 +21,10 @@ double stirlingError(double n);
 /// ln of the probability of k of n at probability k/n: the largest log-likelihood that a block can have.
 double logSaturatedChance(int64_t k, int64_t n);
 
+/// The number of successes in n trials up to which chances sum to `u`, 0 <= u < 1, taken from the most likely
+/// number outwards: with a random `u` a binomial number, exact, in about sqrt(n) steps. `q` is 1 - p.
+int64_t binomialAt(double u, int64_t n, double p, double q);
+
 /// Sum over i < k of ln(p + i r), and its derivatives by p and r: the equivalent of the Gamma functions of a
 /// beta-binomial with mean p and overdispersion r. Time does not grow with k.
 struct RisingSum {

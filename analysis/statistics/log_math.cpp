@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "analysis/psychometric/log_math.h"
+#include "analysis/statistics/log_math.h"
 
 #include <algorithm>
 #include <array>
@@ -88,6 +88,35 @@ double logSaturatedChance(int64_t k, int64_t n) {
   const double a = static_cast<double>(k), b = static_cast<double>(n - k), sum = static_cast<double>(n);
   return stirlingError(sum) - stirlingError(a) - stirlingError(b) - kHalfLogTwoPi -
          0.5 * std::log(a * (b / sum));
+}
+
+int64_t binomialAt(double u, int64_t n, double p, double q) {
+  if (n == 0 || p <= 0.0) return 0;
+  if (q <= 0.0) return n;
+  const double dn = static_cast<double>(n);
+  const int64_t mode = std::min(n, static_cast<int64_t>(std::floor((dn + 1.0) * p)));
+  const double logN = std::log(dn), dm = static_cast<double>(mode);
+  const double atMode = std::exp(logSaturatedChance(mode, n) - halfDeviance(dm, dn * p, logN + std::log(p)) -
+                                 halfDeviance(dn - dm, dn * q, logN + std::log(q)));
+  double left = u - atMode;
+  if (left < 0.0) return mode;
+  int64_t down = mode, up = mode;
+  double chanceDown = atMode, chanceUp = atMode;
+  const double odds = p / q;
+  while (true) {
+    const bool canDown = down > 0 && chanceDown > 0.0, canUp = up < n && chanceUp > 0.0;
+    if (!canDown && !canUp) return mode;  // what rounding leaves over
+    if (canUp) {
+      chanceUp *= odds * static_cast<double>(n - up) / static_cast<double>(up + 1);
+      ++up;
+      if ((left -= chanceUp) < 0.0) return up;
+    }
+    if (canDown) {
+      chanceDown *= static_cast<double>(down) / (odds * static_cast<double>(n - down + 1));
+      --down;
+      if ((left -= chanceDown) < 0.0) return down;
+    }
+  }
 }
 
 RisingSum logRisingSum(double p, double r, int64_t k) {
