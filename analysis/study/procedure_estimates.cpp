@@ -14,8 +14,8 @@ namespace limen::analysis {
 namespace {
 
 bool isBroken(const StudyAnswers& study, const std::vector<const StudyAnswer*>& answers) {
-  const auto& [first, last] = std::pair{answers.front(), answers.back()};
-  return first->session != last->session ||
+  const StudyAnswer* const first = answers.front();
+  return first->session != answers.back()->session ||
          std::any_of(study.leftOut.begin(), study.leftOut.end(), [&](const LeftOut& left) {
            return left.observer == study.observers[first->observer] &&
                   left.rule.rfind("reaction_time", 0) == 0;

@@ -165,9 +165,25 @@ class ParameterRows {
   const std::optional<ParameterChange>& change() const { return change_; }
 
  private:
+  bool anyGivenBelow(const std::string& path) const {
+    return std::any_of(entry_.given.begin(), entry_.given.end(),
+                       [&](const auto& given) { return given.first.rfind(path + ".", 0) == 0; });
+  }
+
+  /// Groups and choices within others, and longer lists of details, are rarely needed, unless something in
+  /// them is not at its default.
+  bool startsOpen(const Parameter& parameter, const std::string& path, size_t parameters) const {
+    constexpr size_t kFewDetails = 2;
+    const bool within = path.find('.') != std::string::npos;
+    const bool few = parameter.type == ParameterType::Group || parameters <= kFewDetails;
+    return (!within && few) || entry_.given.count(path) != 0 || anyGivenBelow(path);
+  }
+
   void group(const Parameter& parameter, const std::string& path) {
-    const bool open = ImGui::TreeNodeEx(parameter.name.c_str(),
-                                        ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth);
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanFullWidth;
+    if (startsOpen(parameter, path, parameter.alternatives.at(0).parameters.size()))
+      flags |= ImGuiTreeNodeFlags_DefaultOpen;
+    const bool open = ImGui::TreeNodeEx(parameter.name.c_str(), flags);
     places_.note(joinPath(prefix_, path));
     tooltip(path, parameter, nullptr);
     if (!open) return;
@@ -175,14 +191,36 @@ class ParameterRows {
     ImGui::TreePop();
   }
 
+  /// The name, dimmed at the default; with an arrow that folds the details of what was chosen. True if these
+  /// are open.
+  bool nameOf(const Parameter& parameter, const std::string& path, const Alternative* chosen) {
+    const ImGuiCol colour = entry_.given.count(path) != 0 ? ImGuiCol_Text : ImGuiCol_TextDisabled;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(colour));
+    bool open = true;
+    if (!chosen) {
+      ImGui::TextUnformatted(parameter.name.c_str());
+    } else {
+      // Each alternative opens and closes by itself.
+      ImGui::PushID(chosen->name.c_str());
+      ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_NoTreePushOnOpen;
+      if (startsOpen(parameter, path, chosen->parameters.size())) flags |= ImGuiTreeNodeFlags_DefaultOpen;
+      open = ImGui::TreeNodeEx(parameter.name.c_str(), flags);
+      places_.note(joinPath(prefix_, path) + ".fold");
+      ImGui::PopID();
+    }
+    ImGui::PopStyleColor();
+    return open;
+  }
+
   void valueRow(const Parameter& parameter, const std::string& path) {
     const std::string name = joinPath(prefix_, path);
     const ParameterValue& now = valueAt(entry_, path, parameter);
     const bool given = entry_.given.count(path) != 0;
-    if (given)
-      ImGui::TextUnformatted(parameter.name.c_str());
-    else
-      ImGui::TextDisabled("%s", parameter.name.c_str());
+    const Alternative* chosen = parameter.type == ParameterType::Choice
+                                    ? findAlternative(parameter, std::get<std::string>(now))
+                                    : nullptr;
+    const bool hasDetails = chosen && !chosen->parameters.empty();
+    const bool open = nameOf(parameter, path, hasDetails ? chosen : nullptr);
     tooltip(path, parameter, &now);
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1.0F);
@@ -202,9 +240,7 @@ class ParameterRows {
       if (ImGui::IsItemHovered())
         ImGui::SetTooltip("back to the default, %s", toText(parameter.defaultValue).c_str());
     }
-    if (parameter.type != ParameterType::Choice) return;
-    const Alternative* chosen = findAlternative(parameter, std::get<std::string>(now));
-    if (!chosen || chosen->parameters.empty()) return;
+    if (!hasDetails || !open) return;
     ImGui::Indent();
     build(chosen->parameters, path);
     ImGui::Unindent();

@@ -39,8 +39,10 @@ struct ParameterChange {
 
 /// Controls for an entry's parameters, made from their declarations alone: check box, slider with range and
 /// unit, list or text, a tooltip with description, range and source, and a button to reset a value that is
-/// not the default. Groups are collapsible sections; the parameters of the chosen alternative follow below
-/// its choice, those of the others are hidden. Returns the change that the user made, if any; it is valid.
+/// not the default. Groups, and the parameters of chosen
+/// alternatives, are collapsible; within others, or where they are many, they start closed unless one is not
+/// at its default. the parameters of the chosen alternative follow below its choice, those of the others are
+/// hidden. Returns the change that the user made, if any; it is valid.
 std::optional<ParameterChange> parameterControls(const std::string& prefix,
                                                  const std::vector<Parameter>& declared, const Entry& entry,
                                                  ControlMap& places);

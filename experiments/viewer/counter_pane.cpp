@@ -20,8 +20,7 @@ void nameCell(const Quantity& quantity) {
   ImGui::TextUnformatted((quantity.title.empty() ? quantity.name : quantity.title).c_str());
   if (!ImGui::IsItemHovered()) return;
   std::string text = quantity.name;
-  if (quantity.direction == Direction::LowerIsBetter) text += ", lower is better";
-  if (quantity.direction == Direction::HigherIsBetter) text += ", higher is better";
+  if (const std::string better = directionText(quantity.direction); !better.empty()) text += ", " + better;
   if (!quantity.source.empty()) text += "\n" + quantity.source;
   ImGui::SetTooltip("%s", text.c_str());
 }
@@ -39,11 +38,11 @@ void counterPane(const PaneContext& pane) {
     ImGui::TableNextColumn();
     nameCell(quantity);
     ImGui::TableNextColumn();
-    ImGui::Text("%s %s", numberText(counter.value).c_str(), quantity.unit.c_str());
+    numberCell(counter.value, quantity.unit);
     if (!second) continue;
     ImGui::TableNextColumn();
     for (const techniques::Counter& other : second->counters)
-      if (other.name == counter.name) ImGui::TextDisabled("%s", numberText(other.value).c_str());
+      if (other.name == counter.name) numberCell(other.value, "");
   }
   ImGui::EndTable();
 }

@@ -7,19 +7,37 @@
 namespace limen::viewer {
 namespace {
 
+/// The metric, with its better direction in the tooltip as well: narrow panes have no column for it.
+void metricCell(const ErrorFigure& figure) {
+  ImGui::TextUnformatted(figure.metric.c_str());
+  if (!ImGui::IsItemHovered()) return;
+  const std::string better = directionText(figure.direction);
+  ImGui::SetTooltip("%s%s", figure.metric.c_str(), better.empty() ? "" : (": " + better).c_str());
+}
+
 void errorTable(const EvaluationResult& evaluated) {
   const bool two = std::any_of(evaluated.figures.begin(), evaluated.figures.end(),
                                [](const ErrorFigure& figure) { return !std::isnan(figure.second); });
-  if (!numberTable("errors", two ? 3 : 2)) return;
+  const bool wide = ImGui::GetContentRegionAvail().x > (two ? 20.0F : 12.0F) * ImGui::GetFontSize();
+  if (!numberTable("errors", (two ? 3 : 2) + (wide ? 1 : 0))) return;
+  ImGui::TableSetupColumn(two ? "first" : "value");
+  if (two) ImGui::TableSetupColumn("second");
+  if (wide) ImGui::TableSetupColumn("better");
+  ImGui::TableHeadersRow();
   for (const ErrorFigure& figure : evaluated.figures) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    label(figure.metric);
+    metricCell(figure);
     ImGui::TableNextColumn();
-    ImGui::Text("%s %s", numberText(figure.value).c_str(), figure.unit.c_str());
-    if (!two) continue;
+    numberCell(figure.value, figure.unit);
+    if (two) {
+      ImGui::TableNextColumn();
+      numberCell(figure.second, figure.unit);
+    }
+    if (!wide) continue;
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", numberText(figure.second).c_str());
+    const std::string better = directionText(figure.direction);
+    ImGui::TextDisabled("%s", better.substr(0, better.find(' ')).c_str());
   }
   ImGui::EndTable();
 }
@@ -38,7 +56,6 @@ void errorMapChooser(const PaneContext& pane, const EvaluationResult& evaluated)
           "map", names, shown, [](const std::string&) { return std::string("where the errors are"); },
           pane.controls))
     pane.commands.push(command::ChooseErrorMap{*name});
-  ImGui::TextDisabled("brightest: %s", numberText(evaluated.maps.at(shown).white).c_str());
 }
 
 void predictionControls(const PaneContext& pane) {
@@ -71,11 +88,10 @@ void errorPane(const PaneContext& pane) {
     ImGui::TextDisabled("the reference is being rendered");
   } else if (state.evaluated->error.empty()) {
     const EvaluationResult& evaluated = *state.evaluated;
-    ImGui::TextDisabled("against %s", state.setup.reference->name.c_str());
+    dimText("against " + state.setup.reference->name);
     if (!evaluated.step.empty()) ImGui::TextColored(kInProgressColour, "so far: %s", evaluated.step.c_str());
     if (evaluated.bound >= 0.0)
-      ImGui::TextDisabled("reference noise: at most %s per pixel (99.9 %%)",
-                          numberText(evaluated.bound).c_str());
+      dimText("reference noise: at most " + numberText(evaluated.bound) + " per pixel (99.9 %)");
     errorTable(evaluated);
     errorMapChooser(pane, evaluated);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/evaluation_thread.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -30,6 +32,20 @@ std::string identityOf(const ViewSetup& setup, const Entry& reference) {
 
 std::string identityOf(const ViewSetup& setup) {
   return setup.reference ? identityOf(setup, *setup.reference) : std::string{};
+}
+
+/// The figures that all pictures have come first; those of special defects follow by name.
+size_t rankOf(const std::string& metric) {
+  constexpr std::array<const char*, 7> kFirst = {"rmse", "mae",       "psnr",         "ssim",
+                                                 "flip", "p99_error", "largest_error"};
+  return static_cast<size_t>(std::find(kFirst.begin(), kFirst.end(), metric) - kFirst.begin());
+}
+
+double largestOf(const Image& map) {
+  double largest = 0.0;
+  for (const float value : map.data)
+    if (std::isfinite(value)) largest = std::max(largest, double{value});
+  return largest;
 }
 
 /// "samples 64 of 1024"
@@ -81,15 +97,16 @@ class EvaluationThread::Work {
         perception::MetricResult result = metric.compare(input, defaults);
         if (result.map && !maps.count(result.mapName)) {
           const double white = experiments::mapWhite(result.mapName);
+          const double largest = largestOf(*result.map);
           maps[result.mapName] = {
               std::make_shared<ScreenPicture>(screenPicture(perception::errorPicture(*result.map, white))),
-              std::make_shared<Image>(std::move(*result.map)), white};
+              std::make_shared<Image>(std::move(*result.map)), white, largest};
         }
         return result.value;
       };
       try {
         ErrorFigure figure{name, info.unit, compare(*request.product, out.maps),
-                           std::numeric_limits<double>::quiet_NaN()};
+                           std::numeric_limits<double>::quiet_NaN(), info.direction};
         if (request.second) figure.second = compare(*request.second, out.secondMaps);
         out.figures.push_back(std::move(figure));
       } catch (const std::exception&) {
@@ -97,6 +114,9 @@ class EvaluationThread::Work {
         context_.takeDebugMessages();
       }
     }
+    std::stable_sort(out.figures.begin(), out.figures.end(), [](const ErrorFigure& a, const ErrorFigure& b) {
+      return rankOf(a.metric) < rankOf(b.metric);
+    });
   }
 
  private:
@@ -108,9 +128,14 @@ class EvaluationThread::Work {
 };
 
 EvaluationThread::EvaluationThread(std::function<void()> wake)
-    : thread_([this, wake = std::move(wake)] { run(wake); }) {}
+    : thread_([this, wake = std::move(wake)] {
+        run(wake);
+        end_.set_value();
+      }) {}
 
-EvaluationThread::~EvaluationThread() {
+EvaluationThread::~EvaluationThread() { close(); }
+
+void EvaluationThread::close() {
   requests_.close();
   const std::scoped_lock lock(guard_);
   cancel_.request_stop();
@@ -164,9 +189,8 @@ void EvaluationThread::run(const std::function<void()>& wake) {
       results_.put(result);
       wake();
     };
-    const auto predict = [&] { paintOverlay(*request, result); };
     if (!request->setup.reference) {
-      predict();
+      paintOverlay(*request, result);
       publish();
       continue;
     }
@@ -178,6 +202,7 @@ void EvaluationThread::run(const std::function<void()>& wake) {
         throw Error("reference '" + info.name + "' makes another kind of product", {},
                     "choose one that makes " + techniques::toText(request->kind));
       std::vector<Entry> steps = work.has(*request) ? std::vector<Entry>{wanted} : fromCoarseToFine(wanted);
+      std::optional<EvaluationResult> painted;  // a prediction that does not depend on the step
       for (const Entry& step : steps) {
         const std::shared_ptr<const Image> product = work.reference(*request, step, cancelled, made_);
         if (!product) break;
@@ -188,7 +213,10 @@ void EvaluationThread::run(const std::function<void()>& wake) {
             requests_.putBack(std::move(*next));
             break;
           }
-          if (next) request = std::move(next);
+          if (next) {
+            request = std::move(next);
+            painted.reset();
+          }
         }
         result = {};
         result.number = request->number;
@@ -198,7 +226,16 @@ void EvaluationThread::run(const std::function<void()>& wake) {
         result.referencePicture = std::make_shared<ScreenPicture>(
             screenPicture(experiments::productPicture(request->kind, *product, request->view->shading)));
         work.evaluate(*request, result);
-        if (step == wanted) predict();
+        if (painted) {
+          result.overlay = painted->overlay;
+          result.overlayNote = painted->overlayNote;
+          result.overlayKind = painted->overlayKind;
+        } else if (!overlayNeedsReference(*request)) {
+          paintOverlay(*request, result);
+          painted = result;
+        } else if (step == wanted) {
+          paintOverlay(*request, result);
+        }
         publish();
         if (cancelled.stop_requested()) break;
       }
@@ -208,7 +245,7 @@ void EvaluationThread::run(const std::function<void()>& wake) {
       result = {};
       result.number = request->number;
       result.error = error.what();
-      predict();
+      paintOverlay(*request, result);
       publish();
     }
   }

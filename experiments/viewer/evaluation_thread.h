@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "experiments/base/image.h"
+#include "experiments/base/quantity.h"
 #include "experiments/scene_rendering.h"
 #include "experiments/viewer/mailbox.h"
 #include "experiments/viewer/presenter.h"
@@ -43,13 +46,15 @@ struct EvaluationRequest {
 struct ErrorFigure {
   std::string metric, unit;
   double value = 0.0, second = 0.0;  ///< of the first and the second technique; NaN where there is none
+  Direction direction = Direction::LowerIsBetter;
 };
 
 /// Where errors lie.
 struct ErrorMap {
   std::shared_ptr<const ScreenPicture> picture;
   std::shared_ptr<const Image> values;
-  double white = 1.0;  ///< value of the brightest colour
+  double white = 1.0;    ///< value of the brightest colour
+  double largest = 0.0;  ///< finite value
 };
 
 struct EvaluationResult {
@@ -57,10 +62,11 @@ struct EvaluationResult {
   std::string step;     ///< "samples 64 of 1024": what the figures are based on so far; "" once complete
   std::string error;    ///< why there are no figures
   double bound = -1.0;  ///< half-width of the 99.9 % interval of a reference's pixel, < 0: exact
-  std::vector<ErrorFigure> figures;
+  std::vector<ErrorFigure> figures;        ///< the general ones first, then by name
   std::shared_ptr<const Image> reference;  ///< product of the reference
   std::shared_ptr<const ScreenPicture> referencePicture;
   std::map<std::string, ErrorMap> maps, secondMaps;  ///< of either technique, by name
+  Overlay overlayKind = Overlay::None;
   std::shared_ptr<const ScreenPicture> overlay;
   std::string overlayNote;  ///< figures of what the overlay shows, or why there is none
 };
@@ -80,6 +86,12 @@ class EvaluationThread {
   std::optional<EvaluationResult> take() { return results_.take(); }
   /// Whether there is nothing to do.
   bool idle() const { return idle_ && !requests_.waiting(); }
+  /// Asks the thread to end and cancels its work.
+  void close();
+  /// Whether it has ended; waits for that until `end`.
+  bool waitUntil(std::chrono::steady_clock::time_point end) const {
+    return ended_.wait_until(end) == std::future_status::ready;
+  }
   /// References made so far, coarse steps included.
   int64_t referencesMade() const { return made_; }
 
@@ -94,7 +106,9 @@ class EvaluationThread {
   std::mutex guard_;
   std::string asked_;        // identity of the reference that was asked for last
   std::stop_source cancel_;  // of the work on it
-  std::jthread thread_;      // last: it uses the others
+  std::promise<void> end_;
+  std::future<void> ended_ = end_.get_future();
+  std::jthread thread_;  // last: it uses the others
 };
 
 }  // namespace limen::viewer

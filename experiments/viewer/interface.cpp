@@ -33,7 +33,7 @@ void Interface::build(const PaneContext& pane, glm::vec2 sizePx, float emPx, dou
       hidden ? 0.0F : std::min(std::max(0.25F * sizePx.x, 22.0F * emPx), 0.27F * sizePx.x + 4.0F * emPx);
   const float right =
       hidden ? 0.0F : std::min(std::max(0.24F * sizePx.x, 24.0F * emPx), 0.26F * sizePx.x + 4.0F * emPx);
-  const float bottom = std::round(2.0F * emPx);
+  const float bottom = std::min(messageBarHeight(pane.state, sizePx.x), std::round(0.3F * sizePx.y));
   handleKeys(pane);
   if (!hidden) {
     ImGui::SetNextWindowPos({0, 0});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // limen view: look at any scene with any technique, change any parameter, export what you find.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
@@ -142,6 +144,36 @@ ViewSetup setupFrom(const ViewOptions& options) {
   return setup;
 }
 
+/// Shows the viewer until its window is closed and what is to be saved is saved.
+void runWindow(window::UiWindow& window, Viewer& viewer) {
+  using Clock = std::chrono::steady_clock;
+  auto before = Clock::now();
+  // The interface needs a few frames to settle after an event.
+  constexpr int kFramesAfterEvent = 3;
+  int framesLeft = kFramesAfterEvent;
+  bool closing = false;
+  while (interruptSignal() == 0) {
+    if (window.takeCloseRequest()) closing = true;
+    if (closing && !viewer.state().saving) return;
+    const bool busy = framesLeft > 0 || viewer.animated();
+    const bool woken = window.waitForAnything(busy ? 0.0 : 0.5);
+    const bool changed = viewer.takeResults();
+    if (woken || changed) framesLeft = kFramesAfterEvent;
+    if (window.contextLost()) throw Error("the graphics driver was reset", {}, "start the viewer again");
+    if (framesLeft == 0 && !viewer.animated()) {
+      before = Clock::now();
+      continue;
+    }
+    const auto now = Clock::now();
+    // Nothing has moved while idle.
+    const double passed = std::min(std::chrono::duration<double>(now - before).count(), 0.1);
+    before = now;
+    window.draw({0.06F, 0.06F, 0.07F}, [&] { viewer.build(passed); });
+    window.show(1);
+    framesLeft = std::max(framesLeft - 1, 0);
+  }
+}
+
 int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions, InitialView first) {
   window::UiWindowOptions windowOptions;
   windowOptions.title = "Limen";
@@ -161,30 +193,20 @@ int viewInWindow(const ViewOptions& options, const ViewerOptions& viewerOptions,
   Viewer viewer(window, viewerOptions, &window::UiWindow::wake);
   viewer.execute(command::Arrange{first.arrangement});
   viewer.execute(command::Predict{first.overlay});
-  using Clock = std::chrono::steady_clock;
-  auto before = Clock::now();
-  // The interface needs a few frames to settle after an event.
-  constexpr int kFramesAfterEvent = 3;
-  int framesLeft = kFramesAfterEvent;
-  while (!window.takeCloseRequest() && interruptSignal() == 0) {
-    const bool busy = framesLeft > 0 || viewer.animated();
-    const bool woken = window.waitForAnything(busy ? 0.0 : 0.5);
-    const bool changed = viewer.takeResults();
-    if (woken || changed) framesLeft = kFramesAfterEvent;
-    if (window.contextLost()) throw Error("the graphics driver was reset", {}, "start the viewer again");
-    if (framesLeft == 0 && !viewer.animated()) {
-      before = Clock::now();
-      continue;
-    }
-    const auto now = Clock::now();
-    // Nothing has moved while idle.
-    const double passed = std::min(std::chrono::duration<double>(now - before).count(), 0.1);
-    before = now;
-    window.draw({0.06F, 0.06F, 0.07F}, [&] { viewer.build(passed); });
-    window.show(1);
-    framesLeft = std::max(framesLeft - 1, 0);
+  int code = 0;
+  try {
+    runWindow(window, viewer);
+  } catch (...) {
+    code = reportFailure(calledName("limen-view"));
   }
-  return 0;
+  // A single frame or reference can take minutes, and drivers cannot be asked to stop. Nothing is left to be
+  // written.
+  constexpr std::chrono::milliseconds kPatience{1000};
+  if (!viewer.close(kPatience)) {
+    std::fflush(nullptr);
+    _exit(exitCodeAfter(code));
+  }
+  return code;
 }
 
 int view(const ViewOptions& options) {

@@ -2,7 +2,6 @@
 #include "experiments/viewer/pane.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace limen::viewer {
 
@@ -10,6 +9,12 @@ bool heading(const char* text) { return ImGui::CollapsingHeader(text, ImGuiTreeN
 
 void errorText(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.45F, 0.35F, 1.0F});
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void dimText(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
 }
@@ -25,18 +30,21 @@ void label(const std::string& text) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
 
-std::string numberText(double value) {
-  if (std::isnan(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.5g", value);
-  return text;
+void numberCell(double value, const std::string& unit) {
+  ImGui::TextUnformatted((numberText(value) + (unit.empty() || std::isnan(value) ? "" : " " + unit)).c_str());
+  if (ImGui::IsItemHovered() && !std::isnan(value)) ImGui::SetTooltip("%.9g %s", value, unit.c_str());
 }
 
-std::string bytesText(int64_t bytes) {
-  const double mb = 1e-6 * static_cast<double>(bytes);
-  char text[32];
-  std::snprintf(text, sizeof text, mb < 10.0 ? "%.2f MB" : "%.0f MB", mb);
-  return text;
+std::string directionText(Direction direction) {
+  switch (direction) {
+    case Direction::LowerIsBetter:
+      return "lower is better";
+    case Direction::HigherIsBetter:
+      return "higher is better";
+    case Direction::Neither:
+      return "";
+  }
+  return "";
 }
 
 }  // namespace limen::viewer

@@ -6,7 +6,9 @@
 
 #include <string>
 
+#include "experiments/base/quantity.h"
 #include "experiments/viewer/controls.h"
+#include "experiments/viewer/number_text.h"
 #include "experiments/viewer/viewer_command.h"
 #include "experiments/viewer/viewer_state.h"
 
@@ -28,13 +30,16 @@ const ImVec4 kInProgressColour(1.0F, 0.8F, 0.4F, 1.0F);
 /// The heading of a collapsible section; true if it is open.
 bool heading(const char* text);
 void errorText(const std::string& text);
+/// Of secondary importance; wraps where the pane is narrow, so that no figure is cut.
+void dimText(const std::string& text);
 /// A table with names in the first column, which shrinks, and numbers in the others, which do not. If it
 /// returns true (visible), call ImGui::EndTable().
 bool numberTable(const char* id, int columns);
 /// A name that may be too long for its column.
 void label(const std::string& text);
-/// Enough digits to compare by eye; "" for NaN.
-std::string numberText(double value);
-std::string bytesText(int64_t bytes);
+/// A number as numberText() prints it; more digits in the tooltip.
+void numberCell(double value, const std::string& unit);
+/// "lower is better"; "" for neither.
+std::string directionText(Direction direction);
 
 }  // namespace limen::viewer

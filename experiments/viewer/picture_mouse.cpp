@@ -37,7 +37,7 @@ void PicturePane::handleMouse(const PaneContext& pane, const Placed& where, doub
   const glm::vec2 dragPx = mousePx() - dragStartPx_;
   if (ImGui::IsItemActive() && splitHeld_)
     splitAt_ = std::clamp((mousePx().x - where.leastPx.x) / width, 0.02F, 0.98F);
-  else if (ImGui::IsItemActive() && ImGui::GetIO().KeyCtrl && zoom_ > 0.0 && glm::length(dragPx) > kClickPx)
+  else if (ImGui::IsItemActive() && ImGui::GetIO().KeyCtrl && zoom_ > 0 && glm::length(dragPx) > kClickPx)
     panPx_ = panFrom_ + dragPx;
   else if (ImGui::IsItemActive())
     moveCamera(pane, where, secondsPassed);

@@ -26,6 +26,37 @@ std::string secondName(const ViewSetup& setup) {
   return setup.second ? setup.second->name : setup.reference ? setup.reference->name : "";
 }
 
+/// "3:1", "1:2.4"
+std::string zoomText(float factor) {
+  if (factor >= 1.0F) return numberText(std::round(factor)) + ":1";
+  return "1:" + numberText(std::round(10.0F / factor) / 10.0F);
+}
+
+/// "absolute_error" as words.
+std::string wordsOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// Why there is no prediction yet, or none at all.
+std::string textWithoutPrediction(const ViewerState& state) {
+  if (state.overlay == Overlay::None) return "choose a prediction on the right";
+  const bool second = state.rendered(1) != nullptr;
+  if (state.overlay == Overlay::Popping && !second && !state.setup.reference)
+    return "popping needs two pictures: choose a second technique or a reference on the left";
+  const bool current = state.evaluated && state.evaluated->overlayKind == state.overlay;
+  if (current && !state.evaluated->overlayNote.empty()) {
+    const std::string& error = state.evaluated->error;
+    return state.evaluated->overlayNote + (error.empty() ? "" : "\n" + error);
+  }
+  std::string out = "the prediction is being computed";
+  if (state.overlay == Overlay::Popping && !second) {
+    out = "waiting for the reference";
+    if (state.evaluated && !state.evaluated->step.empty()) out += ", " + state.evaluated->step;
+  }
+  return out;
+}
+
 }  // namespace
 
 void PicturePane::build(const PaneContext& pane, glm::vec2 leastPx, glm::vec2 mostPx, double secondsPassed) {
@@ -39,8 +70,16 @@ void PicturePane::build(const PaneContext& pane, glm::vec2 leastPx, glm::vec2 mo
   arrangementBar(pane);
   upload(pane.state);
   const glm::vec2 least = fromIm(ImGui::GetCursorScreenPos());
+  const glm::vec2 paneMostPx = mostPx;
+  if (const std::optional<ColourScale> scale = scaleOf(pane.state)) {
+    mostPx.y = std::max(mostPx.y - ColourBar::heightPx(), least.y + 1.0F);
+    colourBar_.draw(*scale, {leastPx.x, mostPx.y}, paneMostPx);
+    pane.controls.note("colour_bar", {leastPx.x, mostPx.y}, paneMostPx);
+  }
   ImGui::PushClipRect(toIm(least), toIm(mostPx), true);
   const Placed where = drawArranged(pane.state, least, mostPx);
+  if (!first_.empty())
+    shownFactor_ = (where.mostPx.x - where.leastPx.x) / static_cast<float>(first_.sizePx().x);
   ImGui::PopClipRect();
   if (const std::string text = textIfEmpty(pane.state); !text.empty()) {
     const float em = ImGui::GetFontSize();
@@ -48,6 +87,7 @@ void PicturePane::build(const PaneContext& pane, glm::vec2 leastPx, glm::vec2 mo
     ImGui::PushTextWrapPos(mostPx.x - leastPx.x - em);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
+    pane.controls.note("picture.reason");
   }
   // An item that covers the pane receives the mouse.
   ImGui::SetCursorScreenPos(toIm(least));
@@ -62,24 +102,30 @@ void PicturePane::build(const PaneContext& pane, glm::vec2 leastPx, glm::vec2 mo
 }
 
 void PicturePane::arrangementBar(const PaneContext& pane) {
-  const float em = ImGui::GetFontSize();
-  ImGui::SetCursorPos({0.4F * em, 0.3F * em});
+  const float em = ImGui::GetFontSize(), left = 0.4F * em, gap = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetCursorPos({left, 0.3F * em});
+  const float end = ImGui::GetWindowWidth() - left;
+  float x = left;  // where the next item begins if it fits
+  const auto wrap = [&](float width) {
+    if (x > left && x + width <= end)
+      ImGui::SameLine(x);
+    else if (x > left)
+      x = left;
+    ImGui::SetCursorPosX(x);
+    x += width + gap;
+  };
   for (const auto& [arrangement, name] : kArrangements) {
+    wrap(ImGui::CalcTextSize(name).x + 2.0F * ImGui::GetStyle().FramePadding.x);
     const bool chosen = pane.state.arrangement == arrangement;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     if (ImGui::Button(name)) pane.commands.push(command::Arrange{arrangement});
     if (chosen) ImGui::PopStyleColor();
     pane.controls.note(std::string("arrangement.") + name);
-    ImGui::SameLine();
   }
-  if (ImGui::GetContentRegionAvail().x < 7.0F * em) {
-    ImGui::NewLine();
-    ImGui::SetCursorPosX(0.4F * em);
-  }
+  wrap(7.0F * em);
   ImGui::SetNextItemWidth(7.0F * em);
   zoomControl(pane.state);
   pane.controls.note("zoom");
-  ImGui::NewLine();
 }
 
 void PicturePane::zoomControl(const ViewerState& state) {
@@ -88,17 +134,17 @@ void PicturePane::zoomControl(const ViewerState& state) {
                         "%.1f changes/s", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
     return;
   }
-  constexpr std::array<double, 5> kZooms = {0.0, 1.0, 2.0, 4.0, 8.0};
-  int index = static_cast<int>(std::find(kZooms.begin(), kZooms.end(), zoom_) - kZooms.begin());
-  if (!ImGui::Combo("##zoom", &index,
-                    "fit\0"
-                    "1:1\0"
-                    "2:1\0"
-                    "4:1\0"
-                    "8:1\0"))
-    return;
-  zoom_ = kZooms[static_cast<size_t>(index)];
-  panPx_ = {0, 0};
+  constexpr std::array<int, 7> kZooms = {0, 1, 2, 3, 4, 8, 16};
+  const auto text = [&](int zoom) {
+    return zoom == 0 ? "fit, " + zoomText(shownFactor_) : zoomText(static_cast<float>(zoom));
+  };
+  if (!ImGui::BeginCombo("##zoom", text(zoom_).c_str())) return;
+  for (const int zoom : kZooms) {
+    if (!ImGui::Selectable(zoom == 0 ? "fit" : text(zoom).c_str(), zoom == zoom_)) continue;
+    zoom_ = zoom;
+    panPx_ = {0, 0};
+  }
+  ImGui::EndCombo();
 }
 
 void PicturePane::upload(const ViewerState& state) {
@@ -110,16 +156,38 @@ void PicturePane::upload(const ViewerState& state) {
     if (const auto found = state.evaluated->maps.find(state.errorMap); found != state.evaluated->maps.end())
       map = found->second.picture;
   errorMap_.show(map);
-  prediction_.show(state.evaluated ? state.evaluated->overlay : nullptr);
+  const bool current = state.evaluated && state.evaluated->overlayKind == state.overlay;
+  prediction_.show(current ? state.evaluated->overlay : nullptr);
+}
+
+std::optional<ColourScale> PicturePane::scaleOf(const ViewerState& state) const {
+  if (shownTexture(state.arrangement).empty()) return {};
+  if (state.arrangement == Arrangement::ErrorMap) {
+    const ErrorMap& map = state.evaluated->maps.at(state.errorMap);
+    return errorScaleOf(wordsOf(state.errorMap), map.white, map.largest);
+  }
+  if (state.arrangement == Arrangement::Overlay)
+    return state.overlay == Overlay::Thresholds ? std::optional(thresholdScale()) : std::nullopt;
+  const Rendered* first = state.rendered(0);
+  if (!first || state.arrangement == Arrangement::Second) return {};
+  if (first->viewWhite > 0.0) return errorScaleOf(wordsOf(state.debugView), first->viewWhite, 0.0);
+  if (first->kind == techniques::ProductKind::Threshold && state.debugView.empty()) return thresholdScale();
+  return {};
+}
+
+float PicturePane::factorFor(glm::ivec2 sizePx, glm::vec2 roomPx) const {
+  if (zoom_ > 0) return static_cast<float>(zoom_);
+  const glm::vec2 fitting = roomPx / glm::vec2(glm::max(sizePx, 1));
+  const float factor = std::min(fitting.x, fitting.y);
+  // Every pixel of an enlarged picture gets the same number of screen pixels.
+  return factor >= 1.0F ? std::floor(factor) : factor;
 }
 
 PicturePane::Placed PicturePane::place(const UiTexture& texture, glm::vec2 leastPx, glm::vec2 mostPx) const {
   const glm::vec2 room = glm::max(mostPx - leastPx, 1.0F), size(glm::max(texture.sizePx(), 1));
-  const auto zoom = static_cast<float>(zoom_);
-  const float factor = zoom > 0.0F ? zoom : std::min(room.x / size.x, room.y / size.y);
-  const glm::vec2 shown = size * factor;
+  const glm::vec2 shown = size * factorFor(texture.sizePx(), room);
   const glm::vec2 least =
-      glm::round(0.5F * (leastPx + mostPx) - 0.5F * shown + (zoom > 0.0F ? panPx_ : glm::vec2(0.0F)));
+      glm::round(0.5F * (leastPx + mostPx) - 0.5F * shown + (zoom_ > 0 ? panPx_ : glm::vec2(0.0F)));
   return {least, least + shown};
 }
 
@@ -205,12 +273,12 @@ std::string PicturePane::textIfEmpty(const ViewerState& state) const {
                                                       : "the first picture is being rendered";
   }
   if (!shownTexture(state.arrangement).empty()) return {};
-  if (state.arrangement == Arrangement::Overlay && state.overlay == Overlay::None)
-    return "choose a prediction on the right";
+  if (state.arrangement == Arrangement::Overlay) return textWithoutPrediction(state);
   if (state.arrangement == Arrangement::Second && secondName(state.setup).empty())
     return "choose a second technique or a reference on the left";
   if (state.arrangement == Arrangement::ErrorMap && !state.setup.reference)
     return "choose a reference on the left";
+  if (state.evaluated && !state.evaluated->error.empty()) return state.evaluated->error;
   return "this picture is being rendered";
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "experiments/base/error.h"
-#include "experiments/base/text.h"
 #include "experiments/product.h"
+#include "experiments/viewer/number_text.h"
 #include "perception/metrics/error_map.h"
 #include "perception/popping/overlay.h"
 #include "perception/popping/predictor.h"
@@ -28,9 +28,8 @@ void paintThresholds(const Image& picture, const EvaluationRequest& request, Eva
   const Image thresholds = perception::toImage(map.thresholdCdM2);
   result.overlay = std::make_shared<ScreenPicture>(screenPicture(perception::thresholdPicture(thresholds)));
   const auto [least, most] = std::minmax_element(thresholds.data.begin(), thresholds.data.end());
-  result.overlayNote = "thresholds " + shortestNumber(*least) + " to " + shortestNumber(*most) +
-                       " cd/m2 (black " + shortestNumber(perception::kThresholdPictureBlack) + ", white " +
-                       shortestNumber(perception::kThresholdPictureWhite) + ") on " + request.display.name;
+  result.overlayNote =
+      "thresholds " + numberText(*least) + " to " + numberText(*most) + " cd/m2 on " + request.display.name;
 }
 
 void paintPopping(const Image& actual, const Image& before, const EvaluationRequest& request,
@@ -44,20 +43,24 @@ void paintPopping(const Image& actual, const Image& before, const EvaluationRequ
   result.overlay = std::make_shared<ScreenPicture>(
       screenPicture(perception::poppingOverlay(actual, popping.regions, options)));
   const perception::PoppingSummary& summary = popping.summary;
-  result.overlayNote = popping.regions.regions.empty()
-                           ? "no popping region"
-                           : std::to_string(popping.regions.regions.size()) + " popping regions, " +
-                                 shortestNumber(std::round(1000.0 * summary.coverage) / 10.0) +
-                                 " % of the picture, largest R " +
-                                 shortestNumber(std::round(100.0 * summary.largestRating) / 100.0) + ", " +
-                                 shortestNumber(std::round(100.0 * summary.detectionProbability)) +
-                                 " % would see it";
+  result.overlayNote =
+      popping.regions.regions.empty()
+          ? "no popping region"
+          : std::to_string(popping.regions.regions.size()) + " popping regions, " +
+                numberText(std::round(1000.0 * summary.coverage) / 10.0) + " % of the picture, largest R " +
+                numberText(std::round(100.0 * summary.largestRating) / 100.0) + ", " +
+                numberText(std::round(100.0 * summary.detectionProbability)) + " % would see it";
   result.overlayNote += " on " + request.display.name;
 }
 
 }  // namespace
 
+bool overlayNeedsReference(const EvaluationRequest& request) {
+  return request.overlay == Overlay::Popping && !request.second;
+}
+
 void paintOverlay(const EvaluationRequest& request, EvaluationResult& result) {
+  result.overlayKind = request.overlay;
   if (request.overlay == Overlay::None || !request.product || !request.view) return;
   try {
     const auto pictureOf = [&](const Image& product) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "experiments/base/cancel.h"
 #include "experiments/base/error.h"
 #include "experiments/product.h"
 #include "experiments/scene_rendering.h"
@@ -235,10 +236,18 @@ class RenderThread::Work {
 };
 
 RenderThread::RenderThread(std::function<void()> wake, const std::string& shaderRoot)
-    : device_(deviceMade_.get_future().share()),
-      thread_([this, wake = std::move(wake), shaderRoot] { run(wake, shaderRoot); }) {}
+    : device_(deviceMade_.get_future().share()), thread_([this, wake = std::move(wake), shaderRoot] {
+        const CancelScope scope(cancel_.get_token());
+        run(wake, shaderRoot);
+        end_.set_value();
+      }) {}
 
-RenderThread::~RenderThread() { requests_.close(); }
+RenderThread::~RenderThread() { close(); }
+
+void RenderThread::close() {
+  requests_.close();
+  cancel_.request_stop();
+}
 
 void RenderThread::run(const std::function<void()>& wake, const std::string& shaderRoot) {
   std::unique_ptr<gl::Context> context;
@@ -254,6 +263,7 @@ void RenderThread::run(const std::function<void()>& wake, const std::string& sha
   std::optional<RenderResult> settled;  // what the screen shows, if at rest
   bool untimed = false;
   const auto publish = [&](RenderResult result) {
+    if (cancel_.stop_requested()) return;  // cut short
     results_.put(std::move(result));
     wake();
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -100,6 +102,12 @@ class RenderThread {
   std::optional<ShaderNews> takeNews() { return news_.take(); }
   /// Of the context; waits until there is one. Throws Error if it cannot be created.
   gl::DeviceInfo device() const { return device_.get(); }
+  /// Asks the thread to end: work that checks cancelToken() (experiments/base/cancel.h) returns early.
+  void close();
+  /// Whether it has ended; waits for that until `end`.
+  bool waitUntil(std::chrono::steady_clock::time_point end) const {
+    return ended_.wait_until(end) == std::future_status::ready;
+  }
   /// Frames rendered so far.
   int64_t frames() const { return frames_; }
 
@@ -113,6 +121,9 @@ class RenderThread {
   std::promise<gl::DeviceInfo> deviceMade_;
   std::shared_future<gl::DeviceInfo> device_;
   std::atomic<int64_t> frames_ = 0;
+  std::stop_source cancel_;
+  std::promise<void> end_;
+  std::future<void> ended_ = end_.get_future();
   std::jthread thread_;  // last: it uses the others
 };
 

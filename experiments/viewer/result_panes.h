@@ -12,6 +12,8 @@ void errorPane(const PaneContext& pane);
 void counterPane(const PaneContext& pane);
 void pixelPane(const PaneContext& pane);
 
+/// What the message bar needs on a surface of this width, so that all of it is in sight.
+float messageBarHeight(const ViewerState& state, float widthPx);
 /// At the lower edge of a surface of `sizePx`.
 void messageBar(const PaneContext& pane, glm::vec2 sizePx, float heightPx);
 /// Over the picture, if a changed shader was refused.

@@ -27,7 +27,7 @@ void passTable(const PaneContext& pane, const Rendered& rendered, bool wide) {
     ImGui::TableNextColumn();
     label(pass.name);
     ImGui::TableNextColumn();
-    if (pass.ms >= 0.0) ImGui::Text("%.3f ms", pass.ms);
+    if (pass.ms >= 0.0) numberCell(pass.ms, "ms");
     bytes += pass.bytes;
     if (!wide) continue;
     ImGui::TableNextColumn();
@@ -56,17 +56,15 @@ void timePane(const PaneContext& pane, float widthPx) {
   const Rendered* first = state.rendered(0);
   if (!first) return;
   if (first->frameMs >= 0.0) {
-    ImGui::Text("%.3f ms %s", first->frameMs, first->onCpu ? "wall" : "GPU");
+    ImGui::Text("%s ms %s", numberText(first->frameMs).c_str(), first->onCpu ? "wall" : "GPU");
     if (const Rendered* second = state.rendered(1); second && second->frameMs >= 0.0) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("second %.3f ms", second->frameMs);
+      dimText("second " + numberText(second->frameMs) + " ms");
     }
-    if (first->onCpu && state.device.software)
-      ImGui::TextDisabled("rendered on a CPU: compare techniques only");
+    if (first->onCpu && state.device.software) dimText("rendered on a CPU: compare techniques only");
   }
   timeChart(state, "frame", 3.0F);
   passTable(pane, *first, widthPx > 22.0F * ImGui::GetFontSize());
-  if (first->prepareMs >= 0.0) ImGui::TextDisabled("prepared in %.2f ms", first->prepareMs);
+  if (first->prepareMs >= 0.0) ImGui::TextDisabled("prepared in %s ms", numberText(first->prepareMs).c_str());
 }
 
 }  // namespace limen::viewer

@@ -23,6 +23,7 @@ Viewer::Viewer(window::UiSurface& surface, ViewerOptions options, std::function<
     : surface_(surface),
       render_(wake, options.shaderRoot),
       evaluation_(wake),
+      writer_(wake),
       interface_(std::make_unique<Interface>()) {
   state_.device = render_.device();
   state_.resultsFolder = std::move(options.resultsFolder);
@@ -110,6 +111,13 @@ bool Viewer::takeResults() {
     if (state_.evaluated->step.empty()) evaluationPending_ = false;
     changed = true;
   }
+  const bool saving = writer_.busy();
+  for (const PictureWriter::Report& report : writer_.take()) {
+    say(report.error.empty() ? "pictures saved in " + report.path : report.error);
+    changed = true;
+  }
+  changed = changed || saving != state_.saving;
+  state_.saving = saving;
   return changed;
 }
 
@@ -140,33 +148,39 @@ std::string Viewer::exportDescriptor() {
   }
 }
 
-std::string Viewer::savePictures() {
-  try {
-    const std::optional<RenderResult>& shown = state_.shown;
-    if (!shown || !shown->settled || !shown->view)
-      throw Error("the picture is still being rendered", {}, "try again when it is done");
+void Viewer::savePictures() {
+  const std::optional<RenderResult>& shown = state_.shown;
+  if (!shown || !shown->settled || !shown->view)
+    return say("the picture is still being rendered; try again when it is done");
+  // Everything that the thread needs is shared and no longer changes.
+  writer_.write([render = *shown, evaluated = state_.evaluated, folder = state_.resultsFolder] {
     std::map<std::string, ProductImages> images;
     const auto add = [&](const std::string& name, const std::shared_ptr<const Image>& product,
                          techniques::ProductKind kind) {
       if (!product) return;
       images[name] = {product, std::make_shared<Image>(
-                                   experiments::productPicture(kind, *product, shown->view->shading))};
+                                   experiments::productPicture(kind, *product, render.view->shading))};
     };
-    for (size_t i = 0; i < shown->rendered.size(); ++i)
-      add(i == 0 ? "product" : "second_product", shown->rendered[i].product, shown->rendered[i].kind);
-    if (state_.evaluated) {
-      add("reference", state_.evaluated->reference, shown->rendered[0].kind);
-      for (const auto& [name, map] : state_.evaluated->maps)
+    for (size_t i = 0; i < render.rendered.size(); ++i)
+      add(i == 0 ? "product" : "second_product", render.rendered[i].product, render.rendered[i].kind);
+    if (evaluated) {
+      add("reference", evaluated->reference, render.rendered[0].kind);
+      for (const auto& [name, map] : evaluated->maps)
         images[name] = {map.values,
                         std::make_shared<Image>(perception::errorPicture(*map.values, map.white))};
     }
-    const std::string path = writePictures(images, shown->setup, state_.resultsFolder);
-    say("pictures saved in " + path);
-    return path;
-  } catch (const std::exception& error) {
-    say(error.what());
-    return {};
-  }
+    return writePictures(images, render.setup, folder);
+  });
+  state_.saving = true;
+}
+
+bool Viewer::close(std::chrono::milliseconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  render_.close();
+  evaluation_.close();
+  writer_.finish();
+  const bool rendered = render_.waitUntil(end);
+  return evaluation_.waitUntil(end) && rendered;
 }
 
 void Viewer::updateMoving() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "experiments/viewer/controls.h"
 #include "experiments/viewer/evaluation_thread.h"
 #include "experiments/viewer/path_recorder.h"
+#include "experiments/viewer/picture_writer.h"
 #include "experiments/viewer/render_thread.h"
 #include "experiments/viewer/viewer_command.h"
 #include "experiments/viewer/viewer_state.h"
@@ -59,10 +61,15 @@ class Viewer {
   const EvaluationThread& evaluation() const { return evaluation_; }
   int64_t framesRendered() const { return render_.frames(); }
 
-  /// What the keys K and P do; they return the paths written, "" where that failed (see
-  /// ViewerState::messages).
+  /// What the key K does; returns the path written, "" if that failed (see ViewerState::messages).
   std::string exportDescriptor();
-  std::string savePictures();
+  /// What the key P does: the files are encoded and written in a thread of their own. A message tells when
+  /// they are complete; ViewerState::saving until then.
+  void savePictures();
+
+  /// Asks all threads to end, writes the pictures still to be saved, and waits at most `patience` for the
+  /// rest. False: a frame or reference cannot be interrupted, and the destructor would wait for it.
+  bool close(std::chrono::milliseconds patience);
 
  private:
   void requestPicture();
@@ -110,6 +117,7 @@ class Viewer {
   window::UiSurface& surface_;
   RenderThread render_;
   EvaluationThread evaluation_;
+  PictureWriter writer_;
   ViewerState state_;
   std::unique_ptr<Interface> interface_;
   CommandQueue commands_;

@@ -79,7 +79,6 @@ void Viewer::run(const command::SwapTechniques&) {
 
 void Viewer::run(const command::SetPictureSize& command) { state_.setup.sizePx = command.sizePx; }
 void Viewer::run(const command::ShowDebugView& command) { state_.debugView = command.name; }
-void Viewer::run(const command::Arrange& command) { state_.arrangement = command.arrangement; }
 void Viewer::run(const command::ChooseErrorMap& command) { state_.errorMap = command.name; }
 void Viewer::run(const command::MeasureContinuously& command) { state_.continuous = command.on; }
 void Viewer::run(const command::PickPixel& command) { state_.pickedPx = command.px; }
@@ -87,6 +86,14 @@ void Viewer::run(const command::ExportDescriptor&) { exportDescriptor(); }
 void Viewer::run(const command::SavePictures&) { savePictures(); }
 void Viewer::run(const command::DismissShaderFailure&) { state_.shaderFailure.clear(); }
 void Viewer::run(const command::TogglePanes&) { state_.panesHidden = !state_.panesHidden; }
+
+void Viewer::run(const command::Arrange& command) {
+  state_.arrangement = command.arrangement;
+  if (command.arrangement != Arrangement::Overlay || state_.overlay != Overlay::None) return;
+  // Nothing was chosen: popping if there is another picture, thresholds need one only.
+  const bool two = state_.setup.second || state_.setup.reference;
+  run(command::Predict{two ? Overlay::Popping : Overlay::Thresholds});
+}
 
 void Viewer::run(const command::Predict& command) {
   state_.overlay = command.overlay;

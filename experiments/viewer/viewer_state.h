@@ -46,6 +46,7 @@ struct ViewerState {
   std::map<std::string, std::deque<float>> passMs;
   std::vector<std::string> messages;  ///< latest last
   std::string shaderFailure;          ///< the driver's messages about changed shaders that it refused
+  bool saving = false;                ///< pictures are being written
   bool atRest = false;                ///< everything requested is on screen
 
   double aspect() const { return double(setup.sizePx.x) / setup.sizePx.y; }

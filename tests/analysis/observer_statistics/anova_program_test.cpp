@@ -2,6 +2,7 @@
 // limen analyse anova on tables and on a store.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>

@@ -65,9 +65,29 @@ class EveryControl : public ViewerTest {
     return valueAt(viewer_->state().setup.technique, at.path, *at.parameter);
   }
 
+  /// Parameters within others may start folded.
+  void openGroups(const std::string& control) {
+    const std::string first = "technique.";
+    for (size_t dot = control.find('.', first.size()); dot != std::string::npos;
+         dot = control.find('.', dot + 1)) {
+      const std::string above = control.substr(0, dot);
+      const bool choice = viewer_->controls().find(above + ".fold") != nullptr;
+      if (!isOpen(above)) click(choice ? above + ".fold" : above);
+      draw();
+    }
+  }
+  bool isOpen(const std::string& group) {
+    const auto& all = viewer_->controls().all();
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) {
+      return one.first.rfind(group + ".", 0) == 0 && one.first != group + ".fold" &&
+             one.first != group + ".default";
+    });
+  }
+
   void dragToEnds(const DeclaredAt& at, const std::string& what) {
     const Parameter& parameter = *at.parameter;
     const std::string control = "technique." + at.path;
+    openGroups(control);
     for (const float end : {0.0F, 1.0F}) {
       if (end > 0.5F && costly(parameter)) continue;
       // From one end to the other, and past it.
@@ -103,6 +123,7 @@ class EveryControl : public ViewerTest {
       if (!chooseAlternatives(at)) continue;
       switch (parameter.type) {
         case ParameterType::Boolean:
+          openGroups("technique." + at.path);
           click("technique." + at.path);
           EXPECT_EQ(toText(now(at)), std::get<bool>(parameter.defaultValue) ? "false" : "true") << what;
           rest();

@@ -49,7 +49,21 @@ techniques::TechniqueInfo slowReference() {
 }
 const Registered<techniques::TechniqueInfo> kSlowReference{slowReference()};
 
-class ViewerUse : public ViewerTest {};
+class ViewerUse : public ViewerTest {
+ protected:
+  bool drawUntil(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!holds() && std::chrono::steady_clock::now() < end) {
+      viewer_->takeResults();
+      draw();
+      std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    }
+    return holds();
+  }
+  void awaitPictures() {
+    EXPECT_TRUE(drawUntil([&] { return !viewer_->state().saving; }));
+  }
+};
 
 TEST_F(ViewerUse, ShowsWhatTheTechniqueMadeAndItsErrorAgainstTheReference) {
   ViewSetup setup = smallSetup();
@@ -182,7 +196,8 @@ TEST_F(ViewerUse, DragsOrbitAndTheSceneIsNotBuiltAgain) {
   EXPECT_GT(glm::length(after.eye - before.eye), 0.1);
   ASSERT_TRUE(viewer_->state().setup.scene.given.count("camera.text"));
   // What is asked for is what is shown, to the last bit.
-  EXPECT_EQ(scene::toText(after), std::get<std::string>(viewer_->state().setup.scene.given.at("camera.text")));
+  EXPECT_EQ(scene::toText(after),
+            std::get<std::string>(viewer_->state().setup.scene.given.at("camera.text")));
   key('R');
   rest();
   EXPECT_EQ(viewer_->state().shown->camera.eye, before.eye);
@@ -278,8 +293,11 @@ TEST_F(ViewerUse, PicturesAreSavedOfAllProducts) {
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
   open(setup);
   rest();
-  const std::string folder = viewer_->savePictures();
-  ASSERT_NE(folder, "") << viewer_->state().messages.back();
+  const std::string folder = (folder_ / "exported" / "pictures_001").string();
+  viewer_->savePictures();
+  EXPECT_TRUE(viewer_->state().saving);
+  awaitPictures();
+  EXPECT_THAT(viewer_->state().messages.back(), HasSubstr(folder));
   for (const char* name : {"product", "second_product", "reference", "absolute_error"}) {
     EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".png")) << name;
     EXPECT_TRUE(std::filesystem::exists(folder + "/" + name + ".exr")) << name;
@@ -294,6 +312,127 @@ TEST_F(ViewerUse, WhatCannotBeWrittenIsSaid) {
   std::ofstream(folder_ / "exported") << "a file where the folder should be";
   EXPECT_EQ(viewer_->exportDescriptor(), "");
   EXPECT_THAT(viewer_->state().messages.back(), HasSubstr("--results"));
+  viewer_->savePictures();
+  awaitPictures();
+  EXPECT_THAT(viewer_->state().messages.back(), HasSubstr("--results"));
+  EXPECT_EQ(viewer_->state().messages.size(), 2U);
+}
+
+TEST_F(ViewerUse, ClosingWaitsForPicturesButNotForAReference) {
+  open(smallSetup());
+  rest();
+  gate.closed = true;
+  ViewSetup setup = viewer_->state().setup;
+  setup.reference = Entry{"test/slow_reference", {}};
+  viewer_->show(setup);
+  ASSERT_TRUE(drawUntil([] { return gate.waiting > 0; }));
+  viewer_->savePictures();
+  viewer_->savePictures();
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(viewer_->close(std::chrono::milliseconds(200)));
+  // The reference still waits at its gate: nobody waited for it.
+  EXPECT_GT(gate.waiting, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  for (const char* name : {"pictures_001", "pictures_002"}) {
+    const std::filesystem::path folder = folder_ / "exported" / name;
+    EXPECT_EQ(experiments::productHash(readImage((folder / "product.exr").string())),
+              viewer_->state().shown->rendered.at(0).productHash);
+    EXPECT_TRUE(std::filesystem::exists(folder / "descriptor.yaml"));
+  }
+  gate.closed = false;
+  EXPECT_TRUE(viewer_->close(std::chrono::minutes(1)));
+}
+
+TEST_F(ViewerUse, ThePredictionIsNeverEmptyWithoutAReason) {
+  ViewSetup setup = smallSetup("soft_shadows/hard");
+  setup.sizePx = {96, 72};
+  open(setup);
+  rest();
+  // One picture: thresholds, with their colours explained.
+  click("arrangement.prediction");
+  rest();
+  EXPECT_EQ(viewer_->state().overlay, Overlay::Thresholds);
+  ASSERT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->overlay);
+  EXPECT_EQ(viewer_->state().evaluated->overlayKind, Overlay::Thresholds);
+  EXPECT_TRUE(viewer_->controls().find("colour_bar"));
+  EXPECT_FALSE(viewer_->controls().find("picture.reason"));
+  // Popping was asked for, and there is nothing to compare with.
+  viewer_->execute(command::Predict{Overlay::Popping});
+  rest();
+  EXPECT_FALSE(viewer_->state().evaluated->overlay);
+  EXPECT_TRUE(viewer_->controls().find("picture.reason"));
+  EXPECT_FALSE(viewer_->controls().find("colour_bar"));
+  // Two pictures: popping.
+  setup.second = Entry{"soft_shadows/pcss", {}};
+  viewer_->execute(command::Predict{Overlay::None});
+  viewer_->show(setup);
+  viewer_->execute(command::Arrange{Arrangement::Overlay});
+  rest();
+  EXPECT_EQ(viewer_->state().overlay, Overlay::Popping);
+  ASSERT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->overlay);
+}
+
+TEST_F(ViewerUse, PicturesAreEnlargedByWholeFactors) {
+  open(smallSetup(), {}, {1000, 700});
+  rest();
+  int larger = 0;
+  for (const glm::ivec2 size : {glm::ivec2(1000, 700), glm::ivec2(640, 480), glm::ivec2(1280, 800),
+                                glm::ivec2(777, 333), glm::ivec2(90, 900)}) {
+    ui_->resize(size);
+    draw();
+    draw();
+    const ControlMap::Place* picture = viewer_->controls().find("picture");
+    ASSERT_TRUE(picture);
+    const glm::vec2 factor = (picture->mostPx - picture->leastPx) / glm::vec2(40.0F, 30.0F);
+    EXPECT_NEAR(factor.x, factor.y, 1e-4F);
+    if (factor.x < 1.0F) continue;
+    ++larger;
+    EXPECT_EQ(factor.x, std::round(factor.x)) << size.x << " x " << size.y;
+    EXPECT_EQ(picture->leastPx, glm::round(picture->leastPx));
+  }
+  EXPECT_GE(larger, 3);
+}
+
+TEST_F(ViewerUse, BarsWrapWhereTheWindowIsNarrow) {
+  open(smallSetup(), {}, {1280, 800});
+  rest();
+  for (const glm::ivec2 size : {glm::ivec2(1280, 800), glm::ivec2(640, 480)}) {
+    ui_->resize(size);
+    draw();
+    draw();
+    const auto width = static_cast<float>(size.x), height = static_cast<float>(size.y);
+    glm::vec2 end(0.0F);
+    for (const char* name : {"first", "second", "side by side", "split", "flicker", "error", "prediction"}) {
+      const ControlMap::Place* place = viewer_->controls().find(std::string("arrangement.") + name);
+      ASSERT_TRUE(place) << name;
+      // After the one before, on its line or below it, and within the pane.
+      EXPECT_TRUE(place->leastPx.x >= end.x || place->leastPx.y >= end.y) << name << " at " << size.x;
+      EXPECT_LT(place->mostPx.x, width - 150.0F) << name << " at " << size.x;
+      end = place->mostPx;
+    }
+    const ControlMap::Place* messages = viewer_->controls().find("messages");
+    ASSERT_TRUE(messages);
+    EXPECT_LE(messages->mostPx.x, width);
+    EXPECT_LE(messages->mostPx.y, height);
+    EXPECT_GE(messages->leastPx.y, viewer_->controls().find("picture")->mostPx.y);
+  }
+}
+
+TEST_F(ViewerUse, ErrorsComeInAFixedOrderWithTheirBetterDirection) {
+  ViewSetup setup = smallSetup();
+  setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{16}}}};
+  open(setup);
+  rest();
+  const std::vector<ErrorFigure>& figures = viewer_->state().evaluated->figures;
+  ASSERT_GT(figures.size(), 4U);
+  EXPECT_EQ(figures[0].metric, "rmse");
+  EXPECT_EQ(figures[1].metric, "mae");
+  EXPECT_EQ(figures[2].metric, "psnr");
+  EXPECT_EQ(figures[0].direction, Direction::LowerIsBetter);
+  EXPECT_EQ(figures[2].direction, Direction::HigherIsBetter);
+  viewer_->execute(command::Arrange{Arrangement::ErrorMap});
+  draw();
+  EXPECT_TRUE(viewer_->controls().find("colour_bar"));
 }
 
 TEST_F(ViewerUse, AChoiceShowsTheControlsOfItsAlternativeAlone) {
@@ -340,6 +479,27 @@ TEST_F(ViewerUse, GroupsFold) {
   click("technique.gain");
   draw();
   EXPECT_TRUE(viewer_->controls().find("technique.gain.factor"));
+}
+
+TEST_F(ViewerUse, LongListsOfDetailsStartFoldedUnlessChanged) {
+  ViewSetup setup = smallSetup("soft_shadows/bitmask");
+  open(setup);
+  rest();
+  const auto has = [&](const std::string& control) {
+    return viewer_->controls().find("technique." + control) != nullptr;
+  };
+  EXPECT_TRUE(has("budget.limit"));
+  EXPECT_TRUE(has("bias"));
+  EXPECT_FALSE(has("bias.slope"));
+  click("technique.bias.fold");
+  EXPECT_TRUE(has("bias.slope"));
+  click("technique.bias.fold");
+  EXPECT_FALSE(has("bias.slope"));
+  // What is not at its default is in sight from the start.
+  setup.technique.given = {{"bias.slope", 0.75}};
+  open(setup);
+  rest();
+  EXPECT_TRUE(has("bias.slope"));
 }
 
 TEST_F(ViewerUse, AFixedListOfNumbersIsChosenFrom) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What answers a question, and what does not.
 #include <csignal>
+#include <fstream>
+#include <sstream>
 
 #include "experiments/base/image.h"
 #include "tests/study/application/session_at_window.h"
