@@ -23,7 +23,7 @@ struct StoppedRun {
 };
 
 /// Starts one of the built programs in `folder`, sends it `signal` once `ready` holds (it is asked again and
-/// again, for a minute at most), and waits for its end.
+/// again, for a minute at most), and waits for its end, which SIGKILL brings about after another minute.
 inline StoppedRun stopProgram(const std::vector<std::string>& words, const std::string& folder, int signal,
                               const std::function<bool()>& ready) {
   using Clock = std::chrono::steady_clock;
@@ -43,7 +43,10 @@ inline StoppedRun stopProgram(const std::vector<std::string>& words, const std::
   const auto sent = Clock::now();
   kill(child, signal);
   int status = 0;
-  waitpid(child, &status, 0);
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (Clock::now() - sent > std::chrono::minutes(1)) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   StoppedRun run;
   run.seconds = std::chrono::duration<double>(Clock::now() - sent).count();
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
