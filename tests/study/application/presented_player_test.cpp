@@ -5,12 +5,14 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "renderer/catalogue.h"
+#include "renderer/gl/window_context.h"
 #include "renderer/window/ui_window.h"
-#include "study/application/experimenter.h"
 #include "study/session/clock.h"
 #include "study/session/run.h"
 #include "tests/renderer/window/x_server.h"
@@ -22,17 +24,21 @@
 namespace limen::study {
 namespace {
 
-/// Plays the first trial of a session and ends it.
+using Action = std::function<void()>;
+
+/// Plays the first trial of a session and ends it; `between` happens wherever other windows may be drawn.
 class OneTrial : public FrontEnd {
  public:
-  explicit OneTrial(StimulusPlayer& player) : player_(player) {}
+  OneTrial(StimulusPlayer& player, Action between) : player_(player), between_(std::move(between)) {}
   ScreenResult show(const Screen&, const Session&) override {
     ScreenResult result;
     result.answers = {{"consent", true}};
     return result;
   }
   TrialResult present(const Trial& trial, const Session& session) override {
-    player_.prepare(trial, session, [] {});
+    between_();
+    player_.prepare(trial, session, between_);
+    between_();
     played = player_.play([] { return true; });
     TrialResult result;
     result.outcome = Outcome::Aborted;
@@ -45,6 +51,7 @@ class OneTrial : public FrontEnd {
 
  private:
   StimulusPlayer& player_;
+  Action between_;
 };
 
 class PresentedPlayerTest : public testing::Test {
@@ -62,13 +69,14 @@ class PresentedPlayerTest : public testing::Test {
   }
 
   /// The first trial with pictures of it; `during` happens in its middle.
-  PlayResult play(const std::function<void()>& during = {}) {
+  PlayResult play(
+      const Action& during = [] {}, const Action& between = [] {}) {
     PresentedPlayer player(*window_, protocol_, perception::readDisplay(protocol_.display), true);
     player.setCapture([&] {
       picture_ = window_->readBack();
-      if (during) during();
+      during();
     });
-    OneTrial frontEnd(player);
+    OneTrial frontEnd(player, between);
     std::vector<Event> events;
     runInMemory(protocol_, 7, 0, frontEnd, systemClock(), events);
     return frontEnd.played;
@@ -86,9 +94,9 @@ TEST_F(PresentedPlayerTest, AStimulusLooksTheSameBesideASecondWindow) {
   const auto [least, most] = std::minmax_element(expected.data.begin(), expected.data.end());
   ASSERT_GT(*most - *least, 0.2F) << "nothing is seen";
   openWindow();
-  // Its context is the current one when the player's screen compiles its programs.
-  ExperimenterWindow second(0, 1.0F, {{"noise", "noise or light"}});
-  const PlayResult beside = play();
+  // Its context is the current one when the player's screen compiles its programs, and before every step.
+  window::UiWindow second(window::UiWindowOptions{});
+  const PlayResult beside = play([] {}, [&] { second.context().makeCurrent(); });
   EXPECT_EQ(beside.invalid, "");
   EXPECT_EQ(beside.frames.size(), alone.frames.size());
   EXPECT_EQ(picture_.data, expected.data);
