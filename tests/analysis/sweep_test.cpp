@@ -194,7 +194,8 @@ TEST_F(SweepTest, MultiplesOfDecibelsAreThoseOfTheAmplitude) {
                                   makeRun("c", "s", 1, {3}, 0), makeRun("d", "s", 1, {4}, 0)};
   const double psnr[] = {33.9, 34.0, 39.5, 40.0};
   for (size_t i = 0; i < 4; ++i) runs[i].measurements.push_back({"psnr", psnr[i], "dB", "error"});
-  const auto& levels = load(runs, {{"x", "gpu_ms"}, {"y", "psnr"}}).panels[0].verdict.levels;
+  const Sweep sweep = load(runs, {{"x", "gpu_ms"}, {"y", "psnr"}});
+  const auto& levels = sweep.panels[0].verdict.levels;
   ASSERT_EQ(levels.size(), 3U);
   EXPECT_EQ(levels[0].cheapest, 3U);
   EXPECT_EQ(levels[1].cheapest, 2U);
