@@ -27,7 +27,7 @@ class Fields {
  public:
   Fields& name(const char* letters) { return bytes_.append(letters, 4), *this; }
   Fields& whole(uint64_t value, int size = 4) {
-    for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(value >> (8 * i));
+    for (int i = 0; i < size; ++i) bytes_ += i < 8 ? static_cast<char>(value >> (8 * i)) : char{0};
     return *this;
   }
   const std::string& bytes() const { return bytes_; }

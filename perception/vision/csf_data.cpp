@@ -72,7 +72,9 @@ std::vector<CsfMeasurement> readCsfData(const std::string& path) {
     const std::string where = path + ":" + std::to_string(number);
     std::vector<std::string> cells = split(line);
     if (columns.empty()) {
-      for (size_t i = 0; i < cells.size(); ++i) columns[cells[i]] = i;
+      for (size_t i = 0; i < cells.size(); ++i)
+        if (!columns.emplace(cells[i], i).second)
+          throw Error("two columns are headed '" + cells[i] + "'", where, "head each column differently");
       for (const char* needed : {"luminance", "s_frequency", "sensitivity"})
         if (columns.count(needed) == 0)
           throw Error(std::string("no column '") + needed + "'", where, suggest(needed, cells));

@@ -61,6 +61,8 @@ TEST_F(CsfData, ErrorsNameTheLine) {
            {head + "1,2,nan\n", "study.csv:2: 'sensitivity' is 'nan'"},
            {head + "0,2,3\n", "study.csv:2: 'luminance' is not above 0"},
            {head + "1,-2,3\n", "study.csv:2: 's_frequency' is '-2'"},
+           {"luminance,s_frequency,sensitivity,sensitivity\n1,2,3,4\n",
+            "study.csv:1: two columns are headed 'sensitivity'"},
            {head, "holds no measurement"},
            {"", "holds no measurement"}})
     EXPECT_NE(complaint(text).find(expected), std::string::npos) << complaint(text);

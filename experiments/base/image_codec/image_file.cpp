@@ -35,7 +35,9 @@ Channels pickChannels(const OIIO::ImageSpec& spec, const std::string& path) {
     return -1;
   };
   Channels picked;
-  picked.alpha = spec.alpha_channel >= 0 ? spec.alpha_channel : find({"a", "alpha"});
+  // The reader of GIF names a fourth channel where there are three.
+  const bool stated = spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels;
+  picked.alpha = stated ? spec.alpha_channel : find({"a", "alpha"});
   const int r = find({"r", "red"}), g = find({"g", "green"}), b = find({"b", "blue"});
   const int y = find({"y", "i", "l", "gray", "grey", "luminance"});
   const bool chroma = find({"ry"}) >= 0 || find({"by"}) >= 0;

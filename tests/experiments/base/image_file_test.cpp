@@ -70,6 +70,20 @@ TEST_F(ImageFileTest, AlphaComesApartAndColoursAreLeftAlone) {
   EXPECT_FLOAT_EQ(file.alpha.at(1, 1), (4 * 4 + 3) / 255.0F);
 }
 
+TEST_F(ImageFileTest, AGifWithoutTransparencyHasNoAlpha) {
+  // Its reader names a fourth channel of three.
+  OIIO::ImageSpec spec(4, 3, 3, OIIO::TypeDesc::UINT8);
+  const auto out = OIIO::ImageOutput::create(path("a.gif"));
+  ASSERT_TRUE(out && out->open(path("a.gif"), spec)) << OIIO::geterror();
+  const std::vector<float> white(4 * 3 * 3, 1.0F);
+  ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, white.data()));
+  ASSERT_TRUE(out->close());
+  const ImageFile file = readImageFile(path("a.gif"));
+  EXPECT_EQ(file.image.channels, 3);
+  for (const float value : file.image.data) EXPECT_NEAR(value, 1.0F, 1.0F / 255.0F);
+  for (const float value : file.alpha.data) EXPECT_EQ(value, 1.0F);
+}
+
 TEST_F(ImageFileTest, DataWindowIsSetIntoTheDisplayWindow) {
   // A 2 x 2 crop at (1, 1) of a picture of 4 x 3; and one that reaches beyond it to the left and above.
   OIIO::ImageSpec crop(2, 2, 1, OIIO::TypeDesc::FLOAT);
