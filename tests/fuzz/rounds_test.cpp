@@ -50,7 +50,7 @@ TEST(FuzzRounds, PlantedFaultsAreFound) {
 }
 
 TEST(FuzzRounds, AFailingInputIsSavedAndItsSeedMakesItAgain) {
-  const Parser parser{.name = "planted",
+  const Parser parser{.name = "planted_by_length",  // saved inputs carry it: tests run side by side
                       .extension = ".txt",
                       .corpus = {"a: 1\nb: [2, 3]\n"},
                       .mutate = mutateYaml,
