@@ -96,7 +96,7 @@ uint rayHitsBoxes(uint metas, uvec3 lows, uvec3 highs, vec3 scale, vec3 offsetLo
   return hits;
 }
 
-RayHit rayTraverse(Ray ray, bool any) {
+RayHit rayTraverse(Ray ray, bool anyIsEnough) {
   RayHit hit = RayHit(ray.far, kRayNoTriangle, 0.0, 0.0);
   const vec3 size = abs(ray.direction);
   const float largest = max(size.x, max(size.y, size.z));
@@ -152,7 +152,7 @@ RayHit rayTraverse(Ray ray, bool any) {
       }
       const int next = findLSB(triangles);
       triangles &= triangles - 1u;
-      if (rayHitsTriangle(ray, shear, links.y + uint(next), hit) && any) return hit;
+      if (rayHitsTriangle(ray, shear, links.y + uint(next), hit) && anyIsEnough) return hit;
     }
     group = uvec2(links.x, (hits & 0xff000000u) | (head.w >> 24));
     if (group.y <= 0xffffffu) {
