@@ -13,6 +13,7 @@ class EmbreeTracer : public ShadowTracer {
   std::vector<ShadowCounts> trace(const std::vector<ReceiverPoint>& points, const LightSamples& samples,
                                   glm::dvec3 anchor) override;
   std::string remark() const override { return "Rays were traced on the CPU (Embree)."; }
+  const EmbreeScene& scene() const { return scene_; }
 
  private:
   EmbreeScene scene_;
