@@ -196,6 +196,28 @@ TEST_F(Trace, DistancesAndWeightsDescribeTheHit) {
   EXPECT_FLOAT_EQ(hits[6].t, 2.0F);
 }
 
+TEST_F(Trace, ARayThatTakesTooLongForASoftwareRendererHasNoResult) {
+  // Cards side by side, half of each box empty; the ray passes through all the empty halves.
+  Soup cards;
+  for (int i = 0; i < 150000; ++i) {
+    const auto z = 1e-5F * static_cast<float>(i);
+    cards.add({0, 0, z}, {1, 0, z}, {0, 1, z});
+  }
+  const RayScene scene(context(), cards.vertices, cards.triangles);
+  const std::vector<BatchRay> rays = {{{0.7F, 0.7F, -1}, 0.0F, {0, 0, 1}, 10.0F},
+                                      {{0.2F, 0.2F, -1}, 0.0F, {0, 0, 1}, 10.0F}};
+  RayBatch batch(context(), scene, rays, Wanted::ClosestHit);
+  batch.trace();
+  const std::vector<BatchHit> hits = batch.hits();
+  if (context().device().software) {
+    EXPECT_TRUE(std::isnan(hits[0].t));
+  } else {
+    EXPECT_EQ(hits[0].triangle, kRayNoTriangle);
+    EXPECT_EQ(hits[0].t, 10.0F);
+  }
+  EXPECT_EQ(hits[1].triangle, 0U);
+}
+
 TEST_F(Trace, ASceneWithoutTrianglesIsNeverHit) {
   const RayScene scene(context(), {}, {});
   RayBatch batch(context(), scene, raysThrough(14, 10), Wanted::ClosestHit);
