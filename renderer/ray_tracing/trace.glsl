@@ -119,7 +119,8 @@ RayHit rayTraverse(Ray ray, bool anyIsEnough) {
   int depth = 0;
   uvec2 group = uvec2(0u, 0x80000000u);  // first child; those to visit, and which of all are inner
   while (true) {
-    if (++rayIterations > maxRayIterations) {
+    rayIterations += 2;  // one for the end of the inner loop
+    if (rayIterations > maxRayIterations) {
       rayCutShort = true;
       return hit;
     }

@@ -52,7 +52,7 @@ void main() {
   ray.skipped = from.triangle;
   uint seen = 0u, rays = 0u;
   for (uint i = firstSample + lane % lanes; i < endSample; i += lanes) {
-    rayIterations += 1 + int(light.outlineCount);
+    rayIterations += 2 + int(light.outlineCount);
     exactDirection = lightPoint(bits, i) - exactOrigin;
     if (!(dot(normal, exactDirection) > 0.0LF)) continue;
     ++rays;

@@ -210,7 +210,7 @@ TEST_F(Trace, ARayThatTakesTooLongForASoftwareRendererHasNoResult) {
   batch.trace();
   const std::vector<BatchHit> hits = batch.hits();
   if (context().device().software) {
-    EXPECT_TRUE(std::isnan(hits[0].t));
+    EXPECT_TRUE(std::isnan(hits[0].t)) << hits[0].t << ", triangle " << hits[0].triangle;
   } else {
     EXPECT_EQ(hits[0].triangle, kRayNoTriangle);
     EXPECT_EQ(hits[0].t, 10.0F);
