@@ -91,14 +91,14 @@ class Build {
   explicit Build(std::vector<TreePrimitive>& primitives) : primitives_(primitives) {}
 
   TreeChild run(uint32_t first, uint32_t count) const {
-    TreeChild child{first, count, bounds(first, count).box, nullptr};
-    return child;
+    const Bounds around = bounds(first, count);
+    return {first, count, around.box, around.centres, nullptr};
   }
 
   /// Divides a run among eight children at most; `balanced`: as evenly as it goes.
   std::unique_ptr<TreeNode> divide(const TreeChild& whole, bool balanced) const {
     auto node = std::make_unique<TreeNode>();
-    node->children[0] = {whole.first, whole.count, whole.box, nullptr};
+    node->children[0] = {whole.first, whole.count, whole.box, whole.centres, nullptr};
     node->count = 1;
     while (node->count < 8) {
       int best = -1;
@@ -117,7 +117,8 @@ class Build {
       }
       if (best < 0) break;
       TreeChild& left = node->children[static_cast<size_t>(best)];
-      const uint32_t first = left.first, count = left.count, half = split(first, count, balanced);
+      const uint32_t first = left.first, count = left.count,
+                     half = split(first, count, left.centres, balanced);
       left = run(first, half);
       node->children[static_cast<size_t>(node->count++)] = run(first + half, count - half);
     }
@@ -149,8 +150,7 @@ class Build {
   }
 
   /// Orders a run so that its first so many primitives are one half.
-  uint32_t split(uint32_t first, uint32_t count, bool balanced) const {
-    const TreeBox centres = bounds(first, count).centres;
+  uint32_t split(uint32_t first, uint32_t count, const TreeBox& centres, bool balanced) const {
     if (!balanced)
       if (const uint32_t half = splitByArea(first, count, centres); half > 0) return half;
     int axis = 0;

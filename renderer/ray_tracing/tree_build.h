@@ -30,7 +30,7 @@ struct TreeNode;
 /// A run of primitives that becomes a leaf or a node.
 struct TreeChild {
   uint32_t first = 0, count = 0;
-  TreeBox box;
+  TreeBox box, centres;            ///< of the primitives and of their centres
   std::unique_ptr<TreeNode> node;  ///< null: a leaf
 };
 

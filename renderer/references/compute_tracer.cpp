@@ -73,9 +73,10 @@ ShadowReceiver toBuffer(const ReceiverPoint& point) {
 
 }  // namespace
 
-ComputeTracer::ComputeTracer(gl::Context& context, const Triangles& triangles)
+ComputeTracer::ComputeTracer(gl::Context& context, const ray_tracing::RayScene& scene,
+                             const Triangles& triangles)
     : triangles_(triangles),
-      scene_(context, triangles.vertices(), triangles.indices()),
+      scene_(scene),
       program_(context.programs().compute("renderer/references/shadow_rays.comp.glsl")),
       receivers_(int64_t{kBatch} * int64_t{sizeof(ShadowReceiver)}, nullptr),
       counts_(int64_t{kBatch} * int64_t{sizeof(ShadowCounts)}, nullptr),

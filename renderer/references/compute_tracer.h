@@ -14,13 +14,12 @@ namespace limen::references {
 /// soon.
 class ComputeTracer : public ShadowTracer {
  public:
-  /// Throws Error if the device cannot hold the scene.
-  ComputeTracer(gl::Context& context, const Triangles& triangles);
+  /// `scene` holds the triangles; both must outlive it.
+  ComputeTracer(gl::Context& context, const ray_tracing::RayScene& scene, const Triangles& triangles);
   std::vector<ShadowCounts> trace(const std::vector<ReceiverPoint>& points, const LightSamples& samples,
                                   glm::dvec3 anchor) override;
   std::string remark() const override { return "Rays were traced on the GPU."; }
   int64_t bytes() const override { return scene_.bytes() + receivers_.bytes() + counts_.bytes(); }
-  const ray_tracing::RayScene& scene() const { return scene_; }
   /// The points, relative to `anchor`, that the GPU sends the rays of a pixel to: samples.point() but for
   /// rounding in double precision.
   std::vector<glm::dvec3> lightPoints(gl::Context& context, const LightSamples& samples, glm::dvec3 anchor,
@@ -32,7 +31,7 @@ class ComputeTracer : public ShadowTracer {
   void traceBatch(uint32_t receivers, const LightSamples& samples);
 
   const Triangles& triangles_;
-  ray_tracing::RayScene scene_;
+  const ray_tracing::RayScene& scene_;
   const gl::Program& program_;
   gl::Buffer receivers_, counts_;
   std::optional<gl::Buffer> light_, outline_;

@@ -112,8 +112,8 @@ class SceneBenchmark {
   }
 
   void gpu() {
-    ComputeTracer tracer(context_, triangles_);
-    const ray_tracing::RayScene& tree = tracer.scene();
+    const ray_tracing::RayScene& tree = gpuScene_.rays(context_);
+    ComputeTracer tracer(context_, tree, triangles_);
     row("tree build", 1e3 * tree.buildS(), "ms");
     row("tree size", double(tree.bytes()), "byte");
     row("tree nodes", tree.nodeCount(), "");

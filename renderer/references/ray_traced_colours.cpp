@@ -76,7 +76,7 @@ class RayTracedColours : public techniques::Technique {
   void prepare(frame::Frame& frame) override {
     parts_ = partsOf(frame.scene().lights.at(0));
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
-    tracer_ = makeShadowTracer(with_, frame.context(), *triangles_);
+    tracer_ = makeShadowTracer(with_, frame, *triangles_);
     product_.emplace(gl::Format::RGBA32F, frame.sizePx());
     colour_ = Image(frame.sizePx().x, frame.sizePx().y, 4);
     frame.passes().setBytesHeld("ray_traced_colours/trace", tracer_->bytes());

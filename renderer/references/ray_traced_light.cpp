@@ -57,7 +57,7 @@ class RayTracedLight : public techniques::Technique {
 
   void prepare(frame::Frame& frame) override {
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
-    tracer_ = makeShadowTracer(with_, frame.context(), *triangles_);
+    tracer_ = makeShadowTracer(with_, frame, *triangles_);
     product_.emplace(gl::Format::R32F, frame.sizePx());
     visibility_ = Image(frame.sizePx().x, frame.sizePx().y, 1);
     frame.passes().setBytesHeld("ray_traced_light/trace", tracer_->bytes());

@@ -9,12 +9,13 @@
 
 namespace limen::references {
 
-std::unique_ptr<ShadowTracer> makeShadowTracer(Tracer tracer, gl::Context& context,
+std::unique_ptr<ShadowTracer> makeShadowTracer(Tracer tracer, frame::Frame& frame,
                                                const Triangles& triangles) {
-  if (tracer == Tracer::Cpu || (tracer == Tracer::Auto && context.device().software))
+  if (tracer == Tracer::Cpu || (tracer == Tracer::Auto && frame.context().device().software))
     return std::make_unique<EmbreeTracer>(triangles);
   try {
-    return std::make_unique<ComputeTracer>(context, triangles);
+    return std::make_unique<ComputeTracer>(frame.context(), frame.gpuScene().rays(frame.context()),
+                                           triangles);
   } catch (const Error&) {
     if (tracer == Tracer::Gpu) throw;
     return std::make_unique<EmbreeTracer>(triangles);

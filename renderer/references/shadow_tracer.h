@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/base/enum_names.h"
-#include "renderer/gl/context.h"
+#include "renderer/frame/frame.h"
 #include "renderer/references/light_samples.h"
 #include "renderer/references/receiver_points.h"
 #include "renderer/references/reference_bindings.h"
@@ -44,8 +44,9 @@ class ShadowTracer {
   virtual int64_t bytes() const { return 0; }
 };
 
-/// `triangles` must outlive it. Throws Error if the GPU is asked for and cannot hold the scene.
-std::unique_ptr<ShadowTracer> makeShadowTracer(Tracer tracer, gl::Context& context,
+/// `triangles`, of the frame's scene, must outlive it. Throws Error if the GPU is asked for and cannot hold
+/// the scene.
+std::unique_ptr<ShadowTracer> makeShadowTracer(Tracer tracer, frame::Frame& frame,
                                                const Triangles& triangles);
 
 /// Share of the light that is seen; NaN if a ray was cut short.

@@ -13,7 +13,7 @@ const std::vector<Module>& modules() {
       {"renderer/gl", {"experiments/base"}, true},
       {"renderer/scene", {"experiments/base"}, false},
       {"renderer/ray_tracing", {"experiments/base", "renderer/gl"}, true},
-      {"renderer/frame", {"experiments/base", "renderer/gl", "renderer/scene"}, true},
+      {"renderer/frame", {"experiments/base", "renderer/gl", "renderer/ray_tracing", "renderer/scene"}, true},
       {"renderer/techniques",
        {"experiments/base", "renderer/gl", "renderer/ray_tracing", "renderer/scene", "renderer/frame",
         "perception"},

@@ -26,6 +26,7 @@ class View {
     frame_.end();
   }
   glm::dvec3 anchor() const { return gpuScene_.anchor(); }
+  const ray_tracing::RayScene& rays() { return gpuScene_.rays(frame_.context()); }
 
  private:
   frame::GpuScene gpuScene_;
@@ -70,11 +71,11 @@ class Tracers : public gl::GlTest {
   /// and each passes within the rounding of coordinates of an outline: 2^-20 of the way, see
   /// tests/renderer/ray_tracing/trace_test.cpp.
   void expectSameRays(const scene::Scene& scene, const std::string& name, int side = 16, uint64_t part = 0) {
-    const View view(context(), scene, {64, 48});
+    View view(context(), scene, {64, 48});
     const LightShapeMap map(scene.lights[0]);
     const LightSamples samples{scene.lights[0], map, kSamples, side, 7, part};
     EmbreeTracer cpu(view.triangles);
-    ComputeTracer gpu(context(), view.triangles);
+    ComputeTracer gpu(context(), view.rays(), view.triangles);
     const auto onCpu = cpu.trace(view.points, samples, view.anchor()),
                onGpu = gpu.trace(view.points, samples, view.anchor());
     ASSERT_EQ(onCpu.size(), onGpu.size());
@@ -180,7 +181,8 @@ TEST_F(Tracers, TheGpuSendsRaysToTheSamePoints) {
       const LightShapeMap map(light);
       const LightSamples samples{light, map, 2500, side, 11, 3};
       const Triangles none(scene::Scene{}, anchor);
-      ComputeTracer gpu(context(), none);
+      const ray_tracing::RayScene nothing(context(), {}, {});
+      ComputeTracer gpu(context(), nothing, none);
       double worst = 0.0;
       for (const uint32_t pixel : {0U, 77U, 0xfffffU}) {
         const std::vector<glm::dvec3> points = gpu.lightPoints(context(), samples, anchor, pixel);
@@ -195,9 +197,9 @@ TEST_F(Tracers, TheGpuSendsRaysToTheSamePoints) {
 
 TEST_F(Tracers, CountsOfSamplesThatFillNoGroupAreWhole) {
   const scene::Scene scene = builtScene("two_boxes");
-  const View view(context(), scene, {24, 16});
+  View view(context(), scene, {24, 16});
   const LightShapeMap map(scene.lights[0]);
-  ComputeTracer gpu(context(), view.triangles);
+  ComputeTracer gpu(context(), view.rays(), view.triangles);
   EmbreeTracer cpu(view.triangles);
   for (const int64_t count : {1, 4, 5, 16, 25, 100, 289}) {
     const LightSamples samples{scene.lights[0], map, count, 0, 3};
@@ -235,8 +237,8 @@ TEST_F(Tracers, ASceneWithoutTrianglesHidesNothing) {
   light.centre = {0.0, 2.0, 0.0};
   const LightShapeMap map(light);
   const LightSamples samples{light, map, 16, 4, 1};
-  const auto counts =
-      ComputeTracer(context(), triangles).trace({ReceiverPoint{0, 0, {}, {0.0, 1.0, 0.0}}}, samples, {});
+  const auto counts = ComputeTracer(context(), ray_tracing::RayScene(context(), {}, {}), triangles)
+                          .trace({ReceiverPoint{0, 0, {}, {0.0, 1.0, 0.0}}}, samples, {});
   EXPECT_EQ(counts.at(0).rays, 16U);
   EXPECT_EQ(counts.at(0).seen, 16U);
 }
