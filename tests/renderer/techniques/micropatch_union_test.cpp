@@ -9,6 +9,7 @@
 #include "renderer/references/micropatches_of_map.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
+#include "renderer/techniques/soft_shadows/bitmask/light_samples.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -27,18 +28,24 @@ constexpr int kUnionMap = 64;
 constexpr double kUnionRounding = 1e-4;
 
 /// A card over a ground that leans towards one side of the light; the ground may rise above the light's
-/// plane, and its plane may cut the light.
-scene::Scene leaningCase(double tilt, double lightSize, bool withCard = true) {
+/// plane, and its plane may cut the light. The light is turned by `turn` degrees in its plane.
+scene::Scene leaningCase(double tilt, double lightSize, double turn = 0.0) {
   scene::Scene scene;
   const double radians = glm::radians(tilt);
   scene::addPart(
       scene, "ground",
       scene::card({0.0, 0.0, 0.0}, {0.0, 0.0, 3.0}, {3.0 * std::cos(radians), 3.0 * std::sin(radians), 0.0}),
       glm::vec3(0.7F), scene::Role::ReceiverOnly);
-  if (withCard)
-    scene::addPart(scene, "card", scene::card({-0.4, 0.9, 0.0}, {0.0, 0.0, 0.35}, {0.3, 0.0, 0.0}),
-                   glm::vec3(0.5F));
+  scene::addPart(scene, "card", scene::card({-0.4, 0.9, 0.0}, {0.0, 0.0, 0.35}, {0.3, 0.0, 0.0}),
+                 glm::vec3(0.5F));
   scene.lights = {scene::lightTowards({0.0, 2.0, 0.0}, glm::dvec3(0.0), glm::dvec2(lightSize))};
+  scene::AreaLight& light = scene.lights[0];
+  const glm::dvec3 x = light.axisX, y = light.axisY;
+  const double angle = glm::radians(turn);
+  if (turn != 0.0) {
+    light.axisX = std::cos(angle) * x + std::sin(angle) * y;
+    light.axisY = std::cos(angle) * y - std::sin(angle) * x;
+  }
   scene::setStillCamera(scene, scene::orbitCamera({-0.3, 0.0, 0.0}, 4.0, -60.0, 40.0));
   return scene;
 }
@@ -57,6 +64,7 @@ class MicropatchUnion : public TechniqueTest {
     for (const double tilt : {0.0, 25.0, 60.0})
       out.push_back({"card, tilt " + std::to_string(int(tilt)), leaningCase(tilt, 0.6), true, tilt == 0.0});
     out.push_back({"plane that cuts the light", leaningCase(60.0, 5.0), true});
+    out.push_back({"plane that cuts the light obliquely", leaningCase(80.0, 5.0, 30.0)});
     out.push_back({"spheres", makeScene("sphere_grid", {{"tessellation", int64_t{6}}})});
     out.push_back({"leaning sphere", makeScene("resting_sphere", {{"tilt", 40.0}, {"light_size", 3.0}})});
     out.push_back({"boxes", makeScene("two_boxes")});
@@ -267,6 +275,46 @@ TEST_F(MicropatchUnion, MasksAreWrongByTheCellsThatItsEdgesCutAtMost) {
           // As above: texels within rounding of the bias.
           EXPECT_LE(wrong, receivers / 100) << what;
         }
+}
+
+// Sample by sample, where nothing but the plane hides any: whole rows of samples lie behind a plane that cuts
+// off a corner of the light.
+TEST_F(MicropatchUnion, MasksLeaveOutTheSamplesBehindAnObliquePlane) {
+  for (const double tilt : {60.0, 80.0})
+    for (const double turn : {0.0, 30.0, 60.0, 120.0, 210.0, 300.0}) {
+      const scene::Scene scene = leaningCase(tilt, 5.0, turn);
+      for (const LightPattern pattern :
+           {LightPattern::Regular8, LightPattern::Regular16, LightPattern::Regular32,
+            LightPattern::Jittered16, LightPattern::Halton256}) {
+        Given given = finestLevel("receiver_plane");
+        given["pattern"] = std::string(limen::toText(pattern));
+        const Seen seen = see(scene, "soft_shadows/bitmask", given);
+        const MicropatchesOfMap patches = patchesOf(seen, "receiver_plane", PatchStretch::Diagonal);
+        const std::vector<glm::dvec2> samples = lightSamples(pattern);
+        // Samples from tables are hidden in strips of the table's steps, of 1/64.
+        const double margin = pattern == LightPattern::Halton256 ? 1.5 / 64.0 : 1e-4;
+        int cut = 0;
+        for (size_t i = 0; i < seen.product.pixels(); ++i) {
+          if (!seen.isReceiver(i)) continue;
+          const PatchReceiver receiver = seen.receiver(i);
+          RectangleUnion hidden;
+          patches.gather(receiver, hidden);
+          if (!hidden.empty()) continue;
+          const HalfPlane lit = patches.litSide(receiver);
+          int least = 0, most = 0;
+          for (const glm::dvec2 sample : samples) {
+            least += lit.at(sample) > margin;
+            most += lit.at(sample) > -margin;
+          }
+          cut += least < int(samples.size());
+          ASSERT_GE(seen.product.data[i], (least - 0.5) / double(samples.size()))
+              << tilt << ' ' << turn << ' ' << limen::toText(pattern);
+          ASSERT_LE(seen.product.data[i], (most + 0.5) / double(samples.size()))
+              << tilt << ' ' << turn << ' ' << limen::toText(pattern);
+        }
+        EXPECT_GT(cut, 20) << tilt << ' ' << turn;
+      }
+    }
 }
 
 // On a card at one depth a mesh between texel centres is the patches less half a texel along each side; a
