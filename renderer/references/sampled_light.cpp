@@ -43,7 +43,7 @@ constexpr const char* kConstantText = "Depth bias as a share of the depth";
 struct MapPlaneBias {
   static constexpr const char *kKind = "receiver_plane",
                               *kSummary = "against the receiver's own plane at the texel's centre";
-  double constant = 1e-4, slope = 0.25;
+  double constant = 1e-4, slope = 0.3;
   static const SettingsTable<MapPlaneBias>& table() {
     static const SettingsTable<MapPlaneBias> kTable = {
         {&MapPlaneBias::constant, "constant", kConstants, "", kConstantText},

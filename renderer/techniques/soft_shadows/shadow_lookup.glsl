@@ -41,6 +41,13 @@ layout(binding = kReceiverPlanesUnit) uniform sampler2D receiverPlanes;
 #endif
 #ifdef BIAS_PLANE
 vec2 receiverPlane = vec2(0.0);  // of this pixel, see receiver_plane.glsl
+// EYE_OFF_CENTRE: the map's eye may lie behind the receiver's plane. What lies before the plane as seen from the light is
+// beyond it then, as seen from the eye.
+#ifdef EYE_OFF_CENTRE
+bool eyeIsBehind = false;
+#else
+const bool eyeIsBehind = false;
+#endif
 #endif
 
 #ifdef BIAS_NORMAL_OFFSET
@@ -62,6 +69,9 @@ vec4 loadReceiver(ivec2 pixel) {
   receiverPlane = texelFetch(receiverPlanes, pixel, 0).xy;
 #endif
   const vec4 receiver = texelFetch(receivers, pixel, 0);
+#if defined(BIAS_PLANE) && defined(EYE_OFF_CENTRE)
+  eyeIsBehind = receiver.w > 1.5e6 * receiver.z;
+#endif
 #ifdef BIAS_NORMAL_OFFSET
   return receiver.w < 0.0 ? receiver : movedOff(receiver, texelFetch(receiverPlanes, pixel, 0).xy);
 #else
@@ -100,13 +110,15 @@ float planeMargin(float texels) {
 // Whether depth z at a place of the map, in texels of level 0, lies before the receiver's plane. `limit` = p_z (1 - margin).
 bool beforePlane(float z, vec2 place, vec4 receiver, float limit) {
   const vec2 away = tangentLow + place * (tangentSize / float(resolution)) - receiver.xy / receiver.z;
-  return z * (1.0 + dot(receiverPlane, away)) < limit;
+  const float scaled = z * (1.0 + dot(receiverPlane, away));
+  return eyeIsBehind ? scaled > 2.0 * receiver.z - limit : scaled < limit;
 }
 
 // Whether some of the light's rectangle is behind the receiver's plane.
 bool planeCutsLight(vec4 receiver) {
   const vec2 perUnit = receiverPlane * lightSize;
-  return dot(perUnit, 0.5 - eyeOnLight) + 0.5 * (abs(perUnit.x) + abs(perUnit.y)) > receiver.z;
+  const float middle = dot(perUnit, 0.5 - eyeOnLight), reach = 0.5 * (abs(perUnit.x) + abs(perUnit.y));
+  return eyeIsBehind ? middle - reach < receiver.z : middle + reach > receiver.z;
 }
 #endif
 
