@@ -250,7 +250,7 @@ TEST_F(LightMapsTest, APlaneThatPointsSeeFromBehindHidesNoLightBeforeIt) {
 /// coarse texels, nearly all of the error is such gaps.
 TEST_F(LightMapsTest, MapsOfPointsSeeIntoGapsThatOneMapFills) {
   constexpr glm::ivec2 kSize{48, 36};
-  for (const char* name : {"columns_hall", "card_stack"}) {
+  for (const char* name : {"columns_hall", "foliage"}) {
     const scene::Scene scene = makeScene(name);
     Rendered truth = render(scene, "soft_shadows/ray_traced", {{"samples", int64_t{256}}}, kSize);
     const auto error = [&](const char* gaps, bool thesis) {
@@ -261,7 +261,7 @@ TEST_F(LightMapsTest, MapsOfPointsSeeIntoGapsThatOneMapFills) {
       return errorsOf(render(scene, kBitmask, given, kSize).product, truth).rmse;
     };
     for (const bool thesis : {false, true})
-      EXPECT_LT(error("open", thesis), (thesis ? 0.5 : 0.8) * error("filled", thesis))
+      EXPECT_LT(error("open", thesis), (thesis ? 0.6 : 0.85) * error("filled", thesis))
           << name << (thesis ? ", thesis's form" : "");
   }
 }
