@@ -57,13 +57,12 @@ std::vector<std::string> remarksOn(const SceneNeedsFound& found, double targetRm
                   found.referenceNoise, found.check.referenceNoise),
       "times are medians of the " + found.times + ", from the lower to the upper quartile"};
   const std::vector<size_t> best = front(found.tried);
-  for (const size_t i : best)
-    out.push_back("no other is both faster and more exact: " + line(found.tried[i]));
+  for (const size_t i : best) out.push_back("not beaten in time and error: " + line(found.tried[i]));
   std::string beaten;
   for (size_t i = 0; i < found.tried.size(); ++i)
     if (std::find(best.begin(), best.end(), i) == best.end())
       beaten += (beaten.empty() ? "" : "; ") + line(found.tried[i]);
-  if (!beaten.empty()) out.push_back("beaten in both by another: " + beaten);
+  if (!beaten.empty()) out.push_back("beaten, as another is no worse in time and error: " + beaten);
   for (const std::string& reason : found.notTried) out.push_back("not tried: " + reason);
   return out;
 }
