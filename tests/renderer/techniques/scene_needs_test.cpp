@@ -225,8 +225,7 @@ TEST_F(CandidateFiles, ListsAreAxes) {
   const std::vector<Candidate> candidates = readCandidates(path_, {.resolution = 256});
   ASSERT_EQ(candidates.size(), 5U);
   EXPECT_EQ(describe(candidates[0]), "soft_shadows/hard, resolution=256");
-  EXPECT_EQ(describe(candidates[2]),
-            "soft_shadows/bitmask, budget=uniform, budget.limit=64, resolution=512, structure=ysm");
+  EXPECT_EQ(describe(candidates[2]), "soft_shadows/bitmask, budget.limit=64, resolution=512, structure=ysm");
 }
 
 TEST_F(CandidateFiles, MistakesAreNamedWithTheirPlace) {

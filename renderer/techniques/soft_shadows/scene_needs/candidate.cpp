@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
 
+#include <algorithm>
+
 #include "experiments/base/error.h"
 
 namespace limen::techniques {
@@ -15,8 +17,17 @@ std::unique_ptr<Technique> makeTechnique(const Candidate& candidate) {
 }
 
 std::string describe(const Candidate& candidate) {
+  const TechniqueInfo* info = TechniqueRegistry::instance().find(candidate.technique);
+  const std::vector<DeclaredAt> declared = info ? flatten(info->parameters) : std::vector<DeclaredAt>{};
+  const auto isUsualChoice = [&](const std::string& path, const ParameterValue& value) {
+    return std::any_of(declared.begin(), declared.end(), [&](const DeclaredAt& at) {
+      return at.path == path && at.parameter->type == ParameterType::Choice &&
+             at.parameter->defaultValue == value;
+    });
+  };
   std::string text = candidate.technique;
-  for (const auto& [path, value] : candidate.given) text += ", " + path + "=" + limen::toText(value);
+  for (const auto& [path, value] : candidate.given)
+    if (!isUsualChoice(path, value)) text += ", " + path + "=" + limen::toText(value);
   return text;
 }
 

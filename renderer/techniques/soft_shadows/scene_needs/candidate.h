@@ -21,7 +21,7 @@ struct Candidate {
 /// Its settings, complete. Throws Error on a value that the technique does not take.
 ParameterValues completeValues(const Candidate& candidate);
 std::unique_ptr<Technique> makeTechnique(const Candidate& candidate);
-/// The technique, and "path=value" of what is given.
+/// The technique, and "path=value" of what is given: all numbers, and choices that are not the default.
 std::string describe(const Candidate& candidate);
 /// Why it cannot be tried: settings that it does not take, a trait that the scene lacks; "": it can.
 std::string obstacleTo(const Candidate& candidate, const scene::Scene& scene);

@@ -118,6 +118,7 @@ SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candid
                           const NeedsOptions& options, CandidateClock& clock) {
   SceneNeedsFound out;
   out.times = clock.label();
+  out.reference = options.reference;
   measureErrors(frame, candidates, options, out);
   measureTimes(clock, options.targetRmse, out.tried);
   out.verdict = decide(out.tried, options.targetRmse);

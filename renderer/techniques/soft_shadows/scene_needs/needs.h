@@ -36,6 +36,7 @@ struct SceneNeedsFound {
   std::vector<Tried> tried;
   std::vector<std::string> notTried;  ///< candidate and reason
   Verdict verdict;
+  NeedsReference reference;
   double referenceNoise = 0.0;
   glm::ivec2 pictureSizePx{0};
   FullSizeCheck check;

@@ -8,10 +8,12 @@
 namespace limen::techniques {
 namespace {
 
-std::string figures(const Tried& tried) {
-  return fmt::format("{:.3g} ms, RMSE {:.3g}", tried.time.medianMs, tried.error.rmse());
+/// All candidates come from few families, which the last part of a technique's name tells apart.
+std::string line(const Tried& tried) {
+  std::string name = describe(tried.candidate);
+  name.erase(0, tried.candidate.technique.rfind('/') + 1);
+  return fmt::format("{:.3g} ms, {:.3g}: {}", tried.time.medianMs, tried.error.rmse(), name);
 }
-std::string line(const Tried& tried) { return figures(tried) + ": " + describe(tried.candidate); }
 
 std::string targetRemark(const SceneNeedsFound& found, double targetRmse) {
   if (!found.verdict.withinTarget)
@@ -52,17 +54,22 @@ std::vector<std::string> remarksOn(const SceneNeedsFound& found, double targetRm
           found.pictureSizePx.x, found.pictureSizePx.y, error.rmse(), error.lowRmse(), error.highRmse(),
           chosen.time.medianMs, chosen.time.lowMs, chosen.time.highMs),
       checkRemark(found, targetRmse),
-      fmt::format("errors are those against rays; the references' own noise, an RMS of {:.2g} in the small "
-                  "picture and {:.2g} at full size, is removed",
-                  found.referenceNoise, found.check.referenceNoise),
+      fmt::format(
+          "errors are those against two references of {} rays per receiver in the small picture and {} at "
+          "full size, each with other rays; their own noise, an RMS of {:.2g} and {:.2g}, is removed",
+          found.reference.samples, found.reference.checkSamples, found.referenceNoise,
+          found.check.referenceNoise),
       "times are medians of the " + found.times + ", from the lower to the upper quartile"};
   const std::vector<size_t> best = front(found.tried);
-  for (const size_t i : best) out.push_back("not beaten in time and error: " + line(found.tried[i]));
-  std::string beaten;
+  std::vector<size_t> beaten;
   for (size_t i = 0; i < found.tried.size(); ++i)
-    if (std::find(best.begin(), best.end(), i) == best.end())
-      beaten += (beaten.empty() ? "" : "; ") + line(found.tried[i]);
-  if (!beaten.empty()) out.push_back("beaten, as another is no worse in time and error: " + beaten);
+    if (std::find(best.begin(), best.end(), i) == best.end()) beaten.push_back(i);
+  std::sort(beaten.begin(), beaten.end(),
+            [&](size_t a, size_t b) { return found.tried[a].time.medianMs < found.tried[b].time.medianMs; });
+  for (const size_t i : best) out.push_back("not beaten in time and RMSE: " + line(found.tried[i]));
+  std::string others;
+  for (const size_t i : beaten) others += (others.empty() ? "" : "; ") + line(found.tried[i]);
+  if (!others.empty()) out.push_back("beaten, as another is no worse in time and RMSE: " + others);
   for (const std::string& reason : found.notTried) out.push_back("not tried: " + reason);
   return out;
 }
