@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "renderer/techniques/soft_shadows/scene_needs/decision.h"
+#include "renderer/techniques/soft_shadows/scene_needs/needs_record.h"
 
 namespace limen::techniques {
 namespace {
@@ -100,6 +100,44 @@ TEST(SceneNeedsDecision, TimesAreMediansAndQuartiles) {
   EXPECT_EQ(time.highMs, 4.0);
   EXPECT_EQ(time.frames, 5);
   EXPECT_EQ(estimateTime({2.0}).medianMs, 2.0);
+}
+
+TEST(SceneNeedsRecord, SaysWhatFullSizeMadeOfTheChoice) {
+  SceneNeedsFound found;
+  found.tried = {withFigures(1.0, 0.05), withFigures(2.0, 0.01), withFigures(3.0, 0.03)};
+  for (Tried& one : found.tried) one.candidate.technique = "soft_shadows/hard";
+  found.notTried = {"soft_shadows/pcf: no reason"};
+  found.verdict = decide(found.tried, 0.02);
+  found.times = "hours";
+  found.check.time = {2.5, 2.4, 2.6, 9};
+  const auto counter = [&](const std::string& name) {
+    for (const Counter& one : countersOf(found, 0.02))
+      if (one.name == name) return one.value;
+    return -1.0;
+  };
+  found.check.error.meanSquare = 0.015 * 0.015;
+  EXPECT_THAT(remarksOn(found, 0.02), testing::Contains(testing::HasSubstr("the target is met")));
+  EXPECT_EQ(counter("target_met"), 1.0);
+  EXPECT_EQ(counter("candidates_within_target"), 1.0);
+  EXPECT_EQ(counter("check_ms"), 2.5);
+  EXPECT_DOUBLE_EQ(counter("expected_rmse"), 0.01);
+  found.check.error.meanSquare = 0.025 * 0.025;
+  const std::vector<std::string> remarks = remarksOn(found, 0.02);
+  EXPECT_THAT(remarks, testing::Contains(testing::HasSubstr("the target is missed")));
+  EXPECT_THAT(remarks, testing::Contains("not beaten in time and RMSE: 2 ms, 0.01: hard"));
+  EXPECT_THAT(remarks,
+              testing::Contains("beaten, as another is no worse in time and RMSE: 3 ms, 0.03: hard"));
+  EXPECT_THAT(remarks, testing::Contains("not tried: soft_shadows/pcf: no reason"));
+  EXPECT_EQ(counter("target_met"), 0.0);
+  // What the record counts is declared.
+  std::vector<std::string> declared;
+  for (const Quantity& one : needsQuantities()) declared.push_back(one.name);
+  for (const Counter& one : countersOf(found, 0.02)) EXPECT_THAT(declared, testing::Contains(one.name));
+
+  found.verdict = decide(found.tried, 0.001);
+  EXPECT_THAT(remarksOn(found, 0.001),
+              testing::Contains(testing::HasSubstr("the most exact one was chosen")));
+  EXPECT_EQ(counter("candidates_within_target"), 0.0);
 }
 
 class SceneNeedsErrors : public testing::Test {

@@ -124,13 +124,13 @@ const SettingsTable<SceneNeedsSettings>& SceneNeedsSettings::table() {
   static const SettingsTable<S> kTable = {
       included(&S::map),
       Binding(&S::target, "target", "Error that is good enough: the cheapest candidate within it is chosen")
-          .shorthand("value")
-          .formerly(
-              {"tolerance", "hard_penumbra", "coarse_share", "blend_share", "seam_share", "build_weight"}),
-      Binding(&S::candidates, "candidates", "Techniques and settings to choose from").formerly({"budget"}),
-      Binding(&S::picturePx, "picture_px", Range{64, 1 << 24}, "px",
-              "Pixels of the small picture in which errors are measured")
-          .formerly({"probe_divisor"}),
+          .shorthand("value"),
+      {&S::candidates, "candidates", "Techniques and settings to choose from"},
+      {&S::picturePx,
+       "picture_px",
+       {64, 1 << 24},
+       "px",
+       "Pixels of the small picture in which errors are measured"},
       {&S::reference, "reference", "Rays that candidates are compared with"},
       {&S::timing, "timing", "Frames in which candidates are timed, at full size"}};
   return kTable;
