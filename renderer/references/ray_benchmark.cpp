@@ -143,11 +143,24 @@ class SceneBenchmark {
     }
   }
 
+  /// Rays that the GPU finds hidden and the CPU does not, or the other way round: ties at edges.
+  void compare(ShadowTracer& cpu) {
+    const std::vector<ReceiverPoint> points = some(context_.device().software ? 1000 : 20000);
+    ComputeTracer gpu(context_, gpuScene_.rays(context_), triangles_);
+    const auto one = cpu.trace(points, samples_, gpuScene_.anchor()),
+               other = gpu.trace(points, samples_, gpuScene_.anchor());
+    double differing = 0.0;
+    for (size_t i = 0; i < points.size(); ++i)
+      differing += std::abs(double(one[i].seen) - double(other[i].seen));
+    row("shadow rays that differ between GPU and CPU", differing / total(one), "");
+  }
+
   void cpu() {
     const auto start = HostClock::now();
     EmbreeTracer tracer(triangles_);
     row("Embree build", 1e3 * since(start), "ms");
     const EmbreeScene& embree = tracer.scene();
+    compare(tracer);
     const std::vector<ReceiverPoint> points = some(20000);
     row("shadow rays, CPU packets",
         1e-6 * raysPerSecond(options_.seconds,
