@@ -119,14 +119,15 @@ class SceneBenchmark {
     row("tree nodes", tree.nodeCount(), "");
     row("tree levels", tree.levels(), "");
     const std::vector<ReceiverPoint> points = some(context_.device().software ? 4000 : points_.size());
-    row("shadow rays, GPU",
+    row("shadow rays on the GPU",
         1e-6 * raysPerSecond(options_.seconds,
                              [&] { return total(tracer.trace(points, samples_, gpuScene_.anchor())); }),
         "M/s");
     const std::vector<ray_tracing::BatchRay> rays =
         hemisphereRays(context_.device().software ? 1 << 16 : 1 << 22);
-    for (const auto& [wanted, what] : {std::pair(ray_tracing::Wanted::AnyHit, "hemisphere any hit, GPU"),
-                                       {ray_tracing::Wanted::ClosestHit, "hemisphere closest hit, GPU"}}) {
+    for (const auto& [wanted, what] :
+         {std::pair(ray_tracing::Wanted::AnyHit, "hemisphere any hit on the GPU"),
+          {ray_tracing::Wanted::ClosestHit, "hemisphere closest hit on the GPU"}}) {
       const ray_tracing::RayBatch batch(context_, tree, rays, wanted);
       row(what,
           1e-6 * raysPerSecond(options_.seconds,
@@ -162,13 +163,13 @@ class SceneBenchmark {
     const EmbreeScene& embree = tracer.scene();
     compare(tracer);
     const std::vector<ReceiverPoint> points = some(20000);
-    row("shadow rays, CPU packets",
+    row("shadow rays on the CPU in packets",
         1e-6 * raysPerSecond(options_.seconds,
                              [&] { return total(tracer.trace(points, samples_, gpuScene_.anchor())); }),
         "M/s");
-    row("shadow rays, CPU single",
+    row("shadow rays on the CPU one by one",
         1e-6 * raysPerSecond(options_.seconds, [&] { return singles(embree, points); }), "M/s");
-    row("hemisphere any hit, CPU packets",
+    row("hemisphere any hit on the CPU in packets",
         1e-6 * raysPerSecond(options_.seconds, [&] { return hemispherePackets(embree, points); }), "M/s");
   }
 
