@@ -35,11 +35,12 @@ void hideSamplesBehind(vec2 perUnit, float limit) {
   }
 }
 #endif
-// A point (s - eye) lightSize of the light is behind the plane if g . point >= p_z.
+// A point (s - eye) lightSize of the light is behind the plane if g . point >= p_z; before it, if the eye is behind.
 void hideBehindPlane(vec4 p) {
   if (!planeCutsLight(p)) return;
-  const vec2 perUnit = receiverPlane * lightSize;
-  hideSamplesBehind(perUnit, p.z + dot(perUnit, eyeOnLight));
+  const float side = eyeIsBehind ? -1.0 : 1.0;
+  const vec2 perUnit = side * receiverPlane * lightSize;
+  hideSamplesBehind(perUnit, side * p.z + dot(perUnit, eyeOnLight));
 }
 #else
 void hideBehindPlane(vec4 p) {}
