@@ -34,9 +34,12 @@ void mapWorld(Scene& scene, Map map) {
   }
 }
 
-LightShape shapeOf(LightShapeChoice choice) {
-  if (choice == LightShapeChoice::Disc) return LightShape::Disc;
-  return choice == LightShapeChoice::Polygon ? LightShape::Polygon : LightShape::Rectangle;
+/// What the lights of a scene become.
+AreaLight changed(AreaLight light, const LightShapeChoice& choice) {
+  if (std::holds_alternative<ShapeDisc>(choice)) return withShape(std::move(light), LightShape::Disc);
+  if (std::holds_alternative<ShapePolygon>(choice)) return withShape(std::move(light), LightShape::Polygon);
+  if (std::holds_alternative<ShapeAsBuilt>(choice)) return light;
+  return withShape(std::move(light), LightShape::Rectangle);
 }
 
 CameraPath from(CameraPath path, double timeS) {
@@ -79,8 +82,8 @@ void RecordedPath::check() const {
   }
 }
 
-const SettingsTable<EmissionPicture>& EmissionPicture::table() {
-  using S = EmissionPicture;
+const SettingsTable<ShapePicture>& ShapePicture::table() {
+  using S = ShapePicture;
   static const SettingsTable<S> kTable = {
       {&S::file, "file", FileIs::Required,
        "Picture that the light shows to its lit side, in linear radiance; integers are taken as sRGB"},
@@ -103,10 +106,8 @@ const SettingsTable<PlacementSettings>& PlacementSettings::table() {
        "",
        "Multiplies the light's extents",
        "Schwarz 2009, chapters 3 to 5"},
-      {&S::lightShape, "light_shape", "Shape of the light within its extents; polygon: a hexagon"},
-      Binding(&S::lightEmission, "light_emission", "What the light emits over its extents",
-              "Schwarz 2009, section 4.2.2")
-          .keyedIfGiven(),
+      {&S::lightShape, "light_shape", "Shape of the light within its extents, and what it shows",
+       "Schwarz 2009, section 4.2.2"},
       {&S::camera, "camera", "Camera that looks at the scene"}};
   return kTable;
 }
@@ -153,14 +154,13 @@ void place(Scene& scene, const PlacementSettings& settings, const std::string& w
     const glm::dvec3 shift(settings.offset * scene.bounds().diagonal() / std::sqrt(3.0));
     mapWorld(scene, [&](glm::dvec3 p) { return p + shift; });
   }
-  const auto* picture = std::get_if<EmissionPicture>(&settings.lightEmission);
+  const auto* picture = std::get_if<ShapePicture>(&settings.lightShape);
   const std::vector<LightPart> pictured =
       picture ? pictureParts(readRadiance(picture->file.path), picture->cells) : std::vector<LightPart>{};
   for (AreaLight& light : scene.lights) {
-    if (picture) light.parts = pictured;
     light.size *= settings.lightSize;
-    if (settings.lightShape != LightShapeChoice::AsBuilt)
-      light = withShape(std::move(light), shapeOf(settings.lightShape));
+    light = changed(std::move(light), settings.lightShape);
+    if (picture) light.parts = pictured;
     checkLight(light, where);
   }
   scene.camera = cameraFor(scene.camera, settings.camera);

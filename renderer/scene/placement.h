@@ -38,35 +38,35 @@ struct RecordedPath {
 
 using CameraChoice = std::variant<BuiltInCamera, StillView, RecordedPath>;
 
-enum class LightShapeChoice { AsBuilt, Rectangle, Disc, Polygon };
-constexpr EnumNames<LightShapeChoice, 4> enumNames(LightShapeChoice) {
-  return {{{{LightShapeChoice::AsBuilt, "as_built"},
-            {LightShapeChoice::Rectangle, "rectangle"},
-            {LightShapeChoice::Disc, "disc"},
-            {LightShapeChoice::Polygon, "polygon"}}}};
-}
-
-struct EmissionAsBuilt {
-  static constexpr const char *kKind = "as_built", *kSummary = "the scene's own";
+struct ShapeAsBuilt {
+  static constexpr const char *kKind = "as_built", *kSummary = "the scene's own, with its own colours";
 };
-
-struct EmissionPicture {
-  static constexpr const char *kKind = "picture", *kSummary = "an image file";
+struct ShapeRectangle {
+  static constexpr const char *kKind = "rectangle", *kSummary = "all of the extents";
+};
+struct ShapeDisc {
+  static constexpr const char *kKind = "disc", *kSummary = "an ellipse within the extents";
+};
+struct ShapePolygon {
+  static constexpr const char *kKind = "polygon", *kSummary = "a hexagon that touches all four sides";
+};
+/// A rectangle that shows an image.
+struct ShapePicture {
+  static constexpr const char *kKind = "picture", *kSummary = "a rectangle that shows an image file";
   FilePath file;   ///< see light_picture.h
   int cells = 16;  ///< per side
-  static const SettingsTable<EmissionPicture>& table();
+  static const SettingsTable<ShapePicture>& table();
 };
 
-/// What lights emit over their extents.
-using EmissionChoice = std::variant<EmissionAsBuilt, EmissionPicture>;
+/// Shape of lights within their extents, and what they emit there.
+using LightShapeChoice = std::variant<ShapeAsBuilt, ShapeRectangle, ShapeDisc, ShapePolygon, ShapePicture>;
 
 /// Settings of every scene: position and scale of its world, its light, and camera.
 struct PlacementSettings {
   double scale = 1.0;      ///< of the whole world, about the origin
   double offset = 0.0;     ///< moves the world by this many of its own diagonals along (1,1,1)/sqrt(3)
   double lightSize = 1.0;  ///< multiplies the light's extents
-  LightShapeChoice lightShape = LightShapeChoice::AsBuilt;
-  EmissionChoice lightEmission;
+  LightShapeChoice lightShape;
   CameraChoice camera;
   static const SettingsTable<PlacementSettings>& table();
 };

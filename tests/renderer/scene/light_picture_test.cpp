@@ -30,10 +30,9 @@ class LightPicture : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   static Scene lit(const std::string& file, int64_t cells) {
-    const ParameterValues values(SceneRegistry::instance().get("two_boxes").allParameters(),
-                                 {{"light_emission", std::string("picture")},
-                                  {"light_emission.file", file},
-                                  {"light_emission.cells", cells}});
+    const ParameterValues values(
+        SceneRegistry::instance().get("two_boxes").allParameters(),
+        {{"light_shape", std::string("picture")}, {"light_shape.file", file}, {"light_shape.cells", cells}});
     return buildScene("two_boxes", values);
   }
 

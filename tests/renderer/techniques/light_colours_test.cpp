@@ -253,9 +253,9 @@ class PicturedLight : public ColouredLight {
   }
   scene::Scene pictured(int64_t cells) const {
     return makeScene("two_boxes", {{"light_size", 3.0},
-                                   {"light_emission", std::string("picture")},
-                                   {"light_emission.file", file_},
-                                   {"light_emission.cells", cells}});
+                                   {"light_shape", std::string("picture")},
+                                   {"light_shape.file", file_},
+                                   {"light_shape.cells", cells}});
   }
   static scene::Scene rightHalf() {
     scene::Scene scene = makeScene("two_boxes", {{"light_size", 3.0}});
