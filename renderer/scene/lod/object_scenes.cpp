@@ -43,15 +43,13 @@ struct ChainSettings {
 
 struct RowSettings {
   int64_t count = 3;
-  double spacing = 2.0, yawDeg = 0.0;
+  double spacing = 2.0;
   static const SettingsTable<RowSettings>& table() {
     using S = RowSettings;
     static const SettingsTable<S> kTable = {
         {&S::count, "count", {1, 16}, "", "Number of objects with levels of detail"},
         Binding(&S::spacing, "spacing", Range{1.0, 10.0}, "world units", "Distance between objects")
-            .formerly({"spacing"}),
-        Binding(&S::yawDeg, "yaw_deg", Range{-180.0, 180.0}, "deg", "Rotation of the first object")
-            .formerly({"yaw_deg"})};
+            .formerly({"spacing"})};
     return kTable;
   }
 };
@@ -60,7 +58,7 @@ struct RowSettings {
 struct ShowSettings {
   ChainSettings levels;
   RowSettings objects;
-  double azimuthDeg = 0.0;
+  double yawDeg = 0.0, azimuthDeg = 0.0;
   double objectContrast = 0.0, groundContrast = 0.5;
   int64_t seed = 1;
   SwitchSettings switching{.distance = 4.0};
@@ -70,8 +68,8 @@ struct ShowSettings {
     using S = ShowSettings;
     static const SettingsTable<S> kTable = {
         Binding(&S::levels, "levels", "Levels of detail by edge collapse").shorthand("count"),
-        Binding(&S::objects, "objects", "How many objects, how far apart, and how the first is turned")
-            .shorthand("count"),
+        Binding(&S::objects, "objects", "How many objects, and how far apart").shorthand("count"),
+        {&S::yawDeg, "yaw_deg", {-180.0, 180.0}, "deg", "Rotation of the first object"},
         {&S::azimuthDeg, "azimuth_deg", {-180.0, 180.0}, "deg", "Azimuth of the eye around the first object"},
         {&S::objectContrast, "object_contrast", {0.0, 1.0}, "", "Contrast of the objects' solid texture"},
         {&S::groundContrast, "ground_contrast", {0.0, 1.0}, "", "Contrast of the ground's solid texture"},
@@ -161,7 +159,7 @@ Scene stage(const LodSet& set, const ShowSettings& settings) {
     if (i > 0)
       placement.position +=
           0.2 * spacing * glm::dvec3(random.uniform(-1.0, 1.0), 0.0, random.uniform(-1.0, 1.0));
-    placement.yawDeg = i > 0 ? random.uniform(0.0, 360.0) : settings.objects.yawDeg;
+    placement.yawDeg = i > 0 ? random.uniform(0.0, 360.0) : settings.yawDeg;
     addLodObject(scene, set, placement,
                  material(set.name, {0.62F, 0.6F, 0.56F}, settings.objectContrast, 0.15, shift()),
                  settings.switching.distances(set.levels.size()));
