@@ -153,7 +153,7 @@ TEST_F(SoftShadows, GapFillingClosesLeaksStepByStep) {
   // less.
   const scene::Scene scene = makeScene("sphere_grid");
   std::vector<double> light;
-  for (const char* fill : {"none", "left_bottom", "diagonal"}) {
+  for (const char* fill : {"none", "limited", "left_bottom", "diagonal"}) {
     const Rendered rendered = render(scene, "soft_shadows/backprojection",
                                      {{"resolution", int64_t{128}},
                                       {"budget.limit", int64_t{0}},
@@ -165,6 +165,7 @@ TEST_F(SoftShadows, GapFillingClosesLeaksStepByStep) {
   }
   EXPECT_GT(light[0], light[1]);
   EXPECT_GE(light[1], light[2]);
+  EXPECT_GE(light[2], light[3]);
 }
 
 TEST_F(SoftShadows, NothingOccludesMeansFullyLit) {
