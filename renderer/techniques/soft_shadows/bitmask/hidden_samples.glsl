@@ -19,7 +19,7 @@ uint rowBehind(vec2 perUnit, float limit, float y, float offsetX) {
   const float rest = limit - perUnit.y * y;
   if (perUnit.x == 0.0) return rest <= 0.0 ? bitRange(0, kSamplesAlong) : 0u;
   const float at = clamp(rest / perUnit.x * float(kSamplesAlong) - offsetX, -1.0, float(kSamplesAlong));
-  return perUnit.x > 0.0 ? bitRange(int(ceil(at)), kSamplesAlong) : bitRange(0, int(floor(at)) + 1);
+  return perUnit.x > 0.0 ? bitRange(max(int(ceil(at)), 0), kSamplesAlong) : bitRange(0, int(floor(at)) + 1);
 }
 
 void hideSamplesBehind(vec2 perUnit, float limit) {
