@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band.
+// group a band. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
+// sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
-#include "renderer/frame/scene_buffers.glsl"
+#include "renderer/frame/raster_triangle.glsl"
 
 layout(local_size_x = kRasterGroup) in;
 // A buffer, not an image: its atomics without a result cost no waiting.
@@ -23,9 +24,22 @@ layout(binding = kRasterPreviousDepthUnit) uniform sampler2D previousDepth;
 uniform float peelBias;
 #endif
 
-uniform mat4 anchorToClip;
-uniform float near;
-uniform ivec2 sizePx;
+#ifdef SAMPLES
+layout(binding = kSampleRasterCentreIdsUnit) uniform usampler2D centreIds;
+layout(binding = kSampleRasterReachUnit) uniform sampler2D reach;
+layout(binding = kSampleRasterMarksImage, r32ui) uniform coherent uimage2D marks;  // 1: the pixel is listed
+#ifndef IDS
+layout(std430, binding = kSampleRasterListBuffer) buffer List {
+  SampleListHeader list;
+  uint listed[];  // pixels, by row
+};
+#endif
+uniform vec2 samplePlaces[SAMPLES];
+const float kBeyondCentre = 0.5;  // pixels that samples lie from the centre at most, along each axis
+#else
+const float kBeyondCentre = 0.0;
+#endif
+
 uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
@@ -41,11 +55,6 @@ struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
   ivec2 low, size;  // bounding box in pixels
 };
-
-vec3 clipPosition(uint vertex) {
-  precise const vec4 clip = anchorToClip * vec4(scenePosition(vertex), 1.0);
-  return clip.xyw;
-}
 
 // Pixel coordinates of a clip position, centre of pixel (0, 0) at 0. Row 0 is the top of clip space.
 vec2 pixelOf(vec3 v) { return (vec2(v.x, -v.y) / v.z * 0.5 + 0.5) * vec2(sizePx) - 0.5; }
@@ -82,29 +91,44 @@ Triangle load(uint index) {
   extendBounds(t.c, t.a, low, high);
   // Slack for the rounding of the quotients, far off the screen included.
   const vec2 limit = vec2(sizePx) + 1.0;
-  low = clamp(low - 0.01, vec2(-1.0), limit);
-  high = clamp(high + 0.01, vec2(-1.0), limit);
+  low = clamp(low - (0.01 + kBeyondCentre), vec2(-1.0), limit);
+  high = clamp(high + (0.01 + kBeyondCentre), vec2(-1.0), limit);
   t.low = max(ivec2(ceil(low)), ivec2(0));
   t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
   if (t.size.x == 0 || t.size.y == 0) t.size = ivec2(0);
   return t;
 }
 
-float product(vec2 a, vec2 b) {
-  precise const float result = a.x * b.y - a.y * b.x;
-  return result;
-}
-
+#ifdef SAMPLES
 void shade(Triangle t, uint index, ivec2 pixel) {
-  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
-  precise const vec2 a = t.a.xy - ndc * t.a.z, b = t.b.xy - ndc * t.b.z, c = t.c.xy - ndc * t.c.z;
-  const float u = product(b, c), v = product(c, a), w = product(a, b);
-  const bool positive = u >= 0.0 && v >= 0.0 && w >= 0.0, negative = u <= 0.0 && v <= 0.0 && w <= 0.0;
-  precise const float sum = u + v + w;
-  if (!(positive || negative) || sum == 0.0) return;
-  precise const float distance = (u * t.a.z + v * t.b.z + w * t.c.z) / sum;
-  if (!(distance >= near)) return;
-  precise const float depth = near / distance;
+  // The centre's triangle, where it covers the whole pixel, joins when all is done.
+  const float farthest = texelFetch(reach, pixel, 0).x;
+  if (farthest > 0.0 && texelFetch(centreIds, pixel, 0).x == index) return;
+#ifdef IDS
+  if (imageLoad(marks, pixel).x == 0u) return;
+#endif
+  bool seen = false;
+  for (int i = 0; i < SAMPLES; ++i) {
+    float depth;
+    if (!covers(t.a, t.b, t.c, vec2(pixel) + samplePlaces[i], depth) || depth < farthest) continue;
+    const uint bits = floatBitsToUint(depth);
+    const int at = (pixel.y * sizePx.x + pixel.x) * SAMPLES + i;
+#ifdef IDS
+    if (depths[at] == bits) atomicMin(ids[at], index);
+#else
+    atomicMax(depths[at], bits);
+    seen = true;
+#endif
+  }
+#ifndef IDS
+  if (seen && imageLoad(marks, pixel).x == 0u && imageAtomicExchange(marks, pixel, 1u) == 0u)
+    listed[atomicAdd(list.pixels, 1u)] = uint(pixel.y * sizePx.x + pixel.x);
+#endif
+}
+#else
+void shade(Triangle t, uint index, ivec2 pixel) {
+  float depth;
+  if (!covers(t.a, t.b, t.c, vec2(pixel) + 0.5, depth)) return;
 #ifdef PEEL
   // Reversed depth: what lies behind is smaller.
   if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
@@ -117,6 +141,7 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   atomicMax(depths[at], bits);
 #endif
 }
+#endif
 
 int rowsOfBand(Triangle t) { return clamp(kBandPixels / t.size.x, kFewestBandRows, kMostBandRows); }
 
@@ -137,10 +162,15 @@ ivec2 rowSpan(Triangle t, int row) {
   const float ay = t.a.y - y * t.a.z, by = t.b.y - y * t.b.z, cy = t.c.y - y * t.c.z;
   const vec3 first = vec3(t.b.x * cy - by * t.c.x, t.c.x * ay - cy * t.a.x, t.a.x * by - ay * t.b.x);
   const vec3 second = vec3(t.b.z * cy - by * t.c.z, t.c.z * ay - cy * t.a.z, t.a.z * by - ay * t.b.z);
-  const vec3 reach = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  const vec3 width = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
   const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
-  const vec3 slack = 1e-6 * (reach.yzx * height.zxy + height.yzx * reach.zxy);
-  const vec2 limit = vec2(-1.0, 1.0);
+  vec3 slack = 1e-6 * (width.yzx * height.zxy + height.yzx * width.zxy);
+#ifdef SAMPLES
+  // Products at places up to half a pixel away, by their change along both axes.
+  const vec3 upwards = vec3(t.b.z * t.c.x - t.b.x * t.c.z, t.c.z * t.a.x - t.c.x * t.a.z, t.a.z * t.b.x - t.a.x * t.b.z);
+  slack += 2.0 * kBeyondCentre * (abs(second) / float(sizePx.x) + abs(upwards) / float(sizePx.y));
+#endif
+  const vec2 limit = vec2(-1.0, 1.0) * (1.0 + 2.0 * kBeyondCentre / float(sizePx.x));
   vec2 positive = limit, negative = limit;
   for (int i = 0; i < 3; ++i) {
     cutSpan(first[i], second[i], slack[i], positive.x, positive.y);
