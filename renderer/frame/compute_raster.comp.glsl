@@ -47,14 +47,36 @@ uniform int rangeCount;      // 0: the triangles from 0 on
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
-const int kBandPixels = 16384;                     // of a bounding box, in a band
-const int kFewestBandRows = 4, kMostBandRows = 32;  // but so many rows it has; see rowsOfBand
+#ifdef SAMPLES
+// Every pixel waits for what is known of it, so that many groups share them.
+const int kBandPixels = 1024;  // of a bounding box, in a band
+const int kFewestBandRows = 1;  // but so many rows it has; see rowsOfBand
+#else
+const int kBandPixels = 16384;
+const int kFewestBandRows = 4;
+#endif
+const int kMostBandRows = 32;
 const int kPlain = 1024;  // pixels of a band that a group goes through without cutting rows first, which costs it barriers
 
 struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
   ivec2 low, size;  // bounding box in pixels
+  vec3 slack;     // of the products of edges; see productSlack
 };
+
+// Bounds how far the products u, v, w of covers() vary within kBeyondCentre of a pixel's centre along both axes, and their
+// rounding.
+vec3 productSlack(Triangle t) {
+  const vec3 width = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  vec3 slack = 1e-6 * (width.yzx * height.zxy + height.yzx * width.zxy);
+#ifdef SAMPLES
+  const vec3 across = vec3(t.b.z * t.c.y - t.b.y * t.c.z, t.c.z * t.a.y - t.c.y * t.a.z, t.a.z * t.b.y - t.a.y * t.b.z);
+  const vec3 upwards = vec3(t.b.z * t.c.x - t.b.x * t.c.z, t.c.z * t.a.x - t.c.x * t.a.z, t.a.z * t.b.x - t.a.x * t.b.z);
+  slack += 2.0 * kBeyondCentre * (abs(across) / float(sizePx.x) + abs(upwards) / float(sizePx.y));
+#endif
+  return slack;
+}
 
 // Pixel coordinates of a clip position, centre of pixel (0, 0) at 0. Row 0 is the top of clip space.
 vec2 pixelOf(vec3 v) { return (vec2(v.x, -v.y) / v.z * 0.5 + 0.5) * vec2(sizePx) - 0.5; }
@@ -84,6 +106,7 @@ Triangle load(uint index) {
   t.c = clipPosition(vertices.z);
   t.low = ivec2(0);
   t.size = ivec2(0);
+  t.slack = productSlack(t);
   if (max(t.a.z, max(t.b.z, t.c.z)) < near) return t;
   vec2 low = vec2(1e30), high = vec2(-1e30);
   extendBounds(t.a, t.b, low, high);
@@ -100,13 +123,22 @@ Triangle load(uint index) {
 }
 
 #ifdef SAMPLES
+// Whether the triangle may cover anything within kBeyondCentre of the pixel's centre.
+bool isNear(Triangle t, ivec2 pixel) {
+  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
+  const vec2 a = t.a.xy - ndc * t.a.z, b = t.b.xy - ndc * t.b.z, c = t.c.xy - ndc * t.c.z;
+  const vec3 products = vec3(product(b, c), product(c, a), product(a, b));
+  return all(greaterThanEqual(products, -t.slack)) || all(lessThanEqual(products, t.slack));
+}
+
 void shade(Triangle t, uint index, ivec2 pixel) {
-  // The centre's triangle, where it covers the whole pixel, joins when all is done.
-  const float farthest = texelFetch(reach, pixel, 0).x;
-  if (farthest > 0.0 && texelFetch(centreIds, pixel, 0).x == index) return;
+  if (!isNear(t, pixel)) return;
 #ifdef IDS
   if (imageLoad(marks, pixel).x == 0u) return;
 #endif
+  // The centre's triangle, where it covers the whole pixel, joins when all is done.
+  const float farthest = texelFetch(reach, pixel, 0).x;
+  if (farthest > 0.0 && texelFetch(centreIds, pixel, 0).x == index) return;
   bool seen = false;
   for (int i = 0; i < SAMPLES; ++i) {
     float depth;
@@ -162,14 +194,7 @@ ivec2 rowSpan(Triangle t, int row) {
   const float ay = t.a.y - y * t.a.z, by = t.b.y - y * t.b.z, cy = t.c.y - y * t.c.z;
   const vec3 first = vec3(t.b.x * cy - by * t.c.x, t.c.x * ay - cy * t.a.x, t.a.x * by - ay * t.b.x);
   const vec3 second = vec3(t.b.z * cy - by * t.c.z, t.c.z * ay - cy * t.a.z, t.a.z * by - ay * t.b.z);
-  const vec3 width = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
-  const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
-  vec3 slack = 1e-6 * (width.yzx * height.zxy + height.yzx * width.zxy);
-#ifdef SAMPLES
-  // Products at places up to half a pixel away, by their change along both axes.
-  const vec3 upwards = vec3(t.b.z * t.c.x - t.b.x * t.c.z, t.c.z * t.a.x - t.c.x * t.a.z, t.a.z * t.b.x - t.a.x * t.b.z);
-  slack += 2.0 * kBeyondCentre * (abs(second) / float(sizePx.x) + abs(upwards) / float(sizePx.y));
-#endif
+  const vec3 slack = t.slack;
   const vec2 limit = vec2(-1.0, 1.0) * (1.0 + 2.0 * kBeyondCentre / float(sizePx.x));
   vec2 positive = limit, negative = limit;
   for (int i = 0; i < 3; ++i) {

@@ -19,6 +19,7 @@ std::vector<std::string> innerEntries(InnerKind kind) {
   std::vector<std::string> out = {"soft_shadows/backprojection", "soft_shadows/bitmask"};
   if (kind >= InnerKind::OrRayTraced) out.emplace_back("soft_shadows/ray_traced");
   if (kind >= InnerKind::OrExact) out.emplace_back("soft_shadows/exact_union");
+  if (kind >= InnerKind::OrPcss) out.emplace_back("soft_shadows/pcss");
   return out;
 }
 

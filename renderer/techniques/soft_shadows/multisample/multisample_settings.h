@@ -36,7 +36,7 @@ struct SurfaceSamples {
                               *kSummary = "each surface in a pixel has a visibility of its own";
   double tolerance = 0.003;  ///< distance from a point's plane, as a share of that from the camera
   double angleDeg = 15.0;    ///< between normals
-  double capacity = 1.0;     ///< further points per pixel
+  double capacity = 0.5;     ///< further points per pixel
   static const SettingsTable<SurfaceSamples>& table();
 };
 

@@ -44,9 +44,10 @@ SurfacePoints::SurfacePoints(frame::Frame& frame, const SurfaceSamples& settings
   if (!samples) defines["SINGLE"] = "1";
   resolve_ = &frame.context().programs().compute(kSurfaceShaders + std::string("resolve_surfaces.comp.glsl"),
                                                  defines);
-  if (samples)
-    surfaces_ = &frame.context().programs().compute(kSurfaceShaders + std::string("surfaces.comp.glsl"),
-                                                    samples->defines());
+  if (!samples) return;
+  defines["LANES"] = std::to_string(samples->places().size() + 1);
+  surfaces_ =
+      &frame.context().programs().compute(kSurfaceShaders + std::string("surfaces.comp.glsl"), defines);
 }
 
 void SurfacePoints::choose(frame::Frame& frame) const {
