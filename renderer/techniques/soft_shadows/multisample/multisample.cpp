@@ -31,8 +31,8 @@ constexpr const char* kMultisampleFolder = "renderer/techniques/soft_shadows/mul
 class Multisample : public Technique {
  public:
   using Settings = MultisampleSettings;
-  explicit Multisample(const MultisampleSettings& settings)
-      : settings_(settings), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
+  explicit Multisample(const MultisampleSettings& settings, gl::Format format = gl::Format::R32F)
+      : settings_(settings), format_(format), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
 
   static std::vector<Quantity> counters() {
     return {{"inner_evaluations_per_px", "Points evaluated per pixel", "1/px", Direction::LowerIsBetter},
@@ -52,7 +52,7 @@ class Multisample : public Technique {
     if (samples_) frame.passes().setBytesHeld(kRaster, sampleBytes_);
     points_.reset();
     if (surfaces) {
-      surfaces_.emplace(frame, *surfaces, samples_ ? &*samples_ : nullptr, gl::Format::R32F);
+      surfaces_.emplace(frame, *surfaces, samples_ ? &*samples_ : nullptr, format_);
       holdForChoice(frame, surfaces_->chooseBytes());
       frame.passes().setBytesHeld(kResolve, surfaces_->visibility().bytes());
       points_.emplace(frame, "multisample/inner", surfaces_->pointsPx());
@@ -229,6 +229,7 @@ class Multisample : public Technique {
   }
 
   MultisampleSettings settings_;
+  gl::Format format_;                   // of the product
   std::optional<ChosenSample> chosen_;  // none: every sample or every surface has its own visibility
   std::unique_ptr<Technique> inner_;
   std::optional<PixelSamples> samples_;  // none: one, behind the centre
@@ -239,6 +240,19 @@ class Multisample : public Technique {
   std::optional<frame::Frame> points_;
 };
 
+/// Each sample's share of the light's radiance, per channel: their mean, as light of several colours has
+/// shadows of several colours within a pixel.
+class MultisampleColoured : public Multisample {
+ public:
+  using Settings = MultisampleColouredSettings;
+  explicit MultisampleColoured(const MultisampleColouredSettings& settings)
+      : Multisample({.inner = settings.inner,
+                     .samples = settings.samples,
+                     .raster = settings.raster,
+                     .method = settings.surfaces},
+                    gl::Format::RGBA32F) {}
+};
+
 const RegisteredTechnique<Multisample> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
      .version = 2,
@@ -246,6 +260,17 @@ const RegisteredTechnique<Multisample> kMultisampleRegistered{
      .source = "Schwarz 2009, section 4.6 (SS-35)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
+     .counters = Multisample::counters()}};
+
+const RegisteredTechnique<MultisampleColoured> kMultisampleColouredRegistered{
+    {.name = "soft_shadows/multisample_coloured",
+     .version = 1,
+     .summary =
+         "Visible share of a coloured light's radiance for all samples of a pixel, found once per pixel "
+         "and surface",
+     .source = "bench; Schwarz 2009, sections 4.2.2 and 4.6 (SS-17, SS-35)",
+     .product = ProductKind::LightColour,
+     .needs = {"area_light"},
      .counters = Multisample::counters()}};
 
 }  // namespace

@@ -65,18 +65,41 @@ const SettingsTable<PixelForAll>& PixelForAll::table() {
   return kTable;
 }
 
+template <class S>
+Binding<S> samplesBinding() {
+  return {&S::samples,
+          "samples",
+          oneOf({1, 2, 4, 8}),
+          "",
+          "Samples per pixel; drivers need not support every number",
+          "Schwarz 2009, section 4.6"};
+}
+
+template <class S>
+Binding<S> rasterBinding() {
+  return {&S::raster, "raster",
+          "How samples find their triangles: by the driver's rasteriser, at places that it chooses, or in "
+          "compute shaders, at standard places and only where a pixel may see several triangles; auto: "
+          "compute on a GPU"};
+}
+
 const SettingsTable<MultisampleSettings>& MultisampleSettings::table() {
   using S = MultisampleSettings;
   static const SettingsTable<S> kTable = {
       innerBinding(&S::inner, InnerKind::OrRayTraced),
-      {&S::samples, "samples", oneOf({1, 2, 4, 8}), "",
-       "Samples per pixel; drivers need not support every number", "Schwarz 2009, section 4.6"},
-      {&S::raster, "raster",
-       "How samples find their triangles: by the driver's rasteriser, at places that it chooses, or in "
-       "compute "
-       "shaders, at standard places and only where a pixel may see several triangles; auto: compute on a "
-       "GPU"},
+      samplesBinding<S>(),
+      rasterBinding<S>(),
       {&S::method, "method", "How samples get their visibility", "Schwarz 2009, section 4.6"}};
+  return kTable;
+}
+
+const SettingsTable<MultisampleColouredSettings>& MultisampleColouredSettings::table() {
+  using S = MultisampleColouredSettings;
+  static const SettingsTable<S> kTable = {
+      innerBinding(&S::inner, InnerKind::Coloured),
+      samplesBinding<S>(),
+      rasterBinding<S>(),
+      {&S::surfaces, "surfaces", "Which samples of a pixel share a point"}};
   return kTable;
 }
 

@@ -70,4 +70,13 @@ struct MultisampleSettings {
   std::optional<ChosenSample> chosen() const;
 };
 
+/// For techniques whose product is a colour: always by surfaces.
+struct MultisampleColouredSettings {
+  ChosenEntry inner{"soft_shadows/bitmask_coloured", {}};
+  int samples = 4;
+  frame::Raster raster = frame::Raster::Auto;
+  SurfaceSamples surfaces;
+  static const SettingsTable<MultisampleColouredSettings>& table();
+};
+
 }  // namespace limen::techniques
