@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
+// group a band. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
 // sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/raster_triangle.glsl"
+
+#ifndef SMALL_LANES
+#define SMALL_LANES 1
+#endif
 
 layout(local_size_x = kRasterGroup) in;
 // A buffer, not an image: its atomics without a result cost no waiting.
@@ -47,9 +51,9 @@ uniform int rangeCount;      // 0: the triangles from 0 on
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
-#ifdef SAMPLES
+#if defined(SAMPLES) || defined(IDS)
 // Every pixel waits for what is known of it, so that many groups share them.
-const int kBandPixels = 1024;  // of a bounding box, in a band
+const int kBandPixels = 1024;   // of a bounding box, in a band
 const int kFewestBandRows = 1;  // but so many rows it has; see rowsOfBand
 #else
 const int kBandPixels = 16384;
@@ -139,16 +143,20 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   // The centre's triangle, where it covers the whole pixel, joins when all is done.
   const float farthest = texelFetch(reach, pixel, 0).x;
   if (farthest > 0.0 && texelFetch(centreIds, pixel, 0).x == index) return;
+  const int first = (pixel.y * sizePx.x + pixel.x) * SAMPLES;
+#ifdef IDS
+  uint nearest[SAMPLES];  // read together, to wait once
+  for (int i = 0; i < SAMPLES; ++i) nearest[i] = depths[first + i];
+#endif
   bool seen = false;
   for (int i = 0; i < SAMPLES; ++i) {
     float depth;
     if (!covers(t.a, t.b, t.c, vec2(pixel) + samplePlaces[i], depth) || depth < farthest) continue;
     const uint bits = floatBitsToUint(depth);
-    const int at = (pixel.y * sizePx.x + pixel.x) * SAMPLES + i;
 #ifdef IDS
-    if (depths[at] == bits) atomicMin(ids[at], index);
+    if (nearest[i] == bits) atomicMin(ids[first + i], index);
 #else
-    atomicMax(depths[at], bits);
+    atomicMax(depths[first + i], bits);
     seen = true;
 #endif
   }
@@ -288,15 +296,23 @@ uint chosenTriangle(uint n) {
 }
 
 void main() {
-  const uint drawn = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
-  if (gl_GlobalInvocationID.x >= (1u << 20) || drawn >= triangleCount) return;
+  if (gl_GlobalInvocationID.x >= (1u << 20)) return;
+  const uint invocation = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
+  const uint drawn = invocation / uint(SMALL_LANES), lane = invocation % uint(SMALL_LANES);
+  if (drawn >= triangleCount) return;
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
-  if (t.size.x * t.size.y <= kSmall) {
+  const int pixels = t.size.x * t.size.y;
+  if (pixels <= kSmall) {
+#if SMALL_LANES == 1
     for (int y = 0; y < t.size.y; ++y)
       for (int x = 0; x < t.size.x; ++x) shade(t, index, t.low + ivec2(x, y));
+#else
+    for (int i = int(lane); i < pixels; i += SMALL_LANES) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
+#endif
     return;
   }
+  if (lane > 0u) return;
   const int rows = rowsOfBand(t);
   const uint slot = atomicAdd(queue.queued, uint((t.size.y + rows - 1) / rows));
   for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {

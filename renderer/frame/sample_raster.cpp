@@ -14,11 +14,14 @@ namespace {
 /// As for ComputeRaster: row bands of large triangles.
 constexpr int kSampleQueueCapacity = 1 << 19;
 constexpr int kSampleLargeGroups = 4096;
+/// Invocations that share a small triangle's pixels: each pixel waits for what is known of it.
+constexpr int kSmallLanes = 4;
 
 const gl::Program& sampleProgram(Frame& frame, const std::string& name, size_t samples,
                                  const gl::ShaderDefines& more = {}) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)},
-                               {"QUEUE_CAPACITY", std::to_string(kSampleQueueCapacity) + "u"}};
+                               {"QUEUE_CAPACITY", std::to_string(kSampleQueueCapacity) + "u"},
+                               {"SMALL_LANES", std::to_string(kSmallLanes)}};
   defines.insert(more.begin(), more.end());
   return frame.context().programs().compute("renderer/frame/" + name, defines);
 }
@@ -78,8 +81,10 @@ int64_t SampleRaster::bytes() const {
 
 void SampleRaster::overTriangles(Frame& frame, const gl::Program& small, const gl::Program& large) const {
   constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
-  const int triangles = static_cast<int>(frame.geometry().triangleCount());
-  small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
+  const int64_t invocations = int64_t{kSmallLanes} * frame.geometry().triangleCount();
+  small.dispatch({static_cast<int>(std::min<int64_t>(invocations, kPerRow)),
+                  static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
+                 {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   large.dispatch({kSampleLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
