@@ -52,7 +52,7 @@ struct WorkListHeader {                       // std430; then pixels: x in the l
 #ifdef __cplusplus
 static_assert(sizeof(WorkListHeader) == 16 && offsetof(WorkListHeader, pixelCount) == 12);
 #endif
-const uint kSplitAreasImage = 3u;
+const uint kSplitAreasImage = 6u;
 const uint kSplitCameraDepthUnit = 15u;
 const uint kSplitLevelsImage = 4u;
 const uint kSplitHalfSmoothedImage = 5u;

@@ -12,6 +12,9 @@
 #endif
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #undef visibilityOf
+#if LANES > 1
+#define SHARED_MASKS
+#endif
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 #include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
 #if OCCLUDERS == OCCLUDERS_MICROQUADS || OCCLUDERS == OCCLUDERS_MICROQUADS_MICROTRIS
@@ -21,20 +24,14 @@ void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d);
 
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
 #if LANES > 1
-shared uint laneMasks[MASK_WORDS][kWorkListGroup];
-void joinLanes(uint slot, uint lane) {
-  const uint first = slot * LANES;
-  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][first + lane] = mask[i];
+void enterLane(uint slot, uint lane) {
+  maskSlot = int(slot);
+  maskLane = int(lane);
+}
+// The mask is one for all of them already.
+void joinLanes() {
   memoryBarrierShared();
   barrier();
-  for (uint i = lane; i < MASK_WORDS; i += LANES) {
-    uint joined = 0u;
-    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other];
-    laneMasks[i][first] = joined;
-  }
-  memoryBarrierShared();
-  barrier();
-  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = laneMasks[i][first];
 }
 #endif
 bool isSaturated() { return allCovered(); }
@@ -49,24 +46,43 @@ layout(binding = kKeptMasksImage, rgba32ui) uniform uimage2DArray keptMasks;
 uniform int keptSet;  // of the masks in the image
 uniform int joins;    // 0: the set's first map
 
+// What earlier maps have covered.
+void resumeGathered(ivec2 pixel) {
+  if (joins != 0) addKeptMask(pixel, keptSet);
+}
+void keepGathered(ivec2 pixel) {
+  for (int layer = maskLane; layer < KEPT_LAYERS; layer += MASK_LANES)
+    imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
+}
+
+#if LANES > 1
+void clearGathered() { clearMask(); }
+#else
 // The mask holds what earlier maps found.
 void clearGathered() {}
 
-float visibilityOf(vec4 p, ivec2 pixel) {
+// Whether nothing of the light is left for this map; the pixel is done then.
+bool coveredBefore(vec4 p, ivec2 pixel) {
   clearMask();
-  if (joins != 0)
-    addKeptMask(pixel, keptSet);
-  else
-    hideBehindPlane(p);
-  if (allCovered()) {
-    pixelClass = kLit;  // nothing to do
-    return 0.0;
-  }
-  const float visibility = visibilityInMap(p, pixel);
+  resumeGathered(pixel);
+  if (joins == 0) hideBehindPlane(p);
+  if (!allCovered()) return false;
+  pixelClass = kLit;
+  return true;
+}
+
+// After a pixel's search in this map.
+float visibilityKept(ivec2 pixel, float visibility) {
   if (pixelClass == kCutShort) return visibility;
   if (pixelClass == kUmbra) coverAll();
-  for (int layer = 0; layer < KEPT_LAYERS; ++layer)
-    imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
+  keepGathered(pixel);
   return gatheredVisibility();
 }
+
+#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER)
+float visibilityOf(vec4 p, ivec2 pixel) {
+  return coveredBefore(p, pixel) ? 0.0 : visibilityKept(pixel, visibilityInMap(p, pixel));
+}
+#endif
+#endif
 #endif
