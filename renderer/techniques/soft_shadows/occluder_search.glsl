@@ -17,9 +17,7 @@ void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
 #if LANES > 1
-// LANES invocations share a pixel: `lane` of those of pixel `slot` of the group. Each of them clears and hides its part.
-void enterLane(uint slot, uint lane);
-// Joins what they have gathered; called by all of the group.
+// Joins what the LANES invocations of each pixel have gathered, in all of them; called by all of the group.
 void joinLanes();
 #endif
 #ifdef KEEP_MASKS
@@ -159,11 +157,7 @@ bool blocks(float z, ivec2 texel, int level, vec4 p, float depth) {
 #include "renderer/techniques/soft_shadows/light_rectangle.glsl"
 #endif
 #if OCCLUDERS == OCCLUDERS_MICROPATCHES
-#if LANES > 1
-#include "renderer/techniques/soft_shadows/micropatch_blocks.glsl"
-#else
 #include "renderer/techniques/soft_shadows/micropatches.glsl"
-#endif
 #elif OCCLUDERS == OCCLUDERS_CONTOURS
 #include "renderer/techniques/soft_shadows/contours.glsl"
 #elif OCCLUDERS == OCCLUDERS_MICRORECTS

@@ -97,7 +97,7 @@ void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   // Levels of several maps contribute to one visibility, so none has a step of its own.
   if (counts && maps_.maps().size() == 1)
     levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, *counted_);
-  if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
+  if (steered) steered->finish();
   gathering_->join(frame, pass_.visibility());
   if (last_) last_->run(frame, pass_.visibility());
 }

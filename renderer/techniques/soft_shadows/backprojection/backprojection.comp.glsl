@@ -68,7 +68,6 @@ void accumulateEdge(vec2 from, vec2 to) {
 // Each invocation adds up the areas of its own micro-occluders, then all sums are added in the invocations' order. With n
 // areas of the sum A, rounding differs from that of another order by less than 2^-23 n A.
 shared float laneAreas[kWorkListGroup];
-void enterLane(uint slot, uint lane) {}
 void joinLanes() {
   const uint own = gl_LocalInvocationIndex, first = own - own % LANES;
   laneAreas[own] = occludedArea;

@@ -12,9 +12,6 @@
 #endif
 #include "renderer/techniques/soft_shadows/occluder_search.glsl"
 #undef visibilityOf
-#if LANES > 1
-#define SHARED_MASKS
-#endif
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
 #include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
 #if OCCLUDERS == OCCLUDERS_MICROQUADS || OCCLUDERS == OCCLUDERS_MICROQUADS_MICROTRIS
@@ -24,14 +21,20 @@ void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d);
 
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
 #if LANES > 1
-void enterLane(uint slot, uint lane) {
-  maskSlot = int(slot);
-  maskLane = int(lane);
-}
-// The mask is one for all of them already.
+shared uint laneMasks[MASK_WORDS][kWorkListGroup];
 void joinLanes() {
+  const uint own = gl_LocalInvocationIndex, lane = own % LANES, first = own - lane;
+  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][own] = mask[i];
   memoryBarrierShared();
   barrier();
+  for (uint i = lane; i < MASK_WORDS; i += LANES) {
+    uint joined = 0u;
+    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other];
+    laneMasks[i][first] = joined;
+  }
+  memoryBarrierShared();
+  barrier();
+  for (int i = 0; i < MASK_WORDS; ++i) mask[i] = laneMasks[i][first];
 }
 #endif
 bool isSaturated() { return allCovered(); }
@@ -51,7 +54,7 @@ void resumeGathered(ivec2 pixel) {
   if (joins != 0) addKeptMask(pixel, keptSet);
 }
 void keepGathered(ivec2 pixel) {
-  for (int layer = maskLane; layer < KEPT_LAYERS; layer += MASK_LANES)
+  for (int layer = 0; layer < KEPT_LAYERS; ++layer)
     imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
 }
 

@@ -54,6 +54,6 @@ void addQuadToMask(vec2 cornerA, vec2 cornerB, vec2 cornerC, vec2 cornerD) {
     for (int i = 0; i < 4; ++i)
       if (i != 2 || !triangle)
         inside &= texelFetch(halfSpaces, ivec3(edges[i].texel, layer), 0) ^ uvec4(edges[i].complement);
-    for (int i = 0; i < min(MASK_WORDS, 4); ++i) coverSamples(4 * layer + i, inside[i]);
+    for (int i = 0; i < min(MASK_WORDS, 4); ++i) mask[4 * layer + i] |= inside[i];
   }
 }

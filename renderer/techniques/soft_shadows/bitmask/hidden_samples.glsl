@@ -6,7 +6,7 @@
 // As the strips of a table of rectangles that lie behind the plane at their middles.
 void hideSamplesBehind(vec2 perUnit, float limit) {
   const float steps = float(RECTANGLES);
-  for (int i = maskLane; i < RECTANGLES; i += MASK_LANES) {
+  for (int i = 0; i < RECTANGLES; ++i) {
     const float x = (float(i) + 0.5) / steps, rest = limit - perUnit.x * x;
     const float bound = clamp(perUnit.y == 0.0 ? (rest <= 0.0 ? 0.0 : 1.0) : rest / perUnit.y, 0.0, 1.0);
     const vec2 hidden = perUnit.y < 0.0 ? vec2(0.0, bound) : vec2(bound, 1.0);
@@ -23,7 +23,7 @@ uint rowBehind(vec2 perUnit, float limit, float y, float offsetX) {
 }
 
 void hideSamplesBehind(vec2 perUnit, float limit) {
-  for (int j = maskLane; j < kSamplesAlong; j += MASK_LANES) {
+  for (int j = 0; j < kSamplesAlong; ++j) {
 #if SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
     const float offsetX = (j & 1) == 0 ? 0.25 : 0.75;
     const uint even = rowBehind(perUnit, limit, (float(j) + 0.75) / 16.0, offsetX),

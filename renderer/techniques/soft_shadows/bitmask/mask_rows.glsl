@@ -8,11 +8,11 @@ const int kSamplesAlong = SAMPLES_ALONG;
 // Bits of the samples of row j, kSamplesAlong of them.
 void addRow(int j, uint row) {
 #if SAMPLES_ALONG == 32
-  coverSamples(j, row);
+  mask[j] |= row;
 #elif SAMPLES_ALONG == 8
-  coverSamples(j >> 2, row << (8 * (j & 3)));
+  mask[j >> 2] |= row << (8 * (j & 3));
 #else
-  coverSamples(j >> 1, row << (16 * (j & 1)));
+  mask[j >> 1] |= row << (16 * (j & 1));
 #endif
 }
 

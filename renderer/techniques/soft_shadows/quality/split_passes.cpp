@@ -51,7 +51,7 @@ void SplitRunner::bindInputs(frame::Frame& frame) const {
 }
 
 void SplitRunner::run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
-                      const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing) const {
+                      const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing) {
   const auto stage = [&](const char* name, const auto& work) {
     if (timing == Timing::Whole) return work();
     const auto scope = frame.passes().open(pass.name() + name);

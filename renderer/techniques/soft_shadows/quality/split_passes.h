@@ -26,9 +26,7 @@ class SplitRunner {
   };
   /// `counts` is null in a plain frame.
   void run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
-           const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing) const;
-  /// See SplitSearch.
-  const gl::Buffer& work() const { return search_.work(); }
+           const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing);
   std::map<std::string, const gl::Texture*> debugViews() const {
     return {{"search_areas", &search_.areas()}, {"levels", &search_.levels()}};
   }

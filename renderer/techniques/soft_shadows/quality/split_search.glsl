@@ -15,6 +15,9 @@ layout(binding = kSplitHalfSmoothedImage, rg32f) uniform writeonly image2D outHa
 layout(binding = kSplitLevelsImage, r32f) uniform writeonly image2D outLevels;
 #endif
 
+// Of the next list, made empty here so that no copy has to be waited for.
+layout(std430, binding = kNextWorkHeaderBuffer) restrict writeonly buffer NextWorkHeader { WorkListHeader nextWork; };
+
 shared uint processedLanes[2];
 shared uint firstSlot;
 
@@ -62,6 +65,7 @@ bool classify(ivec2 pixel) {
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   const uint lane = gl_LocalInvocationIndex;
+  if (pixel == ivec2(0)) nextWork = WorkListHeader(work.groupsPerRow, 0u, work.groupLayers, 0u);
   if (lane < 2u) processedLanes[lane] = 0u;
   memoryBarrierShared();
   barrier();
@@ -105,13 +109,14 @@ void main() {
   const uint lane = gl_LocalInvocationIndex % LANES, slot = gl_LocalInvocationIndex / LANES;
   ivec2 pixel = ivec2(0);
   const bool listed = listedPixel(pixel);
-  enterLane(slot, lane);
   if (lane == 0u) {
     sharedCutShort[slot] = 0u;
 #ifdef COUNT
     for (int i = 0; i < 4; ++i) sharedCounts[slot][i] = 0u;
 #endif
   }
+  memoryBarrierShared();
+  barrier();
   vec4 receiver = vec4(0.0);
   Area area = Area(ivec2(0), ivec2(0));
   int first = 0, last = -1;
@@ -126,14 +131,12 @@ void main() {
   }
   for (int i = 0; i < LEVELS_PER_PIXEL; ++i) {
     clearGathered();
-    memoryBarrierShared();
-    barrier();
     const bool has = within && first + i <= last;
     if (has) {
 #ifdef KEEP_MASKS
       resumeGathered(pixel);
 #endif
-      hideBehindPlane(receiver);
+      if (lane == 0u) hideBehindPlane(receiver);
       gatherOccluders(receiver, area, first + i);
     }
     if (pixelClass == kCutShort) atomicOr(sharedCutShort[slot], 1u);
@@ -143,13 +146,9 @@ void main() {
       visibility = i == 0 ? found : mix(visibility, found, weight);
     }
 #if LEVELS_PER_PIXEL > 1
-    barrier();  // before the next level clears
+    barrier();  // before what is shared is written again
 #endif
   }
-  const bool cutShort = sharedCutShort[slot] != 0u;
-#ifdef KEEP_MASKS
-  if (listed && !cutShort) keepGathered(pixel);
-#endif
 #ifdef COUNT
   atomicAdd(sharedCounts[slot][0], occluderCount);
   atomicAdd(sharedCounts[slot][1], fetchCount);
@@ -159,6 +158,10 @@ void main() {
   barrier();
 #endif
   if (!listed || lane != 0u) return;
+  const bool cutShort = sharedCutShort[slot] != 0u;
+#ifdef KEEP_MASKS
+  if (!cutShort) keepGathered(pixel);
+#endif
 #ifdef COUNT
   occluderCount = sharedCounts[slot][0];
   fetchCount = imageLoad(outCounts, pixel).z + sharedCounts[slot][1];
