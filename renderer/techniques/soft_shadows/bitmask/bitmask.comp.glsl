@@ -70,6 +70,7 @@ bool coveredBefore(vec4 p, ivec2 pixel) {
   resumeGathered(pixel);
   if (joins == 0) hideBehindPlane(p);
   if (!allCovered()) return false;
+  if (joins == 0) keepGathered(pixel);
   pixelClass = kLit;
   return true;
 }

@@ -37,7 +37,7 @@ using ColourSums = std::variant<ColourMasks, ColourTable, ColourSamples>;
 struct ColouredSettings {
   SearchSettings search = {};
   WholeLevelSettings levels = {};
-  PassSettings passes = {};
+  PassSettings passes = SplitPasses{};
   MaskedOccluders occluders = {};
   ColouredPattern pattern = CellSamples<LightPattern::Jittered16>{};
   MapChoice maps = {};
