@@ -9,12 +9,8 @@ float levelDepth(ivec2 texel, int level) {
   return level == 0 ? texelFetch(minimumMap, texel, 0).x
                     : texelFetch(sampledDepths, sampledPlace(texel, level, resolution), 0).x;
 }
-// Where that depth was found, in texels of level 0: whole numbers below 2^23 as the lowest bits of a number, which is faster
-// than a conversion.
-vec2 depthPlace(ivec2 texel, int level) {
-  precise const vec2 place = uintBitsToFloat(uvec2(sampledTexel(texel, level)) | 0x4b000000u) - 8388607.5;
-  return place;
-}
+// Where that depth was found, in texels of level 0.
+vec2 depthPlace(ivec2 texel, int level) { return vec2(sampledTexel(texel, level)) + 0.5; }
 // Texels of level 0 to either side that it may have been found at instead.
 float depthSpread(int level) { return 0.0; }
 #else

@@ -6,19 +6,6 @@
 //   s = z / (p_z - z) * (p_z t - p_x) / w + e,
 // e being the map's eye in these coordinates, to which p is relative; 1/2 in the light's centre.
 
-//
-// Loops run along rows; along columns where LANES invocations share a pixel, so that those side by side read neighbours and
-// throw them onto the same rows of samples.
-#if LANES > 1
-#define ALONG y
-#define ACROSS x
-const ivec2 kAlong = ivec2(0, 1), kAcross = ivec2(1, 0);
-#else
-#define ALONG x
-#define ACROSS y
-const ivec2 kAlong = ivec2(1, 0), kAcross = ivec2(0, 1);
-#endif
-
 Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 
 // Visibility by the micropatches of a level that lie in the area.
@@ -35,50 +22,45 @@ float gatherOccluders(vec4 p, Area area, int level) {
   // Unit light coordinates of edge e (in texels of the level) thrown by k: k (scale e + shift) + eyeOnLight.
   const vec2 scale = p.z * perTexel / lightSize;
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
-  for (int across = low.ACROSS + firstRow; across <= high.ACROSS; across += rowStep) {
-    const vec2 edgesAcross = scale.ACROSS * vec2(float(across), float(across + 1)) + shift.ACROSS;
-    ivec2 texel;
-    texel.ACROSS = across;
-    texel.ALONG = low.ALONG;
+  for (int y = low.y + firstRow; y <= high.y; y += rowStep) {
+    const vec2 edgesY = scale.y * vec2(float(y), float(y + 1)) + shift.y;
 #if GAP_FILL != GAP_FILL_NONE
-    const float first = texel.ALONG > 0 ? levelDepth(texel - kAlong, level) : kEmptyDepth;
-    bool lastBlocks = blocks(first, texel - kAlong, level, p, depth);
-    float lastScale = projectionScale(first, p.z);
-    float corner = texel.x > 0 && texel.y > 0 ? levelDepth(texel - 1, level) : kEmptyDepth;
+    float left = low.x > 0 ? levelDepth(ivec2(low.x - 1, y), level) : kEmptyDepth;
+    bool leftBlocks = blocks(left, ivec2(low.x - 1, y), level, p, depth);
+    float lowerLeft = low.x > 0 && y > 0 ? levelDepth(ivec2(low.x - 1, y - 1), level) : kEmptyDepth;
 #endif
-    for (float edge = float(low.ALONG); texel.ALONG <= high.ALONG; ++texel.ALONG, edge += 1.0) {
-      const float z = levelDepth(texel, level);
+    for (int x = low.x; x <= high.x; ++x) {
+      const float z = levelDepth(ivec2(x, y), level);
       ++fetchCount;
       ++examinedCount;
 #if GAP_FILL != GAP_FILL_NONE
-      const float beside = across > 0 ? levelDepth(texel - kAcross, level) : kEmptyDepth;
+      const float below = y > 0 ? levelDepth(ivec2(x, y - 1), level) : kEmptyDepth;
       ++fetchCount;
 #endif
-      const bool blocking = blocks(z, texel, level, p, depth);
-      float k = 0.0;
+      const bool blocking = blocks(z, ivec2(x, y), level, p, depth);
       if (blocking) {
-        k = projectionScale(z, p.z);
-        vec2 lowEdge, highEdge;
-        lowEdge.ACROSS = edgesAcross.x;
-        highEdge.ACROSS = edgesAcross.y;
-        lowEdge.ALONG = scale.ALONG * edge + shift.ALONG;
-        highEdge.ALONG = scale.ALONG * (edge + 1.0) + shift.ALONG;
-        vec2 start = k * lowEdge + eyeOnLight;
-        const vec2 end = k * highEdge + eyeOnLight;
+        const vec2 edgesX = scale.x * vec2(float(x), float(x + 1)) + shift.x;
+        const float k = projectionScale(z, p.z);
+        vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
+        const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (lastBlocks) start.ALONG = min(start.ALONG, lastScale * lowEdge.ALONG + eyeOnLight.ALONG);
-        if (blocks(beside, texel - kAcross, level, p, depth))
-          start.ACROSS = min(start.ACROSS, projectionScale(beside, p.z) * lowEdge.ACROSS + eyeOnLight.ACROSS);
+        if (leftBlocks)
+          start.x = min(start.x, projectionScale(left, p.z) * edgesX.x + eyeOnLight.x);
+        if (blocks(below, ivec2(x, y - 1), level, p, depth))
+          start.y = min(start.y, projectionScale(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (blocks(corner, texel - 1, level, p, depth)) start = min(start, projectionScale(corner, p.z) * lowEdge + eyeOnLight);
+        if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) {
+          const float corner = projectionScale(lowerLeft, p.z);
+          start = min(start, corner * vec2(edgesX.x, edgesY.x) + eyeOnLight);
+        }
 #endif
         accumulateOnLight(start, end);
       }
 #if GAP_FILL != GAP_FILL_NONE
-      lastBlocks = blocking;
-      lastScale = k;
-      corner = beside;
+      left = z;
+      leftBlocks = blocking;
+      lowerLeft = below;
 #endif
     }
     if (isSaturated()) return 0.0;

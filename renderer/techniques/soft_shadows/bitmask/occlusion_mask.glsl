@@ -36,24 +36,11 @@ void coverAll() {
 // Bits [low, high), high <= 32; empty if high <= low. A shift by 32 is undefined, which bitfieldInsert avoids.
 uint bitRange(int low, int high) { return bitfieldInsert(0u, 0xffffffffu, low, max(high - low, 0)); }
 
-// A coordinate of 0 to 1 in steps of 1/n, n a power of two, as the nearest whole step and what is left, at most 1/2 to
-// either side: both exact. A sum with 2^23 has the whole number in its lowest bits, which is several times as fast as
-// floor() and conversions.
-struct Steps {
-  ivec2 nearest;
-  vec2 rest;
-};
-Steps stepsOf(vec2 v, float n) {
-  precise const vec2 shifted = v * n + 8388608.0;
-  precise const vec2 nearest = shifted - 8388608.0;
-  precise const vec2 rest = v * n - nearest;
-  return Steps(floatBitsToInt(shifted) - 0x4b000000, rest);
+// Number of samples (i + offset) / n at or below v: floor(n v - offset) + 1, exactly.
+ivec2 samplesUpTo(vec2 v, float n, float offset) {
+  const vec2 scaled = v * n, whole = floor(scaled);
+  return ivec2(whole) + ivec2(greaterThanEqual(scaled - whole, vec2(offset)));
 }
-
-// Number of samples (i + offset) / n at or below a coordinate: floor(n v - offset) + 1, exactly.
-ivec2 samplesUpToQuarter(Steps v) { return v.nearest + ivec2(greaterThanEqual(v.rest, vec2(0.25))); }
-ivec2 samplesUpToHalf(Steps v) { return v.nearest + ivec2(equal(v.rest, vec2(0.5))); }
-ivec2 samplesUpToThreeQuarters(Steps v) { return v.nearest - ivec2(lessThan(v.rest, vec2(-0.25))); }
 
 #if SAMPLE_PLACES == SAMPLE_PLACES_ANYWHERE
 layout(binding = kRectangleMasksUnit) uniform usampler2DArray rectangleMasks;
@@ -71,9 +58,8 @@ void addToMask(vec2 low, vec2 high) {
 #elif SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
 // Sample (i, j) at x = (i + (j even ? 1/4 : 3/4)) / 16, y = (j + (i even ? 3/4 : 1/4)) / 16.
 void addToMask(vec2 low, vec2 high) {
-  const Steps lowSteps = stepsOf(low, 16.0), highSteps = stepsOf(high, 16.0);
-  const ivec2 lowQuarter = samplesUpToQuarter(lowSteps), highQuarter = samplesUpToQuarter(highSteps);
-  const ivec2 lowThird = samplesUpToThreeQuarters(lowSteps), highThird = samplesUpToThreeQuarters(highSteps);
+  const ivec2 lowQuarter = samplesUpTo(low, 16.0, 0.25), highQuarter = samplesUpTo(high, 16.0, 0.25);
+  const ivec2 lowThird = samplesUpTo(low, 16.0, 0.75), highThird = samplesUpTo(high, 16.0, 0.75);
   // Even rows have x offset 1/4, odd rows 3/4: one word holds an even row and the odd row above it.
   const uint columns = bitRange(lowQuarter.x, highQuarter.x) | (bitRange(lowThird.x, highThird.x) << 16);
   // Two bits a row: whether its even columns' samples lie within, then its odd ones'.
@@ -87,8 +73,7 @@ void addToMask(vec2 low, vec2 high) {
 }
 #else
 void addToMask(vec2 low, vec2 high) {
-  const ivec2 first = samplesUpToHalf(stepsOf(low, float(SAMPLES_ALONG))),
-              end = samplesUpToHalf(stepsOf(high, float(SAMPLES_ALONG)));
+  const ivec2 first = samplesUpTo(low, float(SAMPLES_ALONG), 0.5), end = samplesUpTo(high, float(SAMPLES_ALONG), 0.5);
   const uint columns = bitRange(first.x, end.x), rows = bitRange(first.y, end.y);
 #if SAMPLES_ALONG == 32
   for (int j = 0; j < 32; ++j) mask[j] |= columns & (0u - bitfieldExtract(rows, j, 1));
