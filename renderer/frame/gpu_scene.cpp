@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/ray_tracing/ray_scene.h"
 
 namespace limen::frame {
 namespace {
@@ -70,12 +71,23 @@ GpuScene::GpuScene(const scene::Scene& scene)
 GpuScene::~GpuScene() { glDeleteVertexArrays(1, &vertexArray_); }
 
 int64_t GpuScene::bytes() const {
-  return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes() + (surface_ ? surface_->bytes() : 0);
+  return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes() +
+         (surface_ ? surface_->bytes() : 0) + (rays_ ? rays_->bytes() : 0);
 }
 
 const SurfaceBuffers& GpuScene::surface() const {
   if (!surface_) surface_.emplace(scene_, anchor_);
   return *surface_;
+}
+
+const ray_tracing::RayScene& GpuScene::rays(gl::Context& context) const {
+  if (!rays_) {
+    std::vector<glm::vec3> positions;
+    positions.reserve(scene_.mesh.positions.size());
+    for (const glm::dvec3& position : scene_.mesh.positions) positions.emplace_back(position - anchor_);
+    rays_ = std::make_unique<ray_tracing::RayScene>(context, positions, scene_.mesh.triangles);
+  }
+  return *rays_;
 }
 
 void GpuScene::draw(const TriangleRanges* ranges, const gl::Buffer* positions) const {

@@ -2,12 +2,21 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 
 #include "renderer/frame/surface_buffers.h"
 #include "renderer/frame/triangle_ranges.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/scene/scene.h"
+
+namespace limen::ray_tracing {
+class RayScene;
+}
+
+namespace limen::gl {
+class Context;
+}
 
 namespace limen::frame {
 
@@ -37,6 +46,9 @@ class GpuScene {
   const gl::Buffer& positions() const { return positions_; }  ///< three floats per vertex
   /// Made on first use.
   const SurfaceBuffers& surface() const;
+  /// The finest scene's triangles, for tracing rays. Made on first use, then kept. Throws Error if the device
+  /// cannot hold it.
+  const ray_tracing::RayScene& rays(gl::Context& context) const;
 
  private:
   const scene::Scene& scene_;
@@ -45,6 +57,7 @@ class GpuScene {
   uint32_t triangleCount_, vertexCount_, vertexArray_ = 0;
   gl::Buffer positions_, indices_, triangleAlbedo_, firstTriangle_;
   mutable std::optional<SurfaceBuffers> surface_;
+  mutable std::unique_ptr<ray_tracing::RayScene> rays_;
 };
 
 /// What is drawn of a scene: chosen triangles, and where their vertices are.

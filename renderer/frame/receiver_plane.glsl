@@ -6,3 +6,9 @@ vec2 planeGradient(vec3 p, vec3 n) {
   const float along = dot(n, p / p.z);
   return along < 0.0 ? clamp(n.xy / min(along, -1e-6), vec2(-1e6), vec2(1e6)) : vec2(0.0);
 }
+
+// The same for an eye that may lie behind the plane, for tests that know on which side it is.
+vec2 planeGradientFromEitherSide(vec3 p, vec3 n) {
+  const float along = dot(n, p / p.z);
+  return clamp(n.xy / (along < 0.0 ? min(along, -1e-6) : max(along, 1e-6)), vec2(-1e6), vec2(1e6));
+}

@@ -22,9 +22,9 @@ void main() {
     const vec3 p = receiver.xyz - vec3(eye, 0.0);
     // As in g_buffer.comp.glsl: on the plane n.q = n.p depth is n.p / n.(u, v, 1).
     const float along = -dot(n, p / p.z);
-    const float slope = along > 0.0 ? p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6) : 1e6 * p.z;
-    receiver = vec4(p, min(slope, 1e6 * p.z));
-    plane = planeGradient(p, n);
+    const float slope = along > 0.0 ? p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6) : 0.0;
+    receiver = vec4(p, along > 0.0 ? min(slope, 1e6 * p.z) : 2e6 * p.z);
+    plane = planeGradientFromEitherSide(p, n);
   }
   imageStore(outReceivers, pixel, receiver);
   imageStore(outPlanes, pixel, vec4(plane, 0.0, 0.0));

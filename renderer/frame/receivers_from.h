@@ -17,8 +17,8 @@ struct EyeSetting {
 };
 
 /// The receivers as needed by a shadow map from another point of the light. RGBA32F: xyz = position in light
-/// space, relative to that point; w as in Receivers, with the slope as seen from there (1e6 times the depth
-/// if the surface faces away from that point).
+/// space, relative to that point; w as in Receivers, with the slope as seen from there, at most 1e6 times the
+/// depth; 2e6 times the depth if that point is behind the surface.
 class ReceiversFrom : public FrameInput {
  public:
   static constexpr const char* kName = "receivers_from";
@@ -26,7 +26,8 @@ class ReceiversFrom : public FrameInput {
   void make(Frame& frame) override;
   const gl::Texture& texture() const { return texture_; }
   /// RG32F: gradient g of each receiver's own plane, 1 / z = (1 + g . (t - t_p)) / p_z with tangents
-  /// t = (x/z, y/z); see receiver_plane.glsl. 0 where there is no receiver.
+  /// t = (x/z, y/z); see receiver_plane.glsl; from points behind the surface, too. 0 where there is no
+  /// receiver.
   const gl::Texture& planes() const { return planes_; }
 
  private:

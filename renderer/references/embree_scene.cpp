@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/references/embree_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
 namespace limen::references {
 namespace {
 
-/// Hits nearer than this many plane tolerances are tested again in double precision. An origin rounded to
-/// float can turn a miss into a hit as far away as the rounding (less than a tolerance) over the sine of the
-/// angle between ray and surface; 32768 covers angles down to 3e-5, and is still less than a hundredth of the
-/// scene.
-constexpr double kNearTolerances = 32768.0;
+/// Depth along the light's direction shrinks from p_z to 0 in step with t, so this is the margin in z.
+constexpr auto kFarEnd = static_cast<float>(1.0 - kLightMargin);
 
+/// Rays from one receiver. Of ray i, by its id, directions[i] is the exact direction and nearLimits[i] the
+/// distance up to which hits are tested again, in its units.
 struct ShadowQuery {
   RTCIntersectContext context;  // first: Embree hands it back
   const Triangles* triangles = nullptr;
   const ReceiverPoint* from = nullptr;
-  glm::dvec3 direction;
-  double nearLimit = 0.0;  // in units of `direction`
+  std::array<glm::dvec3, EmbreeScene::kPacket> directions;
+  std::array<double, EmbreeScene::kPacket> nearLimits;
+
+  ShadowQuery(const Triangles& of, const ReceiverPoint& point) : triangles(&of), from(&point) {
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+  void set(size_t ray, glm::dvec3 light) {
+    directions[ray] = light - from->position;
+    nearLimits[ray] = kNearTolerances * triangles->planeTolerance() / glm::length(directions[ray]);
+  }
 };
 
 /// Signs of the volumes that the ray spans with each edge: all alike if it passes through the triangle.
@@ -28,21 +38,28 @@ bool crosses(glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
-void filter(const RTCFilterFunctionNArguments* arguments) {
-  const auto& query = *reinterpret_cast<const ShadowQuery*>(arguments->context);
-  const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
-  const uint32_t triangle = reinterpret_cast<const RTCHit*>(arguments->hit)->primID;
+bool counts(const ShadowQuery& query, uint32_t triangle, uint32_t ray, double t) {
   const ReceiverPoint& from = *query.from;
+  if (triangle == from.triangle) return false;
   const glm::dvec3 a = query.triangles->corner(triangle, 0) - from.position;
   const glm::dvec3 b = query.triangles->corner(triangle, 1) - from.position;
   const glm::dvec3 c = query.triangles->corner(triangle, 2) - from.position;
   const glm::dvec3 n = glm::cross(b - a, c - a);
   const double toPlane = glm::dot(n, a), tolerance = query.triangles->planeTolerance();
-  const double advance = glm::dot(n, query.direction);
-  bool counts = triangle != from.triangle && toPlane * toPlane > tolerance * tolerance * glm::dot(n, n);
-  if (counts && double(ray->tfar) < query.nearLimit)
-    counts = toPlane * advance > 0.0 && crosses(query.direction, a, b, c);
-  if (!counts) arguments->valid[0] = 0;
+  if (!(toPlane * toPlane > tolerance * tolerance * glm::dot(n, n))) return false;
+  if (!(t < query.nearLimits[ray])) return true;
+  const glm::dvec3 direction = query.directions[ray];
+  return toPlane * glm::dot(n, direction) > 0.0 && crosses(direction, a, b, c);
+}
+
+void filter(const RTCFilterFunctionNArguments* arguments) {
+  const auto& query = *reinterpret_cast<const ShadowQuery*>(arguments->context);
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i)
+    if (arguments->valid[i] != 0 &&
+        !counts(query, RTCHitN_primID(arguments->hit, n, i), RTCRayN_id(arguments->ray, n, i),
+                RTCRayN_tfar(arguments->ray, n, i)))
+      arguments->valid[i] = 0;
 }
 
 [[noreturn]] void fail(RTCDevice device) {
@@ -84,26 +101,48 @@ EmbreeScene::~EmbreeScene() {
 }
 
 bool EmbreeScene::occluded(const ReceiverPoint& from, glm::dvec3 light) const {
-  ShadowQuery query;
-  rtcInitIntersectContext(&query.context);
-  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  query.triangles = &triangles_;
-  query.from = &from;
-  query.direction = light - from.position;
-  query.nearLimit = kNearTolerances * triangles_.planeTolerance() / glm::length(query.direction);
+  ShadowQuery query(triangles_, from);
+  query.set(0, light);
   RTCRay ray{};
   ray.org_x = static_cast<float>(from.position.x);
   ray.org_y = static_cast<float>(from.position.y);
   ray.org_z = static_cast<float>(from.position.z);
-  ray.dir_x = static_cast<float>(query.direction.x);
-  ray.dir_y = static_cast<float>(query.direction.y);
-  ray.dir_z = static_cast<float>(query.direction.z);
+  ray.dir_x = static_cast<float>(query.directions[0].x);
+  ray.dir_y = static_cast<float>(query.directions[0].y);
+  ray.dir_z = static_cast<float>(query.directions[0].z);
   ray.tnear = 0.0F;
-  // Depth along the light's direction shrinks from p_z to 0 in step with t, so this is the margin in z.
-  ray.tfar = static_cast<float>(1.0 - kLightMargin);
+  ray.tfar = kFarEnd;
   ray.mask = 0xffffffffU;
   rtcOccluded1(scene_, &query.context, &ray);
   return ray.tfar < 0.0F;
+}
+
+uint32_t EmbreeScene::countOccluded(const ReceiverPoint& from, std::span<const glm::dvec3> lights) const {
+  ShadowQuery query(triangles_, from);
+  RTCRay16 rays;
+  alignas(64) std::array<int, kPacket> valid{};
+  if (lights.empty()) return 0;
+  for (size_t i = 0; i < kPacket; ++i) {
+    const size_t of = std::min(i, lights.size() - 1);
+    valid[i] = i < lights.size() ? -1 : 0;
+    query.set(i, lights[of]);
+    rays.org_x[i] = static_cast<float>(from.position.x);
+    rays.org_y[i] = static_cast<float>(from.position.y);
+    rays.org_z[i] = static_cast<float>(from.position.z);
+    rays.dir_x[i] = static_cast<float>(query.directions[i].x);
+    rays.dir_y[i] = static_cast<float>(query.directions[i].y);
+    rays.dir_z[i] = static_cast<float>(query.directions[i].z);
+    rays.tnear[i] = 0.0F;
+    rays.tfar[i] = kFarEnd;
+    rays.time[i] = 0.0F;
+    rays.mask[i] = 0xffffffffU;
+    rays.id[i] = static_cast<unsigned>(i);
+    rays.flags[i] = 0;
+  }
+  rtcOccluded16(valid.data(), scene_, &query.context, &rays);
+  uint32_t occluded = 0;
+  for (size_t i = 0; i < lights.size(); ++i) occluded += rays.tfar[i] < 0.0F;
+  return occluded;
 }
 
 }  // namespace limen::references

@@ -3,6 +3,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <span>
+
 #include "renderer/references/receiver_points.h"
 #include "renderer/references/triangles.h"
 
@@ -28,6 +30,11 @@ class EmbreeScene {
 
   /// True if a triangle lies between the point and `light` (relative to the anchor).
   bool occluded(const ReceiverPoint& from, glm::dvec3 light) const;
+
+  /// Rays that are traced together.
+  static constexpr size_t kPacket = 16;
+  /// How many of `lights`, kPacket at most, are hidden from the point: the same as one by one.
+  uint32_t countOccluded(const ReceiverPoint& from, std::span<const glm::dvec3> lights) const;
 
  private:
   const Triangles& triangles_;

@@ -22,10 +22,15 @@ class LightShapeMap {
   /// Unit light coordinates.
   glm::dvec2 operator()(glm::dvec2 square) const;
 
+  scene::LightShape shape() const { return shape_; }
+  /// Of a polygon: its triangles, and the share of the area up to and including each.
+  const std::vector<Triangle2>& triangles() const { return triangles_; }
+  const std::vector<double>& cumulativeShares() const { return cumulative_; }
+
  private:
   scene::LightShape shape_;
   std::vector<Triangle2> triangles_;
-  std::vector<double> cumulative_;  // share of the area up to and including each triangle
+  std::vector<double> cumulative_;
 };
 
 }  // namespace limen::references

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shadow rays from every surface point to points on each part of a coloured light: what share of the light's
 // radiance the true geometry lets through, channel by channel, known up to sampling.
-#include <atomic>
-#include <cmath>
 #include <optional>
 
 #include "experiments/base/error.h"
 #include "renderer/references/counter_random.h"
-#include "renderer/references/embree_scene.h"
-#include "renderer/references/light_shape.h"
-#include "renderer/references/parallel.h"
 #include "renderer/references/sampling_noise.h"
+#include "renderer/references/shadow_tracer.h"
 #include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
@@ -23,6 +19,7 @@ constexpr const char* kColours = "soft_shadows/ray_traced_colours";
 
 struct ColoursSettings {
   int64_t samples = 256, seed = 1;
+  Tracer tracer = Tracer::Auto;
   static const SettingsTable<ColoursSettings>& table() {
     using S = ColoursSettings;
     static const SettingsTable<S> kTable = {
@@ -31,7 +28,8 @@ struct ColoursSettings {
          {4, 65536},
          "rays",
          "Shadow rays to each part of the light; a square number"},
-        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"},
+        {&S::tracer, "tracer", kTracerSummary}};
     return kTable;
   }
   void check() const { checkSquareNumber(samples); }
@@ -71,14 +69,17 @@ class RayTracedColours : public techniques::Technique {
  public:
   using Settings = ColoursSettings;
   explicit RayTracedColours(const ColoursSettings& settings)
-      : side_(gridSide(settings.samples)), seed_(static_cast<uint64_t>(settings.seed)) {}
+      : side_(gridSide(settings.samples)),
+        seed_(static_cast<uint64_t>(settings.seed)),
+        with_(settings.tracer) {}
 
   void prepare(frame::Frame& frame) override {
     parts_ = partsOf(frame.scene().lights.at(0));
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
-    tracer_.emplace(*triangles_);
+    tracer_ = makeShadowTracer(with_, frame, *triangles_);
     product_.emplace(gl::Format::RGBA32F, frame.sizePx());
     colour_ = Image(frame.sizePx().x, frame.sizePx().y, 4);
+    frame.passes().setBytesHeld("ray_traced_colours/trace", tracer_->bytes());
     frame.passes().setBytesHeld("ray_traced_colours/upload", product_->bytes());
   }
 
@@ -98,49 +99,38 @@ class RayTracedColours : public techniques::Technique {
     return {{"rays_per_receiver", double(side_) * side_ * double(parts_.size())}, {"rays", double(rays_)}};
   }
 
+  std::vector<std::string> remarks() const override { return {tracer_->remark()}; }
+
  private:
   void trace(const frame::Frame& frame, const std::vector<ReceiverPoint>& points) {
     const scene::AreaLight& light = frame.scene().lights.at(0);
-    const glm::dvec3 anchor = frame.gpuScene().anchor();
     glm::dvec3 absent(1.0);
     for (const EmittingPart& part : parts_) absent -= part.share;
-    std::fill(colour_.data.begin(), colour_.data.end(), 1.0F);
-    std::atomic<int64_t> rays = 0;
-    parallelFor(points.size(), [&](size_t, size_t first, size_t last) {
-      int64_t cast = 0;
-      for (size_t i = first; i < last; ++i) {
-        const ReceiverPoint& point = points[i];
-        // A channel in which the light emits nothing is fully visible.
-        glm::dvec3 colour = glm::dvec3(glm::greaterThan(absent, glm::dvec3(0.5)));
-        for (size_t part = 0; part < parts_.size(); ++part) {
-          int seen = 0;
-          for (int sample = 0; sample < side_ * side_; ++sample) {
-            const glm::dvec2 place =
-                (glm::dvec2(sample % side_, sample / side_) +
-                 uniform2(seed_, point.pixel, part << 32U | static_cast<uint64_t>(sample))) /
-                double(side_);
-            const glm::dvec3 to = light.point(parts_[part].map(place)) - anchor;
-            // A surface is opaque: what lies behind its plane is hidden, whether or not the body is closed.
-            if (!(glm::dot(point.normal, to - point.position) > 0.0)) continue;
-            ++cast;
-            seen += !tracer_->occluded(point, to);
-          }
-          colour += parts_[part].share * (double(seen) / (double(side_) * side_));
-        }
-        for (size_t channel = 0; channel < 3; ++channel)
-          colour_.data[4 * point.pixel + channel] = static_cast<float>(colour[int(channel)]);
+    // A channel in which the light emits nothing is fully visible.
+    std::vector<glm::dvec3> colours(points.size(), glm::dvec3(glm::greaterThan(absent, glm::dvec3(0.5))));
+    const int64_t samples = int64_t{side_} * side_;
+    rays_ = 0;
+    for (size_t part = 0; part < parts_.size(); ++part) {
+      const std::vector<ShadowCounts> counts = tracer_->trace(
+          points, {light, parts_[part].map, samples, side_, seed_, part}, frame.gpuScene().anchor());
+      for (size_t i = 0; i < points.size(); ++i) {
+        colours[i] += parts_[part].share * seenShare(counts[i], samples);
+        rays_ += counts[i].rays;
       }
-      rays += cast;
-    });
-    rays_ = rays;
+    }
+    std::fill(colour_.data.begin(), colour_.data.end(), 1.0F);
+    for (size_t i = 0; i < points.size(); ++i)
+      for (size_t channel = 0; channel < 3; ++channel)
+        colour_.data[4 * points[i].pixel + channel] = static_cast<float>(colours[i][int(channel)]);
   }
 
   int side_;
   uint64_t seed_;
+  Tracer with_;
   int64_t rays_ = 0;
   std::vector<EmittingPart> parts_;
   std::optional<Triangles> triangles_;
-  std::optional<EmbreeScene> tracer_;
+  std::unique_ptr<ShadowTracer> tracer_;
   std::optional<gl::Texture> product_;
   Image colour_;
 };
@@ -154,8 +144,8 @@ double colourHalfWidth(const ColoursSettings& settings) { return hoeffdingHalfWi
 
 const techniques::RegisteredTechnique<RayTracedColours> kRegisteredColours{
     {.name = kColours,
-     .version = 1,
-     .summary = "Share of a coloured light's radiance by shadow rays to each of its parts (Embree)",
+     .version = 2,
+     .summary = "Share of a coloured light's radiance by shadow rays to each of its parts",
      .source = "Schwarz 2009, section 3.3",
      .product = techniques::ProductKind::LightColour,
      .needs = {"area_light"},

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shadow rays from every surface point to points on the light: visibility on the true geometry, known up to
 // sampling.
-#include <atomic>
-#include <cmath>
 #include <optional>
 
 #include "experiments/base/error.h"
 #include "renderer/references/counter_random.h"
-#include "renderer/references/embree_scene.h"
-#include "renderer/references/light_shape.h"
-#include "renderer/references/parallel.h"
 #include "renderer/references/sampling_noise.h"
+#include "renderer/references/shadow_tracer.h"
 #include "renderer/references/square_number.h"
 #include "renderer/techniques/technique.h"
 
@@ -31,6 +27,7 @@ struct RayTracedSettings {
   int64_t samples = 1024;
   RayPattern pattern = RayPattern::Stratified;
   int64_t seed = 1;
+  Tracer tracer = Tracer::Auto;
   static const SettingsTable<RayTracedSettings>& table() {
     using S = RayTracedSettings;
     static const SettingsTable<S> kTable = {
@@ -40,7 +37,8 @@ struct RayTracedSettings {
          "rays",
          "Shadow rays per receiver; a square number if stratified"},
         {&S::pattern, "pattern", "Place points in the cells of a square grid over the light, or anywhere"},
-        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"}};
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of the points on the light"},
+        {&S::tracer, "tracer", kTracerSummary}};
     return kTable;
   }
   void check() const {
@@ -54,13 +52,15 @@ class RayTracedLight : public techniques::Technique {
   explicit RayTracedLight(const RayTracedSettings& settings)
       : samples_(settings.samples),
         seed_(static_cast<uint64_t>(settings.seed)),
-        strata_(settings.pattern == RayPattern::Stratified ? gridSide(settings.samples) : 0) {}
+        strata_(settings.pattern == RayPattern::Stratified ? gridSide(settings.samples) : 0),
+        with_(settings.tracer) {}
 
   void prepare(frame::Frame& frame) override {
     triangles_.emplace(frame.scene(), frame.gpuScene().anchor());
-    tracer_.emplace(*triangles_);
+    tracer_ = makeShadowTracer(with_, frame, *triangles_);
     product_.emplace(gl::Format::R32F, frame.sizePx());
     visibility_ = Image(frame.sizePx().x, frame.sizePx().y, 1);
+    frame.passes().setBytesHeld("ray_traced_light/trace", tracer_->bytes());
     frame.passes().setBytesHeld("ray_traced_light/upload", product_->bytes());
   }
 
@@ -80,43 +80,28 @@ class RayTracedLight : public techniques::Technique {
     return {{"rays_per_receiver", double(samples_)}, {"rays", double(rays_)}};
   }
 
+  std::vector<std::string> remarks() const override { return {tracer_->remark()}; }
+
  private:
   void trace(const frame::Frame& frame, const std::vector<ReceiverPoint>& points) {
     const scene::AreaLight& light = frame.scene().lights.at(0);
-    const glm::dvec3 anchor = frame.gpuScene().anchor();
     const LightShapeMap map(light);
+    const std::vector<ShadowCounts> counts =
+        tracer_->trace(points, {light, map, samples_, strata_, seed_}, frame.gpuScene().anchor());
     std::fill(visibility_.data.begin(), visibility_.data.end(), 1.0F);
-    std::atomic<int64_t> rays = 0;
-    parallelFor(points.size(), [&](size_t, size_t first, size_t last) {
-      int64_t cast = 0;
-      for (size_t i = first; i < last; ++i) {
-        const ReceiverPoint& point = points[i];
-        int64_t seen = 0;
-        for (int64_t sample = 0; sample < samples_; ++sample) {
-          const glm::dvec3 to = light.point(map(squarePoint(point.pixel, sample))) - anchor;
-          // A surface is opaque: what lies behind its plane is hidden, whether or not the body is closed.
-          if (!(glm::dot(point.normal, to - point.position) > 0.0)) continue;
-          ++cast;
-          seen += !tracer_->occluded(point, to);
-        }
-        visibility_.data[point.pixel] = static_cast<float>(double(seen) / double(samples_));
-      }
-      rays += cast;
-    });
-    rays_ = rays;
-  }
-
-  glm::dvec2 squarePoint(uint64_t pixel, int64_t sample) const {
-    const glm::dvec2 random = uniform2(seed_, pixel, static_cast<uint64_t>(sample));
-    if (strata_ == 0) return random;
-    return (glm::dvec2(double(sample % strata_), double(sample / strata_)) + random) / double(strata_);
+    rays_ = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      visibility_.data[points[i].pixel] = static_cast<float>(seenShare(counts[i], samples_));
+      rays_ += counts[i].rays;
+    }
   }
 
   int64_t samples_, rays_ = 0;
   uint64_t seed_;
   int strata_;  // 0: random
+  Tracer with_;
   std::optional<Triangles> triangles_;
-  std::optional<EmbreeScene> tracer_;
+  std::unique_ptr<ShadowTracer> tracer_;
   std::optional<gl::Texture> product_;
   Image visibility_;
 };
@@ -130,8 +115,8 @@ double halfWidth(const RayTracedSettings& settings) { return hoeffdingHalfWidth(
 
 const techniques::RegisteredTechnique<RayTracedLight> kRayTracedLightRegistered{
     {.name = "soft_shadows/ray_traced",
-     .version = 1,
-     .summary = "Shadow rays to points on the light against the true triangles (Embree)",
+     .version = 2,
+     .summary = "Shadow rays to points on the light against the true triangles",
      .source = "Schwarz 2009, section 3.3",
      .needs = {"area_light"},
      .reference = true,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard shadow of one point of the light: counts the pixels' lit samples.
 #include "renderer/references/reference_bindings.h"
+#ifdef BIAS_PLANE
+#include "renderer/frame/receiver_plane.glsl"
+#endif
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kSampledLightReceiversUnit) uniform sampler2D receivers;
@@ -30,10 +33,18 @@ void main() {
   bool lit = true;
   const vec2 u = (ray.xy - low) / extent;
   if (all(greaterThanEqual(u, vec2(0.0))) && all(lessThan(u, vec2(1.0)))) {
-    const float depth = texelFetch(depthMap, ivec2(u * float(resolution)), 0).x;
+    const ivec2 texel = ivec2(u * float(resolution));
+    const float depth = texelFetch(depthMap, texel, 0).x;
+    const vec2 perTexel = extent / float(resolution);
     // Change of depth over a texel on each axis, of the plane through p.
-    const float slope = p.z * dot(abs(n.xy), extent / float(resolution)) / along;
+    const float slope = p.z * dot(abs(n.xy), perTexel) / along;
+#ifdef BIAS_PLANE
+    // The plane's depth at the texel's centre is p.z / planeFactor.
+    const float planeFactor = 1.0 + dot(planeGradient(p, n), low + (vec2(texel) + 0.5) * perTexel - ray.xy);
+    lit = depth <= 0.0 || p.z <= near / depth * planeFactor + bias * p.z + slopeBias * slope;
+#else
     lit = depth <= 0.0 || p.z <= near / depth + bias * p.z + slopeBias * slope;
+#endif
   }
   if (lit) imageStore(litCounts, pixel, imageLoad(litCounts, pixel) + uvec4(1));
 }

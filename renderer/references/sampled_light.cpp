@@ -36,11 +36,44 @@ struct JitteredPoints {
   }
 };
 
+constexpr Range kConstants{0.0, 0.1}, kTexels{0.0, 8.0};
+constexpr const char* kConstantText = "Depth bias as a share of the depth";
+
+/// Each texel against the receiver's plane at the texel's centre, in its map's own projection.
+struct MapPlaneBias {
+  static constexpr const char *kKind = "receiver_plane",
+                              *kSummary = "against the receiver's own plane at the texel's centre";
+  double constant = 1e-4, slope = 0.3;
+  static const SettingsTable<MapPlaneBias>& table() {
+    static const SettingsTable<MapPlaneBias> kTable = {
+        {&MapPlaneBias::constant, "constant", kConstants, "", kConstantText},
+        {&MapPlaneBias::slope, "slope", kTexels, "texels",
+         "Further bias by the plane's change over this many texels, for surfaces that bend towards the "
+         "light"}};
+    return kTable;
+  }
+};
+struct MapSlopeBias {
+  static constexpr const char *kKind = "receiver_slope",
+                              *kSummary = "by the change of the receiver's plane over some texels";
+  double constant = 1e-4, slope = 0.6;
+  static const SettingsTable<MapSlopeBias>& table() {
+    static const SettingsTable<MapSlopeBias> kTable = {
+        {&MapSlopeBias::constant, "constant", kConstants, "", kConstantText},
+        Binding(
+            &MapSlopeBias::slope, "slope", kTexels, "texels",
+            "Depth bias as the plane's change over this many texels; a plane needs half a texel, the rest "
+            "allows for the curvature of depth over a texel")
+            .formerly({"slope_bias"})};
+    return kTable;
+  }
+};
+
 struct SampledLightSettings {
   int64_t samples = 1024;
   int resolution = 1024;
   std::variant<GridPoints, JitteredPoints> pattern;
-  double bias = 1e-4, slopeBias = 0.6;
+  std::variant<MapPlaneBias, MapSlopeBias> bias;
   static const SettingsTable<SampledLightSettings>& table() {
     using S = SampledLightSettings;
     static const SettingsTable<S> kTable = {
@@ -52,13 +85,7 @@ struct SampledLightSettings {
          "Schwarz 2009, section 3.3"},
         {&S::resolution, "resolution", {64, 4096}, "texels", "Side of each shadow map"},
         {&S::pattern, "pattern", "Points on the light"},
-        {&S::bias, "bias", {0.0, 0.1}, "", "Depth bias as a share of the depth"},
-        {&S::slopeBias,
-         "slope_bias",
-         {0.0, 8.0},
-         "texels",
-         "Depth bias as the plane's change over this many texels; a plane needs half a texel, the rest "
-         "allows for the curvature of depth over a texel"}};
+        Binding(&S::bias, "bias", "Bias that keeps a surface from shadowing itself").shorthand("constant")};
     return kTable;
   }
   void check() const { checkSquareNumber(samples); }
@@ -76,7 +103,9 @@ class SampledLight : public techniques::Technique {
     for (const glm::dvec2 unit : lightPoints(light))
       frusta_.push_back(casters.fit((unit - 0.5) * light.size, resolution_));
     raster_.emplace(frame.context(), resolution_, frame.raster());
-    accumulate_ = &frame.context().programs().compute("renderer/references/sampled_light.comp.glsl");
+    gl::ShaderDefines defines;
+    if (std::holds_alternative<MapPlaneBias>(settings_.bias)) defines["BIAS_PLANE"] = "1";
+    accumulate_ = &frame.context().programs().compute("renderer/references/sampled_light.comp.glsl", defines);
     resolve_ = &frame.context().programs().compute("renderer/references/sampled_light_resolve.comp.glsl");
     counts_.emplace(gl::Format::R32UI, frame.sizePx());
     product_.emplace(gl::Format::R32F, frame.sizePx());
@@ -94,8 +123,12 @@ class SampledLight : public techniques::Technique {
       accumulate_->set("sizePx", frame.sizePx());
       accumulate_->set("anchorToLight", glm::mat3(frame.scene().lights.at(0).toLightSpace()));
       accumulate_->set("resolution", resolution_);
-      accumulate_->set("bias", static_cast<float>(settings_.bias));
-      accumulate_->set("slopeBias", static_cast<float>(settings_.slopeBias));
+      std::visit(
+          [&](const auto& bias) {
+            accumulate_->set("bias", static_cast<float>(bias.constant));
+            accumulate_->set("slopeBias", static_cast<float>(bias.slope));
+          },
+          settings_.bias);
       for (const frame::LightFrustum& frustum : frusta_) {
         raster_->draw(frame, frame.geometry(), frustum);
         receivers.bindTexture(kSampledLightReceiversUnit);
@@ -171,7 +204,7 @@ double edgeBound(const SampledLightSettings& settings) {
 
 const techniques::RegisteredTechnique<SampledLight> kSampledLightRegistered{
     {.name = kSampledName,
-     .version = 1,
+     .version = 2,
      .summary = "Mean of hard shadow maps from a grid of points on the light",
      .source = "Schwarz 2009, section 3.3",
      .needs = {"area_light"},

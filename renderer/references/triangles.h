@@ -34,4 +34,10 @@ class Triangles {
 /// light's plane up to rounding hides nothing. All references that work on triangles use it.
 inline constexpr double kLightMargin = 1e-6;
 
+/// Hits of shadow rays nearer than this many plane tolerances are tested again in double precision. An origin
+/// rounded to float can turn a miss into a hit as far away as the rounding (less than a tolerance) over the
+/// sine of the angle between ray and surface; 32768 covers angles down to 3e-5, and is still less than a
+/// hundredth of the scene.
+inline constexpr double kNearTolerances = 32768.0;
+
 }  // namespace limen::references

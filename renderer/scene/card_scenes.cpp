@@ -118,9 +118,9 @@ struct RectangleSettings {
   static const SettingsTable<RectangleSettings>& table() {
     using S = RectangleSettings;
     static const SettingsTable<S> kTable = {
-        {&S::height, "height", {0.05, 1.8}, "m", "Height of the rectangle; the light is at 2 m"},
-        {&S::width, "width", {0.01, 2.0}, "m", "Extent along the light's x axis"},
-        {&S::depth, "depth", {0.01, 2.0}, "m", "Extent along the light's y axis"}};
+        {&S::height, "height", {0.05, 1.999}, "m", "Height of the rectangle; the light is at 2 m"},
+        {&S::width, "width", {0.0001, 2.0}, "m", "Extent along the light's x axis"},
+        {&S::depth, "depth", {0.0001, 2.0}, "m", "Extent along the light's y axis"}};
     return kTable;
   }
 };

@@ -7,6 +7,7 @@
 #include "renderer/scene/camera_path_file.h"
 #include "renderer/scene/camera_text.h"
 #include "renderer/scene/light.h"
+#include "renderer/scene/light_picture.h"
 
 namespace limen::scene {
 namespace {
@@ -78,6 +79,19 @@ void RecordedPath::check() const {
   }
 }
 
+const SettingsTable<EmissionPicture>& EmissionPicture::table() {
+  using S = EmissionPicture;
+  static const SettingsTable<S> kTable = {
+      {&S::file, "file", FileIs::Required,
+       "Picture that the light shows to its lit side, in linear radiance; integers are taken as sRGB"},
+      {&S::cells,
+       "cells",
+       {1, 64},
+       "cells",
+       "Cells per side of the light, each with the picture's mean within it"}};
+  return kTable;
+}
+
 const SettingsTable<PlacementSettings>& PlacementSettings::table() {
   using S = PlacementSettings;
   static const SettingsTable<S> kTable = {
@@ -90,6 +104,9 @@ const SettingsTable<PlacementSettings>& PlacementSettings::table() {
        "Multiplies the light's extents",
        "Schwarz 2009, chapters 3 to 5"},
       {&S::lightShape, "light_shape", "Shape of the light within its extents; polygon: a hexagon"},
+      Binding(&S::lightEmission, "light_emission", "What the light emits over its extents",
+              "Schwarz 2009, section 4.2.2")
+          .keyedIfGiven(),
       {&S::camera, "camera", "Camera that looks at the scene"}};
   return kTable;
 }
@@ -136,7 +153,11 @@ void place(Scene& scene, const PlacementSettings& settings, const std::string& w
     const glm::dvec3 shift(settings.offset * scene.bounds().diagonal() / std::sqrt(3.0));
     mapWorld(scene, [&](glm::dvec3 p) { return p + shift; });
   }
+  const auto* picture = std::get_if<EmissionPicture>(&settings.lightEmission);
+  const std::vector<LightPart> pictured =
+      picture ? pictureParts(readRadiance(picture->file.path), picture->cells) : std::vector<LightPart>{};
   for (AreaLight& light : scene.lights) {
+    if (picture) light.parts = pictured;
     light.size *= settings.lightSize;
     if (settings.lightShape != LightShapeChoice::AsBuilt)
       light = withShape(std::move(light), shapeOf(settings.lightShape));

@@ -46,12 +46,27 @@ constexpr EnumNames<LightShapeChoice, 4> enumNames(LightShapeChoice) {
             {LightShapeChoice::Polygon, "polygon"}}}};
 }
 
-/// Settings of every scene: position and scale of its world, size of its light, and camera.
+struct EmissionAsBuilt {
+  static constexpr const char *kKind = "as_built", *kSummary = "the scene's own";
+};
+
+struct EmissionPicture {
+  static constexpr const char *kKind = "picture", *kSummary = "an image file";
+  FilePath file;   ///< see light_picture.h
+  int cells = 16;  ///< per side
+  static const SettingsTable<EmissionPicture>& table();
+};
+
+/// What lights emit over their extents.
+using EmissionChoice = std::variant<EmissionAsBuilt, EmissionPicture>;
+
+/// Settings of every scene: position and scale of its world, its light, and camera.
 struct PlacementSettings {
   double scale = 1.0;      ///< of the whole world, about the origin
   double offset = 0.0;     ///< moves the world by this many of its own diagonals along (1,1,1)/sqrt(3)
   double lightSize = 1.0;  ///< multiplies the light's extents
   LightShapeChoice lightShape = LightShapeChoice::AsBuilt;
+  EmissionChoice lightEmission;
   CameraChoice camera;
   static const SettingsTable<PlacementSettings>& table();
 };
@@ -68,7 +83,7 @@ double timeOf(const CameraChoice& choice);
 void clearCamera(std::map<std::string, ParameterValue>& values);
 void setCamera(std::map<std::string, ParameterValue>& values, const CameraChoice& choice);
 
-/// Applies the settings to a scene as its builder made it. Throws Error, naming `where`.
+/// Applies the settings to a scene as its builder made it. Throws Error, naming `where` or the file.
 void place(Scene& scene, const PlacementSettings& settings, const std::string& where);
 
 }  // namespace limen::scene

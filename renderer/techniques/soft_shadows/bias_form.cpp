@@ -63,6 +63,20 @@ const SettingsTable<StoredBias>& StoredBias::table() {
   return kTable;
 }
 
+const SettingsTable<NormalOffsetBias>& NormalOffsetBias::table() {
+  static const SettingsTable<NormalOffsetBias> kTable = {
+      {&NormalOffsetBias::constant, "constant", kConstants, "", kConstantText, kFormsSource},
+      {&NormalOffsetBias::offset,
+       "offset",
+       {0.0, 16.0},
+       "texel",
+       "Offset of receivers along their normal where light grazes the surface, in texels of the finest level "
+       "at the "
+       "receiver's distance; less by the sine of the angle of incidence",
+       "Holbert 2011 (value not given there)"}};
+  return kTable;
+}
+
 double constantOf(const BiasSettings& settings) {
   return std::visit([](const auto& form) { return form.constant; }, settings);
 }
@@ -71,6 +85,7 @@ gl::ShaderDefines BiasForm::defines() const {
   if (std::holds_alternative<SlopeBias>(settings_)) return {};
   if (std::holds_alternative<PlaneBias>(settings_)) return {{"BIAS_PLANE", "1"}};
   if (std::holds_alternative<StoredBias>(settings_)) return {{"BIAS_STORED", "1"}};
+  if (std::holds_alternative<NormalOffsetBias>(settings_)) return {{"BIAS_NORMAL_OFFSET", "1"}};
   return {{"BIAS_BY_LEVEL", "1"}};
 }
 
@@ -96,6 +111,8 @@ void BiasForm::configure(const gl::Program& program) const {
     program.set("maxSlope", static_cast<float>(plane->maxSlope));
   } else if (const auto* stored = std::get_if<StoredBias>(&settings_)) {
     program.set("storedScale", static_cast<float>(stored->scale));
+  } else if (const auto* moved = std::get_if<NormalOffsetBias>(&settings_)) {
+    program.set("normalOffset", static_cast<float>(moved->offset));
   } else {
     const auto* grown = std::get_if<PerLevelBias>(&settings_);
     program.set("biasGrowth", grown ? static_cast<float>(grown->growth) : 1.0F);

@@ -36,15 +36,35 @@ struct StoredBias {
   static const SettingsTable<StoredBias>& table();
 };
 
-using BiasSettings = std::variant<PlaneBias, SlopeBias, ConstantBias, PerLevelBias, StoredBias>;
+/// Receivers are moved off their surface along its normal, by the sine of the light's angle of incidence
+/// times `offset` texels, before anything is looked up. Source: Holbert 2011, "Saying Goodbye to Shadow Acne"
+/// (GDC).
+struct NormalOffsetBias {
+  static constexpr const char *kKind = "normal_offset",
+                              *kSummary = "receivers moved off their surface along its normal";
+  double constant = 1e-4, offset = 1.0;
+  static const SettingsTable<NormalOffsetBias>& table();
+};
+
+using BiasSettings =
+    std::variant<PlaneBias, SlopeBias, ConstantBias, PerLevelBias, StoredBias, NormalOffsetBias>;
+/// Forms for techniques that only read the map itself, no level of its pyramid.
+using TexelBiasSettings = std::variant<PlaneBias, SlopeBias, ConstantBias, StoredBias, NormalOffsetBias>;
+/// Forms that need nothing stored beside depths.
+using ReceiverBiasSettings = std::variant<PlaneBias, SlopeBias, ConstantBias, NormalOffsetBias>;
+
+template <class... A>
+BiasSettings anyBias(const std::variant<A...>& form) {
+  return std::visit([](const auto& chosen) -> BiasSettings { return chosen; }, form);
+}
 
 /// Share of the receiver's distance that is part of every form of bias.
 double constantOf(const BiasSettings& settings);
 
 /// By how much an occluder must be nearer to the light than a receiver to count, beyond a constant share of
-/// the receiver's distance: by the receiver's plane, by its slope, by nothing, by a factor per level, or by
-/// what each texel stores. Only the test is biased; backprojection uses the unbiased depth. Source: Schwarz
-/// 2009, section 4.5.4.
+/// the receiver's distance: by the receiver's plane, by its slope, by nothing, by a factor per level, by
+/// what each texel stores, or from a receiver that has been moved. Only the test is biased; backprojection
+/// uses the unbiased depth. Source: Schwarz 2009, section 4.5.4.
 class BiasForm {
  public:
   explicit BiasForm(const BiasSettings& settings) : settings_(settings) {}

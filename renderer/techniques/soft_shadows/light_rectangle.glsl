@@ -4,6 +4,19 @@
 // Gathers what a rectangle of the light hides: the including shader's.
 void accumulate(vec2 low, vec2 high);
 
+#if GAP_FILL == GAP_FILL_LIMITED
+uniform float widestGap;  // that is filled, of the light's width
+#endif
+
+// Lower bound of a rectangle that begins at `start` and is stretched to `to`, where the neighbour before it ends.
+float stretchedTo(float start, float to) {
+#if GAP_FILL == GAP_FILL_LIMITED
+  return start - to <= widestGap ? min(start, to) : start;
+#else
+  return min(start, to);
+#endif
+}
+
 // Gathers the part of an occluder's rectangle that lies on the light.
 void accumulateOnLight(vec2 start, vec2 end) {
   ++occluderCount;

@@ -13,6 +13,17 @@ void MapSource::prepare(const scene::Scene& scene) {
   chooseAll();
 }
 
+gl::ShaderDefines MapSource::defines() const {
+  const auto* points = std::get_if<LightPointMaps>(&choice_);
+  if (!points) return {};
+  gl::ShaderDefines defines = {{"EYE_OFF_CENTRE", "1"}};
+  if (points->gaps == PointGaps::Open && maps_.size() > 1) {
+    defines["GAPS_OPEN"] = "1";
+    defines["GAP_FILL"] = "GAP_FILL_NONE";
+  }
+  return defines;
+}
+
 void MapSource::choose(double timeS) {
   const size_t due = mapsAtRest();
   const bool rests = wasRead_ && due < isDue_.size() && readForS_ == timeS;

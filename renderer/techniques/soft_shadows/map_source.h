@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "renderer/gl/program.h"
 #include "renderer/techniques/soft_shadows/bitmask/light_maps.h"
 #include "renderer/techniques/soft_shadows/map_settings.h"
 
@@ -17,6 +18,8 @@ class MapSource {
   void prepare(const scene::Scene& scene);
   /// At least one; valid from prepare() on.
   const std::vector<frame::ShadowMapSettings>& maps() const { return maps_; }
+  /// For the shader of the search; valid from prepare() on.
+  gl::ShaderDefines defines() const;
   /// Each map has its own masks, which are reused while its object does not change.
   bool perObject() const { return std::holds_alternative<ObjectMaps>(choice_); }
 

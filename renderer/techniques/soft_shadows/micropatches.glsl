@@ -45,9 +45,9 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
         if (leftBlocks)
-          start.x = min(start.x, projectionScale(left, p.z) * edgesX.x + eyeOnLight.x);
+          start.x = stretchedTo(start.x, projectionScale(left, p.z) * edgesX.x + eyeOnLight.x);
         if (blocks(below, ivec2(x, y - 1), level, p, depth))
-          start.y = min(start.y, projectionScale(below, p.z) * edgesY.x + eyeOnLight.y);
+          start.y = stretchedTo(start.y, projectionScale(below, p.z) * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
         if (blocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) {

@@ -35,6 +35,26 @@ ivec4 rectBounds(ivec2 at, int level) {
   return ivec4(reference - extent.xy, reference + extent.zw + 1);
 }
 
+#ifdef BIAS_STORED
+// Bias of a microrect: those of the level's texels that it reaches into, folded as those of a level are (bias_map.h). A texel's
+// surface spans [depth - height, depth + bias]; where that meets what the microrect stands for already, it stands for all of it.
+float rectBias(float z, ivec2 at, int level) {
+  const ivec4 bounds = rectBounds(at, level);
+  const ivec2 first = bounds.xy >> level, last = (bounds.zw - 1) >> level;
+  float found = 0.0;
+  // A second time, since one texel may bring another within reach.
+  for (int i = 0; i < 2; ++i)
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
+        const float depth = texelFetch(minimumMap, ivec2(x, y), level).x;
+        const vec2 spread = texelFetch(texelBiases, ivec2(x, y), level).xy;
+        fetchCount += 2u;
+        if (depth - spread.y <= z + found + bias * z) found = max(found, depth + spread.x - z);
+      }
+  return found;
+}
+#endif
+
 // Whether depth z of a microrect blocks the receiver; it was found anywhere within the microrect.
 bool rectBlocks(float z, ivec2 at, int level, vec4 p, float depth) {
 #ifdef BIAS_PLANE
@@ -42,6 +62,8 @@ bool rectBlocks(float z, ivec2 at, int level, vec4 p, float depth) {
   const vec4 bounds = vec4(rectBounds(at, level));
   const vec2 spread = 0.5 * (bounds.zw - bounds.xy - 1.0);
   return beforePlane(z, 0.5 * (bounds.xy + bounds.zw), p, p.z * (1.0 - planeMargin(slopeBias + max(spread.x, spread.y))));
+#elif defined(BIAS_STORED)
+  return z < depth && z + storedScale * rectBias(z, at, level) < depth;
 #else
   return z < depth;
 #endif
@@ -77,9 +99,9 @@ float gatherOccluders(vec4 p, Area area, int level) {
         const vec2 end = k * highEdge + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
         if (rectBlocks(left, ivec2(x - 1, y), level, p, depth))
-          start.x = min(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
+          start.x = stretchedTo(start.x, projectionScale(left, p.z) * lowEdge.x + eyeOnLight.x);
         if (rectBlocks(below, ivec2(x, y - 1), level, p, depth))
-          start.y = min(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
+          start.y = stretchedTo(start.y, projectionScale(below, p.z) * lowEdge.y + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
         if (rectBlocks(lowerLeft, ivec2(x - 1, y - 1), level, p, depth)) start = min(start, projectionScale(lowerLeft, p.z) * lowEdge + eyeOnLight);

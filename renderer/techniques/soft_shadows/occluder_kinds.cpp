@@ -9,6 +9,17 @@ constexpr const char *kGapText = "Neighbours to which a rectangle is stretched t
 
 }  // namespace
 
+const SettingsTable<LimitedFill>& LimitedFill::table() {
+  static const SettingsTable<LimitedFill> kTable = {
+      {&LimitedFill::width,
+       "width",
+       {0.0, 4.0},
+       "light",
+       "Gaps up to this share of the light's width are filled, wider ones stay open",
+       "own form"}};
+  return kTable;
+}
+
 const SettingsTable<Micropatches>& Micropatches::table() {
   static const SettingsTable<Micropatches> kTable = {
       coarseDepthsBinding<Micropatches>(),

@@ -30,10 +30,38 @@ constexpr EnumNames<OccluderKind, 6> enumNames(OccluderKind) {
 }
 
 /// Neighbours to which a rectangle is stretched to close gaps.
-enum class GapFill { None, LeftBottom, Diagonal };
-constexpr EnumNames<GapFill, 3> enumNames(GapFill) {
-  return {{{{GapFill::None, "none"}, {GapFill::LeftBottom, "left_bottom"}, {GapFill::Diagonal, "diagonal"}}}};
+enum class GapFill { None, LeftBottom, Diagonal, Limited };
+constexpr EnumNames<GapFill, 4> enumNames(GapFill) {
+  return {{{{GapFill::None, "none"},
+            {GapFill::LeftBottom, "left_bottom"},
+            {GapFill::Diagonal, "diagonal"},
+            {GapFill::Limited, "limited"}}}};
 }
+struct NoFill {
+  static constexpr GapFill kFill = GapFill::None;
+  static constexpr const char *kKind = limen::toText(kFill), *kSummary = "gaps stay open";
+};
+struct LeftBottomFill {
+  static constexpr GapFill kFill = GapFill::LeftBottom;
+  static constexpr const char *kKind = limen::toText(kFill),
+                              *kSummary = "stretched to the left and the lower neighbour";
+};
+struct DiagonalFill {
+  static constexpr GapFill kFill = GapFill::Diagonal;
+  static constexpr const char *kKind = limen::toText(kFill), *kSummary = "to the lower left one as well";
+};
+/// Gaps between surfaces that belong together are narrow; of wider ones, light that passes between two
+/// surfaces is as likely as leaks. On the scenes of reference_results every limit errs and leaks more than
+/// none.
+struct LimitedFill {
+  static constexpr GapFill kFill = GapFill::Limited;
+  static constexpr const char *kKind = limen::toText(kFill),
+                              *kSummary =
+                                  "stretched to the left and the lower neighbour over narrow gaps only";
+  double width = 0.25;  ///< of the light's
+  static const SettingsTable<LimitedFill>& table();
+};
+using GapFillSettings = std::variant<LeftBottomFill, NoFill, DiagonalFill, LimitedFill>;
 
 /// The depth that a texel of a coarse level stands for.
 enum class CoarseDepths {
@@ -63,13 +91,13 @@ Binding<S> coarseDepthsBinding() {
 struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
   static constexpr const char* kSummary = "texels as rectangles at one depth";
   CoarseDepths depths = CoarseDepths::Sampled;
-  GapFill gapFill = GapFill::LeftBottom;
+  GapFillSettings gapFill;
   static const SettingsTable<Micropatches>& table();
 };
 
 struct Microrects : OccluderAlternative<OccluderKind::Microrects> {
   static constexpr const char* kSummary = "rectangles of texels, of their own extents, at one depth";
-  GapFill gapFill = GapFill::LeftBottom;
+  GapFillSettings gapFill;
   frame::MergeMetric mergeMetric = frame::MergeMetric::Absolute;
   frame::DiagonalMerge diagonalMerge = frame::DiagonalMerge::Contained;
   static const SettingsTable<Microrects>& table();
@@ -80,6 +108,7 @@ struct OccluderChoice {
   OccluderKind kind = OccluderKind::Micropatches;
   CoarseDepths depths = CoarseDepths::Nearest;
   GapFill gapFill = GapFill::LeftBottom;
+  double gapWidth = 0.0;                  ///< that is filled, if limited, as a share of the light's width
   frame::MergeRule merge = {};            ///< of microrects
   std::optional<double> morphLevel = {};  ///< of morphing microquads
 
@@ -94,7 +123,13 @@ template <class Alternative>
 OccluderChoice occluderChoice(const Alternative& chosen) {
   OccluderChoice choice{.kind = Alternative::kOccluders};
   if constexpr (requires { chosen.depths; }) choice.depths = chosen.depths;
-  if constexpr (requires { chosen.gapFill; }) choice.gapFill = chosen.gapFill;
+  if constexpr (requires { chosen.gapFill; })
+    std::visit(
+        [&](const auto& fill) {
+          choice.gapFill = fill.kFill;
+          if constexpr (requires { fill.width; }) choice.gapWidth = fill.width;
+        },
+        chosen.gapFill);
   if constexpr (requires { chosen.mergeMetric; }) choice.merge = {chosen.mergeMetric, chosen.diagonalMerge};
   if constexpr (requires { chosen.morphLevel; }) choice.morphLevel = chosen.morphLevel;
   return choice;

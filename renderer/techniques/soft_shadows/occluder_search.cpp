@@ -65,6 +65,7 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("levels", pyramidLevels_);
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
+  program.set("widestGap", static_cast<float>(occluders_.gapWidth));
   program.set("roughQueries", roughQueries(structure_));
   program.set("baseLevel", baseLevel_);
   program.set("budgetPerAxis",

@@ -88,6 +88,7 @@ Area queriedArea(Area area) {
 // its own texels would then count too, but only where all others hide the light as well.
 float leastDepthOf(vec4 p) {
 #ifdef BIAS_PLANE
+  if (eyeIsBehind) return 0.0;  // what blocks is beyond the plane
   return p.z * (1.0 - planeMargin(slopeBias + 2.0));
 #else
   return biasedDepth(p, 0);
@@ -113,8 +114,9 @@ bool findArea(vec4 p, out Area area, out float visibility) {
     const vec2 range = depthRange(queriedArea(area), rough);
     fetchCount = 1u + boundFetches;
     if (range.x >= biasedDepth(p, 0)) return false;
-    // All texels block: neighbouring texels are taken as one surface. Biases of their own may lie below any such range.
-#ifndef BIAS_STORED
+    // All texels block: neighbouring texels are taken as one surface, unless other maps see between them (GAPS_OPEN). Biases of
+    // their own may lie below any such range.
+#if !defined(BIAS_STORED) && !defined(GAPS_OPEN)
     if (range.y < leastDepthOf(p) && !reachesOutside) {
       pixelClass = kUmbra;
       visibility = 0.0;

@@ -37,8 +37,8 @@ float blockerDepth(vec4 receiver, vec2 centre, vec2 size) {
   int blockers = 0;
   for (int j = 0; j < searchTaps; ++j)
     for (int i = 0; i < searchTaps; ++i) {
-      const float z = tapDepth(centre, size, i, j, searchTaps);
-      if (z < depth) {
+      float z;
+      if (tapBlocks(tapPlace(centre, size, i, j, searchTaps), receiver, depth, z)) {
         sum += z;
         ++blockers;
       }

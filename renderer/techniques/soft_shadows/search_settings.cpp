@@ -58,13 +58,10 @@ void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, 
 }
 
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {
-  const bool ofTexels = occluders.kind == OccluderKind::Micropatches ||
-                        occluders.kind == OccluderKind::Microquads ||
-                        occluders.kind == OccluderKind::MicroquadsMicrotris;
-  if (std::holds_alternative<StoredBias>(search.bias) && !ofTexels)
+  if (std::holds_alternative<StoredBias>(search.bias) && occluders.kind == OccluderKind::MorphingMicroquads)
     throw Error(std::string("a stored bias belongs to a texel of a level, and ") +
-                    limen::toText(occluders.kind) + " are made of others or of several",
-                "bias", "choose another form, or occluders: micropatches or microquads");
+                    limen::toText(occluders.kind) + " lie between two levels",
+                "bias", "choose another form, or other occluders");
   if (std::holds_alternative<StoredBias>(search.bias) && occluders.depths == CoarseDepths::Sampled)
     throw Error("a stored bias belongs to the nearest depth of a texel, and 'depths' is sampled", "bias",
                 std::string("choose another form, or occluders: {kind: ") + limen::toText(occluders.kind) +

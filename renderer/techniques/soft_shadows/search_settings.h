@@ -22,7 +22,7 @@ struct SearchSettings {
 
 /// Throws Error if a requested level is not in the map, or if levels are chosen in more than one way.
 void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels);
-/// Throws Error if occluders have no single texel whose stored bias would apply.
+/// Throws Error if occluders are not made of texels whose stored bias would apply.
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders);
 
 }  // namespace limen::techniques

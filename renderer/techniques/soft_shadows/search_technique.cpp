@@ -34,6 +34,7 @@ SearchTechnique::SearchTechnique(Parts parts)
 
 void SearchTechnique::prepare(frame::Frame& frame) {
   maps_.prepare(frame.scene());
+  pass_.define(maps_.defines());
   pass_.define(gathering_->prepare(frame, maps_));
   pass_.prepare(frame);
   if (budgets_) budgets_->prepare(frame);

@@ -36,9 +36,31 @@ vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * floa
 // through whatever lies near.
 float boundedSlope(vec4 receiver) { return min(receiver.w, maxSlope * receiver.z); }
 
-#ifdef BIAS_PLANE
+#if defined(BIAS_PLANE) || defined(BIAS_NORMAL_OFFSET)
 layout(binding = kReceiverPlanesUnit) uniform sampler2D receiverPlanes;
+#endif
+#ifdef BIAS_PLANE
 vec2 receiverPlane = vec2(0.0);  // of this pixel, see receiver_plane.glsl
+// EYE_OFF_CENTRE: the map's eye may lie behind the receiver's plane. What lies before the plane as seen from the light is
+// beyond it then, as seen from the eye.
+#ifdef EYE_OFF_CENTRE
+bool eyeIsBehind = false;
+#else
+const bool eyeIsBehind = false;
+#endif
+#endif
+
+#ifdef BIAS_NORMAL_OFFSET
+uniform float normalOffset;  // texels of level 0
+// The receiver off its surface. With g = n.xy / (n . p / p_z), as in receiver_plane.glsl, n is (g, 1 - g . p.xy / p_z) up to a
+// negative factor.
+vec4 movedOff(vec4 receiver, vec2 plane) {
+  const vec3 ray = vec3(receiver.xy / receiver.z, 1.0);
+  const vec3 n = -normalize(vec3(plane, 1.0 - dot(plane, ray.xy)));
+  const float cosine = dot(n, normalize(ray)), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+  const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * receiver.z;
+  return vec4(receiver.xyz + min(normalOffset * texel * sine, 0.5 * receiver.z) * n, receiver.w);
+}
 #endif
 
 // The receiver of a pixel; w < 0: none.
@@ -46,13 +68,21 @@ vec4 loadReceiver(ivec2 pixel) {
 #ifdef BIAS_PLANE
   receiverPlane = texelFetch(receiverPlanes, pixel, 0).xy;
 #endif
-  return texelFetch(receivers, pixel, 0);
+  const vec4 receiver = texelFetch(receivers, pixel, 0);
+#if defined(BIAS_PLANE) && defined(EYE_OFF_CENTRE)
+  eyeIsBehind = receiver.w > 1.5e6 * receiver.z;
+#endif
+#ifdef BIAS_NORMAL_OFFSET
+  return receiver.w < 0.0 ? receiver : movedOff(receiver, texelFetch(receiverPlanes, pixel, 0).xy);
+#else
+  return receiver;
+#endif
 }
 
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
 // change of the receiver's own plane over `slopeBias` texels (the slope sums both axes). BIAS_BY_LEVEL: a constant that grows
 // with the level by a factor, instead. BIAS_STORED: texels bring what they need beyond the constant (blocks()). BIAS_PLANE:
-// a blocker must lie before the receiver's own plane besides (beforePlane()).
+// a blocker must lie before the receiver's own plane besides (beforePlane()). BIAS_NORMAL_OFFSET: the receiver has been moved.
 #ifdef BIAS_BY_LEVEL
 uniform float biasGrowth;
 #endif
@@ -61,7 +91,7 @@ float biasedDepth(vec4 receiver, int level) {
   float share = bias;
   for (int i = 0; i < level; ++i) share *= biasGrowth;
   return receiver.z - share * receiver.z;
-#elif defined(BIAS_STORED) || defined(BIAS_PLANE)
+#elif defined(BIAS_STORED) || defined(BIAS_PLANE) || defined(BIAS_NORMAL_OFFSET)
   return receiver.z - bias * receiver.z;
 #else
   const float texel = max(tangentSize.x, tangentSize.y) / float(resolution) * float(1 << level);
@@ -80,13 +110,15 @@ float planeMargin(float texels) {
 // Whether depth z at a place of the map, in texels of level 0, lies before the receiver's plane. `limit` = p_z (1 - margin).
 bool beforePlane(float z, vec2 place, vec4 receiver, float limit) {
   const vec2 away = tangentLow + place * (tangentSize / float(resolution)) - receiver.xy / receiver.z;
-  return z * (1.0 + dot(receiverPlane, away)) < limit;
+  const float scaled = z * (1.0 + dot(receiverPlane, away));
+  return eyeIsBehind ? scaled > 2.0 * receiver.z - limit : scaled < limit;
 }
 
 // Whether some of the light's rectangle is behind the receiver's plane.
 bool planeCutsLight(vec4 receiver) {
   const vec2 perUnit = receiverPlane * lightSize;
-  return dot(perUnit, 0.5 - eyeOnLight) + 0.5 * (abs(perUnit.x) + abs(perUnit.y)) > receiver.z;
+  const float middle = dot(perUnit, 0.5 - eyeOnLight), reach = 0.5 * (abs(perUnit.x) + abs(perUnit.y));
+  return eyeIsBehind ? middle - reach < receiver.z : middle + reach > receiver.z;
 }
 #endif
 

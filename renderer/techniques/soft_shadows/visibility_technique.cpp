@@ -5,11 +5,13 @@
 
 namespace limen::techniques {
 
-VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader,
+VisibilityTechnique::VisibilityTechnique(const MapSettings& map, const BiasSettings& bias, std::string shader,
                                          std::string pass, gl::ShaderDefines defines)
     : map_{map.resolution, map.raster},
       bias_(bias),
-      pass_(std::move(shader), std::move(pass), std::move(defines)) {}
+      pass_(std::move(shader), std::move(pass), std::move(defines)) {
+  pass_.define(bias_.defines());
+}
 
 void VisibilityTechnique::prepare(frame::Frame& frame) {
   pass_.prepare(frame);
@@ -31,13 +33,15 @@ const frame::LightFrustum& VisibilityTechnique::bindPyramid(frame::Frame& frame)
 
 const frame::LightFrustum& VisibilityTechnique::bindInputs(frame::Frame& frame,
                                                            const frame::ShadowMapSettings&) {
-  return bindMap(frame);
+  // Made before anything is bound: making binds textures too.
+  bias_.make(frame, map_);
+  const frame::LightFrustum& frustum = bindMap(frame);
+  bias_.bind();
+  return frustum;
 }
 
 void VisibilityTechnique::setUniforms(const gl::Program& program) const {
-  program.set("bias", static_cast<float>(bias_.constant));
-  program.set("slopeBias", static_cast<float>(bias_.slope));
-  program.set("maxSlope", static_cast<float>(bias_.maxSlope));
+  bias_.configure(program);
   configure(program);
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "renderer/techniques/soft_shadows/bias_form.h"
 #include "renderer/techniques/soft_shadows/map_settings.h"
 #include "renderer/techniques/soft_shadows/visibility_pass.h"
 
@@ -24,7 +25,7 @@ class VisibilityTechnique : public Technique, public CountsPixels, private PassI
 
  protected:
   /// `shader` is a path from the repository root, `pass` the name in the pass list.
-  VisibilityTechnique(const MapSettings& map, const SlopeBias& bias, std::string shader, std::string pass,
+  VisibilityTechnique(const MapSettings& map, const BiasSettings& bias, std::string shader, std::string pass,
                       gl::ShaderDefines defines = {});
 
   /// Sets the technique's own uniforms.
@@ -46,7 +47,7 @@ class VisibilityTechnique : public Technique, public CountsPixels, private PassI
   void run(frame::Frame& frame, const CountImages* counts);
 
   frame::ShadowMapSettings map_;
-  SlopeBias bias_;
+  BiasForm bias_;
   VisibilityPass pass_;
   int pyramidLevels_ = 0;
   PixelCounts counted_;

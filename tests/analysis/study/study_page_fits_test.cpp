@@ -10,11 +10,9 @@
 #include <map>
 #include <sstream>
 
-#include "analysis/output/text_output.h"
-#include "analysis/study_page/study_page.h"
 #include "tests/analysis/statistics/expect.h"
 #include "tests/analysis/study/hand_made.h"
-#include "tests/analysis/synthetic_store.h"
+#include "tests/analysis/study/study_page_fixture.h"
 
 namespace limen::analysis {
 namespace {
@@ -29,18 +27,7 @@ const char* const kSizeProtocol =
     "task: {type: yes_no}\nfactors:\n  size: [4, 6, 40]\n"
     "simulation: {variable: size, sigmoid: logistic}\n";
 
-class StudyPageFitsTest : public testing::Test {
- protected:
-  std::string store() const { return folder_.path("s.sqlite"); }
-  std::string file(const std::string& name) const { return readFileBytes(folder_.path("out/" + name)); }
-  std::string writePage() const {
-    StudyPageOptions options;
-    options.choice.store = store();
-    options.folder = folder_.path("out");
-    return readFileBytes(writeStudyPages(options).at(0).page);
-  }
-  TemporaryFolder folder_;
-};
+class StudyPageFitsTest : public StudyPages {};
 
 /// Rows of a CSV without quotes in it, under the names of their columns.
 std::vector<std::map<std::string, std::string>> csvRows(const std::string& text) {

@@ -98,10 +98,8 @@ void StudyPageTest::addPredictions() {
 }
 
 StudyPageOptions StudyPageTest::options() const {
-  StudyPageOptions out;
+  StudyPageOptions out = pageOptions();
   out.choice.codes = true;
-  out.choice.store = store();
-  out.folder = folder_.path("out");
   return out;
 }
 

@@ -26,17 +26,31 @@ struct AnswerRow {
   int outcome = 0;
 };
 
+/// A store of a study, and the pages made of it.
+class StudyPages : public testing::Test {
+ protected:
+  std::string store() const { return folder_.path("s.sqlite"); }
+  std::string file(const std::string& name) const { return readFileBytes(folder_.path("out/" + name)); }
+  StudyPageOptions pageOptions() const {
+    StudyPageOptions options;
+    options.choice.store = store();
+    options.folder = folder_.path("out");
+    return options;
+  }
+  std::string writePage() const { return readFileBytes(writeStudyPages(pageOptions()).at(0).page); }
+
+  TemporaryFolder folder_;
+};
+
 /// Four observers and one who guesses, in a study whose texts are hostile; what its page must say is worked
 /// out from the store's rows.
-class StudyPageTest : public testing::Test {
+class StudyPageTest : public StudyPages {
  protected:
   void addSession(size_t observer, const std::string& code, bool guesses = false,
                   const nlohmann::json& frontEnd = nlohmann::json::object());
   void addStudy(const nlohmann::json& frontEnd = nlohmann::json::object());
   void addPredictions();
 
-  std::string store() const { return folder_.path("s.sqlite"); }
-  std::string file(const std::string& name) const { return readFileBytes(folder_.path("out/" + name)); }
   StudyPageOptions options() const;
   /// Writes the pages and gives the first.
   std::string write();
@@ -55,7 +69,6 @@ class StudyPageTest : public testing::Test {
     return out;
   }
 
-  TemporaryFolder folder_;
   std::vector<StudyPageResult> results_;
   const std::vector<std::string> codes_ = {"a<b>&\"c", "p02", "p03", "p04"};
 };

@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/output/text_output.h"
-#include "analysis/study_page/study_page.h"
 #include "tests/analysis/study/hand_made.h"
-#include "tests/analysis/synthetic_store.h"
+#include "tests/analysis/study/study_page_fixture.h"
 
 namespace limen::analysis {
 namespace {
@@ -14,18 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class StudyPageThresholdsTest : public testing::Test {
- protected:
-  std::string store() const { return folder_.path("s.sqlite"); }
-  std::string file(const std::string& name) const { return readFileBytes(folder_.path("out/" + name)); }
-  std::string writePage() const {
-    StudyPageOptions options;
-    options.choice.store = store();
-    options.folder = folder_.path("out");
-    return readFileBytes(writeStudyPages(options).at(0).page);
-  }
-  TemporaryFolder folder_;
-};
+class StudyPageThresholdsTest : public StudyPages {};
 
 const char* const kGapProtocol =
     "question: \"How wide?\"\n"

@@ -45,15 +45,6 @@ class ShaderReload : public ViewerTest {
     text << std::ifstream(path).rdbuf();
     return text.str();
   }
-  /// Frames until the condition holds, or a minute has passed.
-  bool until(const std::function<bool()>& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!holds() && std::chrono::steady_clock::now() < end) {
-      if (viewer_->takeResults()) draw();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return holds();
-  }
   std::optional<std::string> rootBefore_;
 
   std::string hash() const { return viewer_->state().shown->rendered.at(0).productHash; }
@@ -70,7 +61,7 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   const std::string text = read(file);
   ASSERT_THAT(text, HasSubstr("float visibilityOf"));
   std::ofstream(file) << text << "\nthis is no GLSL\n";
-  ASSERT_TRUE(until([&] { return !viewer_->state().shaderFailure.empty(); }));
+  ASSERT_TRUE(drawUntil([&] { return !viewer_->state().shaderFailure.empty(); }));
   EXPECT_THAT(viewer_->state().shaderFailure, HasSubstr("hard.comp.glsl:"));
   EXPECT_EQ(hash(), own);
   ViewSetup setup = viewer_->state().setup;
@@ -90,7 +81,7 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   ASSERT_NE(turned.find(answer), std::string::npos);
   turned.replace(turned.find(answer), answer.size(), "? 1.0 : 0.0");
   std::ofstream(file) << turned;
-  ASSERT_TRUE(until([&] { return hash() != own; }));
+  ASSERT_TRUE(drawUntil([&] { return hash() != own; }));
   EXPECT_EQ(viewer_->state().shaderFailure, "");
   rest();
   const Image& is = *viewer_->state().shown->rendered.at(0).product;
@@ -102,7 +93,7 @@ TEST_F(ShaderReload, AChangeIsShownAndAMistakeIsSaidWhileTheOldProgramRunsOn) {
   }
   EXPECT_GT(changed, 100);
   std::ofstream(file) << text;
-  ASSERT_TRUE(until([&] { return hash() == own; }));
+  ASSERT_TRUE(drawUntil([&] { return hash() == own; }));
 }
 
 }  // namespace

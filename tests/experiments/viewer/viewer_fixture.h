@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "experiments/base/error.h"
 #include "experiments/viewer/screenshot.h"
@@ -19,8 +22,11 @@ namespace limen::viewer {
 /// A viewer on a surface in memory, with functions that move its mouse and press its keys.
 class ViewerTest : public testing::Test {
  protected:
-  ViewerTest()
-      : folder_(std::filesystem::temp_directory_path() / ("limen_viewer_" + std::to_string(getpid()))) {
+  ViewerTest() {
+    // Each test has a folder of its own: a process never writes over what it has read.
+    static int made = 0;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("limen_viewer_" + std::to_string(getpid()) + "_" + std::to_string(++made));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -54,6 +60,19 @@ class ViewerTest : public testing::Test {
   void draw() {
     ui_->draw({0, 0, 0}, [&] { viewer_->build(1.0 / 60.0); });
     ui_->finish();
+  }
+
+  /// Frames until the condition holds; false if it does not within a minute.
+  bool drawUntil(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < end) {
+      if (holds()) return true;
+      viewer_->takeResults();
+      draw();
+      // A window waits for the display between frames; without that a software renderer is kept busy by them.
+      std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    }
+    return false;
   }
 
   glm::vec2 centreOf(const std::string& control) {

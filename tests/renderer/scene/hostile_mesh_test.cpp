@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <chrono>
 #include <cstring>
 #include <random>
 
@@ -40,15 +39,13 @@ std::string triangleBuffer(float last = 1.0F) {
 
 class HostileMesh : public testing::Test {
  protected:
-  /// The error's message; it names the file and comes soon.
+  /// The error's message; it names the file. That it comes at all is what the test's own time limit is for.
   std::string refusal(const std::string& path, const ImportLimits& limits = {}) const {
-    const auto begin = std::chrono::steady_clock::now();
     try {
       importMesh(path, limits);
     } catch (const Error& error) {
       EXPECT_EQ(error.where(), path);
       EXPECT_FALSE(error.hint().empty());
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
       return error.what();
     }
     ADD_FAILURE() << path << " was imported";

@@ -44,8 +44,10 @@ struct Twin {
         glm::dvec2 low(project(x, z, 0), project(y, z, 1));
         const glm::dvec2 high(project(x + 1, z, 0), project(y + 1, z, 1));
         const double left = depthAt(x - 1, y), below = depthAt(x, y - 1), corner = depthAt(x - 1, y - 1);
-        if (fill != "none" && left < limit) low.x = std::min(low.x, project(x, left, 0));
-        if (fill != "none" && below < limit) low.y = std::min(low.y, project(y, below, 1));
+        const double widest = fill == "none" ? 0.0 : fill == "limited" ? 0.25 : 1e9;  // of the light
+        const glm::dvec2 start = low;
+        if (left < limit && start.x - project(x, left, 0) <= widest) low.x = std::min(low.x, project(x, left, 0));
+        if (below < limit && start.y - project(y, below, 1) <= widest) low.y = std::min(low.y, project(y, below, 1));
         if (fill == "diagonal" && x > 0 && y > 0 && corner < limit)
           low = glm::min(low, glm::dvec2(project(x, corner, 0), project(y, corner, 1)));
         const glm::dvec2 a = glm::clamp(low, 0.0, 1.0), b = glm::clamp(high, 0.0, 1.0);
@@ -146,7 +148,7 @@ TEST_P(AgainstTwin, AreaIsTheSumOfTheMicropatchesAreas) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(GapFill, AgainstTwin, testing::Values("none", "left_bottom", "diagonal"),
+INSTANTIATE_TEST_SUITE_P(GapFill, AgainstTwin, testing::Values("none", "left_bottom", "diagonal", "limited"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

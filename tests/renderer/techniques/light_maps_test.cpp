@@ -221,5 +221,49 @@ TEST_F(LightMapsTest, CountsMapsAndMasks) {
   EXPECT_EQ(result.counter("mask_bytes"), 16.0 * 12.0 * 256.0 / 8.0);
 }
 
+/// A plane so tilted that it cuts the light: of the corners of the light some lie before it and see it from
+/// its front, the others from its back, where nothing that their maps hold comes between it and the light
+/// before it. Rays know the share before the plane without any map.
+TEST_F(LightMapsTest, APlaneThatPointsSeeFromBehindHidesNoLightBeforeIt) {
+  scene::Scene scene = makeScene("resting_sphere", {{"tilt", 80.0}, {"light_size", 24.0}});
+  scene.parts.resize(1);
+  scene.mesh.triangles.resize(scene.parts[0].triangleCount);
+  const Image truth =
+      render(scene, "soft_shadows/ray_traced", {{"samples", int64_t{1024}}}, {32, 24}).product;
+  int cut = 0;
+  for (const float value : truth.data) cut += value > 0.02F && value < 0.98F;
+  ASSERT_GT(cut, 20);
+  for (const int64_t points : {2, 4, 5, 9}) {
+    const Image product =
+        render(scene, kBitmask, {{"maps", std::string("light_points")}, {"maps.points", points}}, {32, 24})
+            .product;
+    // A line through 16 x 16 samples leaves fewer than 16 undecided; the rays are 32 x 32.
+    for (size_t i = 0; i < truth.pixels(); ++i)
+      ASSERT_NEAR(product.data[i], truth.data[i], 0.06) << points << " points, " << i;
+  }
+}
+
+/// Each map closes gaps between surfaces that lie one behind the other as it sees them, though light passes
+/// between them; the masks add up what all maps have closed, which is far more than one would. Left open,
+/// what is hidden in one map's gaps is seen by the others. In the thesis's form, with the nearest depths of
+/// coarse texels, nearly all of the error is such gaps.
+TEST_F(LightMapsTest, MapsOfPointsSeeIntoGapsThatOneMapFills) {
+  constexpr glm::ivec2 kSize{48, 36};
+  for (const char* name : {"columns_hall", "foliage"}) {
+    const scene::Scene scene = makeScene(name);
+    Rendered truth = render(scene, "soft_shadows/ray_traced", {{"samples", int64_t{256}}}, kSize);
+    const auto error = [&](const char* gaps, bool thesis) {
+      Given given = {{"maps", std::string("light_points")},
+                     {"maps.points", int64_t{4}},
+                     {"maps.gaps", std::string(gaps)}};
+      if (thesis) given = inThesisForm(given);
+      return errorsOf(render(scene, kBitmask, given, kSize).product, truth).rmse;
+    };
+    for (const bool thesis : {false, true})
+      EXPECT_LT(error("open", thesis), (thesis ? 0.6 : 0.85) * error("filled", thesis))
+          << name << (thesis ? ", thesis's form" : "");
+  }
+}
+
 }  // namespace
 }  // namespace limen::techniques

@@ -48,7 +48,7 @@ TEST_F(OccluderKinds, ConflictsAreRefused) {
     Given given;
     const char* where;
   };
-  const std::string quads = "microquads", rects = "microrects", stored = "stored", fixed = "fixed",
+  const std::string quads = "microquads", stored = "stored", fixed = "fixed",
                     morphing = "morphing_microquads";
   const std::vector<Case> cases = {
       {"soft_shadows/bitmask",
@@ -62,7 +62,6 @@ TEST_F(OccluderKinds, ConflictsAreRefused) {
       {"soft_shadows/bitmask",
        {{"levels", fixed}, {"levels.level", int64_t{2}}, {"budget.limit", int64_t{25}}},
        "budget"},
-      {"soft_shadows/bitmask", {{"occluders", rects}, {"bias", stored}}, "bias"},
       {"soft_shadows/bitmask", {{"bias", stored}}, "bias"},
       {"soft_shadows/backprojection",
        {{"occluders", morphing}, {"occluders.level", 6.5}, {"resolution", int64_t{64}}},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/renderer/techniques/plane_share_twin.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -13,16 +14,25 @@ class PeeledTest : public TechniqueTest {
  protected:
   static constexpr int kSide = 64;
 
+  /// `gradient`: of the receiver's plane; null: a bias by the slope.
   static double twin(const std::vector<Image>& layers, const frame::LightFrustum& frustum,
-                     glm::dvec2 lightSize, glm::dvec3 p, double slope) {
+                     glm::dvec2 lightSize, glm::dvec3 p, double slope, const glm::dvec2* gradient) {
     const glm::dvec2 texel = (frustum.high - frustum.low) / double(kSide);
-    const double limit = p.z * (1.0 - 1e-4) - 2.0 * std::min(slope, 10.0 * p.z) * std::max(texel.x, texel.y);
+    const double limit = p.z * (1.0 - 1e-4) -
+                         (gradient ? 0.0 : 2.0 * std::min(slope, 10.0 * p.z) * std::max(texel.x, texel.y));
+    const auto blocks = [&](double z, int x, int y) {
+      if (!(z < limit)) return false;
+      if (!gradient) return true;
+      const glm::dvec2 away = frustum.low + (glm::dvec2(x, y) + 0.5) * texel - glm::dvec2(p) / p.z;
+      const double margin = std::min(glm::dot(glm::abs(*gradient), texel), 10.0 * std::max(texel.x, texel.y));
+      return z < p.z / (1.0 + glm::dot(*gradient, away)) * (1.0 - 1e-4 - 0.5 * margin);
+    };
     double area = 0.0;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
         double z = -1.0;
         for (const Image& layer : layers)
-          if (layer.at(x, y) < limit) z = std::max(z, double(layer.at(x, y)));
+          if (blocks(layer.at(x, y), x, y)) z = std::max(z, double(layer.at(x, y)));
         if (z < 0.0) continue;
         const auto covered = [&](int index, int axis) {
           const auto toLight = [&](double u) {
@@ -33,19 +43,32 @@ class PeeledTest : public TechniqueTest {
         };
         area += covered(x, 0) * covered(y, 1);
       }
-    return 1.0 - std::min(area, 1.0);
+    return (gradient ? shareBeforePlane(*gradient, lightSize, p.z) : 1.0) * (1.0 - std::min(area, 1.0));
   }
 };
 
 TEST_F(PeeledTest, TakesTheFarthestLayerBeforeTheReceiver) {
-  for (const auto& [name, layerCount] :
-       std::vector<std::pair<std::string, int>>{{"two_boxes", 1}, {"two_boxes", 3}, {"sphere_grid", 4}}) {
-    const scene::Scene scene = makeScene(name);
+  struct Case {
+    std::string name;
+    int layerCount;
+    bool plane;
+  };
+  for (const auto& [name, layerCount, plane] : std::vector<Case>{{"two_boxes", 1, false},
+                                                                 {"two_boxes", 3, false},
+                                                                 {"sphere_grid", 4, false},
+                                                                 {"two_boxes", 3, true},
+                                                                 {"sphere_grid", 4, true},
+                                                                 {"resting_sphere", 2, true}}) {
+    // The light of the tilted plane is cut by it.
+    const scene::Scene scene =
+        name == "resting_sphere" ? makeScene(name, {{"tilt", 70.0}, {"light_size", 12.0}}) : makeScene(name);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {40, 30});
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/peeled");
-    const auto made = info.make(
-        ParameterValues(info.parameters, {{"resolution", int64_t{kSide}}, {"layers", int64_t{layerCount}}}));
+    Given given = {{"resolution", int64_t{kSide}}, {"layers", int64_t{layerCount}}};
+    given["bias"] = std::string(plane ? "receiver_plane" : "receiver_slope");
+    if (!plane) given["bias.slope"] = 2.0;
+    const auto made = info.make(ParameterValues(info.parameters, given));
     made->prepare(frame);
     frame.begin();
     made->render(frame);
@@ -59,7 +82,8 @@ TEST_F(PeeledTest, TakesTheFarthestLayerBeforeTheReceiver) {
       layers.push_back(map.texture().read());
       frustum = map.frustum();
     }
-    const Image receivers = frame.get<frame::Receivers>().texture().read();
+    const Image receivers = frame.get<frame::Receivers>().texture().read(),
+                planes = frame.get<frame::Receivers>().planes().read();
     frame.end();
     const Image product = made->product().read();
     int compared = 0, differing = 0, partly = 0;
@@ -67,7 +91,9 @@ TEST_F(PeeledTest, TakesTheFarthestLayerBeforeTheReceiver) {
       for (int x = 0; x < product.width; ++x) {
         if (receivers.at(x, y, 3) < 0.0F) continue;
         const glm::dvec3 p(receivers.at(x, y, 0), receivers.at(x, y, 1), receivers.at(x, y, 2));
-        const double expected = twin(layers, frustum, scene.lights[0].size, p, receivers.at(x, y, 3));
+        const glm::dvec2 gradient(planes.at(x, y, 0), planes.at(x, y, 1));
+        const double expected = twin(layers, frustum, scene.lights[0].size, p, receivers.at(x, y, 3),
+                                     plane ? &gradient : nullptr);
         ++compared;
         partly += expected > 0.0 && expected < 1.0;
         // Light-space positions carry the rounding of the G-buffer; near contact it is magnified.

@@ -16,12 +16,7 @@ float brightnessAt(const Image& image, int x, int y) { return image.at(x, y, 1);
 TEST_F(SessionAtWindow, APointerThatHappensToRestOnAnAnswerSuggestsAndAnswersNothing) {
   const test::XServer server(640, 480);
   test::StudyRun run(server.display(), arguments({"--screenshots", path("shots")}), path("messages"));
-  ASSERT_TRUE(run.reaches("consent"));
-  run.key("y");
-  ASSERT_TRUE(run.reaches("instructions"));
-  run.key("space");
-  ASSERT_TRUE(run.reaches("practice_start"));
-  run.key("space");
+  ASSERT_TRUE(startsPractice(run));
   ASSERT_TRUE(run.reaches("stimulus"));
   run.act({"mousemove", "420", "270"});  // where "no" will be
   ASSERT_TRUE(run.reaches("question"));
@@ -76,12 +71,7 @@ TEST_F(SessionAtWindow, AnswersStandOnTheSidesThatTheProtocolDeclares) {
 TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
   const test::XServer server(640, 480);
   test::StudyRun run(server.display(), arguments(), path("messages"));
-  ASSERT_TRUE(run.reaches("consent"));
-  run.key("y");
-  ASSERT_TRUE(run.reaches("instructions"));
-  run.key("space");
-  ASSERT_TRUE(run.reaches("practice_start"));
-  run.key("space");
+  ASSERT_TRUE(startsPractice(run));
   ASSERT_TRUE(run.reaches("stimulus"));
   run.key("y");
   ASSERT_TRUE(run.reaches("question"));
@@ -100,12 +90,7 @@ TEST_F(SessionAtWindow, KeysBeforeTheQuestionAreLoggedAndAnswerNothing) {
 TEST_F(SessionAtWindow, WhatIsTypedEarlyIsNotStored) {
   const test::XServer server(640, 480);
   test::StudyRun run(server.display(), arguments(), path("messages"));
-  ASSERT_TRUE(run.reaches("consent"));
-  run.key("y");
-  ASSERT_TRUE(run.reaches("instructions"));
-  run.key("space");
-  ASSERT_TRUE(run.reaches("practice_start"));
-  run.key("space");
+  ASSERT_TRUE(startsPractice(run));
   ASSERT_TRUE(run.reaches("stimulus"));
   for (const char* key : {"s", "m", "1", "t", "h"}) run.key(key);
   ASSERT_TRUE(run.reaches("question"));

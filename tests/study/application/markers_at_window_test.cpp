@@ -66,13 +66,7 @@ TEST_F(SessionAtWindow, ARecorderThatIsUnpluggedStopsTheSession) {
   test::PseudoTerminal recorder;
   test::StudyRun run(server.display(), arguments({"--markers", "serial:" + recorder.device()}),
                      path("messages"));
-  ASSERT_TRUE(run.reaches("consent"));
-  recorder.hangUp();
-  run.key("y");
-  ASSERT_TRUE(run.reaches("instructions"));
-  run.key("space");
-  ASSERT_TRUE(run.reaches("practice_start"));
-  run.key("space");
+  ASSERT_TRUE(startsPractice(run, [&] { recorder.hangUp(); }));
   EXPECT_EQ(run.finish(), 1);
   EXPECT_THAT(run.rest(), testing::AllOf(HasSubstr(recorder.device()), HasSubstr("--resume")));
   EXPECT_EQ(column("SELECT state FROM session"), std::vector<std::string>{"paused"});

@@ -67,6 +67,23 @@ class SessionAtWindow : public testing::Test {
     return values;
   }
 
+  /// From the consent to the first trial of the practice; `consented` is called before the answer. False if
+  /// another screen comes.
+  template <class Consented>
+  static bool startsPractice(test::StudyRun& run, Consented consented) {
+    if (!run.reaches("consent")) return false;
+    consented();
+    run.key("y");
+    if (!run.reaches("instructions")) return false;
+    run.key("space");
+    if (!run.reaches("practice_start")) return false;
+    run.key("space");
+    return true;
+  }
+  static bool startsPractice(test::StudyRun& run) {
+    return startsPractice(run, [] {});
+  }
+
   /// Leads a session to its end: keys for the questions in turn, space for everything else. Gives the answers
   /// that were meant.
   std::vector<std::string> answerAll(test::StudyRun& run, size_t from = 0) {

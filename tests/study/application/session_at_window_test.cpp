@@ -59,12 +59,7 @@ TEST_F(SessionAtWindow, PausedInTheMiddleAndTakenUpAgain) {
   std::vector<std::string> meant;
   {
     test::StudyRun run(server.display(), arguments(), path("messages"));
-    ASSERT_TRUE(run.reaches("consent"));
-    run.key("y");
-    ASSERT_TRUE(run.reaches("instructions"));
-    run.key("space");
-    ASSERT_TRUE(run.reaches("practice_start"));
-    run.key("space");
+    ASSERT_TRUE(startsPractice(run));
     ASSERT_TRUE(run.reaches("question"));
     run.key("y");
     ASSERT_TRUE(run.reaches("question"));
@@ -159,12 +154,7 @@ TEST_F(SessionAtWindow, DisplayTakenAwayLosesNothing) {
   test::XServer server(640, 480);
   {
     test::StudyRun run(server.display(), arguments(), path("messages"));
-    ASSERT_TRUE(run.reaches("consent"));
-    run.key("y");
-    ASSERT_TRUE(run.reaches("instructions"));
-    run.key("space");
-    ASSERT_TRUE(run.reaches("practice_start"));
-    run.key("space");
+    ASSERT_TRUE(startsPractice(run));
     ASSERT_TRUE(run.reaches("question"));
     run.key("y");
     ASSERT_TRUE(run.reaches("stimulus"));

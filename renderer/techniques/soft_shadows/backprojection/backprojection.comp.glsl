@@ -8,27 +8,8 @@ float frontShare = 1.0;  // of the light, that is before the receiver's plane
 
 void clearGathered() { occludedArea = 0.0; }
 
-#ifdef BIAS_PLANE
-// Share of the unit square with a . s < limit: the integral over y of a clamped line, in closed form.
-float shareBefore(vec2 a, float limit) {
-  // Mirrored so that both components are positive.
-  if (a.x < 0.0) a.x = -a.x, limit += a.x;
-  if (a.y < 0.0) a.y = -a.y, limit += a.y;
-  const float low = min(a.x, a.y), high = max(a.x, a.y);
-  if (limit <= 0.0) return 0.0;
-  if (limit >= low + high) return 1.0;
-  if (limit < low) return 0.5 * limit * limit / (low * high);
-  if (limit > high) return 1.0 - 0.5 * (low + high - limit) * (low + high - limit) / (low * high);
-  return (limit - 0.5 * low) / high;
-}
-void hideBehindPlane(vec4 p) {
-  if (!planeCutsLight(p)) return;
-  const vec2 perUnit = receiverPlane * lightSize;
-  frontShare = shareBefore(perUnit, p.z + dot(perUnit, eyeOnLight));
-}
-#else
-void hideBehindPlane(vec4 p) {}
-#endif
+#include "renderer/techniques/soft_shadows/plane_share.glsl"
+void hideBehindPlane(vec4 p) { frontShare = shareBeforePlane(p); }
 void accumulate(vec2 low, vec2 high) { occludedArea += (high.x - low.x) * (high.y - low.y); }
 
 // Clamped in an order that turns a NaN into a bound.

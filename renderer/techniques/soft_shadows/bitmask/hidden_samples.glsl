@@ -19,7 +19,7 @@ uint rowBehind(vec2 perUnit, float limit, float y, float offsetX) {
   const float rest = limit - perUnit.y * y;
   if (perUnit.x == 0.0) return rest <= 0.0 ? bitRange(0, kSamplesAlong) : 0u;
   const float at = clamp(rest / perUnit.x * float(kSamplesAlong) - offsetX, -1.0, float(kSamplesAlong));
-  return perUnit.x > 0.0 ? bitRange(int(ceil(at)), kSamplesAlong) : bitRange(0, int(floor(at)) + 1);
+  return perUnit.x > 0.0 ? bitRange(max(int(ceil(at)), 0), kSamplesAlong) : bitRange(0, int(floor(at)) + 1);
 }
 
 void hideSamplesBehind(vec2 perUnit, float limit) {
@@ -35,11 +35,12 @@ void hideSamplesBehind(vec2 perUnit, float limit) {
   }
 }
 #endif
-// A point (s - eye) lightSize of the light is behind the plane if g . point >= p_z.
+// A point (s - eye) lightSize of the light is behind the plane if g . point >= p_z; before it, if the eye is behind.
 void hideBehindPlane(vec4 p) {
   if (!planeCutsLight(p)) return;
-  const vec2 perUnit = receiverPlane * lightSize;
-  hideSamplesBehind(perUnit, p.z + dot(perUnit, eyeOnLight));
+  const float side = eyeIsBehind ? -1.0 : 1.0;
+  const vec2 perUnit = side * receiverPlane * lightSize;
+  hideSamplesBehind(perUnit, side * p.z + dot(perUnit, eyeOnLight));
 }
 #else
 void hideBehindPlane(vec4 p) {}

@@ -90,7 +90,12 @@ const SettingsTable<LightPointMaps>& LightPointMaps::table() {
           .formerly({"light_points"}),
       Binding(&LightPointMaps::spread, "spread", Range{0.0, 1.0}, "",
               "Position of these corners between the light's centre and its actual corners")
-          .formerly({"point_spread"})};
+          .formerly({"point_spread"}),
+      {&LightPointMaps::gaps, "gaps",
+       "Gaps between two surfaces as a map sees them, and areas that occluders fill: open to what the other "
+       "maps see in "
+       "them, or filled by each map as occluders have it for a single one",
+       "Schwarz 2009, section 4.2.2 (filled)"}};
   return kTable;
 }
 

@@ -19,10 +19,20 @@ struct PeeledMaps {
   double bias = 1e-5, laterExtent = 1.0;
   static const SettingsTable<PeeledMaps>& table();
 };
+/// What is done about gaps that a map cannot see into: parts of the light between two surfaces one behind the
+/// other, as seen from the map's point.
+enum class PointGaps {
+  Open,   ///< left to the other maps, which see into most of them
+  Filled  ///< by each map, as if it were the only one; the masks of all add up what each took for hidden
+};
+constexpr EnumNames<PointGaps, 2> enumNames(PointGaps) {
+  return {{{{PointGaps::Open, "open"}, {PointGaps::Filled, "filled"}}}};
+}
 struct LightPointMaps {
   static constexpr const char *kKind = "light_points", *kSummary = "maps from several points of the light";
   int points = 5;
   double spread = 1.0;
+  PointGaps gaps = PointGaps::Open;
   static const SettingsTable<LightPointMaps>& table();
 };
 /// Each object has its own map and masks, which are reused while the object does not change.

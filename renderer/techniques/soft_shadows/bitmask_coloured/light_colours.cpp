@@ -33,28 +33,41 @@ double areaWithin(Polygon polygon, glm::dvec2 low, glm::dvec2 high) {
   return polygon.size() < 3 ? 0.0 : scene::signedArea(polygon);
 }
 
+/// Box around a polygon.
+struct Bounds2 {
+  glm::dvec2 low{1e300}, high{-1e300};
+  explicit Bounds2(const Polygon& polygon) {
+    for (const glm::dvec2 vertex : polygon) low = glm::min(low, vertex), high = glm::max(high, vertex);
+  }
+};
+
 /// Share of a sample's cell, or of the sample itself, that lies in a part.
-double shareIn(const scene::LightPart& part, glm::dvec2 sample, int cells) {
+double shareIn(const scene::LightPart& part, const Bounds2& bounds, glm::dvec2 sample, int cells) {
   if (part.outline.empty()) return 1.0;
   if (cells == 0) {
     // A sample on the edge between two parts belongs to the one to its right or above.
     const glm::dvec2 inside = sample + glm::dvec2(0x1p-30, 0x1p-31);
     return scene::polygonContains(part.outline, inside) ? 1.0 : 0.0;
   }
-  const glm::dvec2 low = glm::floor(sample * double(cells)) / double(cells);
-  return areaWithin(part.outline, low, low + 1.0 / cells) * cells * cells;
+  const glm::dvec2 low = glm::floor(sample * double(cells)) / double(cells), high = low + 1.0 / cells;
+  return bounds.low.x >= high.x || bounds.low.y >= high.y || bounds.high.x <= low.x || bounds.high.y <= low.y
+             ? 0.0
+             : areaWithin(part.outline, low, high) * cells * cells;
 }
 
 }  // namespace
 
 std::vector<glm::dvec3> emissionShares(const scene::AreaLight& light, const std::vector<glm::dvec2>& samples,
                                        int cells) {
+  std::vector<Bounds2> bounds;
+  for (const scene::LightPart& part : light.parts) bounds.emplace_back(part.outline);
   std::vector<glm::dvec3> emitted(samples.size(), glm::dvec3(0.0));
   glm::dvec3 sum(0.0);
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!light.contains(samples[i])) continue;
-    for (const scene::LightPart& part : light.parts)
-      emitted[i] += glm::dvec3(part.radiance) * shareIn(part, samples[i], cells);
+    for (size_t part = 0; part < light.parts.size(); ++part)
+      emitted[i] += glm::dvec3(light.parts[part].radiance) *
+                    shareIn(light.parts[part], bounds[part], samples[i], cells);
     sum += emitted[i];
   }
   for (glm::dvec3& share : emitted)

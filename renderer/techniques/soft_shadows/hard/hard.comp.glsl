@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
+#include "renderer/techniques/soft_shadows/texel_test.glsl"
 
 layout(binding = kShadowMapUnit) uniform sampler2D shadowMap;
 
@@ -10,5 +11,5 @@ float visibilityOf(vec4 receiver, ivec2 pixel) {
   if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(float(resolution)))))) return 1.0;
   pixelClass = kProcessed;
   fetchCount = 1u;
-  return texelFetch(shadowMap, ivec2(at), 0).x < biasedDepth(receiver, 0) ? 0.0 : 1.0;
+  return texelBlocks(texelFetch(shadowMap, ivec2(at), 0).x, ivec2(at), receiver, biasedDepth(receiver, 0)) ? 0.0 : 1.0;
 }

@@ -8,7 +8,7 @@ namespace {
 
 struct HardSettings {
   MapSettings map;
-  SlopeBias bias;
+  TexelBiasSettings bias = PlaneBias{};
   static const SettingsTable<HardSettings>& table() {
     static const SettingsTable<HardSettings> kTable = {
         included(&HardSettings::map),
@@ -22,7 +22,7 @@ class HardShadow : public VisibilityTechnique {
  public:
   using Settings = HardSettings;
   explicit HardShadow(const HardSettings& settings)
-      : VisibilityTechnique(settings.map, settings.bias,
+      : VisibilityTechnique(settings.map, anyBias(settings.bias),
                             "renderer/techniques/soft_shadows/hard/hard.comp.glsl", "soft_shadows/hard") {}
 
  protected:
@@ -31,7 +31,7 @@ class HardShadow : public VisibilityTechnique {
 
 const RegisteredTechnique<HardShadow> kHardRegistered{
     {.name = "soft_shadows/hard",
-     .version = 1,
+     .version = 2,
      .summary = "Hard shadow map: one comparison with the depth seen from the light's centre",
      .source = "Schwarz 2009, section 3.3 (SS-01)",
      .product = ProductKind::Visibility,

@@ -2,8 +2,11 @@
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 #ifdef BITMASK
 #include "renderer/techniques/soft_shadows/bitmask/occlusion_mask.glsl"
+#include "renderer/techniques/soft_shadows/bitmask/mask_rows.glsl"
+#include "renderer/techniques/soft_shadows/bitmask/hidden_samples.glsl"
 #else
-float hiddenArea = 0.0;
+#include "renderer/techniques/soft_shadows/plane_share.glsl"
+float hiddenArea = 0.0, frontShare = 1.0;
 #endif
 
 layout(binding = kMinimumMapUnit) uniform sampler2D minimumMap;  // level 0: the linear shadow map
@@ -30,6 +33,16 @@ bool isSaturated() {
 #endif
 }
 
+#ifdef BIAS_PLANE
+// Least and largest of 1 + g . (t - t_p) over the centres of a tile's texels: depth times this is what the receiver's plane
+// compares with.
+vec2 planeFactors(vec2 low, vec2 high, vec2 perTexel, vec2 centre) {
+  const float middle = 1.0 + dot(receiverPlane, 0.5 * (low + high) - centre);
+  const float reach = 0.5 * dot(abs(receiverPlane), high - low - perTexel);
+  return vec2(middle - reach, middle + reach);
+}
+#endif
+
 // Tile [low, high) in tangents at depth z, backprojected as in micropatches.glsl.
 void addTile(vec2 low, vec2 high, float z, vec4 p) {
   const float projectionScaleOfTile = z / (p.z - z) * p.z;
@@ -47,9 +60,24 @@ void addTile(vec2 low, vec2 high, float z, vec4 p) {
 #endif
 }
 
+float gathered() {
+#ifdef BITMASK
+  return 1.0 - float(samplesCovered()) / float(SAMPLES);
+#else
+  // As in backprojection: areas cannot tell whether an occluder and the plane hide the same part.
+  return frontShare * (1.0 - min(hiddenArea, 1.0));
+#endif
+}
+
 float visibilityOf(vec4 p, ivec2 pixel) {
 #ifdef BITMASK
   clearMask();
+  hideBehindPlane(p);
+#else
+  frontShare = shareBeforePlane(p);
+#endif
+#ifdef BIAS_PLANE
+  const float limit = p.z * (1.0 - planeMargin(slopeBias));
 #endif
   const int root = levels - 1;
   const float depth = biasedDepth(p, finestLevel);
@@ -72,16 +100,33 @@ float visibilityOf(vec4 p, ivec2 pixel) {
       const vec2 low = tangentLow + vec2(tile << level) * perTexel, high = tangentLow + vec2((tile + 1) << level) * perTexel;
       const vec2 reach = halfLight * (1.0 / nearest - 1.0 / p.z);
       const bool meets = all(lessThan(low, centre + reach)) && all(greaterThan(high, centre - reach));
+#ifdef BIAS_PLANE
+      const vec2 factors = planeFactors(low, high, perTexel, centre);
+      const bool mayBlock = nearest * factors.x < limit;
+#else
+      const bool mayBlock = true;
+#endif
       if (meets) {
         pixelClass = kProcessed;
-        if (level <= finestLevel) {
+        if (!mayBlock) {
+          // behind the receiver's plane, whatever its texels are
+        } else if (level <= finestLevel) {
+#ifdef BIAS_PLANE
+          // The nearest depth is that of any of the tile's texels.
+          const float spread = 0.5 * float((1 << level) - 1);
+          if (nearest * 0.5 * (factors.x + factors.y) < p.z * (1.0 - planeMargin(slopeBias + spread)))
+#endif
           addTile(low, high, nearest, p);
         } else {
           descend = true;
 #ifdef BLOCKS
           ++fetchCount;
           const float farthest = texelFetch(maximumMap, tile, level - 1).x;
+#ifdef BIAS_PLANE
+          if (farthest < depth && farthest * factors.y < limit) {
+#else
           if (farthest < depth) {
+#endif
             const vec2 least = halfLight * (1.0 / farthest - 1.0 / p.z);
             if (all(greaterThanEqual(low, centre - least)) && all(lessThanEqual(high, centre + least))) {
               addTile(low, high, BLOCK_AT, p);
@@ -110,9 +155,5 @@ float visibilityOf(vec4 p, ivec2 pixel) {
     if (level == root) break;
     tile = (tile.x & 1) == 0 ? tile + ivec2(1, 0) : tile + ivec2(-1, 1);
   }
-#ifdef BITMASK
-  return 1.0 - float(samplesCovered()) / float(SAMPLES);
-#else
-  return 1.0 - min(hiddenArea, 1.0);
-#endif
+  return gathered();
 }

@@ -40,7 +40,7 @@ struct JoinedMask {
 
 struct TraversalSettings {
   MapSettings map;
-  SlopeBias bias{.slope = 2.0};
+  ReceiverBiasSettings bias = PlaneBias{};
   std::variant<SummedArea, JoinedMask> accumulation;
   BlockDepth blocks = BlockDepth::Mean;
   int finestLevel = 0;
@@ -91,7 +91,7 @@ class HsmTraversal : public VisibilityTechnique {
  public:
   using Settings = TraversalSettings;
   explicit HsmTraversal(const TraversalSettings& settings)
-      : VisibilityTechnique(settings.map, settings.bias,
+      : VisibilityTechnique(settings.map, anyBias(settings.bias),
                             "renderer/techniques/soft_shadows/hsm_traversal/hsm_traversal.comp.glsl",
                             "soft_shadows/hsm_traversal", traversalDefines(settings)),
         finestLevel_(settings.finestLevel) {}
@@ -133,7 +133,7 @@ class HsmTraversal : public VisibilityTechnique {
 
 const RegisteredTechnique<HsmTraversal> kHsmTraversalRegistered{
     {.name = "soft_shadows/hsm_traversal",
-     .version = 1,
+     .version = 2,
      .summary = "Each receiver walks down the min/max pyramid to the tiles that hide the light",
      .source = "Schwarz 2009, sections 3.2.1 and 4.3.3 (SS-07)",
      .product = ProductKind::Visibility,

@@ -10,5 +10,5 @@ float visibilityOf(vec4 receiver, ivec2 pixel) {
   const bool inside =
       all(greaterThanEqual(centre + 0.5 * size, vec2(0.0))) && all(lessThan(centre - 0.5 * size, vec2(float(resolution))));
   pixelClass = inside ? kProcessed : kOutside;
-  return inside ? percentageCloser(centre, size, windowDepth(receiver, size)) : 1.0;
+  return inside ? percentageCloser(centre, size, receiver, windowDepth(receiver, size)) : shareBeforePlane(receiver);
 }

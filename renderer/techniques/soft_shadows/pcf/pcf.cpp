@@ -8,7 +8,7 @@ namespace {
 
 struct PcfSettings {
   MapSettings map;
-  SlopeBias bias;
+  TexelBiasSettings bias = PlaneBias{};
   double filterRadius = 4.0;
   int filterTaps = 8;
   static const SettingsTable<PcfSettings>& table() {
@@ -26,8 +26,8 @@ class Pcf : public VisibilityTechnique {
  public:
   using Settings = PcfSettings;
   explicit Pcf(const PcfSettings& settings)
-      : VisibilityTechnique(settings.map, settings.bias, "renderer/techniques/soft_shadows/pcf/pcf.comp.glsl",
-                            "soft_shadows/pcf"),
+      : VisibilityTechnique(settings.map, anyBias(settings.bias),
+                            "renderer/techniques/soft_shadows/pcf/pcf.comp.glsl", "soft_shadows/pcf"),
         settings_(settings) {}
 
  protected:
@@ -42,7 +42,7 @@ class Pcf : public VisibilityTechnique {
 
 const RegisteredTechnique<Pcf> kPcfRegistered{
     {.name = "soft_shadows/pcf",
-     .version = 1,
+     .version = 2,
      .summary = "Percentage-closer filtering over a window of fixed size",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,

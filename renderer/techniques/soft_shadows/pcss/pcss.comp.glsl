@@ -13,23 +13,23 @@ float visibilityOf(vec4 receiver, ivec2 pixel) {
   pixelClass = kOutside;
   const bool inside = all(greaterThanEqual(centre + 0.5 * searchSize, vec2(0.0))) &&
                       all(lessThan(centre - 0.5 * searchSize, vec2(float(resolution))));
-  if (!inside) return 1.0;
+  if (!inside) return shareBeforePlane(receiver);
   pixelClass = kProcessed;
-  // The search compares with the constant bias alone: a bias by the whole window would hide contacts.
+  // The search compares as if at the receiver: a bias by the whole window would hide contacts.
   const float depth = biasedDepth(receiver, 0);
   float sum = 0.0;
   int blockers = 0;
   for (int j = 0; j < searchTaps; ++j)
     for (int i = 0; i < searchTaps; ++i) {
-      const float z = tapDepth(centre, searchSize, i, j, searchTaps);
-      if (z < depth) {
+      float z;
+      if (tapBlocks(tapPlace(centre, searchSize, i, j, searchTaps), receiver, depth, z)) {
         sum += z;
         ++blockers;
       }
     }
   fetchCount += uint(searchTaps * searchTaps);
-  if (blockers == 0) return 1.0;
+  if (blockers == 0) return shareBeforePlane(receiver);
   const float blockerDepth = sum / float(blockers);
   const vec2 filterSize = max(lightSize * (1.0 / blockerDepth - 1.0 / receiver.z) * texelsPerTangent, vec2(1.0));
-  return percentageCloser(centre, filterSize, windowDepth(receiver, filterSize));
+  return percentageCloser(centre, filterSize, receiver, windowDepth(receiver, filterSize));
 }

@@ -10,7 +10,7 @@ namespace {
 
 struct PcssSettings {
   MapSettings map;
-  SlopeBias bias;
+  TexelBiasSettings bias = PlaneBias{};
   double searchScale = 1.0;
   int searchTaps = 8, filterTaps = 16;
   static const SettingsTable<PcssSettings>& table() {
@@ -33,7 +33,7 @@ class Pcss : public VisibilityTechnique {
  public:
   using Settings = PcssSettings;
   explicit Pcss(const PcssSettings& settings)
-      : VisibilityTechnique(settings.map, settings.bias,
+      : VisibilityTechnique(settings.map, anyBias(settings.bias),
                             "renderer/techniques/soft_shadows/pcss/pcss.comp.glsl", "soft_shadows/pcss"),
         settings_(settings) {}
 
@@ -50,7 +50,7 @@ class Pcss : public VisibilityTechnique {
 
 const RegisteredTechnique<Pcss> kPcssRegistered{
     {.name = "soft_shadows/pcss",
-     .version = 1,
+     .version = 2,
      .summary = "Percentage-closer soft shadows: filter window from the blockers' average depth",
      .source = "Schwarz 2009, section 3.3 (SS-02)",
      .product = ProductKind::Visibility,

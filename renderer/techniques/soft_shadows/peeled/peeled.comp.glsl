@@ -2,6 +2,8 @@
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
 #define STRUCTURE_HSM
 #include "renderer/techniques/soft_shadows/depth_bounds.glsl"
+#include "renderer/techniques/soft_shadows/plane_share.glsl"
+#include "renderer/techniques/soft_shadows/texel_test.glsl"
 // Layers behind the first, which is the finest level of `minimumMap`. One sampler each: llvmpipe reads arrays of samplers
 // wrongly where the index is computed.
 #if LAYERS > 1
@@ -16,27 +18,27 @@ layout(binding = kFourthLayerUnit) uniform sampler2D fourthLayer;
 
 uniform int levels, refinements, maxIterations;
 
-// Depth of the farthest layer nearer than `depth`; kEmptyDepth if none is.
-float farthestBefore(ivec2 texel, float depth) {
+// Depth of the farthest layer that blocks; kEmptyDepth if none does.
+float farthestBefore(ivec2 texel, vec4 p, float depth) {
   float z = texelFetch(minimumMap, texel, 0).x;
   ++fetchCount;
-  if (!(z < depth)) return kEmptyDepth;
+  if (!texelBlocks(z, texel, p, depth)) return kEmptyDepth;
 #if LAYERS > 1
   float next = texelFetch(secondLayer, texel, 0).x;
   ++fetchCount;
-  if (!(next < depth)) return z;
+  if (!texelBlocks(next, texel, p, depth)) return z;
   z = next;
 #endif
 #if LAYERS > 2
   next = texelFetch(thirdLayer, texel, 0).x;
   ++fetchCount;
-  if (!(next < depth)) return z;
+  if (!texelBlocks(next, texel, p, depth)) return z;
   z = next;
 #endif
 #if LAYERS > 3
   next = texelFetch(fourthLayer, texel, 0).x;
   ++fetchCount;
-  if (!(next < depth)) return z;
+  if (!texelBlocks(next, texel, p, depth)) return z;
   z = next;
 #endif
   return z;
@@ -48,7 +50,8 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   float nearest = max(near, texelFetch(minimumMap, ivec2(0), levels - 1).x);
   pixelClass = kLit;
   fetchCount = 1u;
-  if (nearest >= depth) return 1.0;
+  const float frontShare = shareBeforePlane(p);
+  if (nearest >= depth) return frontShare;
   Area area;
   for (int i = 0;; ++i) {
     const vec2 reach = 0.5 * lightSize * max(1.0 / nearest - 1.0 / p.z, 0.0), limit = vec2(float(resolution));
@@ -56,11 +59,11 @@ float visibilityOf(vec4 p, ivec2 pixel) {
     area = Area(ivec2(clamp(low, vec2(0.0), limit)), ivec2(clamp(high, vec2(0.0), limit)));
     if (any(greaterThanEqual(area.low, area.high))) {
       if (any(lessThan(low, vec2(0.0))) || any(greaterThan(high, limit))) pixelClass = kOutside;
-      return 1.0;
+      return frontShare;
     }
     if (i >= refinements) break;
     const float found = depthRange(area, false).x;
-    if (found >= depth) return 1.0;
+    if (found >= depth) return frontShare;
     if (found <= nearest) break;
     nearest = found;
   }
@@ -77,7 +80,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   for (int y = area.low.y; y < area.high.y; ++y)
     for (int x = area.low.x; x < area.high.x; ++x) {
       ++examinedCount;
-      const float z = farthestBefore(ivec2(x, y), depth);
+      const float z = farthestBefore(ivec2(x, y), p, depth);
       if (!(z < depth)) continue;
       ++occluderCount;
       const vec2 low = tangentLow + vec2(x, y) * perTexel;
@@ -89,5 +92,6 @@ float visibilityOf(vec4 p, ivec2 pixel) {
       ++usedCount;
       hidden += (b.x - a.x) * (b.y - a.y);
     }
-  return 1.0 - min(hidden, 1.0);
+  // As in backprojection: areas cannot tell whether an occluder and the plane hide the same part.
+  return frontShare * (1.0 - min(hidden, 1.0));
 }

@@ -14,7 +14,7 @@ namespace {
 
 struct PeeledSettings {
   MapSettings map;
-  SlopeBias bias{.slope = 2.0};
+  ReceiverBiasSettings bias = PlaneBias{};
   int layers = 2;
   double peelBias = 1e-5;
   int refinements = 2;
@@ -48,7 +48,7 @@ class Peeled : public VisibilityTechnique {
  public:
   using Settings = PeeledSettings;
   explicit Peeled(const PeeledSettings& settings)
-      : VisibilityTechnique(settings.map, settings.bias,
+      : VisibilityTechnique(settings.map, anyBias(settings.bias),
                             "renderer/techniques/soft_shadows/peeled/peeled.comp.glsl", "soft_shadows/peeled",
                             {{"LAYERS", std::to_string(settings.layers)}}),
         settings_(settings) {}
@@ -87,7 +87,7 @@ class Peeled : public VisibilityTechnique {
 
 const RegisteredTechnique<Peeled> kPeeledRegistered{
     {.name = "soft_shadows/peeled",
-     .version = 1,
+     .version = 2,
      .summary = "Backprojection of each texel's farthest layer that is nearer than the receiver",
      .source = "Schwarz 2009, section 3.2.1 (SS-07)",
      .product = ProductKind::Visibility,

@@ -1,46 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "renderer/techniques/soft_shadows/scene_needs/probe.h"
+#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
+#include "renderer/techniques/soft_shadows/scene_needs/error_estimate.h"
 
 namespace limen::techniques {
 
-/// When a feature is worth its cost. Source of the rules: Schwarz 2009, sections 3.3, 4.2 to 4.7 and 5.1, as
-/// collected for this bench; the numbers are the bench's own.
-struct NeedThresholds {
-  /// Mean change of visibility in shadow up to which a feature is left out.
-  double tolerance = 1.0 / 256.0;
-  double hardPenumbraTexels = 1.0;  ///< up to this widest penumbra a hard shadow is shown
-  double coarseShare = 0.25;        ///< of pixels with level 2 or coarser, from which microrects are used
-  double blendShare = 0.05;         ///< of neighbours with different levels, from which levels are blended
-  double buildWeight = 1.0;         ///< micro-occluders that cost as much as one texel of a structure
-  static const SettingsTable<NeedThresholds>& table();
+/// Time of whole frames [ms]; its spread is from the lower to the upper quartile.
+struct TimeEstimate {
+  double medianMs = 0.0, lowMs = 0.0, highMs = 0.0;
+  int frames = 0;
+};
+/// Of at least one frame.
+TimeEstimate estimateTime(std::vector<double> framesMs);
+
+/// A candidate with what was measured of it.
+struct Tried {
+  Candidate candidate;
+  ErrorEstimate error;
+  TimeEstimate time;
 };
 
-/// What a scene's view was found to need, and why.
-struct Decision {
-  ShadowSetting setting;
-  std::vector<std::string> remarks;  ///< a sentence for each choice
-  std::vector<Counter> evidence;     ///< the figures that decided
+struct Verdict {
+  size_t chosen = 0;
+  bool withinTarget = false;  ///< otherwise it is the most exact
+  /// Among which it was chosen: all candidates within the target, or those that are as exact as the most
+  /// exact one, up to the references' noise.
+  std::vector<size_t> eligible;
 };
 
-/// The figures in Decision::evidence.
-std::vector<Quantity> evidenceQuantities();
-
-/// Settings common to all methods that can be chosen.
-struct CommonNeeds {
-  MapSettings map;
-  int budget = 256;  ///< micro-occluders allowed per pixel; 0: no limit
-  static const SettingsTable<CommonNeeds>& table();
-};
-
-/// Starts from everything (bitmask with jittered samples over two peeled layers) and leaves out whatever
-/// hardly changes a small picture of the scene; then chooses the structure by counted work. `common` is part
-/// of every setting. Waits for the GPU.
-Decision decideNeeds(frame::Frame& frame, ShadowProbe& probe, const CommonNeeds& common,
-                     const NeedThresholds& thresholds);
+/// By what share the RMSE of a picture with many more pixels may exceed the estimate: the median over the
+/// candidates of highRmse() / rmse() - 1. One figure for all of them, so that less error is never further
+/// from a target.
+double margin(std::span<const Tried> tried);
+bool isWithin(const ErrorEstimate& error, double targetRmse, double margin);
+/// See Verdict. Needs errors, not times.
+std::vector<size_t> eligible(std::span<const Tried> tried, double targetRmse);
+/// Of the eligible candidates the cheapest; of several whose times spread into its own, the one with the
+/// smallest error; of several whose errors differ by less than the references' noise, the cheapest again. No
+/// other eligible candidate takes less time and errs less. `tried` must not be empty.
+Verdict decide(std::span<const Tried> tried, double targetRmse);
+/// Those than which no other takes less time and errs less, fastest first.
+std::vector<size_t> front(std::span<const Tried> tried);
 
 }  // namespace limen::techniques

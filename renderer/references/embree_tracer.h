@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/references/embree_scene.h"
+#include "renderer/references/shadow_tracer.h"
+
+namespace limen::references {
+
+/// Shadow rays on the CPU, in packets, on all cores.
+class EmbreeTracer : public ShadowTracer {
+ public:
+  explicit EmbreeTracer(const Triangles& triangles) : scene_(triangles) {}
+  std::vector<ShadowCounts> trace(const std::vector<ReceiverPoint>& points, const LightSamples& samples,
+                                  glm::dvec3 anchor) override;
+  std::string remark() const override { return "Rays were traced on the CPU (Embree)."; }
+  const EmbreeScene& scene() const { return scene_; }
+
+ private:
+  EmbreeScene scene_;
+};
+
+}  // namespace limen::references

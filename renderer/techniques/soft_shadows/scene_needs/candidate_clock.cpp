@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/scene_needs/candidate_clock.h"
+
+#include <epoxy/gl.h>
+
+#include <chrono>
+
+namespace limen::techniques {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr double kMostSeconds = 0.5;
+/// An idle GPU takes some time to reach its clock rate.
+constexpr double kWakingSeconds = 0.2;
+
+double secondsSince(steady_clock::time_point start) {
+  return std::chrono::duration<double>(steady_clock::now() - start).count();
+}
+
+void renderFrame(frame::Frame& frame, Technique& technique) {
+  frame.begin();
+  technique.render(frame);
+  frame.end();
+}
+
+}  // namespace
+
+const SettingsTable<CandidateTiming>& CandidateTiming::table() {
+  using S = CandidateTiming;
+  static const SettingsTable<S> kTable = {
+      {&S::warmup, "warmup", {1, 256}, "frames", "Frames of a candidate that are rendered and discarded"},
+      {&S::frames,
+       "frames",
+       {1, 1024},
+       "frames",
+       "Frames of a candidate that are timed, in each of two rounds"}};
+  return kTable;
+}
+
+std::string FrameClock::label() const {
+  return software() ? "wall time of whole frames around glFinish, on a software renderer"
+                    : "GPU time of whole frames";
+}
+
+std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
+  const std::unique_ptr<Technique> technique = makeTechnique(candidate);
+  frame::Frame frame(frame_.context(), frame_.scene(), frame_.gpuScene(), frame_.sizePx(), frame_.timeS(),
+                     frame_.raster());
+  technique->prepare(frame);
+  const auto waking = steady_clock::now();
+  for (int i = 0; i == 0 || (i < timing_.warmup && secondsSince(waking) < kMostSeconds) ||
+                  (!awake_ && !software() && secondsSince(waking) < kWakingSeconds);
+       ++i) {
+    renderFrame(frame, *technique);
+    glFinish();
+  }
+  awake_ = true;
+  frame.passes().startRecording(software() ? gl::Clock::Wall : gl::Clock::Gpu, timing_.frames);
+  const auto start = steady_clock::now();
+  for (int i = 0; i < timing_.frames && (i == 0 || secondsSince(start) < kMostSeconds); ++i) {
+    renderFrame(frame, *technique);
+    // With a long queue, seconds of work would pass before the limit is noticed.
+    if (i == 0) glFinish();
+  }
+  std::vector<double> out;
+  for (const gl::PassTime& time : frame.passes().finishRecording())
+    if (time.pass == "frame") out.push_back(1e-6 * double(time.nanoseconds));
+  return out;
+}
+
+}  // namespace limen::techniques

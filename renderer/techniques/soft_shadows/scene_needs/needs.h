@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/techniques/soft_shadows/scene_needs/candidate_clock.h"
+#include "renderer/techniques/soft_shadows/scene_needs/decision.h"
+
+namespace limen::techniques {
+
+/// The references that candidates are compared with.
+struct NeedsReference {
+  int samples = 256;      ///< rays per receiver of each of two references, in the small picture
+  int checkSamples = 64;  ///< the same, in the check at full size
+  static const SettingsTable<NeedsReference>& table();
+};
+
+struct NeedsOptions {
+  double targetRmse = 0.02;
+  int picturePx = 50000;  ///< about as many pixels has the small picture, but no more than the full one
+  NeedsReference reference = {};
+};
+
+/// The chosen candidate at full size, rendered, compared and timed anew.
+struct FullSizeCheck {
+  ErrorEstimate error;
+  double referenceNoise = 0.0;
+  TimeEstimate time;
+  Image errors;  ///< absolute, of each pixel
+};
+
+/// What a view of a scene was found to need.
+struct SceneNeedsFound {
+  std::vector<Tried> tried;
+  std::vector<std::string> notTried;  ///< candidate and reason
+  Verdict verdict;
+  NeedsReference reference;
+  double referenceNoise = 0.0;
+  glm::ivec2 pictureSizePx{0};
+  FullSizeCheck check;
+  std::string times;  ///< what they are
+
+  const Tried& chosen() const { return tried[verdict.chosen]; }
+};
+
+/// Measures the error of each candidate in a small picture of the frame's view and its time at full size,
+/// decides, and checks the decision at full size. Waits for the GPU; the frame is not touched.
+///
+/// The small picture sees every nth point of the full one, and maps keep their resolution: what a candidate
+/// finds for a point depends neither on the picture's size nor on neighbours, so that the error over these
+/// points estimates that over all points. (With maps reduced along with the picture it would not: the error
+/// grows with a texel's width. Level smoothing and budget maps do look at neighbours; no built-in candidate
+/// has either.)
+///
+/// Throws Error if no candidate can be tried.
+SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candidates,
+                          const NeedsOptions& options, CandidateClock& clock);
+
+}  // namespace limen::techniques
