@@ -78,7 +78,7 @@ std::string describeEntry(const NamedKind& kind, const std::string& name, const 
   if (!entry.needs.empty()) out += fmt::format("  needs a scene with: {}\n", join(entry.needs));
   if (!entry.quantity.unit.empty()) out += fmt::format("  unit: {}\n", entry.quantity.unit);
   if (entry.reference) out += "  a reference for comparison\n";
-  if (entry.onCpu) out += "  runs on the CPU\n";
+  if (entry.onCpu) out += "  works on the CPU at least in part: its times are wall times\n";
   if (!entry.counters.empty()) out += "  counts:\n";
   for (const Quantity& counter : entry.counters)
     out += fmt::format("    {}: {}\n", counter.name, titleWithUnit(titleOf(counter), counter.unit));

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band.
+// group a band. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
+// sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
-#include "renderer/frame/scene_buffers.glsl"
+#include "renderer/frame/raster_triangle.glsl"
+
+#ifndef SMALL_LANES
+#define SMALL_LANES 1
+#endif
 
 layout(local_size_x = kRasterGroup) in;
 // A buffer, not an image: its atomics without a result cost no waiting.
@@ -23,9 +28,22 @@ layout(binding = kRasterPreviousDepthUnit) uniform sampler2D previousDepth;
 uniform float peelBias;
 #endif
 
-uniform mat4 anchorToClip;
-uniform float near;
-uniform ivec2 sizePx;
+#ifdef SAMPLES
+layout(binding = kSampleRasterCentreIdsUnit) uniform usampler2D centreIds;
+layout(binding = kSampleRasterReachUnit) uniform sampler2D reach;
+layout(binding = kSampleRasterMarksImage, r32ui) uniform coherent uimage2D marks;  // 1: the pixel is listed
+#ifndef IDS
+layout(std430, binding = kSampleRasterListBuffer) buffer List {
+  SampleListHeader list;
+  uint listed[];  // pixels, by row
+};
+#endif
+uniform vec2 samplePlaces[SAMPLES];
+const float kBeyondCentre = 0.5;  // pixels that samples lie from the centre at most, along each axis
+#else
+const float kBeyondCentre = 0.0;
+#endif
+
 uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
@@ -33,18 +51,35 @@ uniform int rangeCount;      // 0: the triangles from 0 on
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
-const int kBandPixels = 16384;                     // of a bounding box, in a band
-const int kFewestBandRows = 4, kMostBandRows = 32;  // but so many rows it has; see rowsOfBand
+#if defined(SAMPLES) || defined(IDS)
+// Every pixel waits for what is known of it, so that many groups share them.
+const int kBandPixels = 1024;   // of a bounding box, in a band
+const int kFewestBandRows = 1;  // but so many rows it has; see rowsOfBand
+#else
+const int kBandPixels = 16384;
+const int kFewestBandRows = 4;
+#endif
+const int kMostBandRows = 32;
 const int kPlain = 1024;  // pixels of a band that a group goes through without cutting rows first, which costs it barriers
 
 struct Triangle {
   vec3 a, b, c;   // clip space x, y, w
   ivec2 low, size;  // bounding box in pixels
+  vec3 slack;     // of the products of edges; see productSlack
 };
 
-vec3 clipPosition(uint vertex) {
-  precise const vec4 clip = anchorToClip * vec4(scenePosition(vertex), 1.0);
-  return clip.xyw;
+// Bounds how far the products u, v, w of covers() vary within kBeyondCentre of a pixel's centre along both axes, and their
+// rounding.
+vec3 productSlack(Triangle t) {
+  const vec3 width = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
+  vec3 slack = 1e-6 * (width.yzx * height.zxy + height.yzx * width.zxy);
+#ifdef SAMPLES
+  const vec3 across = vec3(t.b.z * t.c.y - t.b.y * t.c.z, t.c.z * t.a.y - t.c.y * t.a.z, t.a.z * t.b.y - t.a.y * t.b.z);
+  const vec3 upwards = vec3(t.b.z * t.c.x - t.b.x * t.c.z, t.c.z * t.a.x - t.c.x * t.a.z, t.a.z * t.b.x - t.a.x * t.b.z);
+  slack += 2.0 * kBeyondCentre * (abs(across) / float(sizePx.x) + abs(upwards) / float(sizePx.y));
+#endif
+  return slack;
 }
 
 // Pixel coordinates of a clip position, centre of pixel (0, 0) at 0. Row 0 is the top of clip space.
@@ -75,6 +110,7 @@ Triangle load(uint index) {
   t.c = clipPosition(vertices.z);
   t.low = ivec2(0);
   t.size = ivec2(0);
+  t.slack = productSlack(t);
   if (max(t.a.z, max(t.b.z, t.c.z)) < near) return t;
   vec2 low = vec2(1e30), high = vec2(-1e30);
   extendBounds(t.a, t.b, low, high);
@@ -82,29 +118,57 @@ Triangle load(uint index) {
   extendBounds(t.c, t.a, low, high);
   // Slack for the rounding of the quotients, far off the screen included.
   const vec2 limit = vec2(sizePx) + 1.0;
-  low = clamp(low - 0.01, vec2(-1.0), limit);
-  high = clamp(high + 0.01, vec2(-1.0), limit);
+  low = clamp(low - (0.01 + kBeyondCentre), vec2(-1.0), limit);
+  high = clamp(high + (0.01 + kBeyondCentre), vec2(-1.0), limit);
   t.low = max(ivec2(ceil(low)), ivec2(0));
   t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
   if (t.size.x == 0 || t.size.y == 0) t.size = ivec2(0);
   return t;
 }
 
-float product(vec2 a, vec2 b) {
-  precise const float result = a.x * b.y - a.y * b.x;
-  return result;
+#ifdef SAMPLES
+// Whether the triangle may cover anything within kBeyondCentre of the pixel's centre.
+bool isNear(Triangle t, ivec2 pixel) {
+  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
+  const vec2 a = t.a.xy - ndc * t.a.z, b = t.b.xy - ndc * t.b.z, c = t.c.xy - ndc * t.c.z;
+  const vec3 products = vec3(product(b, c), product(c, a), product(a, b));
+  return all(greaterThanEqual(products, -t.slack)) || all(lessThanEqual(products, t.slack));
 }
 
 void shade(Triangle t, uint index, ivec2 pixel) {
-  const vec2 ndc = vec2(2.0, -2.0) * (vec2(pixel) + 0.5) / vec2(sizePx) + vec2(-1.0, 1.0);
-  precise const vec2 a = t.a.xy - ndc * t.a.z, b = t.b.xy - ndc * t.b.z, c = t.c.xy - ndc * t.c.z;
-  const float u = product(b, c), v = product(c, a), w = product(a, b);
-  const bool positive = u >= 0.0 && v >= 0.0 && w >= 0.0, negative = u <= 0.0 && v <= 0.0 && w <= 0.0;
-  precise const float sum = u + v + w;
-  if (!(positive || negative) || sum == 0.0) return;
-  precise const float distance = (u * t.a.z + v * t.b.z + w * t.c.z) / sum;
-  if (!(distance >= near)) return;
-  precise const float depth = near / distance;
+  if (!isNear(t, pixel)) return;
+#ifdef IDS
+  if (imageLoad(marks, pixel).x == 0u) return;
+#endif
+  // The centre's triangle, where it covers the whole pixel, joins when all is done.
+  const float farthest = texelFetch(reach, pixel, 0).x;
+  if (farthest > 0.0 && texelFetch(centreIds, pixel, 0).x == index) return;
+  const int first = (pixel.y * sizePx.x + pixel.x) * SAMPLES;
+#ifdef IDS
+  uint nearest[SAMPLES];  // read together, to wait once
+  for (int i = 0; i < SAMPLES; ++i) nearest[i] = depths[first + i];
+#endif
+  bool seen = false;
+  for (int i = 0; i < SAMPLES; ++i) {
+    float depth;
+    if (!covers(t.a, t.b, t.c, vec2(pixel) + samplePlaces[i], depth) || depth < farthest) continue;
+    const uint bits = floatBitsToUint(depth);
+#ifdef IDS
+    if (nearest[i] == bits) atomicMin(ids[first + i], index);
+#else
+    atomicMax(depths[first + i], bits);
+    seen = true;
+#endif
+  }
+#ifndef IDS
+  if (seen && imageLoad(marks, pixel).x == 0u && imageAtomicExchange(marks, pixel, 1u) == 0u)
+    listed[atomicAdd(list.pixels, 1u)] = uint(pixel.y * sizePx.x + pixel.x);
+#endif
+}
+#else
+void shade(Triangle t, uint index, ivec2 pixel) {
+  float depth;
+  if (!covers(t.a, t.b, t.c, vec2(pixel) + 0.5, depth)) return;
 #ifdef PEEL
   // Reversed depth: what lies behind is smaller.
   if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
@@ -117,6 +181,7 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   atomicMax(depths[at], bits);
 #endif
 }
+#endif
 
 int rowsOfBand(Triangle t) { return clamp(kBandPixels / t.size.x, kFewestBandRows, kMostBandRows); }
 
@@ -137,10 +202,8 @@ ivec2 rowSpan(Triangle t, int row) {
   const float ay = t.a.y - y * t.a.z, by = t.b.y - y * t.b.z, cy = t.c.y - y * t.c.z;
   const vec3 first = vec3(t.b.x * cy - by * t.c.x, t.c.x * ay - cy * t.a.x, t.a.x * by - ay * t.b.x);
   const vec3 second = vec3(t.b.z * cy - by * t.c.z, t.c.z * ay - cy * t.a.z, t.a.z * by - ay * t.b.z);
-  const vec3 reach = abs(vec3(t.a.x, t.b.x, t.c.x)) + abs(vec3(t.a.z, t.b.z, t.c.z));
-  const vec3 height = abs(vec3(t.a.y, t.b.y, t.c.y)) + abs(vec3(t.a.z, t.b.z, t.c.z));
-  const vec3 slack = 1e-6 * (reach.yzx * height.zxy + height.yzx * reach.zxy);
-  const vec2 limit = vec2(-1.0, 1.0);
+  const vec3 slack = t.slack;
+  const vec2 limit = vec2(-1.0, 1.0) * (1.0 + 2.0 * kBeyondCentre / float(sizePx.x));
   vec2 positive = limit, negative = limit;
   for (int i = 0; i < 3; ++i) {
     cutSpan(first[i], second[i], slack[i], positive.x, positive.y);
@@ -233,15 +296,23 @@ uint chosenTriangle(uint n) {
 }
 
 void main() {
-  const uint drawn = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
-  if (gl_GlobalInvocationID.x >= (1u << 20) || drawn >= triangleCount) return;
+  if (gl_GlobalInvocationID.x >= (1u << 20)) return;
+  const uint invocation = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
+  const uint drawn = invocation / uint(SMALL_LANES), lane = invocation % uint(SMALL_LANES);
+  if (drawn >= triangleCount) return;
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
-  if (t.size.x * t.size.y <= kSmall) {
+  const int pixels = t.size.x * t.size.y;
+  if (pixels <= kSmall) {
+#if SMALL_LANES == 1
     for (int y = 0; y < t.size.y; ++y)
       for (int x = 0; x < t.size.x; ++x) shade(t, index, t.low + ivec2(x, y));
+#else
+    for (int i = int(lane); i < pixels; i += SMALL_LANES) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
+#endif
     return;
   }
+  if (lane > 0u) return;
   const int rows = rowsOfBand(t);
   const uint slot = atomicAdd(queue.queued, uint((t.size.y + rows - 1) / rows));
   for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {

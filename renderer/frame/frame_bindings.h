@@ -61,6 +61,21 @@ const uint kRasterRangesBuffer = 6u;
 const uint kRasterDepthImage = 0u;
 const uint kRasterIdsImage = 1u;
 
+// SampleRaster. Its passes over triangles have the buffers of ComputeRaster.
+struct SampleListHeader {          // std430; then the pixels
+  uint pixels;                     // listed
+  uint groupsX, groupsY, groupsZ;  // of an indirect dispatch over them, in groups of kRasterGroup
+};
+#ifdef __cplusplus
+static_assert(sizeof(SampleListHeader) == 16 && offsetof(SampleListHeader, groupsX) == 4);
+#endif
+const uint kSampleRasterCentreIdsUnit = 1u;
+const uint kSampleRasterReachUnit = 2u;
+const uint kSampleRasterMarksImage = 0u;
+const uint kSampleRasterReachImage = 1u;
+const uint kSampleRasterListBuffer = 7u;
+const uint kSampleRasterSamplesUnit = 3u;  // the driver's
+
 // Depth peeling by the rasteriser.
 const uint kPeelPreviousDepthUnit = 0u;
 

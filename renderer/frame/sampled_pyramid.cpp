@@ -9,9 +9,10 @@
 
 namespace limen::frame {
 
-SampledPyramid::SampledPyramid(Frame& frame, ShadowMapSettings settings)
+SampledPyramid::SampledPyramid(Frame& frame, ShadowMapSettings settings, SampledTexelSetting texel)
     : settings_(settings),
-      program_(frame.context().programs().compute("renderer/frame/sampled_pyramid.comp.glsl")),
+      program_(
+          frame.context().programs().compute("renderer/frame/sampled_pyramid.comp.glsl", texel.defines())),
       atlas_(gl::Format::R32F, {std::max(settings.resolution / 2, 1), settings.resolution}),
       pass_("frame/sampled_pyramid" + settings.name()) {
   frame.passes().setBytesHeld(pass_, atlas_.bytes());

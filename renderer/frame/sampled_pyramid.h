@@ -10,8 +10,24 @@
 
 namespace limen::frame {
 
-/// Coarse levels of a linear shadow map whose texels of 2^i x 2^i finest ones hold the depth of one of these:
-/// which one is fixed by the texel's place (sampled_texel.glsl). In contrast to minima, which grow
+/// The finest texel whose depth a coarse one holds.
+enum class SampledTexel {
+  Lattice,  ///< fixed by the coarse texel's place, at changing places within it (sampled_texel.glsl)
+  Centre,   ///< at its centre
+  Median    ///< of four, one in each quarter: that with the second nearest depth
+};
+struct SampledTexelSetting {
+  SampledTexel texel = SampledTexel::Lattice;
+  std::string key() const { return std::to_string(static_cast<int>(texel)); }
+  /// For sampled_texel.glsl.
+  gl::ShaderDefines defines() const {
+    if (texel == SampledTexel::Lattice) return {};
+    return {{texel == SampledTexel::Centre ? "DEPTHS_CENTRE" : "DEPTHS_MEDIAN", "1"}};
+  }
+};
+
+/// Coarse levels of a linear shadow map whose texels of 2^i x 2^i finest ones hold the depth of one of these.
+/// In contrast to minima, which grow
 /// thin occluders to the size of a coarse texel, samples cover the right share on average. Own form; no
 /// source.
 ///
@@ -19,7 +35,7 @@ namespace limen::frame {
 class SampledPyramid : public FrameInput {
  public:
   static constexpr const char* kName = "sampled_pyramid";
-  SampledPyramid(Frame& frame, ShadowMapSettings settings);
+  SampledPyramid(Frame& frame, ShadowMapSettings settings, SampledTexelSetting texel = {});
   void make(Frame& frame) override;
   const gl::Texture& atlas() const { return atlas_; }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 namespace limen::ray_tracing {
 namespace {
@@ -13,7 +14,7 @@ constexpr uint32_t kLeaf = 3;
 constexpr int kBins = 16;
 constexpr uint32_t kShared = 1 << 16;  ///< from this many primitives on, all cores work on one run
 /// Runs shorter than this are left to one core each.
-constexpr uint32_t kShortest = 1 << 12;
+constexpr uint32_t kShortest = 1 << 10;
 
 size_t cores() { return std::max<size_t>(std::thread::hardware_concurrency(), 1); }
 
@@ -86,6 +87,33 @@ struct Binning {
   }
 };
 
+/// Children by the octant of the node in which they lie, as far as they do not contend for it: the child that
+/// is farthest out chooses first.
+std::array<int, 8> slotsOf(const TreeNode& node, const TreeBox& box) {
+  std::array<int, 8> childOf;
+  childOf.fill(-1);
+  std::array<bool, 8> placed{};
+  const glm::dvec3 middle = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high));
+  for (int n = 0; n < node.count; ++n) {
+    double most = 0.0;
+    int bestChild = -1, bestSlot = -1;
+    for (int child = 0; child < node.count; ++child) {
+      if (placed[size_t(child)]) continue;
+      const TreeBox& of = node.children[size_t(child)].box;
+      const glm::dvec3 from = 0.5 * (glm::dvec3(of.low) + glm::dvec3(of.high)) - middle;
+      for (int slot = 0; slot < 8; ++slot) {
+        if (childOf[size_t(slot)] >= 0) continue;
+        const double along =
+            (slot & 4 ? from.x : -from.x) + (slot & 2 ? from.y : -from.y) + (slot & 1 ? from.z : -from.z);
+        if (bestChild < 0 || along > most) most = along, bestChild = child, bestSlot = slot;
+      }
+    }
+    childOf[size_t(bestSlot)] = bestChild;
+    placed[size_t(bestChild)] = true;
+  }
+  return childOf;
+}
+
 class Build {
  public:
   explicit Build(std::vector<TreePrimitive>& primitives) : primitives_(primitives) {}
@@ -136,6 +164,7 @@ class Build {
   /// Unless what is left to a child holds everything, whatever it is given, the division is balanced.
   void expand(TreeChild& child, int levels) const {
     child.node = divide(child, child.count > capacity(levels - 1));
+    child.node->childOf = slotsOf(*child.node, child.box);
   }
 
   /// Most primitives that a balanced tree of so many levels holds.
@@ -234,15 +263,22 @@ TreeChild buildTree(std::vector<TreePrimitive>& primitives, int levels) {
         open.push_back({&of.node->children[static_cast<size_t>(i)], below});
   };
   openChildren(root, levels - 1);
+  const auto expandAll = [&](std::vector<Open> some) {
+    onAllCores(some.size(), [&](size_t i) { build.expand(*some[i].child, some[i].levels); });
+    for (const Open& one : some) openChildren(*one.child, one.levels - 1);
+  };
+  const auto isShorter = [](const Open& a, const Open& b) { return a.child->count < b.child->count; };
   while (!open.empty() && open.size() < 16 * cores()) {
-    const auto largest = std::max_element(open.begin(), open.end(), [](const Open& a, const Open& b) {
-      return a.child->count < b.child->count;
-    });
-    if (largest->child->count < kShortest) break;
-    const Open taken = *largest;
-    open.erase(largest);
-    build.expand(*taken.child, taken.levels);
-    openChildren(*taken.child, taken.levels - 1);
+    const auto longest = std::max_element(open.begin(), open.end(), isShorter);
+    if (longest->child->count >= kShared) {
+      const Open taken = *longest;
+      open.erase(longest);
+      expandAll({taken});
+    } else if (longest->child->count >= kShortest) {
+      expandAll(std::exchange(open, {}));
+    } else {
+      break;
+    }
   }
   onAllCores(open.size(), [&](size_t i) { build.finish(*open[i].child, open[i].levels); });
   return root;

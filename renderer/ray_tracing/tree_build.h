@@ -37,6 +37,8 @@ struct TreeChild {
 struct TreeNode {
   std::array<TreeChild, 8> children;
   int count = 0;
+  /// Child of each octant of the node: 4 for the upper half in x, 2 in y, 1 in z; -1: none.
+  std::array<int, 8> childOf;
 };
 
 /// Tree over `primitives`, which it orders by leaves: at most three to a leaf, at most `levels` levels. There

@@ -17,33 +17,6 @@ bool isFinite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && 
 /// Of the pitch, biased: below it 256 pitches would leave the normal floats of some direction.
 constexpr int kLeastExponent = 27;
 
-/// Children by the octant of the node in which they lie, as far as they do not contend for it: the child that
-/// is farthest out chooses first.
-std::array<int, 8> slotsOf(const TreeNode& node, const TreeBox& box) {
-  std::array<int, 8> childOf;
-  childOf.fill(-1);
-  std::array<bool, 8> placed{};
-  const glm::dvec3 middle = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high));
-  for (int n = 0; n < node.count; ++n) {
-    double most = 0.0;
-    int bestChild = -1, bestSlot = -1;
-    for (int child = 0; child < node.count; ++child) {
-      if (placed[size_t(child)]) continue;
-      const TreeBox& of = node.children[size_t(child)].box;
-      const glm::dvec3 from = 0.5 * (glm::dvec3(of.low) + glm::dvec3(of.high)) - middle;
-      for (int slot = 0; slot < 8; ++slot) {
-        if (childOf[size_t(slot)] >= 0) continue;
-        const double along =
-            (slot & 4 ? from.x : -from.x) + (slot & 2 ? from.y : -from.y) + (slot & 1 ? from.z : -from.z);
-        if (bestChild < 0 || along > most) most = along, bestChild = child, bestSlot = slot;
-      }
-    }
-    childOf[size_t(bestSlot)] = bestChild;
-    placed[size_t(bestChild)] = true;
-  }
-  return childOf;
-}
-
 /// The grid of one axis: the finest pitch, a power of two, with which 255 steps reach across.
 void setGrid(WideNode& node, int axis, const TreeBox& box) {
   node.origin[axis] = box.low[axis];
@@ -80,7 +53,7 @@ class Flattening {
     for (int axis = 0; axis < 3; ++axis) setGrid(node, axis, of.box);
     node.firstNode = static_cast<uint32_t>(nodes_.size());
     node.firstTriangle = static_cast<uint32_t>(leaves_.size());
-    const std::array<int, 8> childOf = slotsOf(tree, of.box);
+    const std::array<int, 8>& childOf = tree.childOf;
     for (uint32_t slot = 0; slot < 8; ++slot) {
       if (childOf[slot] < 0) continue;
       const TreeChild& child = tree.children[size_t(childOf[slot])];
@@ -140,7 +113,9 @@ std::vector<TreePrimitive> primitivesOf(const std::vector<glm::vec3>& vertices,
 
 }  // namespace
 
-double WideNode::pitch(int axis) const { return std::ldexp(1.0, int{exponent[size_t(axis)]} - 127); }
+double WideNode::pitch(int axis) const {
+  return std::bit_cast<float>(uint32_t{exponent[size_t(axis)]} << 23U);
+}
 
 WideBvh::WideBvh(const std::vector<glm::vec3>& vertices, const std::vector<glm::uvec3>& triangles) {
   std::vector<TreePrimitive> primitives = primitivesOf(vertices, triangles);

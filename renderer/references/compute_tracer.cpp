@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "experiments/base/cancel.h"
+#include "renderer/references/parallel.h"
 
 namespace limen::references {
 namespace {
@@ -118,8 +119,9 @@ std::vector<ShadowCounts> ComputeTracer::trace(const std::vector<ReceiverPoint>&
   for (size_t first = 0; first < points.size() && !cancelToken().stop_requested(); first += kBatch) {
     const size_t count = std::min<size_t>(points.size() - first, kBatch);
     batch.resize(count);
-    std::transform(points.begin() + static_cast<std::ptrdiff_t>(first),
-                   points.begin() + static_cast<std::ptrdiff_t>(first + count), batch.begin(), toBuffer);
+    parallelFor(count, [&](size_t, size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) batch[i] = toBuffer(points[first + i]);
+    });
     receivers_.write(0, static_cast<int64_t>(count * sizeof(ShadowReceiver)), batch.data());
     counts_.clearUint(0);
     traceBatch(static_cast<uint32_t>(count), samples);

@@ -119,14 +119,15 @@ class SceneBenchmark {
     row("tree nodes", tree.nodeCount(), "");
     row("tree levels", tree.levels(), "");
     const std::vector<ReceiverPoint> points = some(context_.device().software ? 4000 : points_.size());
-    row("shadow rays, GPU",
+    row("shadow rays on the GPU",
         1e-6 * raysPerSecond(options_.seconds,
                              [&] { return total(tracer.trace(points, samples_, gpuScene_.anchor())); }),
         "M/s");
     const std::vector<ray_tracing::BatchRay> rays =
         hemisphereRays(context_.device().software ? 1 << 16 : 1 << 22);
-    for (const auto& [wanted, what] : {std::pair(ray_tracing::Wanted::AnyHit, "hemisphere any hit, GPU"),
-                                       {ray_tracing::Wanted::ClosestHit, "hemisphere closest hit, GPU"}}) {
+    for (const auto& [wanted, what] :
+         {std::pair(ray_tracing::Wanted::AnyHit, "hemisphere any hit on the GPU"),
+          {ray_tracing::Wanted::ClosestHit, "hemisphere closest hit on the GPU"}}) {
       const ray_tracing::RayBatch batch(context_, tree, rays, wanted);
       row(what,
           1e-6 * raysPerSecond(options_.seconds,
@@ -143,19 +144,32 @@ class SceneBenchmark {
     }
   }
 
+  /// Rays that the GPU finds hidden and the CPU does not, or the other way round: ties at edges.
+  void compare(ShadowTracer& cpu) {
+    const std::vector<ReceiverPoint> points = some(context_.device().software ? 1000 : 20000);
+    ComputeTracer gpu(context_, gpuScene_.rays(context_), triangles_);
+    const auto one = cpu.trace(points, samples_, gpuScene_.anchor()),
+               other = gpu.trace(points, samples_, gpuScene_.anchor());
+    double differing = 0.0;
+    for (size_t i = 0; i < points.size(); ++i)
+      differing += std::abs(double(one[i].seen) - double(other[i].seen));
+    row("shadow rays that differ between GPU and CPU", differing / total(one), "");
+  }
+
   void cpu() {
     const auto start = HostClock::now();
     EmbreeTracer tracer(triangles_);
     row("Embree build", 1e3 * since(start), "ms");
     const EmbreeScene& embree = tracer.scene();
+    compare(tracer);
     const std::vector<ReceiverPoint> points = some(20000);
-    row("shadow rays, CPU packets",
+    row("shadow rays on the CPU in packets",
         1e-6 * raysPerSecond(options_.seconds,
                              [&] { return total(tracer.trace(points, samples_, gpuScene_.anchor())); }),
         "M/s");
-    row("shadow rays, CPU single",
+    row("shadow rays on the CPU one by one",
         1e-6 * raysPerSecond(options_.seconds, [&] { return singles(embree, points); }), "M/s");
-    row("hemisphere any hit, CPU packets",
+    row("hemisphere any hit on the CPU in packets",
         1e-6 * raysPerSecond(options_.seconds, [&] { return hemispherePackets(embree, points); }), "M/s");
   }
 

@@ -16,9 +16,12 @@ ParameterValues completeValues(const ChosenEntry& inner) {
 }  // namespace
 
 std::vector<std::string> innerEntries(InnerKind kind) {
+  if (kind == InnerKind::Coloured)
+    return {"soft_shadows/bitmask_coloured", "soft_shadows/ray_traced_colours"};
   std::vector<std::string> out = {"soft_shadows/backprojection", "soft_shadows/bitmask"};
   if (kind >= InnerKind::OrRayTraced) out.emplace_back("soft_shadows/ray_traced");
   if (kind >= InnerKind::OrExact) out.emplace_back("soft_shadows/exact_union");
+  if (kind >= InnerKind::OrPcss) out.emplace_back("soft_shadows/pcss");
   return out;
 }
 

@@ -17,7 +17,9 @@ namespace limen::techniques {
 enum class InnerKind {
   Backprojecting,  ///< soft_shadows/backprojection and soft_shadows/bitmask
   OrRayTraced,     ///< these, and soft_shadows/ray_traced
-  OrExact          ///< these, and soft_shadows/exact_union
+  OrExact,         ///< these, and soft_shadows/exact_union
+  OrPcss,          ///< these, and soft_shadows/pcss
+  Coloured         ///< others: soft_shadows/bitmask_coloured and soft_shadows/ray_traced_colours
 };
 /// Their names as registered; the first is the default.
 std::vector<std::string> innerEntries(InnerKind kind);

@@ -12,7 +12,11 @@ float levelDepth(ivec2 texel, int level) {
 // Where that depth was found, in texels of level 0.
 vec2 depthPlace(ivec2 texel, int level) { return vec2(sampledTexel(texel, level)) + 0.5; }
 // Texels of level 0 to either side that it may have been found at instead.
+#ifdef DEPTHS_MEDIAN
+float depthSpread(int level) { return 0.5 * float((1 << level) - 1); }
+#else
 float depthSpread(int level) { return 0.0; }
+#endif
 #else
 float levelDepth(ivec2 texel, int level) { return texelFetch(minimumMap, texel, level).x; }
 vec2 depthPlace(ivec2 texel, int level) { return (vec2(texel) + 0.5) * float(1 << level); }

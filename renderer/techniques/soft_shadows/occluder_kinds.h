@@ -6,6 +6,7 @@
 
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/microrect_map.h"
+#include "renderer/frame/sampled_pyramid.h"
 #include "renderer/gl/program.h"
 
 namespace limen::techniques {
@@ -66,10 +67,29 @@ using GapFillSettings = std::variant<LeftBottomFill, NoFill, DiagonalFill, Limit
 /// The depth that a texel of a coarse level stands for.
 enum class CoarseDepths {
   Nearest,  ///< the nearest of the finest texels that it covers
-  Sampled   ///< that of one of them
+  Sampled,  ///< that of one of them
+  Centre,   ///< that of the one at its centre
+  Median    ///< the second nearest of four of them
 };
-constexpr EnumNames<CoarseDepths, 2> enumNames(CoarseDepths) {
-  return {{{{CoarseDepths::Nearest, "nearest"}, {CoarseDepths::Sampled, "sampled"}}}};
+constexpr EnumNames<CoarseDepths, 4> enumNames(CoarseDepths) {
+  return {{{{CoarseDepths::Nearest, "nearest"},
+            {CoarseDepths::Sampled, "sampled"},
+            {CoarseDepths::Centre, "centre"},
+            {CoarseDepths::Median, "median"}}}};
+}
+/// The finest texel that a texel stands for; none for the nearest depths.
+constexpr std::optional<frame::SampledTexel> sampledTexel(CoarseDepths depths) {
+  switch (depths) {
+    case CoarseDepths::Nearest:
+      return std::nullopt;
+    case CoarseDepths::Sampled:
+      return frame::SampledTexel::Lattice;
+    case CoarseDepths::Centre:
+      return frame::SampledTexel::Centre;
+    case CoarseDepths::Median:
+      return frame::SampledTexel::Median;
+  }
+  return std::nullopt;
 }
 
 /// A kind of micro-occluder as an alternative of a technique's settings.
@@ -81,11 +101,13 @@ struct OccluderAlternative {
 
 template <class S>
 Binding<S> coarseDepthsBinding() {
-  return {
-      &S::depths, "depths",
-      "Depth that a texel of a coarse level stands for: the nearest of the texels that it covers, or that of "
-      "one of them, so that it hides as much of the light as they do on average",
-      "Schwarz 2009, section 4.1 (nearest); sampled: own form"};
+  return {&S::depths, "depths",
+          "Depth that a texel of a coarse level stands for: the nearest of the texels that it covers or, so "
+          "that it "
+          "hides as much of the light as they do on average, that of one of them, of the one at its centre, "
+          "or the "
+          "second nearest of four",
+          "Schwarz 2009, section 4.1 (nearest); others: own forms"};
 }
 
 struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
@@ -115,7 +137,10 @@ struct OccluderChoice {
   void define(gl::ShaderDefines& defines) const {
     defineEnum(defines, "OCCLUDERS", kind);
     defineEnum(defines, "GAP_FILL", gapFill);
-    if (depths == CoarseDepths::Sampled) defines["DEPTHS_SAMPLED"] = "1";
+    if (const auto texel = sampledTexel(depths)) {
+      defines["DEPTHS_SAMPLED"] = "1";
+      defines.merge(frame::SampledTexelSetting{*texel}.defines());
+    }
   }
 };
 

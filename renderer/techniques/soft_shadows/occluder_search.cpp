@@ -42,8 +42,8 @@ const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame
     bytes += layers->texture().bytes();
   }
   const frame::SampledPyramid* sampled = nullptr;
-  if (occluders_.depths == CoarseDepths::Sampled) {
-    sampled = &frame.get<frame::SampledPyramid>(settings);
+  if (const auto texel = sampledTexel(occluders_.depths)) {
+    sampled = &frame.get<frame::SampledPyramid>(settings, frame::SampledTexelSetting{*texel});
     bytes += sampled->atlas().bytes();
   }
   structureBytes_.resize(std::max(structureBytes_.size(), map + 1));

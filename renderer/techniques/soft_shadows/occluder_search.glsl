@@ -17,8 +17,14 @@ void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
 #if LANES > 1
-// Joins what the LANES invocations of a pixel have gathered in the first of them; called by all of the group.
-void joinLanes(uint slot, uint lane);
+// Joins what the LANES invocations of each pixel have gathered, in all of them; called by all of the group.
+void joinLanes();
+#endif
+#ifdef KEEP_MASKS
+void resumeGathered(ivec2 pixel);
+void keepGathered(ivec2 pixel);
+bool coveredBefore(vec4 p, ivec2 pixel);
+float visibilityKept(ivec2 pixel, float visibility);
 #endif
 
 // Texels by which occluders whose corners are texel centres reach beyond the texels that they cover.

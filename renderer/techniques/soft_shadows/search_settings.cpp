@@ -62,8 +62,8 @@ void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {
     throw Error(std::string("a stored bias belongs to a texel of a level, and ") +
                     limen::toText(occluders.kind) + " lie between two levels",
                 "bias", "choose another form, or other occluders");
-  if (std::holds_alternative<StoredBias>(search.bias) && occluders.depths == CoarseDepths::Sampled)
-    throw Error("a stored bias belongs to the nearest depth of a texel, and 'depths' is sampled", "bias",
+  if (std::holds_alternative<StoredBias>(search.bias) && sampledTexel(occluders.depths))
+    throw Error("a stored bias belongs to the nearest depth of a texel, and 'depths' is another", "bias",
                 std::string("choose another form, or occluders: {kind: ") + limen::toText(occluders.kind) +
                     ", depths: nearest}");
 }

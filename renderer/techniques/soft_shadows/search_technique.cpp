@@ -3,8 +3,6 @@
 
 #include <epoxy/gl.h>
 
-#include <cassert>
-
 #include "renderer/techniques/soft_shadows/quality/level_step_search.h"
 #include "renderer/techniques/soft_shadows/quality/quality_counters.h"
 #include "renderer/techniques/soft_shadows/search_pictures.h"
@@ -71,16 +69,18 @@ void SearchTechnique::setUniforms(const gl::Program& program) const {
 }
 
 void SearchTechnique::runPasses(frame::Frame& frame, const CountImages* counts) {
-  if (split_) {
-    assert(maps_.maps().size() == 1);  // techniques with several refuse split passes
-    split_->run(frame, pass_, *this, maps_.maps()[0], counts);
+  if (split_ && maps_.maps().size() == 1) {
+    split_->run(frame, pass_, *this, maps_.maps()[0], counts, SplitRunner::Timing::Stages);
     if (counts) counted_->add(*counts);
     return;
   }
   const auto scope = frame.passes().open(pass_.name());
   for (current_ = 0; current_ < maps_.maps().size(); ++current_) {
     if (!maps_.isDue(current_)) continue;
-    pass_.run(frame, *this, maps_.maps()[current_], counts);
+    if (split_)
+      split_->run(frame, pass_, *this, maps_.maps()[current_], counts, SplitRunner::Timing::Whole);
+    else
+      pass_.run(frame, *this, maps_.maps()[current_], counts);
     if (counts) counted_->add(*counts);
   }
   current_ = 0;
@@ -98,7 +98,7 @@ void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   // Levels of several maps contribute to one visibility, so none has a step of its own.
   if (counts && maps_.maps().size() == 1)
     levelSteps_ = findLevelSteps(frame, pass_, *this, maps_.maps()[0], quality_, *counts, *counted_);
-  if (steered) steered->finish(frame, split_ ? &split_->work() : nullptr);
+  if (steered) steered->finish();
   gathering_->join(frame, pass_.visibility());
   if (last_) last_->run(frame, pass_.visibility());
 }

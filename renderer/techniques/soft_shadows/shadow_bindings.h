@@ -45,19 +45,22 @@ const uint kBudgetMapUnit = 12u;
 const uint kSampledDepthsUnit = 4u;
 
 // Search and gathering as two passes.
-struct WorkListHeader {                       // std430; then pixels: x in the lower half, y in the upper
+// The list of pixels has x in their lower half, y in the upper; of it:
+struct WorkListHeader {                       // std430
   uint groupsPerRow, groupRows, groupLayers;  // of an indirect dispatch over them
   uint pixelCount;
 };
 #ifdef __cplusplus
 static_assert(sizeof(WorkListHeader) == 16 && offsetof(WorkListHeader, pixelCount) == 12);
 #endif
-const uint kSplitAreasImage = 3u;
+const uint kSplitAreasImage = 6u;
 const uint kSplitCameraDepthUnit = 15u;
 const uint kSplitLevelsImage = 4u;
 const uint kSplitHalfSmoothedImage = 5u;
 const uint kSplitSearchAreasUnit = 13u;
 const uint kSplitLevelMapUnit = 14u;
+const uint kNextWorkHeaderBuffer = 3u;
+const uint kWorkHeaderBuffer = 4u;
 const uint kWorkListBuffer = 7u;
 const uint kWorkListGroup = 64u;  // invocations of a group that works on the list
 

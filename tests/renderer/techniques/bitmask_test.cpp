@@ -46,8 +46,10 @@ struct Twin {
         const double left = depthAt(x - 1, y), below = depthAt(x, y - 1), corner = depthAt(x - 1, y - 1);
         const double widest = fill == "none" ? 0.0 : fill == "limited" ? 0.25 : 1e9;  // of the light
         const glm::dvec2 start = low;
-        if (left < limit && start.x - project(x, left, 0) <= widest) low.x = std::min(low.x, project(x, left, 0));
-        if (below < limit && start.y - project(y, below, 1) <= widest) low.y = std::min(low.y, project(y, below, 1));
+        if (left < limit && start.x - project(x, left, 0) <= widest)
+          low.x = std::min(low.x, project(x, left, 0));
+        if (below < limit && start.y - project(y, below, 1) <= widest)
+          low.y = std::min(low.y, project(y, below, 1));
         if (fill == "diagonal" && x > 0 && y > 0 && corner < limit)
           low = glm::min(low, glm::dvec2(project(x, corner, 0), project(y, corner, 1)));
         const glm::dvec2 a = glm::clamp(low, 0.0, 1.0), b = glm::clamp(high, 0.0, 1.0);

@@ -118,7 +118,8 @@ TEST_F(LevelsOfQuality, SplitPassesGiveTheBitsOfTheSingleOne) {
     SCOPED_TRACE(testing::Message() << tried.technique << ' ' << tried.sizePx.x);
     Given given = with(common(), tried.given);
     if (given.count("budget")) given.erase("budget.limit");
-    const Graded single = grade(scene, tried.technique, given, tried.sizePx);
+    const Graded single =
+        grade(scene, tried.technique, with(given, {{"passes", text("single")}}), tried.sizePx);
     const Graded split = grade(scene, tried.technique, with(given, unsmoothed()), tried.sizePx);
     EXPECT_TRUE(sameBits(single.visibility.data, split.visibility.data));
     EXPECT_EQ(single.counted.work, split.counted.work);
@@ -478,8 +479,8 @@ TEST_F(LevelsOfQuality, WhatBelongsToAnotherChoiceCannotBeWritten) {
   EXPECT_TRUE(known({{"levels", text("blend")}, {"passes", text("split")}}));
   EXPECT_TRUE(known({{"passes", text("split")}, {"passes.smoothing.radius", int64_t{3}}}));
   // Levels are smoothed between passes, and only real ones follow from a source.
-  EXPECT_FALSE(known({{"passes.smoothing.radius", int64_t{3}}}));
-  EXPECT_FALSE(known({{"passes.order", text("loop_length")}}));
+  EXPECT_FALSE(known({{"passes", text("single")}, {"passes.smoothing.radius", int64_t{3}}}));
+  EXPECT_FALSE(known({{"passes", text("single")}, {"passes.order", text("loop_length")}}));
   EXPECT_FALSE(known({{"levels", text("blend")}, {"levels.width", 0.2}}));
   EXPECT_FALSE(known({{"levels.source", text("filtered_depth")}}));
   EXPECT_FALSE(known({{"budget.inner", 0.5}}));

@@ -315,8 +315,8 @@ TEST_F(ColouredLight, WhatDoesNotGoTogetherIsRefused) {
   for (const Given& given :
        {Given{{"colours", std::string("masks")}, {"colours.group_bits", int64_t{4}}},
         Given{{"pattern", std::string("halton_256")}, {"pattern.prefilter", false}},
-        // Colours follow from masks, of one level each, that one pass makes.
-        Given{{"levels", std::string("blend")}}, Given{{"passes", std::string("split")}}})
+        // Colours follow from masks, of one level each.
+        Given{{"levels", std::string("blend")}}})
     EXPECT_THROW(ParameterValues(declared, given), Error) << given.rbegin()->first;
   // A picture of 32 x 32 cells has more colours than masks are for.
   EXPECT_THROW(render(makeScene("textured_light", {{"cells", int64_t{32}}}), kColoured,

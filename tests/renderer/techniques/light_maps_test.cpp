@@ -192,11 +192,10 @@ TEST_F(LightMapsTest, ParametersOfOtherMapsCannotBeWritten) {
     EXPECT_THROW(valuesOf(given), Error) << given.rbegin()->first;
 }
 
-TEST_F(LightMapsTest, SeveralMapsAreNeitherBlendedNorSplitNorBiasedByTexels) {
+TEST_F(LightMapsTest, SeveralMapsAreNeitherBlendedNorBiasedByTexels) {
   const std::string points = "light_points";
   for (const auto& [given, where] :
-       {std::pair<Given, std::string>{{{"maps", points}, {"passes", std::string("split")}}, "passes"},
-        {{{"maps", points}, {"levels", std::string("blend")}}, "levels"},
+       {std::pair<Given, std::string>{{{"maps", points}, {"levels", std::string("blend")}}, "levels"},
         {{{"maps", points}, {"bias", std::string("stored")}}, "bias"}}) {
     const std::optional<Error> error = refusal(kBitmask, given);
     ASSERT_TRUE(error) << where;

@@ -187,6 +187,15 @@ TEST_F(SceneNeedsTest, WhatASceneDoesNotAllowIsLeftOutWithTheReason) {
               Contains(AllOf(StartsWith("soft_shadows/backprojection"), HasSubstr("rectangular_light"))));
 }
 
+TEST_F(SceneNeedsTest, WhenTimeIsUpTheRestIsLeftOut) {
+  const std::vector<Candidate> candidates = fewCandidates(256);
+  const SceneNeedsFound found = find(makeScene("two_boxes"), candidates, {.seconds = 0.0});
+  ASSERT_EQ(found.tried.size(), 1U);
+  EXPECT_EQ(describe(found.chosen().candidate), describe(candidates.front()));
+  EXPECT_EQ(found.notTried.size(), candidates.size() - 1);
+  EXPECT_THAT(found.notTried, testing::Each(HasSubstr("no time was left")));
+}
+
 TEST_F(SceneNeedsTest, WithoutCandidatesItIsAnError) {
   EXPECT_THROW(find(makeScene("two_boxes"), {{"soft_shadows/hard", {{"resolution", int64_t{3}}}}}, {}),
                Error);

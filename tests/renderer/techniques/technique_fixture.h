@@ -75,6 +75,7 @@ class TechniqueTest : public testing::Test {
     const std::string occluders = chosen("occluders", "micropatches");
     if (occluders == "micropatches" || occluders == "contours")
       given.emplace(prefix + "occluders.depths", std::string("nearest"));
+    given[prefix + "passes"] = chosen("passes", "single");
     if (chosen("passes", "single") == "split") given.emplace(prefix + "passes.lanes", int64_t{1});
     return given;
   }

@@ -48,7 +48,7 @@ struct BackprojectionSettings {
       std::variant<Micropatches, SummedMicroquads, SummedMicrotris, Contours, Microrects, MorphingMicroquads>;
   SearchSettings search = {};
   LevelSettings levels = {};
-  PassSettings passes = {};
+  PassSettings passes = SplitPasses{};
   Occluders occluders = {};
   static const SettingsTable<BackprojectionSettings>& table();
   void check() const;

@@ -22,9 +22,9 @@ void accumulateQuad(vec2 a, vec2 b, vec2 c, vec2 d) { addQuadToMask(a, b, c, d);
 void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
 #if LANES > 1
 shared uint laneMasks[MASK_WORDS][kWorkListGroup];
-void joinLanes(uint slot, uint lane) {
-  const uint first = slot * LANES;
-  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][first + lane] = mask[i];
+void joinLanes() {
+  const uint own = gl_LocalInvocationIndex, lane = own % LANES, first = own - lane;
+  for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][own] = mask[i];
   memoryBarrierShared();
   barrier();
   for (uint i = lane; i < MASK_WORDS; i += LANES) {
@@ -49,24 +49,44 @@ layout(binding = kKeptMasksImage, rgba32ui) uniform uimage2DArray keptMasks;
 uniform int keptSet;  // of the masks in the image
 uniform int joins;    // 0: the set's first map
 
+// What earlier maps have covered.
+void resumeGathered(ivec2 pixel) {
+  if (joins != 0) addKeptMask(pixel, keptSet);
+}
+void keepGathered(ivec2 pixel) {
+  for (int layer = 0; layer < KEPT_LAYERS; ++layer)
+    imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
+}
+
+#if LANES > 1
+void clearGathered() { clearMask(); }
+#else
 // The mask holds what earlier maps found.
 void clearGathered() {}
 
-float visibilityOf(vec4 p, ivec2 pixel) {
+// Whether nothing of the light is left for this map; the pixel is done then.
+bool coveredBefore(vec4 p, ivec2 pixel) {
   clearMask();
-  if (joins != 0)
-    addKeptMask(pixel, keptSet);
-  else
-    hideBehindPlane(p);
-  if (allCovered()) {
-    pixelClass = kLit;  // nothing to do
-    return 0.0;
-  }
-  const float visibility = visibilityInMap(p, pixel);
+  resumeGathered(pixel);
+  if (joins == 0) hideBehindPlane(p);
+  if (!allCovered()) return false;
+  if (joins == 0) keepGathered(pixel);
+  pixelClass = kLit;
+  return true;
+}
+
+// After a pixel's search in this map.
+float visibilityKept(ivec2 pixel, float visibility) {
   if (pixelClass == kCutShort) return visibility;
   if (pixelClass == kUmbra) coverAll();
-  for (int layer = 0; layer < KEPT_LAYERS; ++layer)
-    imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
+  keepGathered(pixel);
   return gatheredVisibility();
 }
+
+#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER)
+float visibilityOf(vec4 p, ivec2 pixel) {
+  return coveredBefore(p, pixel) ? 0.0 : visibilityKept(pixel, visibilityInMap(p, pixel));
+}
+#endif
+#endif
 #endif

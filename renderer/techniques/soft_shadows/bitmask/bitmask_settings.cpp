@@ -83,9 +83,6 @@ void BitmaskSettings::check() const {
   checkSamples(occluders, sampleChoice(pattern).pattern);
   checkMaps(maps, search);
   if (std::holds_alternative<CentreMap>(maps)) return;
-  if (std::holds_alternative<SplitPasses>(passes))
-    throw Error("several maps are combined mask by mask, within a single pass", "passes",
-                "give passes: single, or maps: centre");
   const LevelRule rule = ruleOf(levels);
   if (rule != LevelRule::FinestWithin && rule != LevelRule::CoarsestOver)
     throw Error(std::string("several maps are combined mask by mask, and 'levels: ") + limen::toText(rule) +

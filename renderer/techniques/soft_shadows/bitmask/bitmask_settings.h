@@ -106,7 +106,7 @@ void checkMaps(const MapChoice& maps, const SearchSettings& search);
 struct BitmaskSettings {
   SearchSettings search = {};
   LevelSettings levels = {};
-  PassSettings passes = {};
+  PassSettings passes = SplitPasses{};
   MaskedOccluders occluders = {};
   PatternSettings pattern = GridSamples<LightPattern::Jittered16>{};
   MapChoice maps = {};

@@ -114,7 +114,7 @@ class BitmaskColoured : public SearchTechnique {
             .pass = "soft_shadows/bitmask",
             .search = settings.search,
             .levels = anyLevels(settings.levels),
-            .passes = SinglePass{},
+            .passes = settings.passes,
             .occluders = occluderChoice(settings.occluders),
             .maps = settings.maps,
             .gathering = std::move(masks),

@@ -18,6 +18,7 @@ const SettingsTable<ColouredSettings>& ColouredSettings::table() {
       included(&S::search),
       maskedOccludersBinding(&S::occluders),
       levelsBinding(&S::levels),
+      passesBinding(&S::passes),
       patternBinding(&S::pattern),
       mapsBinding(&S::maps),
       {&S::colours, "colours", "How the emission of visible samples is summed",

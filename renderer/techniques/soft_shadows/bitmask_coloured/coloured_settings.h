@@ -33,10 +33,11 @@ struct ColourSamples {
 };
 using ColourSums = std::variant<ColourMasks, ColourTable, ColourSamples>;
 
-/// Colours follow from the masks of all pixels: one level per pixel, in a single pass.
+/// Colours follow from the masks of all pixels: one level per pixel.
 struct ColouredSettings {
   SearchSettings search = {};
   WholeLevelSettings levels = {};
+  PassSettings passes = SplitPasses{};
   MaskedOccluders occluders = {};
   ColouredPattern pattern = CellSamples<LightPattern::Jittered16>{};
   MapChoice maps = {};

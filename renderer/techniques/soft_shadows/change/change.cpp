@@ -60,7 +60,7 @@ struct ChangeSettings {
   static const SettingsTable<ChangeSettings>& table() {
     using S = ChangeSettings;
     static const SettingsTable<S> kTable = {
-        innerBinding(&S::inner, InnerKind::OrExact),
+        innerBinding(&S::inner, InnerKind::OrPcss),
         {&S::quantity, "quantity", "Which change of visibility to show"},
         included(&S::way),
         {&S::smoothing, "smoothing", "Whether frames are averaged with previous ones",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soft shadows for frames with several samples per pixel (SS-35; Schwarz 2009, section 4.6): visibility is
 // found for one sample per pixel; samples on another surface take it from the neighbour closest in depth.
+// By default, beyond the thesis: it is found behind each pixel's centre, and once for each further surface
+// that the pixel's samples see. Sub-pixel surfaces, which no neighbour's sample may be on, have theirs too.
 //
 // Departures and choices: the product is the mean visibility of a pixel's samples; weights by their colours
 // are left out, since products here are visibilities. The thesis does not give the tolerance. Samples that
@@ -16,8 +18,9 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/soft_shadows/common_counters.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
-#include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
+#include "renderer/techniques/soft_shadows/multisample/pixel_samples.h"
+#include "renderer/techniques/soft_shadows/multisample/surface_points.h"
 
 namespace limen::techniques {
 namespace {
@@ -28,51 +31,42 @@ constexpr const char* kMultisampleFolder = "renderer/techniques/soft_shadows/mul
 class Multisample : public Technique {
  public:
   using Settings = MultisampleSettings;
-  explicit Multisample(const MultisampleSettings& settings)
-      : settings_(settings), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
+  explicit Multisample(const MultisampleSettings& settings, gl::Format format = gl::Format::R32F)
+      : settings_(settings), format_(format), chosen_(settings.chosen()), inner_(makeInner(settings.inner)) {}
 
   static std::vector<Quantity> counters() {
     return {{"inner_evaluations_per_px", "Points evaluated per pixel", "1/px", Direction::LowerIsBetter},
             counterOf(innerCounters(), "micro_occluders_per_px"),
             {"complex_share", "Share of pixels that see several surfaces", "", Direction::Neither},
             {"borrowed_share", "Share of samples that take a neighbour's visibility", "", Direction::Neither},
-            {"orphan_share", "Share of samples with another surface's visibility", "", Direction::Neither}};
+            {"orphan_share", "Share of samples with another surface's visibility", "", Direction::Neither},
+            {"sample_bytes", "Memory of samples and points", "byte", Direction::LowerIsBetter}};
   }
 
   void prepare(frame::Frame& frame) override {
-    const bool all = !chosen_;
-    const glm::ivec2 sizePx = frame.sizePx(), pointsPx(sizePx.x, sizePx.y * (all ? settings_.samples : 1));
-    requireSize(pointsPx);
-    gl::ShaderDefines defines = {{"SAMPLES", std::to_string(settings_.samples)}};
-    if (settings_.samples == 1)
-      defines["SINGLE"] = "1";
-    else
-      ids_.emplace(frame, settings_.samples);
-    if (chosen_) defineEnum(defines, "REPRESENTATIVE", chosen_->representative);
-    choose_ = &shader(frame, all ? "spread.comp.glsl" : "select.comp.glsl", defines);
-    defines["MEAN"] = "1";
-    resolve_ = all ? &shader(frame, "spread.comp.glsl", defines) : &shader(frame, "resolve.comp.glsl");
-    pointIds_.emplace(gl::Format::R32UI, pointsPx);
-    places_.emplace(gl::Format::RG32F, pointsPx);
-    visibility_.emplace(gl::Format::R32F, sizePx);
-    int64_t held = pointIds_->bytes() + places_->bytes();
-    if (!all) {
-      depths_.emplace(gl::Format::R32F, sizePx);
-      sampleDepths_.emplace(gl::Format::R32F, sizePx, 1, settings_.samples);
-      held += depths_->bytes() + sampleDepths_->bytes();
+    const glm::ivec2 sizePx = frame.sizePx();
+    const auto* surfaces = std::get_if<SurfaceSamples>(&settings_.method);
+    if (settings_.samples > 1)
+      samples_.emplace(frame, settings_.samples, settings_.raster, surfaces != nullptr);
+    sampleBytes_ = samples_ ? samples_->bytes() : 0;
+    if (samples_) frame.passes().setBytesHeld(kRaster, sampleBytes_);
+    points_.reset();
+    if (surfaces) {
+      surfaces_.emplace(frame, *surfaces, samples_ ? &*samples_ : nullptr, format_);
+      holdForChoice(frame, surfaces_->chooseBytes());
+      frame.passes().setBytesHeld(kResolve, surfaces_->visibility().bytes());
+      points_.emplace(frame, "multisample/inner", surfaces_->pointsPx());
+      points_->setSeen(surfaces_->seen(frame));
+    } else {
+      prepareThesisForm(frame, sizePx);
     }
-    if (ids_) frame.passes().setBytesHeld(kRaster, ids_->bytes());
-    frame.passes().setBytesHeld(kSelect, held);
-    frame.passes().setBytesHeld(kResolve, visibility_->bytes());
-    points_.emplace(frame, "multisample/inner", pointsPx);
-    points_->setSeen({&*pointIds_, &*places_, sizePx});
     inner_->prepare(*points_);
   }
 
-  void render(frame::Frame& frame) override { run(frame, *resolve_, nullptr); }
-  const gl::Texture& product() const override { return *visibility_; }
+  void render(frame::Frame& frame) override { run(frame, resolve_, nullptr); }
+  const gl::Texture& product() const override { return surfaces_ ? surfaces_->visibility() : *visibility_; }
 
-  /// Points evaluated per pixel and their micro-occluders; if one sample represents others, also the share of
+  /// Points evaluated per pixel and their micro-occluders; unless every sample is a point, also the share of
   /// pixels that see several surfaces, and of samples that took a neighbour's visibility or one from another
   /// surface.
   std::vector<Counter> count(frame::Frame& frame) override {
@@ -83,7 +77,7 @@ class Multisample : public Technique {
       program = &shader(frame, "resolve.comp.glsl", {{"COUNT", "1"}});
     }
     frame.begin();
-    run(frame, *program, counts ? &*counts : nullptr);
+    run(frame, program, counts ? &*counts : nullptr);
     const std::vector<float> receivers = points_->get<frame::Receivers>().texture().read().data;
     const std::vector<Counter> work = inner_->count(*points_);
     frame.end();
@@ -93,6 +87,12 @@ class Multisample : public Technique {
     std::vector<Counter> out = {{"inner_evaluations_per_px", evaluated / pixels}};
     for (const Counter& counter : work)
       if (counter.name == "micro_occluders_per_px") out.push_back(counter);
+    out.push_back({"sample_bytes", static_cast<double>(sampleBytes_)});
+    if (surfaces_) {
+      const SurfacePoints::Counts found = surfaces_->counts();
+      out.push_back({"complex_share", found.complexPixels / pixels});
+      out.push_back({"orphan_share", found.dropped / (pixels * settings_.samples)});
+    }
     if (!counts) return out;
     double complex = 0.0, lent = 0.0, orphaned = 0.0, samples = 0.0;
     const std::vector<uint32_t> read = counts->readUint();
@@ -108,6 +108,39 @@ class Multisample : public Technique {
   }
 
  private:
+  void prepareThesisForm(frame::Frame& frame, glm::ivec2 sizePx) {
+    const bool all = !chosen_;
+    const glm::ivec2 pointsPx(sizePx.x, sizePx.y * (all ? settings_.samples : 1));
+    requireSize(pointsPx);
+    gl::ShaderDefines defines = {{"SAMPLES", std::to_string(settings_.samples)}};
+    if (samples_)
+      defines = samples_->defines();
+    else
+      defines["SINGLE"] = "1";
+    if (chosen_) defineEnum(defines, "REPRESENTATIVE", chosen_->representative);
+    choose_ = &shader(frame, all ? "spread.comp.glsl" : "select.comp.glsl", defines);
+    defines["MEAN"] = "1";
+    resolve_ = all ? &shader(frame, "spread.comp.glsl", defines) : &shader(frame, "resolve.comp.glsl");
+    pointIds_.emplace(gl::Format::R32UI, pointsPx);
+    places_.emplace(gl::Format::RG32F, pointsPx);
+    visibility_.emplace(gl::Format::R32F, sizePx);
+    int64_t held = pointIds_->bytes() + places_->bytes();
+    if (!all) {
+      depths_.emplace(gl::Format::R32F, sizePx);
+      sampleDepths_.emplace(gl::Format::R32F, sizePx, 1, settings_.samples);
+      held += depths_->bytes() + sampleDepths_->bytes();
+    }
+    holdForChoice(frame, held);
+    frame.passes().setBytesHeld(kResolve, visibility_->bytes());
+    points_.emplace(frame, "multisample/inner", pointsPx);
+    points_->setSeen({&*pointIds_, &*places_, sizePx});
+  }
+
+  void holdForChoice(frame::Frame& frame, int64_t bytes) {
+    frame.passes().setBytesHeld(kSelect, bytes);
+    sampleBytes_ += bytes;
+  }
+
   static const gl::Program& shader(frame::Frame& frame, const std::string& name,
                                    const gl::ShaderDefines& defines = {}) {
     return frame.context().programs().compute(kMultisampleFolder + name, defines);
@@ -124,13 +157,21 @@ class Multisample : public Technique {
                 "this driver has at most " + std::to_string(largest) + ": lower 'samples' or the image size");
   }
 
-  void run(frame::Frame& frame, const gl::Program& resolve, const gl::Texture* counts) {
+  /// `resolve`: of the thesis's forms.
+  void run(frame::Frame& frame, const gl::Program* resolve, const gl::Texture* counts) {
     points_->setTime(frame.timeS());
     points_->begin();
     choose(frame);
     inner_->render(*points_);
     points_->end();
     const auto scope = frame.passes().open(kResolve);
+    if (surfaces_)
+      surfaces_->resolve(frame, inner_->product());
+    else
+      resolveThesisForm(frame, *resolve, counts);
+  }
+
+  void resolveThesisForm(frame::Frame& frame, const gl::Program& resolve, const gl::Texture* counts) {
     resolve.set("sizePx", frame.sizePx());
     if (!chosen_) {
       inner_->product().bindTexture(kSampleSpreadVisibilityUnit);
@@ -153,19 +194,21 @@ class Multisample : public Technique {
 
   /// Writes ids and positions of the points for the inner technique.
   void choose(frame::Frame& frame) {
-    if (ids_) {
-      const auto scope = frame.passes().open(kRaster);
-      ids_->draw(frame);
-    } else {
+    if (samples_)
+      samples_->draw(frame, kRaster);
+    else
       frame.get<frame::TriangleIds>();
-    }
     const auto scope = frame.passes().open(kSelect);
+    if (surfaces_) {
+      surfaces_->choose(frame);
+      return;
+    }
     choose_->set("sizePx", frame.sizePx());
     for (int i = 0; i < settings_.samples; ++i)
       choose_->set(("samplePlaces[" + std::to_string(i) + "]").c_str(),
-                   ids_ ? ids_->places()[static_cast<size_t>(i)] : glm::vec2(0.5F));
-    if (ids_)
-      ids_->bindTexture(kSampleIdsUnit);
+                   samples_ ? samples_->places()[static_cast<size_t>(i)] : glm::vec2(0.5F));
+    if (samples_)
+      samples_->bindForSampleIds(frame);
     else
       frame.get<frame::TriangleIds>().texture().bindTexture(kSampleIdsUnit);
     pointIds_->bindImage(kSamplePointIdsImage, gl::Access::Write);
@@ -186,21 +229,48 @@ class Multisample : public Technique {
   }
 
   MultisampleSettings settings_;
-  std::optional<ChosenSample> chosen_;  // none: every sample has its own visibility
+  gl::Format format_;                   // of the product
+  std::optional<ChosenSample> chosen_;  // none: every sample or every surface has its own visibility
   std::unique_ptr<Technique> inner_;
-  std::optional<MultisampleIds> ids_;
+  std::optional<PixelSamples> samples_;  // none: one, behind the centre
+  std::optional<SurfacePoints> surfaces_;
+  int64_t sampleBytes_ = 0;
   const gl::Program *choose_ = nullptr, *resolve_ = nullptr;
   std::optional<gl::Texture> pointIds_, places_, depths_, sampleDepths_, visibility_;
   std::optional<frame::Frame> points_;
 };
 
+/// Each sample's share of the light's radiance, per channel: their mean, as light of several colours has
+/// shadows of several colours within a pixel.
+class MultisampleColoured : public Multisample {
+ public:
+  using Settings = MultisampleColouredSettings;
+  explicit MultisampleColoured(const MultisampleColouredSettings& settings)
+      : Multisample({.inner = settings.inner,
+                     .samples = settings.samples,
+                     .raster = settings.raster,
+                     .method = settings.surfaces},
+                    gl::Format::RGBA32F) {}
+};
+
 const RegisteredTechnique<Multisample> kMultisampleRegistered{
     {.name = "soft_shadows/multisample",
-     .version = 1,
-     .summary = "Another technique's visibility at one sample per pixel, shared by the pixel's other samples",
+     .version = 2,
+     .summary = "Another technique's visibility for all samples of a pixel, found once per pixel and surface",
      .source = "Schwarz 2009, section 4.6 (SS-35)",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
+     .counters = Multisample::counters()}};
+
+const RegisteredTechnique<MultisampleColoured> kMultisampleColouredRegistered{
+    {.name = "soft_shadows/multisample_coloured",
+     .version = 1,
+     .summary =
+         "Visible share of a coloured light's radiance for all samples of a pixel, found once per pixel "
+         "and surface",
+     .source = "bench; Schwarz 2009, sections 4.2.2 and 4.6 (SS-17, SS-35)",
+     .product = ProductKind::LightColour,
+     .needs = {"area_light"},
      .counters = Multisample::counters()}};
 
 }  // namespace

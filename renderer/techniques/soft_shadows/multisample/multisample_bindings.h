@@ -15,6 +15,34 @@ const uint kSamplePlacesImage = 1u;
 const uint kSampleChosenDepthsImage = 2u;
 const uint kSampleDepthsImage = 3u;
 
+const uint kSampleMarksUnit = 1u;  // of listed pixels
+const uint kSampleIdsBuffer = 5u;  // as SampleRaster has them
+const uint kSampleListBuffer = 7u;
+const uint kGatherCentreIdsUnit = 0u;
+const uint kGatherSamplesUnit = 1u;
+const uint kGatherMarksImage = 0u;
+
+// One point for each surface that a pixel's samples see. A sample's source of visibility: none, since it is
+// no receiver; the pixel's own point; or a further point i as kSourcePoints + i.
+const uint kSourceNone = 0u;
+const uint kSourceOwn = 1u;
+const uint kSourcePoints = 2u;
+struct SurfaceCounts {  // std430
+  uint points;          // further points, of which those beyond the capacity are left out
+  uint dropped;         // samples on a surface whose point was left out
+  uint complexPixels;
+  uint padding;
+};
+#ifdef __cplusplus
+static_assert(sizeof(SurfaceCounts) == 16);
+#endif
+const uint kSurfaceCountsBuffer = 3u;
+const uint kSurfaceCentreIdsUnit = 0u;
+const uint kSurfaceVisibilityUnit = 2u;
+const uint kSurfacePointIdsImage = 0u;
+const uint kSurfacePlacesImage = 1u;
+const uint kSurfaceVisibilityImage = 0u;
+
 // All samples.
 const uint kSampleSpreadVisibilityUnit = 0u;
 const uint kSampleSpreadVisibilityImage = 0u;

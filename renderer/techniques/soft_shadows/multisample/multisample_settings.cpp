@@ -20,6 +20,32 @@ const SettingsTable<ChosenSample>& ChosenSample::table() {
   return kTable;
 }
 
+const SettingsTable<SurfaceSamples>& SurfaceSamples::table() {
+  using S = SurfaceSamples;
+  static const SettingsTable<S> kTable = {
+      {&S::tolerance,
+       "tolerance",
+       {0, 1},
+       "",
+       "Largest distance of a sample from the plane of a point on the same surface, as a share of its "
+       "distance "
+       "from the camera",
+       "bench; Schwarz 2009, section 4.6, compares depths"},
+      {&S::angleDeg,
+       "angle",
+       {0, 90},
+       "degree",
+       "Largest angle between normals of the same surface",
+       "bench"},
+      {&S::capacity,
+       "capacity",
+       {0, 8},
+       "1/px",
+       "Room for points beyond one per pixel; samples that find none take their pixel's visibility",
+       "bench"}};
+  return kTable;
+}
+
 const SettingsTable<InterpolatedSamples>& InterpolatedSamples::table() {
   using S = InterpolatedSamples;
   static const SettingsTable<S> kTable = {
@@ -39,13 +65,41 @@ const SettingsTable<PixelForAll>& PixelForAll::table() {
   return kTable;
 }
 
+template <class S>
+Binding<S> samplesBinding() {
+  return {&S::samples,
+          "samples",
+          oneOf({1, 2, 4, 8}),
+          "",
+          "Samples per pixel; drivers need not support every number",
+          "Schwarz 2009, section 4.6"};
+}
+
+template <class S>
+Binding<S> rasterBinding() {
+  return {&S::raster, "raster",
+          "How samples find their triangles: by the driver's rasteriser, at places that it chooses, or in "
+          "compute shaders, at standard places and only where a pixel may see several triangles; auto: "
+          "compute on a GPU"};
+}
+
 const SettingsTable<MultisampleSettings>& MultisampleSettings::table() {
   using S = MultisampleSettings;
   static const SettingsTable<S> kTable = {
       innerBinding(&S::inner, InnerKind::OrRayTraced),
-      {&S::samples, "samples", oneOf({1, 2, 4, 8}), "",
-       "Samples per pixel; drivers need not support every number", "Schwarz 2009, section 4.6"},
+      samplesBinding<S>(),
+      rasterBinding<S>(),
       {&S::method, "method", "How samples get their visibility", "Schwarz 2009, section 4.6"}};
+  return kTable;
+}
+
+const SettingsTable<MultisampleColouredSettings>& MultisampleColouredSettings::table() {
+  using S = MultisampleColouredSettings;
+  static const SettingsTable<S> kTable = {
+      innerBinding(&S::inner, InnerKind::Coloured),
+      samplesBinding<S>(),
+      rasterBinding<S>(),
+      {&S::surfaces, "surfaces", "Which samples of a pixel share a point"}};
   return kTable;
 }
 

@@ -31,6 +31,15 @@ struct ChosenSample {
   static const SettingsTable<ChosenSample>& table();
 };
 
+struct SurfaceSamples {
+  static constexpr const char *kKind = "surfaces",
+                              *kSummary = "each surface in a pixel has a visibility of its own";
+  double tolerance = 0.003;  ///< distance from a point's plane, as a share of that from the camera
+  double angleDeg = 15.0;    ///< between normals
+  double capacity = 0.5;     ///< further points per pixel
+  static const SettingsTable<SurfaceSamples>& table();
+};
+
 struct InterpolatedSamples {
   static constexpr const char *kKind = "interpolate",
                               *kSummary = "samples take the visibility that is closest in depth";
@@ -53,11 +62,21 @@ struct EverySample {
 struct MultisampleSettings {
   ChosenEntry inner{"soft_shadows/backprojection", {}};
   int samples = 4;
-  std::variant<InterpolatedSamples, PixelForAll, EverySample> method;
+  frame::Raster raster = frame::Raster::Auto;
+  std::variant<SurfaceSamples, InterpolatedSamples, PixelForAll, EverySample> method;
   static const SettingsTable<MultisampleSettings>& table();
 
-  /// None if each sample gets its own.
+  /// None unless one sample represents its pixel.
   std::optional<ChosenSample> chosen() const;
+};
+
+/// For techniques whose product is a colour: always by surfaces.
+struct MultisampleColouredSettings {
+  ChosenEntry inner{"soft_shadows/bitmask_coloured", {}};
+  int samples = 4;
+  frame::Raster raster = frame::Raster::Auto;
+  SurfaceSamples surfaces;
+  static const SettingsTable<MultisampleColouredSettings>& table();
 };
 
 }  // namespace limen::techniques

@@ -2,17 +2,11 @@
 // Depth of each sample of a pixel, and which of them stands for the pixel. Schwarz 2009, section 4.6.
 // A depth is written as it is for a receiver, negated for a surface that turns away from the light or lies behind it, and
 // as 0 for the background.
-// SINGLE: one sample a pixel, behind its centre.
-#include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
+#include "renderer/techniques/soft_shadows/multisample/sample_ids.glsl"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
-#ifdef SINGLE
-layout(binding = kSampleIdsUnit) uniform usampler2D sampleIds;
-#else
-layout(binding = kSampleIdsUnit) uniform usampler2DMS sampleIds;
-#endif
 layout(binding = kSamplePointIdsImage, r32ui) uniform writeonly uimage2D outIds;
 layout(binding = kSamplePlacesImage, rg32f) uniform writeonly image2D outPlaces;
 layout(binding = kSampleChosenDepthsImage, r32f) uniform writeonly image2D outDepths;             // of the samples chosen
@@ -44,7 +38,7 @@ void main() {
   uint ids[SAMPLES];
   float depths[SAMPLES];
   for (int i = 0; i < SAMPLES; ++i) {
-    ids[i] = texelFetch(sampleIds, pixel, i).x;
+    ids[i] = sampleId(pixel, i);
     // Most pixels see one triangle; at one place it has one depth.
     if (i > 0 && depthAtCentre && ids[i] == ids[i - 1])
       depths[i] = depths[i - 1];

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All samples as pixels of one tall picture, sample k of every pixel in the k-th picture from the top; and back: their mean.
 #include "renderer/techniques/soft_shadows/multisample/multisample_bindings.h"
+#ifndef MEAN
+#include "renderer/techniques/soft_shadows/multisample/sample_ids.glsl"
+#endif
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 uniform ivec2 sizePx;
@@ -8,11 +11,6 @@ uniform ivec2 sizePx;
 layout(binding = kSampleSpreadVisibilityUnit) uniform sampler2D visibility;
 layout(binding = kSampleSpreadVisibilityImage, r32f) uniform writeonly image2D outVisibility;
 #else
-#ifdef SINGLE
-layout(binding = kSampleIdsUnit) uniform usampler2D sampleIds;
-#else
-layout(binding = kSampleIdsUnit) uniform usampler2DMS sampleIds;
-#endif
 layout(binding = kSamplePointIdsImage, r32ui) uniform writeonly uimage2D outIds;
 layout(binding = kSamplePlacesImage, rg32f) uniform writeonly image2D outPlaces;
 uniform vec2 samplePlaces[SAMPLES];
@@ -28,7 +26,7 @@ void main() {
 #else
   for (int i = 0; i < SAMPLES; ++i) {
     const ivec2 at = pixel + ivec2(0, i * sizePx.y);
-    imageStore(outIds, at, texelFetch(sampleIds, pixel, i));
+    imageStore(outIds, at, uvec4(sampleId(pixel, i)));
     imageStore(outPlaces, at, vec4(vec2(pixel) + samplePlaces[i], 0.0, 0.0));
   }
 #endif

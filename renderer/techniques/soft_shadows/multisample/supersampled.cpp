@@ -15,22 +15,24 @@ namespace {
 
 constexpr const char* kSupersampledPass = "supersampled/mean";
 
+template <bool kColoured>
 struct SupersampledSettings {
-  ChosenEntry inner{"soft_shadows/backprojection", {}};
+  ChosenEntry inner{kColoured ? "soft_shadows/bitmask_coloured" : "soft_shadows/backprojection", {}};
   int samples = 4;
   static const SettingsTable<SupersampledSettings>& table() {
     using S = SupersampledSettings;
     static const SettingsTable<S> kTable = {
-        innerBinding(&S::inner, InnerKind::OrRayTraced),
+        innerBinding(&S::inner, kColoured ? InnerKind::Coloured : InnerKind::OrRayTraced),
         {&S::samples, "samples", {1, 16}, "", "Samples per pixel along each axis, box filter"}};
     return kTable;
   }
 };
 
+template <bool kColoured>
 class Supersampled : public Technique {
  public:
-  using Settings = SupersampledSettings;
-  explicit Supersampled(const SupersampledSettings& settings)
+  using Settings = SupersampledSettings<kColoured>;
+  explicit Supersampled(const Settings& settings)
       : samples_(settings.samples), inner_(makeInner(settings.inner)) {}
 
   void prepare(frame::Frame& frame) override {
@@ -43,9 +45,10 @@ class Supersampled : public Technique {
               " x " + std::to_string(sizePx.y),
           "samples",
           "this driver has at most " + std::to_string(largest) + ": lower 'samples' or the image size");
-    mean_ = &frame.context().programs().compute(
-        "renderer/techniques/soft_shadows/multisample/box_mean.comp.glsl");
-    visibility_.emplace(gl::Format::R32F, frame.sizePx());
+    mean_ =
+        &frame.context().programs().compute("renderer/techniques/soft_shadows/multisample/box_mean.comp.glsl",
+                                            {{"VISIBILITY_FORMAT", kColoured ? "rgba32f" : "r32f"}});
+    visibility_.emplace(kColoured ? gl::Format::RGBA32F : gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld(kSupersampledPass, visibility_->bytes());
     sampled_.emplace(frame, "supersampled/inner", sizePx);
     inner_->prepare(*sampled_);
@@ -75,13 +78,23 @@ class Supersampled : public Technique {
   std::optional<frame::Frame> sampled_;
 };
 
-const RegisteredTechnique<Supersampled> kSupersampledRegistered{
+const RegisteredTechnique<Supersampled<false>> kSupersampledRegistered{
     {.name = "soft_shadows/supersampled",
      .version = 1,
      .summary = "Another technique's visibility at many samples over each pixel, averaged",
      .source = "bench: reference for Schwarz 2009, section 4.6",
      .product = ProductKind::Visibility,
      .needs = {"rectangular_light"},
+     .reference = true}};
+
+const RegisteredTechnique<Supersampled<true>> kSupersampledColouredRegistered{
+    {.name = "soft_shadows/supersampled_coloured",
+     .version = 1,
+     .summary =
+         "Another technique's visible share of a coloured light at many samples over each pixel, averaged",
+     .source = "bench: reference for Schwarz 2009, section 4.6",
+     .product = ProductKind::LightColour,
+     .needs = {"area_light"},
      .reference = true}};
 
 }  // namespace

@@ -34,9 +34,8 @@ class BudgetDriver {
   /// Calls of begin() and finish() come in pairs, outside of any pass; not in frames that count their work.
   virtual void begin() {}
   /// Called once the frame's visibility is complete, outside of any pass, for drivers that react to its cost.
-  /// `work` is the list of processed pixels (split_search.h), whose word 3 is their number; null in the
-  /// single pass. Must not wait for the GPU.
-  virtual void finish(frame::Frame& /*frame*/, const gl::Buffer* /*work*/) {}
+  /// Must not wait for the GPU.
+  virtual void finish() {}
 
   /// Frames to run to completion before the first one shown or timed, for drivers that have to find their
   /// budget first.

@@ -82,9 +82,9 @@ class FrameTimeBudgetDriver : public BudgetDriver {
     stopwatch_->start(scale_);
   }
 
-  void finish(frame::Frame& frame, const gl::Buffer* work) override {
+  void finish() override {
     stopwatch_->stop();
-    if (base_) base_->finish(frame, work);
+    if (base_) base_->finish();
   }
 
   int settleFrames() const override { return settleFrames_; }

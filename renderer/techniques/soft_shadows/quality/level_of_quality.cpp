@@ -12,8 +12,7 @@ bool LevelOfQuality::orders() const {
 
 int LevelOfQuality::lanes() const {
   const auto* split = std::get_if<SplitPasses>(&passes_);
-  const LevelRule rule = ruleOf(levels_);
-  return split && (rule == LevelRule::FinestWithin || rule == LevelRule::CoarsestOver) ? split->lanes : 1;
+  return split ? split->lanes : 1;
 }
 
 const LevelFilter* LevelOfQuality::smoothing() const {

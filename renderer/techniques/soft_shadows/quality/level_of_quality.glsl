@@ -125,30 +125,51 @@ float iterationsOf(Area area, int level) {
   return (count.x + 1.0) * count.y;
 }
 
-// Visibility by the levels that a real level stands for. Both are rounded outward from the one search area.
-float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
+#ifdef ONE_LEVEL
+#define LEVELS_PER_PIXEL 1
+#else
+#define LEVELS_PER_PIXEL 2
+#endif
+
+// The levels that a real level stands for, `first` to `last`, and the weight of the last of two. Both are rounded outward
+// from the one search area. Begins the processing of a pixel; false: more iterations than the driver allows.
+bool beginLevels(Area area, float level, ivec2 pixel, out int first, out int last, out float weight) {
   pixelClass = kProcessed;
   areaTexels = uint(area.high.x - area.low.x) * uint(area.high.y - area.low.y);
   levelUsed = level;
+  first = last = int(level);
+  weight = 0.0;
+#ifndef ONE_LEVEL
+  const int finer = first;
+  weight = coarserWeight(level - float(finer), pixel);
+  first = weight < 1.0 ? finer : finer + 1;
+  last = weight > 0.0 ? finer + 1 : finer;
+  if (first < last && iterationsOf(area, first) + iterationsOf(area, last) > float(maxIterations)) {
+    pixelClass = kCutShort;
+    return false;
+  }
+#endif
+  return true;
+}
+
+#if LANES <= 1
+float visibilityAt(vec4 p, Area area, float level, ivec2 pixel) {
+  int first, last;
+  float weight, visibility = 0.0;
+  // No number rather than a wrong one.
+  if (!beginLevels(area, level, pixel, first, last, weight)) return uintBitsToFloat(0x7fc00000u);
 #ifdef ONE_LEVEL
   clearGathered();
   hideBehindPlane(p);
-  return gatherOccluders(p, area, int(level));
+  visibility = gatherOccluders(p, area, first);
 #else
-  const int finer = int(level);
-  const float weight = coarserWeight(level - float(finer), pixel);
-  const int first = weight < 1.0 ? finer : finer + 1, last = weight > 0.0 ? finer + 1 : finer;
-  if (first < last && iterationsOf(area, first) + iterationsOf(area, last) > float(maxIterations)) {
-    pixelClass = kCutShort;
-    return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
-  }
-  float visibility = 0.0;
   for (int i = first; i <= last; ++i) {
     clearGathered();
     hideBehindPlane(p);
     const float found = gatherOccluders(p, area, i);
     visibility = i == first ? found : mix(visibility, found, weight);
   }
-  return visibility;
 #endif
+  return visibility;
 }
+#endif

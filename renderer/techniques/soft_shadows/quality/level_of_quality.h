@@ -17,7 +17,7 @@ class LevelOfQuality {
   bool splits() const { return std::holds_alternative<SplitPasses>(passes_); }
   /// The list of pixels is sorted by the length of their loops.
   bool orders() const;
-  /// Invocations that share a pixel's loop; 1 if a pixel may have two levels.
+  /// Invocations that share a pixel's loop.
   int lanes() const;
   /// The filter of real-valued levels; null: they are not smoothed, or there are none.
   const LevelFilter* smoothing() const;

@@ -73,8 +73,7 @@ const SettingsTable<SplitPasses>& SplitPasses::table() {
               "Schwarz 2009, section 5.2.2 (coherence)")
           .formerly({"work_order"}),
       {&SplitPasses::lanes, "lanes", oneOf({1, 2, 4, 8, 16}), "",
-       "Invocations that share the loop over a pixel's micro-occluders, row by row; 1 where levels are "
-       "blended"},
+       "Invocations that share the loop over a pixel's micro-occluders"},
       {&SplitPasses::smoothing, "smoothing",
        "Smoothing of real-valued levels, if two are blended or dithered", "Schwarz 2009, section 5.2.2"}};
   return kTable;

@@ -100,7 +100,7 @@ struct SplitPasses {
       *kKind = "split",
       *kSummary = "search, smoothing of levels and the loop over micro-occluders in separate passes";
   WorkOrder order = WorkOrder::Tiles;
-  int lanes = 8;  ///< invocations that share a pixel's loop
+  int lanes = 4;  ///< invocations that share a pixel's loop
   std::variant<LevelFilter, NoSmoothing> smoothing;
   static const SettingsTable<SplitPasses>& table();
 };

@@ -12,10 +12,7 @@ layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
 layout(std430, binding = kOrderWorkBinsBuffer) restrict buffer Bins { uint binCounts[kWorkBins], binFilled[kWorkBins]; };
 #ifdef SCATTER
-layout(std430, binding = kOrderWorkOrderedListBuffer) restrict writeonly buffer OrderedList {
-  WorkListHeader ordered;
-  uint orderedPixels[];
-};
+layout(std430, binding = kOrderWorkOrderedListBuffer) restrict writeonly buffer OrderedList { uint orderedPixels[]; };
 #endif
 
 shared uint groupCounts[kWorkBins];
@@ -58,9 +55,6 @@ void main() {
   memoryBarrierShared();
   barrier();
   if (listed) orderedPixels[groupStarts[bin] + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
-  if (gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u && lane == 0u) {
-    ordered = work;
-  }
 #else
   if (count > 0u) atomicAdd(binCounts[lane], count);
 #endif

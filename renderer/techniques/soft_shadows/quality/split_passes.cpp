@@ -51,30 +51,32 @@ void SplitRunner::bindInputs(frame::Frame& frame) const {
 }
 
 void SplitRunner::run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
-                      const frame::ShadowMapSettings& map, const CountImages* counts) const {
-  {
-    const auto scope = frame.passes().open(pass.name() + "/classify");
+                      const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing) {
+  const auto stage = [&](const char* name, const auto& work) {
+    if (timing == Timing::Whole) return work();
+    const auto scope = frame.passes().open(pass.name() + name);
+    work();
+  };
+  stage("/classify", [&] {
     const gl::Program& classify = counts ? pass.program(frame, true, classifyDefines(smooths_)) : classify_;
     pass.bind(frame, classify, inputs, map, counts);
     search_.bindForClassify();
     classify.dispatch(frame.sizePx());
     SplitSearch::makeVisible();
-  }
-  if (smooths_) {
-    const auto scope = frame.passes().open(pass.name() + "/smooth");
-    quality_.configureSmoothing(*smooth_);
-    search_.smooth(*smooth_);
-  }
-  if (quality_.orders()) {
-    const auto scope = frame.passes().open(pass.name() + "/order");
-    search_.order(*countBins_, *scatter_);
-  }
-  const auto scope = frame.passes().open(pass.name() + "/gather");
-  const gl::Program& gather = counts ? pass.program(frame, true, gatherDefines(quality_)) : gather_;
-  pass.bind(frame, gather, inputs, map, counts);
-  search_.bindForGather();
-  search_.dispatchOverList(gather);
-  SplitSearch::makeVisible();
+  });
+  if (smooths_)
+    stage("/smooth", [&] {
+      quality_.configureSmoothing(*smooth_);
+      search_.smooth(*smooth_);
+    });
+  if (quality_.orders()) stage("/order", [&] { search_.order(*countBins_, *scatter_); });
+  stage("/gather", [&] {
+    const gl::Program& gather = counts ? pass.program(frame, true, gatherDefines(quality_)) : gather_;
+    pass.bind(frame, gather, inputs, map, counts);
+    search_.bindForGather();
+    search_.dispatchOverList(gather);
+    SplitSearch::makeVisible();
+  });
 }
 
 }  // namespace limen::techniques

@@ -20,11 +20,13 @@ class SplitRunner {
   /// Makes what bindInputs() binds.
   void makeInputs(frame::Frame& frame) const;
   void bindInputs(frame::Frame& frame) const;
+  enum class Timing {
+    Stages,  ///< each stage is a pass of the frame
+    Whole    ///< within a pass that the caller has opened
+  };
   /// `counts` is null in a plain frame.
   void run(frame::Frame& frame, const VisibilityPass& pass, PassInputs& inputs,
-           const frame::ShadowMapSettings& map, const CountImages* counts) const;
-  /// See SplitSearch.
-  const gl::Buffer& work() const { return search_.work(); }
+           const frame::ShadowMapSettings& map, const CountImages* counts, Timing timing);
   std::map<std::string, const gl::Texture*> debugViews() const {
     return {{"search_areas", &search_.areas()}, {"levels", &search_.levels()}};
   }

@@ -15,6 +15,10 @@ namespace {
 /// minus one group is idle.
 constexpr uint32_t kGroupsPerRow = 64;
 
+gl::Buffer emptyHeader(int lanes) {
+  return gl::Buffer(std::vector{WorkListHeader{kGroupsPerRow, 0, static_cast<uint32_t>(lanes), 0}});
+}
+
 gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::Format::R32F; }
 
 }  // namespace
@@ -22,8 +26,8 @@ gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::
 SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes)
     : areas_(gl::Format::RGBA16UI, frame.sizePx()),
       levels_(levelFormat(smooths), frame.sizePx()),
-      emptyHeader_(std::vector{WorkListHeader{kGroupsPerRow, 0, static_cast<uint32_t>(lanes), 0}}),
-      work_(int64_t{sizeof(WorkListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
+      headers_{emptyHeader(lanes), emptyHeader(lanes)},
+      work_(int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
   if (smooths) halfSmoothed_.emplace(levelFormat(smooths), frame.sizePx());
   if (orders) {
     const std::vector<uint32_t> none(size_t{2} * kWorkBins, 0);
@@ -33,12 +37,14 @@ SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lan
 
 int64_t SplitSearch::bytes() const {
   return areas_.bytes() + levels_.bytes() + (halfSmoothed_ ? halfSmoothed_->bytes() : 0) + work_.bytes() +
-         emptyHeader_.bytes() +
+         headers_[0].bytes() + headers_[1].bytes() +
          (order_ ? order_->list.bytes() + order_->bins.bytes() + order_->emptyBins.bytes() : 0);
 }
 
-void SplitSearch::bindForClassify() const {
-  glCopyNamedBufferSubData(emptyHeader_.id(), work_.id(), 0, 0, emptyHeader_.bytes());
+void SplitSearch::bindForClassify() {
+  current_ = 1 - current_;
+  header().bindStorage(kWorkHeaderBuffer);
+  headers_[1 - current_].bindStorage(kNextWorkHeaderBuffer);
   areas_.bindImage(kSplitAreasImage, gl::Access::Write);
   levels_.bindImage(kSplitLevelsImage, gl::Access::Write);
   if (halfSmoothed_) halfSmoothed_->bindImage(kSplitHalfSmoothedImage, gl::Access::Write);
@@ -48,28 +54,26 @@ void SplitSearch::bindForClassify() const {
 void SplitSearch::bindForGather() const {
   areas_.bindTexture(kSplitSearchAreasUnit);
   levels_.bindTexture(kSplitLevelMapUnit);
+  header().bindStorage(kWorkHeaderBuffer);
   (order_ ? order_->list : work_).bindStorage(kWorkListBuffer);
 }
 
 void SplitSearch::dispatchOverList(const gl::Program& program) const {
-  dispatch(program, order_ ? order_->list : work_);
-}
-
-void SplitSearch::dispatch(const gl::Program& program, const gl::Buffer& list) const {
   program.use();
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.id());
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, header().id());
   glDispatchComputeIndirect(0);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 void SplitSearch::smooth(const gl::Program& program) const {
+  header().bindStorage(kWorkHeaderBuffer);
   work_.bindStorage(kWorkListBuffer);
   program.set("sizePx", levels_.sizePx());
   const auto along = [&](glm::ivec2 axis, const gl::Texture& from, const gl::Texture& to) {
     program.set("axis", axis);
     from.bindTexture(kSplitLevelMapUnit);
     to.bindImage(kSmoothLevelsImage, gl::Access::Write);
-    dispatch(program, work_);
+    dispatchOverList(program);
     makeVisible();
   };
   along({1, 0}, levels_, *halfSmoothed_);
@@ -80,11 +84,12 @@ void SplitSearch::order(const gl::Program& count, const gl::Program& scatter) co
   glCopyNamedBufferSubData(order_->emptyBins.id(), order_->bins.id(), 0, 0, order_->bins.bytes());
   areas_.bindTexture(kSplitSearchAreasUnit);
   levels_.bindTexture(kSplitLevelMapUnit);
+  header().bindStorage(kWorkHeaderBuffer);
   work_.bindStorage(kWorkListBuffer);
   order_->list.bindStorage(kOrderWorkOrderedListBuffer);
   order_->bins.bindStorage(kOrderWorkBinsBuffer);
   for (const gl::Program* program : {&count, &scatter}) {
-    dispatch(*program, work_);
+    dispatchOverList(*program);
     makeVisible();
   }
 }

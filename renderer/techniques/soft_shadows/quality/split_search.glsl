@@ -15,6 +15,9 @@ layout(binding = kSplitHalfSmoothedImage, rg32f) uniform writeonly image2D outHa
 layout(binding = kSplitLevelsImage, r32f) uniform writeonly image2D outLevels;
 #endif
 
+// Of the next list, made empty here so that no copy has to be waited for.
+layout(std430, binding = kNextWorkHeaderBuffer) restrict writeonly buffer NextWorkHeader { WorkListHeader nextWork; };
+
 shared uint processedLanes[2];
 shared uint firstSlot;
 
@@ -22,9 +25,23 @@ bool classify(ivec2 pixel) {
   const vec4 receiver = loadReceiver(pixel);
   Area area;
   float visibility = 1.0;
+  bool processed = false;
   readBudget(pixel);
-  if (receiver.w < 0.0 || !findArea(receiver, area, visibility)) {
-    store(pixel, receiver.w < 0.0 ? 1.0 : visibilityUnprocessed(receiver, visibility));
+  if (receiver.w >= 0.0) {
+#ifdef KEEP_MASKS
+    if (coveredBefore(receiver, pixel)) {
+      visibility = 0.0;
+    } else {
+      processed = findArea(receiver, area, visibility);
+      if (!processed) visibility = visibilityKept(pixel, visibilityUnprocessed(receiver, visibility));
+    }
+#else
+    processed = findArea(receiver, area, visibility);
+    if (!processed) visibility = visibilityUnprocessed(receiver, visibility);
+#endif
+  }
+  if (!processed) {
+    store(pixel, visibility);
 #ifdef SMOOTH
     // What the walk along either axis stops at.
     imageStore(outLevels, pixel, vec4(-1.0, 0.0, 0.0, 0.0));
@@ -48,6 +65,7 @@ bool classify(ivec2 pixel) {
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   const uint lane = gl_LocalInvocationIndex;
+  if (pixel == ivec2(0)) nextWork = WorkListHeader(work.groupsPerRow, 0u, work.groupLayers, 0u);
   if (lane < 2u) processedLanes[lane] = 0u;
   memoryBarrierShared();
   barrier();
@@ -75,59 +93,100 @@ void main() {
 layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
 layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
+Area searchedArea(ivec2 pixel) {
+  const uvec4 area = texelFetch(searchAreas, pixel, 0);
+  return Area(ivec2(area.xy), ivec2(area.zw));
+}
+
 #if LANES > 1
-// Of the pixels of a group: what their invocations counted, and whether one was cut short.
-shared uint sharedCounts[kWorkListGroup / LANES][5];
+// Of the pixels of a group.
+shared uint sharedCutShort[kWorkListGroup / LANES];
+#ifdef COUNT
+shared uint sharedCounts[kWorkListGroup / LANES][4];  // what their invocations counted
+#endif
 
 void main() {
   const uint lane = gl_LocalInvocationIndex % LANES, slot = gl_LocalInvocationIndex / LANES;
   ivec2 pixel = ivec2(0);
   const bool listed = listedPixel(pixel);
-  if (lane == 0u)
-    for (int i = 0; i < 5; ++i) sharedCounts[slot][i] = 0u;
-  memoryBarrierShared();
-  barrier();
-  clearGathered();
-  if (listed) {
-    const vec4 receiver = loadReceiver(pixel);
-    const uvec4 area = texelFetch(searchAreas, pixel, 0);
-    levelUsed = texelFetch(levelMap, pixel, 0).x;
-    areaTexels = (area.z - area.x) * (area.w - area.y);
-    pixelClass = kProcessed;
-    firstRow = int(lane);
-    rowStep = LANES;
-    if (lane == 0u) hideBehindPlane(receiver);
-    gatherOccluders(receiver, Area(ivec2(area.xy), ivec2(area.zw)), int(levelUsed));
-    if (pixelClass == kCutShort) atomicOr(sharedCounts[slot][4], 1u);
+  if (lane == 0u) {
+    sharedCutShort[slot] = 0u;
 #ifdef COUNT
-    atomicAdd(sharedCounts[slot][0], occluderCount);
-    atomicAdd(sharedCounts[slot][1], fetchCount);
-    atomicAdd(sharedCounts[slot][2], examinedCount);
-    atomicAdd(sharedCounts[slot][3], usedCount);
+    for (int i = 0; i < 4; ++i) sharedCounts[slot][i] = 0u;
 #endif
   }
-  joinLanes(slot, lane);
+  memoryBarrierShared();
+  barrier();
+  vec4 receiver = vec4(0.0);
+  Area area = Area(ivec2(0), ivec2(0));
+  int first = 0, last = -1;
+  float weight = 0.0, visibility = 0.0;
+  bool within = true;
+  if (listed) {
+    receiver = loadReceiver(pixel);
+    area = searchedArea(pixel);
+    within = beginLevels(area, texelFetch(levelMap, pixel, 0).x, pixel, first, last, weight);
+    firstRow = int(lane);
+    rowStep = LANES;
+  }
+  for (int i = 0; i < LEVELS_PER_PIXEL; ++i) {
+    clearGathered();
+    const bool has = within && first + i <= last;
+    if (has) {
+#ifdef KEEP_MASKS
+      resumeGathered(pixel);
+#endif
+      if (lane == 0u) hideBehindPlane(receiver);
+      gatherOccluders(receiver, area, first + i);
+    }
+    if (pixelClass == kCutShort) atomicOr(sharedCutShort[slot], 1u);
+    joinLanes();
+    if (has) {
+      const float found = gatheredVisibility();
+      visibility = i == 0 ? found : mix(visibility, found, weight);
+    }
+#if LEVELS_PER_PIXEL > 1
+    barrier();  // before what is shared is written again
+#endif
+  }
+#ifdef COUNT
+  atomicAdd(sharedCounts[slot][0], occluderCount);
+  atomicAdd(sharedCounts[slot][1], fetchCount);
+  atomicAdd(sharedCounts[slot][2], examinedCount);
+  atomicAdd(sharedCounts[slot][3], usedCount);
+  memoryBarrierShared();
+  barrier();
+#endif
   if (!listed || lane != 0u) return;
+  const bool cutShort = sharedCutShort[slot] != 0u;
+#ifdef KEEP_MASKS
+  if (!cutShort) keepGathered(pixel);
+#endif
 #ifdef COUNT
   occluderCount = sharedCounts[slot][0];
   fetchCount = imageLoad(outCounts, pixel).z + sharedCounts[slot][1];
   examinedCount = sharedCounts[slot][2];
   usedCount = sharedCounts[slot][3];
 #endif
-  const bool cutShort = sharedCounts[slot][4] != 0u;
   if (cutShort) pixelClass = kCutShort;
-  store(pixel, cutShort ? uintBitsToFloat(0x7fc00000u) : gatheredVisibility());
+  store(pixel, cutShort ? uintBitsToFloat(0x7fc00000u) : visibility);
 }
 #else
 void main() {
   ivec2 pixel;
   if (!listedPixel(pixel)) return;
   const vec4 receiver = loadReceiver(pixel);
-  const uvec4 area = texelFetch(searchAreas, pixel, 0);
 #ifdef COUNT
   fetchCount = imageLoad(outCounts, pixel).z;
 #endif
-  store(pixel, visibilityAt(receiver, Area(ivec2(area.xy), ivec2(area.zw)), texelFetch(levelMap, pixel, 0).x, pixel));
+#ifdef KEEP_MASKS
+  coveredBefore(receiver, pixel);
+#endif
+  float visibility = visibilityAt(receiver, searchedArea(pixel), texelFetch(levelMap, pixel, 0).x, pixel);
+#ifdef KEEP_MASKS
+  visibility = visibilityKept(pixel, visibility);
+#endif
+  store(pixel, visibility);
 }
 #endif
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "renderer/frame/frame.h"
@@ -18,8 +19,8 @@ class SplitSearch {
   /// pixel of the passes over the list.
   SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes);
 
-  /// Empties the list. Then bind for the pass that fills it, which makeVisible() ends.
-  void bindForClassify() const;
+  /// Goes on to an empty list and binds for the pass that fills it, which makeVisible() ends.
+  void bindForClassify();
   /// For a pass over the list.
   void bindForGather() const;
   /// Both axes in turn, for the list's pixels; `program` is smooth_levels.comp.glsl with its other uniforms
@@ -33,8 +34,6 @@ class SplitSearch {
   /// Makes writes of the last pass visible to later ones.
   static void makeVisible();
 
-  /// Words: groups of an indirect dispatch (3), number of pixels, then the pixels, x | y << 16.
-  const gl::Buffer& work() const { return work_; }
   /// RGBA16UI: first texel and one past the last texel, of processed pixels only.
   const gl::Texture& areas() const { return areas_; }
   /// Level in the first channel, of processed pixels; -1 for others if levels are smoothed. R32F, or
@@ -49,9 +48,11 @@ class SplitSearch {
   struct Order {
     gl::Buffer list, bins, emptyBins;
   };
-  void dispatch(const gl::Program& program, const gl::Buffer& list) const;
+  const gl::Buffer& header() const { return headers_[current_]; }
 
-  gl::Buffer emptyHeader_, work_;
+  std::array<gl::Buffer, 2> headers_;  // of this list, and of the next one, which is empty
+  size_t current_ = 0;
+  gl::Buffer work_;
   std::optional<Order> order_;
 };
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pixels that need processing, in the order in which tiles of the image were done. Its first three words are the groups of
-// kWorkListGroup invocations of an indirect dispatch over them.
+// Pixels that need processing, in the order in which tiles of the image were done. The header's first three words are the
+// groups of kWorkListGroup invocations of an indirect dispatch over them.
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
-layout(std430, binding = kWorkListBuffer) restrict buffer WorkList {
-  WorkListHeader work;
-  uint listedPixels[];
-};
+layout(std430, binding = kWorkHeaderBuffer) restrict buffer WorkHeader { WorkListHeader work; };
+layout(std430, binding = kWorkListBuffer) restrict buffer WorkList { uint listedPixels[]; };
 
 // The pixel of this invocation; false: there is none. LANES consecutive invocations share a pixel.
 bool listedPixel(out ivec2 pixel) {

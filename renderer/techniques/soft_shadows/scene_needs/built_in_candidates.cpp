@@ -72,14 +72,14 @@ std::vector<Rung> atResolution() {
     out.push_back({kBitmask, budget(limit, plain({{"maps", kind("peeled")}, {"structure", kind("ysm")}}))});
     out.push_back({kBitmask, budget(limit, split({{"occluders", kind("microrects")}}))});
   }
-  for (const int64_t maps : {4, 16, 64, 256}) out.push_back({kMaps, {{"samples", maps}}});
+  for (const int64_t maps : {4, 16}) out.push_back({kMaps, {{"samples", maps}}});
   return out;
 }
 
 std::vector<Rung> atTwiceTheResolution() {
   std::vector<Rung> out = {{kHard}};
   for (const int64_t limit : {256, 1024, 4096}) out.push_back({kBitmask, budget(limit, split({}))});
-  for (const int64_t maps : {16, 64, 256}) out.push_back({kMaps, {{"samples", maps}}});
+  out.push_back({kMaps, {{"samples", int64_t{16}}}});
   return out;
 }
 
@@ -95,9 +95,13 @@ Candidate withMap(const Rung& rung, const MapSettings& map, int64_t resolution) 
 }  // namespace
 
 std::vector<Candidate> builtInCandidates(const MapSettings& map) {
+  const int64_t resolution = map.resolution;
   std::vector<Candidate> out;
-  for (const Rung& rung : atResolution()) out.push_back(withMap(rung, map, map.resolution));
-  for (const Rung& rung : atTwiceTheResolution()) out.push_back(withMap(rung, map, 2 * map.resolution));
+  for (const Rung& rung : atResolution()) out.push_back(withMap(rung, map, resolution));
+  for (const Rung& rung : atTwiceTheResolution()) out.push_back(withMap(rung, map, 2 * resolution));
+  for (const int64_t maps : {64, 256})
+    for (const int64_t factor : {1, 2})
+      out.push_back(withMap({kMaps, {{"samples", maps}}}, map, factor * resolution));
   return out;
 }
 

@@ -29,7 +29,7 @@ std::string obstacleTo(const Candidate& candidate, const scene::Scene& scene);
 /// Candidates of all families, from a hard shadow to hundreds of maps: shadow maps filtered, with occluders
 /// backprojected by their areas and by bitmasks, in the form of Schwarz 2009 and in those that replaced it,
 /// over budgets, occluders, structures, passes and maps. All read maps of `map`; a few that aim at small
-/// errors read maps of twice its resolution.
+/// errors read maps of twice its resolution. The most expensive come last.
 std::vector<Candidate> builtInCandidates(const MapSettings& map);
 
 /// Candidates listed in a YAML file, as the techniques of a descriptor are; lists are axes. `map` applies

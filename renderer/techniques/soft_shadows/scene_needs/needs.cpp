@@ -2,6 +2,7 @@
 #include "renderer/techniques/soft_shadows/scene_needs/needs.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "experiments/base/error.h"
@@ -9,6 +10,8 @@
 
 namespace limen::techniques {
 namespace {
+
+using std::chrono::steady_clock;
 
 /// Candidates that take longer than this many times the cheapest eligible one are timed once only.
 constexpr double kWorthASecondRound = 2.0;
@@ -55,43 +58,65 @@ class Renderings {
   glm::ivec2 sizePx_;
 };
 
-void measureErrors(frame::Frame& frame, std::span<const Candidate> candidates, const NeedsOptions& options,
-                   SceneNeedsFound& out) {
-  out.pictureSizePx = smallSize(frame.sizePx(), options.picturePx);
-  const Renderings small(frame, out.pictureSizePx);
-  const ReferencePair truth = small.references(options.reference.samples, 1);
-  out.referenceNoise = truth.noise();
-  for (const Candidate& candidate : candidates) {
-    std::string obstacle = obstacleTo(candidate, frame.scene());
-    try {
-      if (obstacle.empty())
-        out.tried.push_back({candidate, estimateError(small.render(candidate), truth), {}});
-    } catch (const Error& error) {
-      obstacle = error.message();
-    }
-    if (!obstacle.empty()) out.notTried.push_back(describe(candidate) + ": " + obstacle);
-  }
-  if (out.tried.empty())
-    throw Error("no candidate can be tried with this scene", out.notTried.empty() ? "" : out.notTried.front(),
-                "give others");
-}
+class Search {
+ public:
+  Search(frame::Frame& frame, const NeedsOptions& options, CandidateClock& clock, SceneNeedsFound& out)
+      : frame_(frame), options_(options), clock_(clock), out_(out) {}
 
-/// In two rounds, the second backwards, so that a drifting clock rate affects all alike.
-void measureTimes(CandidateClock& clock, double targetRmse, std::vector<Tried>& tried) {
-  std::vector<std::vector<double>> frames(tried.size());
-  const auto time = [&](size_t i) {
-    const std::vector<double> more = clock.framesMs(tried[i].candidate);
-    frames[i].insert(frames[i].end(), more.begin(), more.end());
-    tried[i].time = estimateTime(frames[i]);
-  };
-  for (size_t i = 0; i < tried.size(); ++i) time(i);
-  std::vector<size_t> again = eligible(tried, targetRmse);
-  const auto ms = [&](size_t i) { return tried[i].time.medianMs; };
-  const double cheapest =
-      ms(*std::min_element(again.begin(), again.end(), [&](size_t a, size_t b) { return ms(a) < ms(b); }));
-  for (auto i = again.rbegin(); i != again.rend(); ++i)
-    if (ms(*i) <= kWorthASecondRound * cheapest) time(*i);
-}
+  /// Errors and times, then second times of those that decide, backwards, so that a drifting clock rate
+  /// affects all alike.
+  void run(std::span<const Candidate> candidates) {
+    out_.pictureSizePx = smallSize(frame_.sizePx(), options_.picturePx);
+    const Renderings small(frame_, out_.pictureSizePx);
+    const ReferencePair truth = small.references(options_.reference.samples, 1);
+    out_.referenceNoise = truth.noise();
+    for (const Candidate& candidate : candidates) {
+      std::string obstacle = late() ? "no time was left" : obstacleTo(candidate, frame_.scene());
+      try {
+        if (obstacle.empty()) measure(candidate, small, truth);
+      } catch (const Error& error) {
+        obstacle = error.message();
+      }
+      if (!obstacle.empty()) out_.notTried.push_back(describe(candidate) + ": " + obstacle);
+    }
+    if (out_.tried.empty())
+      throw Error("no candidate can be tried with this scene",
+                  out_.notTried.empty() ? "" : out_.notTried.front(), "give others");
+    timeAgain();
+  }
+
+ private:
+  bool late() const {
+    const std::chrono::duration<double> passed = steady_clock::now() - start_;
+    return !out_.tried.empty() && passed.count() > options_.seconds;
+  }
+
+  void measure(const Candidate& candidate, const Renderings& small, const ReferencePair& truth) {
+    const ErrorEstimate error = estimateError(small.render(candidate), truth);
+    framesMs_.push_back(clock_.framesMs(candidate));
+    out_.tried.push_back({candidate, error, estimateTime(framesMs_.back())});
+  }
+
+  void timeAgain() {
+    std::vector<Tried>& tried = out_.tried;
+    const std::vector<size_t> deciding = eligible(tried, options_.targetRmse);
+    double cheapestMs = tried[deciding.front()].time.medianMs;
+    for (const size_t i : deciding) cheapestMs = std::min(cheapestMs, tried[i].time.medianMs);
+    for (auto i = deciding.rbegin(); i != deciding.rend() && !late(); ++i) {
+      if (tried[*i].time.medianMs > kWorthASecondRound * cheapestMs) continue;
+      const std::vector<double> more = clock_.framesMs(tried[*i].candidate);
+      framesMs_[*i].insert(framesMs_[*i].end(), more.begin(), more.end());
+      tried[*i].time = estimateTime(framesMs_[*i]);
+    }
+  }
+
+  frame::Frame& frame_;
+  const NeedsOptions& options_;
+  CandidateClock& clock_;
+  SceneNeedsFound& out_;
+  std::vector<std::vector<double>> framesMs_;  ///< of each in `tried`
+  steady_clock::time_point start_ = steady_clock::now();
+};
 
 FullSizeCheck checkAtFullSize(frame::Frame& frame, const Candidate& chosen, const NeedsReference& reference,
                               CandidateClock& clock) {
@@ -119,8 +144,7 @@ SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candid
   SceneNeedsFound out;
   out.times = clock.label();
   out.reference = options.reference;
-  measureErrors(frame, candidates, options, out);
-  measureTimes(clock, options.targetRmse, out.tried);
+  Search(frame, options, clock, out).run(candidates);
   out.verdict = decide(out.tried, options.targetRmse);
   out.check = checkAtFullSize(frame, out.chosen().candidate, options.reference, clock);
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct NeedsOptions {
   double targetRmse = 0.02;
   int picturePx = 50000;  ///< about as many pixels has the small picture, but no more than the full one
   NeedsReference reference = {};
+  double seconds = std::numeric_limits<double>::infinity();  ///< after that, no further candidate is tried
 };
 
 /// The chosen candidate at full size, rendered, compared and timed anew.

@@ -53,6 +53,7 @@ struct SceneNeedsSettings {
   int picturePx = NeedsOptions{}.picturePx;
   NeedsReference reference;
   CandidateTiming timing;
+  double seconds = 60.0;
   static const SettingsTable<SceneNeedsSettings>& table();
 
   double targetRmse() const { return std::get<RmseTarget>(target).value; }
@@ -87,7 +88,8 @@ class SceneNeeds : public Technique {
     found_ = findNeeds(frame, candidates,
                        {.targetRmse = settings_.targetRmse(),
                         .picturePx = settings_.picturePx,
-                        .reference = settings_.reference},
+                        .reference = settings_.reference,
+                        .seconds = settings_.seconds},
                        clock);
     chosen_ = makeTechnique(found_->chosen().candidate);
     chosen_->prepare(frame);
@@ -132,7 +134,12 @@ const SettingsTable<SceneNeedsSettings>& SceneNeedsSettings::table() {
        "px",
        "Pixels of the small picture in which errors are measured"},
       {&S::reference, "reference", "Rays that candidates are compared with"},
-      {&S::timing, "timing", "Frames in which candidates are timed, at full size"}};
+      {&S::timing, "timing", "Frames in which candidates are timed, at full size"},
+      {&S::seconds,
+       "seconds",
+       {0.0, 86400.0},
+       "s",
+       "Time after which no further candidate is tried; those built in go from cheap to expensive"}};
   return kTable;
 }
 

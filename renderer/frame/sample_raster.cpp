@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/sample_raster.h"
+
+#include <epoxy/gl.h>
+
+#include <stdexcept>
+
+#include "renderer/frame/frame_bindings.h"
+#include "renderer/frame/g_buffer.h"
+
+namespace limen::frame {
+namespace {
+
+/// As for ComputeRaster: row bands of large triangles.
+constexpr int kSampleQueueCapacity = 1 << 19;
+constexpr int kSampleLargeGroups = 4096;
+/// Invocations that share a small triangle's pixels: each pixel waits for what is known of it.
+constexpr int kSmallLanes = 4;
+
+const gl::Program& sampleProgram(Frame& frame, const std::string& name, size_t samples,
+                                 const gl::ShaderDefines& more = {}) {
+  gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)},
+                               {"QUEUE_CAPACITY", std::to_string(kSampleQueueCapacity) + "u"},
+                               {"SMALL_LANES", std::to_string(kSmallLanes)}};
+  defines.insert(more.begin(), more.end());
+  return frame.context().programs().compute("renderer/frame/" + name, defines);
+}
+
+}  // namespace
+
+std::vector<glm::vec2> standardSamplePlaces(int samples) {
+  // In sixteenths of a pixel from its centre.
+  std::vector<glm::vec2> places;
+  switch (samples) {
+    case 2:
+      places = {{4, 4}, {-4, -4}};
+      break;
+    case 4:
+      places = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+      break;
+    case 8:
+      places = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+      break;
+    default:
+      throw std::logic_error("no standard pattern of this many samples");
+  }
+  for (glm::vec2& place : places) place = 0.5F + place / 16.0F;
+  return places;
+}
+
+SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places)
+    : places_(std::move(places)),
+      clear_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size(), {{"CLEAR", "1"}})),
+      empty_(sampleProgram(frame, "sample_list_groups.comp.glsl", 1, {{"EMPTY", "1"}})),
+      reachOf_(sampleProgram(frame, "sample_reach.comp.glsl", places_.size())),
+      smallDepth_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size())),
+      largeDepth_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"LARGE", "1"}})),
+      groups_(sampleProgram(frame, "sample_list_groups.comp.glsl", 1)),
+      smallIds_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"IDS", "1"}})),
+      largeIds_(
+          sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"IDS", "1"}, {"LARGE", "1"}})),
+      finish_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size())),
+      reach_(gl::Format::R32F, frame.sizePx()),
+      marks_(gl::Format::R32UI, frame.sizePx()),
+      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kSampleQueueCapacity} * 8, nullptr),
+      list_(int64_t{sizeof(SampleListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr),
+      depths_(int64_t{4} * frame.sizePx().x * frame.sizePx().y * static_cast<int64_t>(places_.size()),
+              nullptr),
+      ids_(depths_.bytes(), nullptr) {
+  // Every frame begins by clearing what the one before listed.
+  queue_.clearUint(0);
+  list_.clearUint(0);
+  depths_.clearUint(0);
+  ids_.clearUint(TriangleIds::kNone);
+  marks_.clearUint(glm::uvec4(0));
+}
+
+int64_t SampleRaster::bytes() const {
+  return reach_.bytes() + marks_.bytes() + queue_.bytes() + list_.bytes() + depths_.bytes() + ids_.bytes();
+}
+
+void SampleRaster::overTriangles(Frame& frame, const gl::Program& small, const gl::Program& large) const {
+  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
+  const int64_t invocations = int64_t{kSmallLanes} * frame.geometry().triangleCount();
+  small.dispatch({static_cast<int>(std::min<int64_t>(invocations, kPerRow)),
+                  static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
+                 {kRasterGroup, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  large.dispatch({kSampleLargeGroups, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void dispatchOverSampleList(const gl::Program& program, const gl::Buffer& list) {
+  list.bindStorage(kSampleRasterListBuffer);
+  program.use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.id());
+  glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(SampleListHeader, groupsX)));
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
+void SampleRaster::overList(const gl::Program& program) const {
+  dispatchOverSampleList(program, list_);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void SampleRaster::draw(Frame& frame, const std::string& pass) const {
+  const gl::Texture& centreIds = frame.get<TriangleIds>().texture();
+  const auto scope = frame.passes().open(pass);
+  const Geometry geometry = frame.geometry();
+  for (const gl::Program* each :
+       {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_, &finish_}) {
+    each->set("anchorToClip", anchorToClip(frame));
+    each->set("near", static_cast<float>(nearPlane(frame)));
+    each->set("sizePx", frame.sizePx());
+    each->set("triangleCount", geometry.triangleCount());
+    each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
+    for (size_t i = 0; i < places_.size(); ++i)
+      each->set(("samplePlaces[" + std::to_string(i) + "]").c_str(), places_[i]);
+  }
+  geometry.bindStorage();
+  if (geometry.ranges) geometry.ranges->ranges().bindStorage(kRasterRangesBuffer);
+  queue_.bindStorage(kRasterQueueBuffer);
+  depths_.bindStorage(kRasterDepthsBuffer);
+  ids_.bindStorage(kRasterIdsBuffer);
+  list_.bindStorage(kSampleRasterListBuffer);
+  centreIds.bindTexture(kSampleRasterCentreIdsUnit);
+  reach_.bindTexture(kSampleRasterReachUnit);
+  marks_.bindImage(kSampleRasterMarksImage, gl::Access::ReadWrite);
+  reach_.bindImage(kSampleRasterReachImage, gl::Access::Write);
+
+  overList(clear_);
+  empty_.dispatch({1, 1}, {1, 1});
+  reachOf_.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
+  overTriangles(frame, smallDepth_, largeDepth_);
+  groups_.dispatch({1, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  overTriangles(frame, smallIds_, largeIds_);
+  overList(finish_);
+}
+
+}  // namespace limen::frame
