@@ -43,7 +43,7 @@ TEST_P(CvvdpVectors, ScoreIsTheAuthors) {
 std::vector<std::string> ids() {
   std::vector<std::string> out;
   for (const Vector& v : readVectors())
-    if (v.id != "A17") out.push_back(v.id);  // 1920 x 1080: with the tests of the GPU's version
+    if (v.id != "A17" && v.id != "A22") out.push_back(v.id);  // large: with the tests of the GPU's version
   return out;
 }
 
