@@ -81,14 +81,16 @@ std::shared_ptr<const Image> FramePath::reference(const scene::Scene& scene, dou
 }
 
 void FramePath::render(const perception::PathRequest& request, const perception::PathVisitor& visit) {
-  const bool cameraMoves = request.cameraStepS > 0.0, lightMoves = request.lightStep > 0.0;
-  if (cameraMoves && !onGpu_.scene.traits().count("moving_camera"))
-    throw Error("the camera of scene '" + onGpu_.scene.name + "' does not move", "camera_step_s",
+  const auto* light = std::get_if<perception::LightPath>(&request.path);
+  const auto* camera = std::get_if<perception::CameraPath>(&request.path);
+  if (camera && !onGpu_.scene.traits().count("moving_camera"))
+    throw Error("the camera of scene '" + onGpu_.scene.name + "' does not move", "metric jnd_change, path",
                 "choose a scene with a path of the camera, or move the light");
-  if (lightMoves && onGpu_.scene.lights.empty())
-    throw Error("scene '" + onGpu_.scene.name + "' has no light to move", "light_step",
+  if (light && onGpu_.scene.lights.empty())
+    throw Error("scene '" + onGpu_.scene.name + "' has no light to move", "metric jnd_change, path",
                 "choose another scene, or move the camera");
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(run_.technique.name);
+  const double directionDeg = light ? light->directionDeg : 0.0;
   std::array<std::optional<KeptFrame>, 2> kept;
   std::array<perception::PathFrame, 2> seen;
   std::optional<scene::Scene> moved;
@@ -96,11 +98,11 @@ void FramePath::render(const perception::PathRequest& request, const perception:
   std::unique_ptr<techniques::Technique> technique;
   for (int step = 0; step <= request.steps; ++step) {
     throwIfInterrupted();
-    const double timeS = step * request.cameraStepS, share = step * request.lightStep;
-    if (!frame || lightMoves) {
+    const double timeS = camera ? step * camera->stepS : 0.0, share = light ? step * light->step : 0.0;
+    if (!frame || light) {
       technique.reset();
       frame.reset();
-      if (lightMoves) moved.emplace(withLightMoved(onGpu_.scene, share, request.directionDeg));
+      if (light) moved.emplace(withLightMoved(onGpu_.scene, share, directionDeg));
       frame =
           std::make_unique<frame::Frame>(context_, moved ? *moved : onGpu_.scene, onGpu_.gpu, sizePx_, timeS);
       technique = info.make(run_.technique.values);
@@ -113,14 +115,14 @@ void FramePath::render(const perception::PathRequest& request, const perception:
     std::optional<KeptFrame>& now = kept[static_cast<size_t>(step % 2)];
     if (!now) now.emplace(product.format(), sizePx_);
     copy(product, now->test);
-    now->reference.write(*reference(frame->scene(), timeS, share, request.directionDeg));
+    now->reference.write(*reference(frame->scene(), timeS, share, directionDeg));
     now->mask.write(maskOf(frame->get<frame::Receivers>().texture().read()));
     perception::PathFrame& place = seen[static_cast<size_t>(step % 2)];
     place = {&now->test, &now->reference, &now->mask, ShownSurfaces::of(*frame), nullptr, nullptr, nullptr};
-    if (cameraMoves) {
+    if (camera) {
       copy(frame->get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Depth}).texture(),
            now->depth);
-      const auto& motion = frame->get<frame::Motion>(frame::MotionSetting{request.cameraStepS});
+      const auto& motion = frame->get<frame::Motion>(frame::MotionSetting{camera->stepS});
       place.displacement = &motion.displacement();
       place.depthBefore = &motion.previousDepth();
       place.depth = &now->depth;

@@ -3,25 +3,34 @@
 
 namespace limen::perception {
 
-const SettingsTable<PathRequest>& PathRequest::table() {
-  using S = PathRequest;
+const SettingsTable<LightPath>& LightPath::table() {
+  using S = LightPath;
   static const SettingsTable<S> kTable = {
-      {&S::steps, "steps", {1, 1024}, "steps", "Steps from frame to frame; the first frame is the run's own"},
-      {&S::cameraStepS,
-       "camera_step_s",
-       {0, 10},
-       "s",
-       "Time that the camera advances along its path per step; 0: it rests"},
-      {&S::lightStep,
-       "light_step",
-       {0, 100},
+      {&S::step,
+       "step",
+       {1e-6, 100},
        "",
-       "Distance that the light moves in its plane per step, as a share of its extents"},
+       "Distance that the light moves from frame to frame, as a share of its extents"},
       {&S::directionDeg,
        "direction_deg",
        {0, 360},
        "deg",
        "Direction of that motion, from the light's x axis to its y axis"}};
+  return kTable;
+}
+
+const SettingsTable<CameraPath>& CameraPath::table() {
+  using S = CameraPath;
+  static const SettingsTable<S> kTable = {
+      {&S::stepS, "step_s", {1e-4, 10}, "s", "Time from frame to frame on the scene's camera path"}};
+  return kTable;
+}
+
+const SettingsTable<PathRequest>& PathRequest::table() {
+  using S = PathRequest;
+  static const SettingsTable<S> kTable = {
+      {&S::path, "path", "What moves; the first frame is the run's own"},
+      {&S::steps, "steps", {1, 1024}, "steps", "Steps from frame to frame"}};
   return kTable;
 }
 

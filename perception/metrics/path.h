@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <variant>
+
 #include "experiments/base/settings_table.h"
 #include "perception/metrics/metric.h"
 
 namespace limen::perception {
 
+/// The light moves in its plane.
+struct LightPath {
+  static constexpr const char *kKind = "light", *kSummary = "the light moves in its plane";
+  double step = 0.05;         ///< from frame to frame, as a share of the light's extents
+  double directionDeg = 0.0;  ///< from the light's x axis to its y axis
+  static const SettingsTable<LightPath>& table();
+};
+/// The camera moves on the scene's path.
+struct CameraPath {
+  static constexpr const char *kKind = "camera", *kSummary = "the camera moves on its path";
+  double stepS = 1.0 / 60.0;  ///< time from frame to frame
+  static const SettingsTable<CameraPath>& table();
+};
+
 /// A sequence of frames that starts with the run's own.
 struct PathRequest {
-  int steps = 8;              ///< from frame to frame; the first frame is the run's own
-  double cameraStepS = 0.0;   ///< time that the camera advances on its path
-  double lightStep = 0.0;     ///< way of the light in its plane, as a share of its extents
-  double directionDeg = 0.0;  ///< of the light's way, from its x axis to its y axis
+  std::variant<LightPath, CameraPath> path;
+  int steps = 8;  ///< from frame to frame; one frame more than steps
   static const SettingsTable<PathRequest>& table();
 };
 

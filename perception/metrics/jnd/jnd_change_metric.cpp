@@ -29,11 +29,6 @@ struct ChangeSettings {
     static const SettingsTable<S> kTable = {included(&S::path), included(&S::jnd)};
     return kTable;
   }
-  void check() const {
-    if (path.cameraStepS == 0.0 && path.lightStep == 0.0)
-      throw Error("metric 'jnd_change' has a path on which nothing moves", "camera_step_s",
-                  "state 'camera_step_s' or 'light_step'");
-  }
 };
 
 std::vector<Quantity> changeQuantities() {
@@ -57,7 +52,8 @@ MetricResult measureChange(const ComparisonInput& input, const ChangeSettings& s
   requireShown(input, kChangeName);
   if (!input.path) throw Error("metric 'jnd_change' needs frames of a scene", {}, "run it in a sweep");
   // Displacements are per step: the model takes them for those of one frame of its display.
-  const double refreshHz = settings.path.cameraStepS > 0.0 ? 1.0 / settings.path.cameraStepS : 0.0;
+  const auto* camera = std::get_if<CameraPath>(&settings.path.path);
+  const double refreshHz = camera ? 1.0 / camera->stepS : 0.0;
   JndGpu& jnd = keptJndGpu(*input.gpu, kChangeName, settingsKey(settings), {pair.width(), pair.height()},
                            settings.jnd, refreshHz);
   MetricResult result;
