@@ -59,8 +59,9 @@ class Predictor {
         width_(input.actual.width),
         height_(input.actual.height),
         isStack_(settings.bands.isStack()),
-        luminanceRow_(luminanceRow()),
-        greyGain_(settings.sensitivity.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
+        luminanceRow_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
+        isDkl_(settings.sensitivity.isDkl()),
+        greyGain_(opponentFromLms({1, 1, 1}).x / settings.sensitivity.greyGain()) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
     pyramid_.kernel = settings.bands.kernel();
@@ -137,7 +138,8 @@ class Predictor {
         for (int x = 0; x < width_; ++x) {
           for (int c = 0; c < std::min(image.channels, 3); ++c)
             if (!std::isfinite(image.at(x, y, c))) ++flushed;
-          const glm::dvec3 cones = lmsFromXyz(display_.xyz(pixelLight(input_, image, display_, x, y)));
+          const glm::dvec3 xyz = display_.xyz(pixelLight(input_, image, display_, x, y));
+          const glm::dvec3 cones = isDkl_ ? dklFromXyz(xyz) : lmsFromXyz(xyz);
           for (int c = 0; c < 3; ++c) lms[static_cast<size_t>(c)].at(x, y) = cones[c];
           if (!displacement) continue;
           std::array<double, 2> move{};
@@ -204,10 +206,11 @@ class Predictor {
     const std::string suffix = name + "_" + std::to_string(level);
     const auto i = static_cast<size_t>(level);
     Planes contrast;
+    Plane coarser;
     for (size_t c = 0; c < 3; ++c) {
       contrast[c] = isStack_ ? frame.lms[c][i + 1] : upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
-      const Plane coarser =
-          isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      if (c == 0 || !isDkl_)
+        coarser = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
       for (size_t p = 0; p < own.data.size(); ++p) {
         if (!(coarser.data[p] >= settings_.bands.denominatorEpsilon)) ++guarded_;
@@ -229,9 +232,13 @@ class Predictor {
               screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree), eyeModel_,
               leastVelocityDegS_);
           velocity.at(x, y) = v;
-          glm::dvec3 opponent =
-              opponentFromLms({contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y)}) / gain;
-          opponent.x /= greyGain_;
+          glm::dvec3 opponent(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
+          if (isDkl_) {
+            opponent /= gain;
+          } else {
+            opponent = opponentFromLms(opponent) / gain;
+            opponent.x /= greyGain_;
+          }
           const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
           for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<size_t>(c);
@@ -414,7 +421,8 @@ class Predictor {
   const int width_, height_;
   const bool isStack_;
   const glm::dvec3 luminanceRow_;
-  const double greyGain_;
+  const bool isDkl_;
+  const double greyGain_;  // of cone contrasts
   PyramidSettings pyramid_;
   std::optional<Sensitivity> sensitivity_;
   std::optional<TemporalSensitivity> temporal_;  // of a switch that is seen over time
