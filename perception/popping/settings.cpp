@@ -145,6 +145,24 @@ const SettingsTable<MonotoneTracking>& MonotoneTracking::table() {
   return kTable;
 }
 
+const SettingsTable<TemporalChannels>& TemporalChannels::table() {
+  using S = TemporalChannels;
+  static const SettingsTable<S> kTable = {
+      {&S::windowS,
+       "window_s",
+       {0.05, 4.0},
+       "s",
+       "length of the impulse responses, half before the switch and half after it",
+       kOwn},
+      {&S::holdShare,
+       "hold_share",
+       {0.0, 1.0},
+       "",
+       "share of a frame's time during which the display shows it; 1: LCD, near 0: a flash",
+       kOwn}};
+  return kTable;
+}
+
 const SettingsTable<LevelsByPeak>& LevelsByPeak::table() {
   static const SettingsTable<LevelsByPeak> kTable = {
       Binding(&LevelsByPeak::leastPeakCpd, "least_peak_cpd", Range{0.01, 30.0}, "cpd",
@@ -246,6 +264,7 @@ const SettingsTable<PoppingSettings>& PoppingSettings::table() {
       {&S::sensitivity, "sensitivity",
        "contrast sensitivities of the channels, and their reference conditions"},
       {&S::eyeMovement, "eye_movement", "retinal velocity that remains after the eye's tracking", kModel},
+      {&S::temporal, "temporal", "what is seen of a switch over time"},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
       {&S::bands, "bands", "how pictures are decomposed into frequency bands"},

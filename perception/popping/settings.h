@@ -7,6 +7,7 @@
 #include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
 #include "perception/popping/detection.h"
+#include "perception/popping/temporal_settings.h"
 #include "perception/popping/weight_settings.h"
 #include "perception/vision/eye_movement.h"
 
@@ -219,7 +220,8 @@ struct PoppingSettings {
   PredictorModel model = PredictorModel::Limen2026;
   SensitivitySettings sensitivity;
   std::variant<MonotoneTracking, FlooredTracking, LiteralTracking, NoTracking> eyeMovement;
-  ChosenEntry masking{"schwarz", {}};  ///< of MaskingRegistry
+  std::variant<TemporalChannels, SingleFrame> temporal;  ///< of switches
+  ChosenEntry masking{"schwarz", {}};                    ///< of MaskingRegistry
   BandSettings bands;
   std::variant<LocalAdaptation, MeanAdaptation, FixedAdaptation, LevelAdaptation> adaptation;
   double minkowskiExponent = 2.4;
