@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/band_thresholds/settings.h"
+
+#include "experiments/base/error.h"
+
+namespace limen::perception {
+
+const SettingsTable<BandThresholdSettings>& BandThresholdSettings::table() {
+  using S = BandThresholdSettings;
+  static const SettingsTable<S> kTable = {
+      {&S::predictor, "predictor", "the predictor whose responses must not change visibly"},
+      {&S::jnd, "jnd", {1e-2, 10.0}, "JND", "largest change of a band's response that counts as invisible"},
+      {&S::reach,
+       "reach",
+       {0, kMostReach},
+       "samples",
+       "samples of a level, on each side, over which the smallest threshold counts in the combined map"}};
+  return kTable;
+}
+
+void BandThresholdSettings::check() const {
+  if (predictor.bands.isStack())
+    throw Error("thresholds by band are those of a pyramid, not of a stack", "predictor.bands.decomposition",
+                "use pyramid");
+}
+
+}  // namespace limen::perception
