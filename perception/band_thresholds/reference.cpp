@@ -130,6 +130,17 @@ BandThresholds computeBandThresholds(const Plane& luminanceCdM2, const DisplayPr
   return out;
 }
 
+Plane thresholdMapOf(const BandThresholds& thresholds, const BandThresholdSettings& settings) {
+  const auto* output = std::get_if<BandOutput>(&settings.output);
+  if (!output || thresholds.bands.empty()) return thresholds.combinedCdM2;
+  settings.checkBand(static_cast<int>(thresholds.bands.size()));
+  const Plane& map = thresholds.bands[static_cast<size_t>(output->band)].thresholdCdM2;
+  if (output->band == 0) return map;
+  const Plane& full = thresholds.combinedCdM2;
+  return resample(map, bilinearTaps(map.width, full.width, true, output->band, Border::Clamp),
+                  bilinearTaps(map.height, full.height, true, output->band, Border::Clamp));
+}
+
 BandRatios compareWithThresholds(const Plane& differenceCdM2, const BandThresholds& thresholds,
                                  const BandThresholdSettings& settings) {
   BandRatios out;

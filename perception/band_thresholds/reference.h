@@ -38,6 +38,9 @@ struct BandThresholds {
 BandThresholds computeBandThresholds(const Plane& luminanceCdM2, const DisplayProfile& display,
                                      const BandThresholdSettings& settings);
 
+/// The map of one value per pixel that settings.output asks for. Throws Error on a band that there is not.
+Plane thresholdMapOf(const BandThresholds& thresholds, const BandThresholdSettings& settings);
+
 /// A difference split into the bands of computeBandThresholds(), and the ratio to their thresholds: at each
 /// pixel the Minkowski sum over the bands, with the predictor's exponent. At most 1: not visible.
 struct BandRatios {

@@ -5,6 +5,12 @@
 
 namespace limen::perception {
 
+const SettingsTable<BandOutput>& BandOutput::table() {
+  static const SettingsTable<BandOutput> kTable = {
+      {&BandOutput::band, "band", {0, 9}, "", "frequency band; 0 is the finest"}};
+  return kTable;
+}
+
 const SettingsTable<BandThresholdSettings>& BandThresholdSettings::table() {
   using S = BandThresholdSettings;
   static const SettingsTable<S> kTable = {
@@ -14,7 +20,8 @@ const SettingsTable<BandThresholdSettings>& BandThresholdSettings::table() {
        "reach",
        {0, kMostReach},
        "samples",
-       "samples of a level, on each side, over which the smallest threshold counts in the combined map"}};
+       "samples of a level, on each side, over which the smallest threshold counts in the combined map"},
+      {&S::output, "output", "thresholds of the map"}};
   return kTable;
 }
 
@@ -22,6 +29,14 @@ void BandThresholdSettings::check() const {
   if (predictor.bands.isStack())
     throw Error("thresholds by band are those of a pyramid, not of a stack", "predictor.bands.decomposition",
                 "use pyramid");
+}
+
+void BandThresholdSettings::checkBand(int bands) const {
+  const auto* one = std::get_if<BandOutput>(&output);
+  if (one && bands > 0 && one->band >= bands)
+    throw Error("there is no frequency band " + std::to_string(one->band) + ", only 0 to " +
+                    std::to_string(bands - 1),
+                "output.band", "use one of these; small images and near viewers have fewer");
 }
 
 }  // namespace limen::perception
