@@ -60,12 +60,8 @@ void main() {
 #ifdef CHANNEL_RECEIVER
     const vec3 p = (cameraToLight * vec4(position, 1.0)).xyz;
     const vec3 n = mat3(cameraToLight) * normal;
-    if (p.z > 0.0 && dot(n, p) < 0.0) {
-      // On the plane n.q = n.p, depth as a function of u = x/z, v = y/z is z = n.p / n.(u,v,1).
-      const float along = abs(dot(n, p / p.z));
-      result = vec4(p, min(p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6), 1e6 * p.z));
-      plane = planeGradient(p, n);
-    }
+    result = receiverAt(p, n);
+    if (result.w >= 0.0) plane = planeGradient(p, n);
 #endif
 #endif
   }

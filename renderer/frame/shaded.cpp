@@ -9,12 +9,13 @@
 #include "experiments/base/text.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shading.h"
 #include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
-namespace {
-
-gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const SurfaceBuffers& surface) {
+gl::ShaderDefines shadingDefines(const Frame& frame, const ShadedSetting& setting) {
+  const SurfaceBuffers& surface = frame.gpuScene().surface();
+  const bool lit = !frame.scene().lights.empty();
   gl::ShaderDefines defines;
   if (lit) defines["LIT"] = "1";
   if (lit && setting.shadow) defines["SHADOW"] = "1";
@@ -24,8 +25,6 @@ gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const Surfac
   if (surface.hasAttributes()) defines["ATTRIBUTES"] = "1";
   return defines;
 }
-
-}  // namespace
 
 std::string ShadedSetting::key() const {
   std::string out;
@@ -60,11 +59,46 @@ const SettingsTable<ShadedSetting>& ShadedSetting::table() {
   return kTable;
 }
 
+void bindShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting) {
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  program.set("anchorToCamera", glm::mat4(toCamera));
+  program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("sizePx", frame.sizePx());
+  program.set("background", glm::vec3(static_cast<float>(setting.background)));
+  program.set("ambient", static_cast<float>(setting.ambient));
+  program.set("diffuse", static_cast<float>(setting.diffuse));
+  program.set("specular", static_cast<float>(setting.specular));
+  program.set("shininess", static_cast<float>(setting.shininess));
+  const scene::Camera& seenBy =
+      setting.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting.eyeDtS);
+  program.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
+  if (!frame.scene().lights.empty()) {
+    // Seen from the scene's centre: apertures are for a distant light.
+    const scene::AreaLight& light = frame.scene().lights[0];
+    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
+    program.set("sunRadius",
+                static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
+    program.set("lightPosition", glm::vec3(light.centre - frame.gpuScene().anchor()));
+  }
+  frame.geometry().bindStorage();
+  frame.gpuScene().surface().bindStorage();
+}
+
+void setShadowLookup(const gl::Program& program, const LightFrustum& frustum, int resolution) {
+  program.set("tangentLow", glm::vec2(frustum.low));
+  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+  program.set("resolution", resolution);
+  program.set("bias", kShadowBias);
+  program.set("slopeBias", kShadowSlopeBias);
+  program.set("maxSlope", kShadowMaxSlope);
+}
+
 Shaded::Shaded(Frame& frame, ShadedSetting setting)
     : setting_(std::move(setting)),
       lit_(!frame.scene().lights.empty()),
       program_(frame.context().programs().compute("renderer/frame/shaded.comp.glsl",
-                                                  definesOf(setting_, lit_, frame.gpuScene().surface()))),
+                                                  shadingDefines(frame, setting_))),
       texture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/shaded", texture_.bytes());
 }
@@ -78,42 +112,14 @@ void Shaded::make(Frame& frame) {
     map = &frame.casters().get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
   }
   const auto scope = frame.passes().open("frame/shaded");
-  const glm::dmat4& toCamera = frame.anchorToCamera();
-  program_.set("anchorToCamera", glm::mat4(toCamera));
-  program_.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
-  program_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-  program_.set("sizePx", frame.sizePx());
-  program_.set("background", glm::vec3(static_cast<float>(setting_.background)));
-  program_.set("ambient", static_cast<float>(setting_.ambient));
-  program_.set("diffuse", static_cast<float>(setting_.diffuse));
-  program_.set("specular", static_cast<float>(setting_.specular));
-  program_.set("shininess", static_cast<float>(setting_.shininess));
-  const scene::Camera& seenBy =
-      setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
-  program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
-  if (lit_) {
-    // Seen from the scene's centre: apertures are for a distant light.
-    const scene::AreaLight& light = frame.scene().lights[0];
-    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
-    program_.set("sunRadius",
-                 static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
-    program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
-  }
+  bindShading(program_, frame, setting_);
   if (map) {
-    const LightFrustum& frustum = map->frustum();
-    program_.set("tangentLow", glm::vec2(frustum.low));
-    program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-    program_.set("resolution", setting_.shadowResolution);
-    program_.set("bias", kShadowBias);
-    program_.set("slopeBias", kShadowSlopeBias);
-    program_.set("maxSlope", kShadowMaxSlope);
+    setShadowLookup(program_, map->frustum(), setting_.shadowResolution);
     receivers->bindTexture(kShadedReceiversUnit);
     map->texture().bindTexture(kShadedShadowMapUnit);
   }
   ids.bindTexture(kShadedIdsUnit);
   texture_.bindImage(kShadedOutImage, gl::Access::Write);
-  frame.geometry().bindStorage();
-  frame.gpuScene().surface().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
