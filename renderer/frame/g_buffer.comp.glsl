@@ -8,12 +8,11 @@ layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kGBufferIdsUnit) uniform usampler2D triangleIds;
 layout(binding = kGBufferOutImage, OUT_FORMAT) uniform writeonly image2D outImage;
 #ifdef CHANNEL_RECEIVER
-#include "renderer/frame/receiver_plane.glsl"
+#include "renderer/frame/receiver.glsl"
 layout(binding = kGBufferPlanesImage, rg32f) uniform writeonly image2D outPlanes;
 #endif
 
 uniform mat4 anchorToCamera, cameraToAnchor;
-uniform mat4 cameraToLight;
 uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform ivec2 sizePx, pictureSizePx;
 #ifdef GIVEN_PLACES
@@ -58,10 +57,7 @@ void main() {
     result = vec4(depth);
 #endif
 #ifdef CHANNEL_RECEIVER
-    const vec3 p = (cameraToLight * vec4(position, 1.0)).xyz;
-    const vec3 n = mat3(cameraToLight) * normal;
-    result = receiverAt(p, n);
-    if (result.w >= 0.0) plane = planeGradient(p, n);
+    result = receiverAt(position, normal, plane);
 #endif
 #endif
   }

@@ -12,12 +12,3 @@ vec2 planeGradientFromEitherSide(vec3 p, vec3 n) {
   const float along = dot(n, p / p.z);
   return clamp(n.xy / (along < 0.0 ? min(along, -1e-6) : max(along, 1e-6)), vec2(-1e6), vec2(1e6));
 }
-
-// A receiver as frame::Receivers has it, from its position and its plane's unit normal in light space, which is turned to
-// the camera.
-vec4 receiverAt(vec3 p, vec3 n) {
-  if (!(p.z > 0.0 && dot(n, p) < 0.0)) return vec4(0.0, 0.0, 0.0, -1.0);
-  // On the plane n.q = n.p, depth as a function of u = x/z, v = y/z is z = n.p / n.(u,v,1).
-  const float along = abs(dot(n, p / p.z));
-  return vec4(p, min(p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6), 1e6 * p.z));
-}

@@ -9,13 +9,13 @@
 #include "experiments/base/text.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/frame/shading.h"
 #include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
-gl::ShaderDefines shadingDefines(const Frame& frame, const ShadedSetting& setting) {
-  const SurfaceBuffers& surface = frame.gpuScene().surface();
+
+gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& frame) {
   const bool lit = !frame.scene().lights.empty();
+  const SurfaceBuffers& surface = frame.gpuScene().surface();
   gl::ShaderDefines defines;
   if (lit) defines["LIT"] = "1";
   if (lit && setting.shadow) defines["SHADOW"] = "1";
@@ -59,7 +59,16 @@ const SettingsTable<ShadedSetting>& ShadedSetting::table() {
   return kTable;
 }
 
-void bindShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting) {
+Shaded::Shaded(Frame& frame, ShadedSetting setting)
+    : setting_(std::move(setting)),
+      lit_(!frame.scene().lights.empty()),
+      program_(frame.context().programs().compute("renderer/frame/shaded.comp.glsl",
+                                                  shadingDefines(setting_, frame))),
+      texture_(gl::Format::RGBA32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/shaded", texture_.bytes());
+}
+
+void configureShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting) {
   const glm::dmat4& toCamera = frame.anchorToCamera();
   program.set("anchorToCamera", glm::mat4(toCamera));
   program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
@@ -85,24 +94,6 @@ void bindShading(const gl::Program& program, const Frame& frame, const ShadedSet
   frame.gpuScene().surface().bindStorage();
 }
 
-void setShadowLookup(const gl::Program& program, const LightFrustum& frustum, int resolution) {
-  program.set("tangentLow", glm::vec2(frustum.low));
-  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-  program.set("resolution", resolution);
-  program.set("bias", kShadowBias);
-  program.set("slopeBias", kShadowSlopeBias);
-  program.set("maxSlope", kShadowMaxSlope);
-}
-
-Shaded::Shaded(Frame& frame, ShadedSetting setting)
-    : setting_(std::move(setting)),
-      lit_(!frame.scene().lights.empty()),
-      program_(frame.context().programs().compute("renderer/frame/shaded.comp.glsl",
-                                                  shadingDefines(frame, setting_))),
-      texture_(gl::Format::RGBA32F, frame.sizePx()) {
-  frame.passes().setBytesHeld("frame/shaded", texture_.bytes());
-}
-
 void Shaded::make(Frame& frame) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const gl::Texture* receivers = nullptr;
@@ -112,9 +103,15 @@ void Shaded::make(Frame& frame) {
     map = &frame.casters().get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
   }
   const auto scope = frame.passes().open("frame/shaded");
-  bindShading(program_, frame, setting_);
+  configureShading(program_, frame, setting_);
   if (map) {
-    setShadowLookup(program_, map->frustum(), setting_.shadowResolution);
+    const LightFrustum& frustum = map->frustum();
+    program_.set("tangentLow", glm::vec2(frustum.low));
+    program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+    program_.set("resolution", setting_.shadowResolution);
+    program_.set("bias", kShadowBias);
+    program_.set("slopeBias", kShadowSlopeBias);
+    program_.set("maxSlope", kShadowMaxSlope);
     receivers->bindTexture(kShadedReceiversUnit);
     map->texture().bindTexture(kShadedShadowMapUnit);
   }

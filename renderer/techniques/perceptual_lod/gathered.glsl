@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The surfaces of a frame's regions, and the light on them: layers, and the versions of the objects under test.
-#include "renderer/frame/receiver_plane.glsl"
-#include "renderer/frame/shaded_surface.glsl"
+uniform ivec2 sizePx;
+#include "renderer/frame/shading.glsl"
 #include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 #include "renderer/techniques/perceptual_lod/surface_key.glsl"
 #ifdef SHADOW
+#include "renderer/frame/receiver.glsl"
 #include "renderer/frame/shadow_depth.glsl"
-#include "renderer/frame/shadow_lookup.glsl"
+uniform vec2 tangentLow, tangentSize;
+uniform int resolution;
+uniform float bias, slopeBias, maxSlope;
+uniform float lightNear;
 #endif
 
 layout(std140, binding = kRasterRegionsBlock) uniform Regions { RasterRegion regions[kMostRasterRegions]; };
@@ -14,8 +18,6 @@ layout(std140, binding = kPlannedTestsBlock) uniform PlannedTests { PlannedTest 
 layout(std430, binding = kGatheredBuffer) readonly buffer Gathered { uint gathered[]; };
 
 uniform int layerCount, testCount;
-uniform mat4 cameraToLight;
-uniform float lightNear;
 uniform float blackCdM2, rangeCdM2;  // of the display
 
 const int kNoTest = -1, kNoLayer = -1;
@@ -52,48 +54,64 @@ void surfacesAt(ivec2 pixel, out Key front, out int frontLayer, out Key second) 
   }
 }
 
-vec4 receiverOf(SurfaceSeen s) {
-  const vec3 p = (cameraToLight * vec4(s.at.position, 1.0)).xyz;
-  return receiverAt(p, mat3(cameraToLight) * s.at.normal);
-}
-
 #ifdef SHADOW
 float nearestIn(int index, ivec2 texel) {
   const int place = placeIn(regions[index], texel);
   return place < 0 ? 0.0 : uintBitsToFloat(gathered[regions[index].at + place]);
 }
 
-// Whether a receiver is shadowed by what casts shadows outside `leftOut`, one object under test being cast with region
-// `version` in place of its current level.
-bool isShadowed(vec4 receiver, int leftOut, int test, int version) {
-  const ShadowLookup lookup = shadowLookup(receiver);
-  if (!lookup.inMap) return false;
+// Whether a receiver is shadowed by what casts shadows outside the layer `leftOut`, one object under test being cast with
+// region `version` in place of its current level. The comparison is that of renderer/frame/shaded.comp.glsl.
+bool isShadowed(vec4 receiver, int leftOut, int castTest, int version) {
+  const vec2 at = (receiver.xy / receiver.z - tangentLow) / tangentSize * float(resolution);
+  if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(float(resolution)))))) return false;
+  const ivec2 mapTexel = ivec2(at);
   float nearest = 0.0;
   for (int layer = 0; layer < layerCount; ++layer)
-    if (layer != leftOut) nearest = max(nearest, nearestIn(layer, lookup.texel));
+    if (layer != leftOut) nearest = max(nearest, nearestIn(layer, mapTexel));
   for (int i = 0; i < testCount; ++i)
     if (tests[i].layer != leftOut)
-      nearest = max(nearest, nearestIn(i == test ? version : tests[i].lightCurrent, lookup.texel));
-  return linearDepth(nearest, lightNear) < lookup.biased;
+      nearest = max(nearest, nearestIn(i == castTest ? version : tests[i].lightCurrent, mapTexel));
+  const float texel = max(tangentSize.x, tangentSize.y) / float(resolution);
+  const float slope = min(receiver.w, maxSlope * receiver.z);
+  const float biased = receiver.z - bias * receiver.z - slopeBias * slope * texel;
+  return linearDepth(nearest, lightNear) < biased;
+}
+#endif
+
+// Which version of an object under test casts a shadow in sunShare().
+int castTest = kNoTest, castVersion = 0;
+
+#ifdef LIT
+float sunShare(ivec2 pixel, SeenPoint seen) {
+#ifdef SHADOW
+  vec2 plane;
+  const vec4 receiver = receiverAt(seen.position, seen.normal, plane);
+  // Averted from the light, or shadowed.
+  return receiver.w < 0.0 || isShadowed(receiver, kNoLayer, castTest, castVersion) ? 0.0 : 1.0;
+#else
+  return 1.0;
+#endif
 }
 #endif
 
 // Colour of a surface, the background's if there is none. For `test` and `version` see isShadowed().
 vec3 colourOf(Key key, ivec2 pixel, int test, int version) {
-  if (key.depth == 0.0) return background;
-  const SurfaceSeen s = surfaceSeen(key.triangle, pixel);
-  float lit = 1.0;
-#ifdef SHADOW
-  const vec4 receiver = receiverOf(s);
-  lit = receiver.w < 0.0 || isShadowed(receiver, kNoLayer, test, version) ? 0.0 : 1.0;
-#endif
-  return surfaceColour(key.triangle, s, lit);
+  castTest = test;
+  castVersion = version;
+  return shadedColour(pixel, key.depth == 0.0 ? 0xffffffffu : key.triangle);
 }
 
 // M_i: whether other layers shadow a surface of a layer. Surfaces turned away from the light are dark by themselves.
 bool isMasked(Key key, ivec2 pixel, int layer) {
 #ifdef SHADOW
-  const vec4 receiver = receiverOf(surfaceSeen(key.triangle, pixel));
+  const uvec3 vertices = sceneTriangle(key.triangle);
+  const SeenPoint seen = pointSeen((anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz,
+                                   (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz,
+                                   (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz,
+                                   pixelRay(pixel, rayScale, sizePx));
+  vec2 plane;
+  const vec4 receiver = receiverAt(seen.position, seen.normal, plane);
   return receiver.w >= 0.0 && isShadowed(receiver, layer, kNoTest, 0);
 #else
   return false;

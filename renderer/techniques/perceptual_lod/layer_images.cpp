@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/frame/shading.h"
+#include "renderer/frame/shaded.h"
 
 namespace limen::techniques {
 namespace {
@@ -75,7 +75,7 @@ LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& sett
 
 LayerImages::~LayerImages() = default;
 
-gl::ShaderDefines LayerImages::defines() const { return frame::shadingDefines(parent_, shading_); }
+gl::ShaderDefines LayerImages::defines() const { return frame::shadingDefines(shading_, parent_); }
 
 PixelRect LayerImages::lightPixelsOf(const scene::Bounds& bounds) const {
   const glm::ivec2 size(shading_.shadowResolution);
@@ -216,9 +216,14 @@ void LayerImages::draw(const scene::LodSelection& shown, const std::vector<int>&
 }
 
 void LayerImages::bindGathered(const gl::Program& program) {
-  frame::bindShading(program, view_, shading_);
+  frame::configureShading(program, view_, shading_);
   if (light_) {
-    frame::setShadowLookup(program, *light_, shading_.shadowResolution);
+    program.set("tangentLow", glm::vec2(light_->low));
+    program.set("tangentSize", glm::vec2(light_->high - light_->low));
+    program.set("resolution", shading_.shadowResolution);
+    program.set("bias", frame::kShadowBias);
+    program.set("slopeBias", frame::kShadowSlopeBias);
+    program.set("maxSlope", frame::kShadowMaxSlope);
     const glm::dmat4 toLight = parent_.scene().lights[0].toLightSpace(parent_.gpuScene().anchor());
     program.set("cameraToLight", glm::mat4(toLight * glm::inverse(view_.anchorToCamera())));
     program.set("lightNear", static_cast<float>(light_->near));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour of a triangle in a pixel. LIT, PATTERN, SMOOTH, NORMALS, ATTRIBUTES: see shaded.cpp.
+// Colour of the surface that a pixel sees, from its triangle. See shaded.h. The including shader declares `sizePx` before, and
+// defines sunShare().
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/aperture.glsl"
 #include "renderer/frame/pattern.glsl"
@@ -9,11 +10,15 @@
 
 uniform mat4 anchorToCamera, cameraToAnchor;
 uniform vec2 rayScale;  // half the image's extents at distance 1
-uniform ivec2 sizePx;
 uniform vec3 background;
 uniform vec3 lightPosition, eye;  // light's centre and the eye that sees highlights, relative to the anchor
 uniform float ambient, diffuse, specular, shininess;
 uniform float sunRadius;  // angular radius of the light seen from the scene, rad
+
+#ifdef LIT
+// Share of the light that reaches the point which a pixel sees.
+float sunShare(ivec2 pixel, SeenPoint seen);
+#endif
 
 vec3 patterned(SurfaceMaterial material, vec3 position) {
 #ifdef PATTERN
@@ -47,55 +52,44 @@ vec3 shadingNormal(SurfaceMaterial material, uvec3 vertices, vec3 weights, vec3 
   return normalize(normal / reach);
 }
 
-// A triangle's corners in camera space, and where the ray through a pixel's centre meets it.
-struct SurfaceSeen {
-  uvec3 vertices;
-  vec3 a, b, c;
-  SeenPoint at;
-};
-
-SurfaceSeen surfaceSeen(uint triangle, ivec2 pixel) {
-  SurfaceSeen s;
-  s.vertices = sceneTriangle(triangle);
-  s.a = (anchorToCamera * vec4(scenePosition(s.vertices.x), 1.0)).xyz;
-  s.b = (anchorToCamera * vec4(scenePosition(s.vertices.y), 1.0)).xyz;
-  s.c = (anchorToCamera * vec4(scenePosition(s.vertices.z), 1.0)).xyz;
-  s.at = pointSeen(s.a, s.b, s.c, pixelRay(pixel, rayScale, sizePx));
-  return s;
-}
-
-// `lit`: 0 where the first light is in shadow, 1 elsewhere.
-vec3 surfaceColour(uint triangle, SurfaceSeen s, float lit) {
-  const vec3 position = (cameraToAnchor * vec4(s.at.position, 1.0)).xyz;
+// `id`: triangle that the pixel sees; 0xffffffff: none.
+vec3 shadedColour(ivec2 pixel, uint id) {
+  if (id == 0xffffffffu) return background;
+  const uvec3 vertices = sceneTriangle(id);
+  const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
+  const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
+  const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
+  const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
+  const vec3 position = (cameraToAnchor * vec4(seen.position, 1.0)).xyz;
   const vec3 towardsEye = eye - position;
   const vec3 view = dot(towardsEye, towardsEye) > 0.0 ? normalize(towardsEye) : vec3(0.0, 1.0, 0.0);
-  const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[triangle]];
-  vec3 normal = mat3(cameraToAnchor) * s.at.normal;
+  const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[id]];
+  vec3 normal = mat3(cameraToAnchor) * seen.normal;
   // A triangle without area that a pixel sees all the same.
   if (!(dot(normal, normal) > 0.5)) normal = view;
   vec3 weights = vec3(0.0);
 #if defined(SMOOTH) || defined(ATTRIBUTES)
-  weights = barycentrics(s.a, s.b, s.c, s.at.position);
+  weights = barycentrics(a, b, c, seen.position);
 #endif
 #ifdef SMOOTH
-  normal = shadingNormal(material, s.vertices, weights, normal);
+  normal = shadingNormal(material, vertices, weights, normal);
   // The triangle decides between front and back; a shading normal bent past the silhouette keeps its side. Terrain
   // has but one side: its skirts are lit as the border that they hang from, whichever way they are seen.
-  if (material.surface != kSurfaceAperture && dot(cross(s.b - s.a, s.c - s.a), s.at.normal) < 0.0) normal = -normal;
+  if (material.surface != kSurfaceAperture && dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
 #endif
   const vec3 albedo = patterned(material, position);
   float sky = 1.0, sun = 1.0;
 #ifdef LIT
   const vec3 away = lightPosition - position;
   const vec3 toLight = dot(away, away) > 0.0 ? normalize(away) : normal;
-  sun = material.surface == kSurfaceAperture ? 1.0 : lit;
+  sun = material.surface == kSurfaceAperture ? 1.0 : sunShare(pixel, seen);
 #else
   const vec3 toLight = normal;
 #endif
 #ifdef ATTRIBUTES
   if (material.surface == kSurfaceAperture) {
-    const vec4 aperture = weights.x * surfaceAttributes[s.vertices.x] + weights.y * surfaceAttributes[s.vertices.y] +
-                          weights.z * surfaceAttributes[s.vertices.z];
+    const vec4 aperture = weights.x * surfaceAttributes[vertices.x] + weights.y * surfaceAttributes[vertices.y] +
+                          weights.z * surfaceAttributes[vertices.z];
     const vec2 light = apertureLight(aperture, normal, toLight, sunRadius);
     sun = light.x;
     sky = light.y;
