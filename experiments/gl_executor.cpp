@@ -240,7 +240,9 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      reference = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on);
+      reference = found.image;
+      if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
       referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
       referenceTexture->write(*reference);
     }
@@ -305,12 +307,14 @@ class GlExecutor : public Executor {
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedScene& on) {
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
     nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
                                {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
                                {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
-    return references_.get(sha256(identity.dump()), on.sizePx.x, on.sizePx.y,
-                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
+    return references_.get(sha256(identity.dump()), on.sizePx.x, on.sizePx.y, [&] {
+      RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
+      return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
+    });
   }
 
   /// Hashes the product and writes artefacts, which takes longer than a fast technique's frames.
