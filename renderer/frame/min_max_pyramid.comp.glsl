@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three levels of the min/max pyramid from one source level; each invocation reduces 2 x 2 texels.
+// Several levels of the min/max pyramid from one source level: each invocation reduces 2 x 2 texels, then each group its tile.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
@@ -18,6 +18,13 @@ layout(binding = kPyramidMinimum3Image, r32f) uniform writeonly image2D outMinim
 layout(binding = kPyramidMaximum1Image, r32f) uniform writeonly image2D outMaximum1;
 layout(binding = kPyramidMaximum2Image, r32f) uniform writeonly image2D outMaximum2;
 layout(binding = kPyramidMaximum3Image, r32f) uniform writeonly image2D outMaximum3;
+#ifdef FROM_DEPTH
+const int kMostLevels = kPyramidFirstLevels;
+#else
+const int kMostLevels = kPyramidNextLevels;
+layout(binding = kPyramidMinimum4Image, r32f) uniform writeonly image2D outMinimum4;
+layout(binding = kPyramidMaximum4Image, r32f) uniform writeonly image2D outMaximum4;
+#endif
 uniform float near;
 uniform int sourceSize, levelsMade;
 
@@ -51,7 +58,7 @@ void main() {
     }
   }
   tile[local.y][local.x] = range;
-  for (int level = 2; level <= 3; ++level) {
+  for (int level = 2; level <= kMostLevels; ++level) {
     barrier();
     const int step = 1 << (level - 1), half_ = step >> 1;
     const bool reduces = all(equal(local & (step - 1), ivec2(0)));
@@ -65,10 +72,16 @@ void main() {
         if (level == 2) {
           imageStore(outMinimum2, at >> 1, vec4(range.x));
           imageStore(outMaximum2, at >> 1, vec4(range.y));
-        } else {
+        } else if (level == 3) {
           imageStore(outMinimum3, at >> 2, vec4(range.x));
           imageStore(outMaximum3, at >> 2, vec4(range.y));
         }
+#ifndef FROM_DEPTH
+        else {
+          imageStore(outMinimum4, at >> 3, vec4(range.x));
+          imageStore(outMaximum4, at >> 3, vec4(range.y));
+        }
+#endif
       }
     }
   }

@@ -47,7 +47,7 @@ MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowA
 
 void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
   texture_.bindImage(kMultiScaleImage, gl::Access::Write);
-  for (int layer = 1; layer <= layers_; ++layer) {
+  for (int layer = 1; layer <= layers_; layer += kMultiScaleLayers) {
     const gl::Program& program = layer == 1 ? first_ : next_;
     if (layer == 1) {
       minimum.bindTexture(kMultiScaleMinimumMapUnit);
@@ -56,10 +56,22 @@ void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maxi
     } else {
       texture_.bindTexture(kMultiScaleLayersUnit);
     }
-    program.set("layer", layer);
+    // Each layer's offsets are multiples of the first one's.
+    const int stride = layer == 1 ? 1 : sourceOffsets(anchor_, layer).y;
+    const int made = std::min(kMultiScaleLayers, layers_ + 1 - layer);
+    glm::ivec2 reach(0);
+    for (int i = 0; i < made; ++i) {
+      const glm::ivec2 offsets = sourceOffsets(anchor_, layer + i) / stride;
+      program.set(("offsets[" + std::to_string(i) + "]").c_str(), offsets);
+      reach += glm::ivec2(-offsets.x, offsets.y);
+    }
+    program.set("firstLayer", layer);
+    program.set("layersMade", made);
     program.set("resolution", resolution_);
-    program.set("offsets", sourceOffsets(anchor_, layer));
-    program.dispatch(glm::ivec2(resolution_));
+    program.set("stride", stride);
+    program.set("reach", reach);
+    const int tiles = (resolution_ / stride + kMultiScaleTile - 1) / kMultiScaleTile;
+    program.dispatch(glm::ivec2(tiles * stride), {1, 1});
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 }

@@ -33,7 +33,7 @@ class PoppingModel : public StimulusModel {
           ParameterValues(), &cache_);
     }
     const PredictedPopping popping = predictor_->predict(stimuli.at(which));
-    const StimulusPrediction out{popping.rating, !popping.regions.empty()};
+    const StimulusPrediction out{popping.rating, popping.popsAtCue()};
     known_.emplace(key, out);
     return out;
   }

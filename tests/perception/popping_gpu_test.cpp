@@ -261,16 +261,22 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
         in, what,
         PoppingSettings::table().read(ParameterValues(PoppingSettings::table().parameters(), given)));
   };
+  with({});
+  with({{"model", "schwarz_2009"}});
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
   with({{"masking.b", 4.0}, {"masking.s", 0.5}});
-  with({{"sensitivity.red_green.csf.reference_cd_m2", 20.0}});
+  with({{"model", "schwarz_2009"}, {"sensitivity.red_green.csf.reference_cd_m2", 20.0}});
+  with({{"sensitivity.stimulus_area", "image"},
+        {"sensitivity.achromatic.scale", "peak"},
+        {"sensitivity.achromatic.csf", "castlecsf_transient"}});
   for (const char* eye : {"literal", "floor", "none"}) with({{"eye_movement", eye}});
   with({{"adaptation", "mean"}});
   with({{"adaptation", "fixed"}, {"adaptation.luminance_cd_m2", 20.0}});
   with({{"bands.decomposition.upsampler", "linear"}, {"bands.peak_model", "no_upsample"}});
   with({{"bands.peak_model", "halving"},
         {"bands.compensate_gain", false},
-        {"sensitivity.divide_grey_gain", false}});
+        {"sensitivity.contrast", "cones"},
+        {"sensitivity.contrast.divide_grey_gain", false}});
   with({{"collapse", "magnitude"}, {"minkowski_exponent", 4.0}});
   with({{"regions.connectivity", int64_t{4}}, {"regions.threshold_jnd", 0.7}, {"regions.seeds", "none"}});
   with({{"bands.kernel_centre", 0.4}});

@@ -6,7 +6,7 @@
 
 layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
+layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // or A, RG, YV of DKL space; layer: 0 actual, 1 predicted
 layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
 layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
 layout(binding = kMeanLuminanceBuffer, std430) readonly buffer Mean { float meanLuminance[2]; };
@@ -113,13 +113,20 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
         finer = fma(vec3(weight), next[at].xyz, finer);
         coarser = fma(vec3(weight), after[at].xyz, coarser);
       }
+#ifdef CONTRAST_DKL
+    coarser = coarser.xxx;
+#endif
     for (int c = 0; c < 3; ++c)
       if (!(coarser[c] >= epsilon)) ++guardedHere;
+#ifdef CONTRAST_DKL
+    precise vec3 contrast = (own.xyz - finer) / max(coarser, vec3(epsilon)) * (1.0 / gain);
+#else
     precise vec3 cone = (own.xyz - finer) / max(coarser, vec3(epsilon));
     precise vec3 contrast =
         vec3(2.0 * cone.x + cone.y + cone.z / 20.0, cone.x - 12.0 / 11.0 * cone.y + cone.z / 11.0,
              (cone.x + cone.y - 2.0 * cone.z) / 9.0) *
         vec3(1.0 / (gain * greyGain), 1.0 / gain, 1.0 / gain);
+#endif
     float luminance = luminanceAt(frame, pixel), velocity = retinalVelocity(own.w * degSPerPx);
     precise vec3 normalised = contrast * sensitivityAt(velocity, luminance);
     precise vec3 response =
