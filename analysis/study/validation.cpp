@@ -157,6 +157,11 @@ StudyValidation validateStudy(const StudyAnswers& study,
   const ChosenPredictions chosen = choosePredictions(predictions, study.plan, wanted, setting);
   out.settingsHash = chosen.settingsHash;
   out.programVersion = chosen.programVersion;
+  if (chosen.version < 2)
+    out.notes.push_back(
+        "predictions of version 1: rated by the highest of all regions, also where a cue asks about one "
+        "place "
+        "(limen study predict makes those at the cue)");
   std::set<std::string> names;
   for (const auto& [used, predicted] : displays) {
     const auto name = displayNames.find(predicted);

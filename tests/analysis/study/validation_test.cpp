@@ -57,6 +57,24 @@ TEST(StudyScores, MeanOfTheMostHighlyRated) {
   EXPECT_EQ(values.count("flip"), 0U);
 }
 
+TEST(StudyScores, AreOfWhatTheCueAskedAbout) {
+  // The only region at the cue is rated 2, those away from it 4 and 3.
+  const json cued = json::parse(
+      R"({"rating": 2, "rest_rating": 4, "coverage_of_object": 0.03, "regions": [{"rating": 4, "at_cue": false},
+          {"rating": 3, "at_cue": false}, {"rating": 2, "at_cue": true}]})");
+  const auto values = predictorValues(cued);
+  EXPECT_EQ(values.at("rating"), 2.0);
+  EXPECT_EQ(values.at("rest_rating"), 4.0);
+  EXPECT_EQ(values.at("rating_score"), 2.0);
+  EXPECT_EQ(values.at("region_count"), 3.0);
+  // Predictions of before say nothing of cues: all their regions count.
+  json older = cued;
+  for (json& region : older["regions"]) region.erase("at_cue");
+  older.erase("rest_rating");
+  EXPECT_EQ(predictorValues(older).at("rating_score"), 3.0);
+  EXPECT_EQ(predictorValues(older).count("rest_rating"), 0U);
+}
+
 TEST(PoppingLink, IsTheHighestPointOfALongRidge) {
   // Answers that hardly depend on the rating: midpoint, scale and lapse rate trade against one another.
   std::vector<LinkPoint> points;
