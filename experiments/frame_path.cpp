@@ -68,16 +68,21 @@ std::shared_ptr<const Image> FramePath::reference(const scene::Scene& scene, dou
                                                   double directionDeg) {
   const nlohmann::json place = {
       {"run", identity_}, {"time_s", timeS}, {"light_share", lightShare}, {"direction_deg", directionDeg}};
-  return references_.get(sha256(place.dump()), sizePx_.x, sizePx_.y, [&] {
-    const auto technique =
-        techniques::TechniqueRegistry::instance().get(run_.reference.name).make(run_.reference.values);
-    frame::Frame frame(context_, scene, onGpu_.gpu, sizePx_, timeS);
-    technique->prepare(frame);
-    frame.begin();
-    technique->render(frame);
-    frame.end();
-    return technique->product().read();
-  });
+  return references_
+      .get(sha256(place.dump()), sizePx_.x, sizePx_.y,
+           [&] {
+             const auto technique = techniques::TechniqueRegistry::instance()
+                                        .get(run_.reference.name)
+                                        .make(run_.reference.values);
+             frame::Frame frame(context_, scene, onGpu_.gpu, sizePx_, timeS);
+             technique->prepare(frame);
+             frame.begin();
+             technique->render(frame);
+             frame.end();
+             return Reference{std::make_shared<const Image>(technique->product().read()),
+                              technique->remarks()};
+           })
+      .image;
 }
 
 void FramePath::render(const perception::PathRequest& request, const perception::PathVisitor& visit) {

@@ -243,7 +243,9 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      reference = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on);
+      reference = found.image;
+      if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
       referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
       referenceTexture->write(*reference);
     }
@@ -338,9 +340,11 @@ class GlExecutor : public Executor {
             {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
   }
 
-  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedScene& on) {
-    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y,
-                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
+    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y, [&] {
+      RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
+      return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
+    });
   }
 
   /// Hashes the product and writes artefacts, which takes longer than a fast technique's frames.

@@ -87,8 +87,8 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
                   {}, "choose another light or another technique");
 }
 
-Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                 const Configuration& technique) {
+RenderedOnce renderWithRemarks(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                               const Configuration& technique) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
   requireTraits(info, onGpu.scene);
   const auto made = info.make(technique.values);
@@ -97,9 +97,14 @@ Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec
   frame.begin();
   made->render(frame);
   frame.end();
-  Image product = made->product().read();
+  RenderedOnce out{made->product().read(), made->remarks()};
   context.checkDebugMessages();
-  return product;
+  return out;
+}
+
+Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                 const Configuration& technique) {
+  return renderWithRemarks(context, onGpu, sizePx, technique).product;
 }
 
 }  // namespace limen::experiments

@@ -46,8 +46,15 @@ nlohmann::json sceneFacts(const scene::Scene& scene);
 /// Throws Error if the scene lacks something that the technique needs.
 void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& scene);
 
-/// The product of a technique made for this single frame. Throws what the technique throws, and Error if the
-/// driver reported a problem.
+/// The product of a technique made for this single frame, with the technique's remarks. Throws what the
+/// technique throws, and Error if the driver reported a problem.
+struct RenderedOnce {
+  Image product;
+  std::vector<std::string> remarks;
+};
+RenderedOnce renderWithRemarks(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                               const Configuration& technique);
+/// The product alone.
 Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
                  const Configuration& technique);
 
