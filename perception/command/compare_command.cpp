@@ -60,6 +60,14 @@ const std::vector<std::string>& usualFigures() {
   return kNames;
 }
 
+/// Registered ones that take a pair of images; `jnd` is done here, on the CPU too.
+std::vector<std::string> imageMetrics() {
+  std::vector<std::string> names;
+  for (const auto& [name, info] : MetricRegistry::instance().all())
+    if (name != kJnd && !info.needsPath) names.push_back(name);
+  return names;
+}
+
 std::vector<std::string> allMetrics() {
   std::vector<std::string> names = defaultMetrics();
   names.emplace_back(VideoDifference::kName);
@@ -315,7 +323,7 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
                     "The regions in which the change would pop as a switch between two frames");
   command
       ->add_option("--metrics", options->metrics,
-                   "Only these: " + join(MetricRegistry::instance().names()) +
+                   "Only these: " + join(imageMetrics()) +
                        ", jnd (the popping predictor, nothing moving)")
       ->type_name("NAME,...")
       ->delimiter(',')

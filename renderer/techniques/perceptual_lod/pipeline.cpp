@@ -88,11 +88,12 @@ std::vector<ObjectTest> PerceptualPipeline::nextTests() {
   return tests;
 }
 
-const gl::Texture& PerceptualPipeline::makeMap(int layer, bool timed) {
+const gl::Texture& PerceptualPipeline::makeMap(int layer, bool timed,
+                                               const std::optional<perception::MapArea>& only) {
   images_.compose(layer);
   gl::PassList& passes = parent_.passes();
   passes.setPrefix(layerPrefix(layer));
-  return thresholdMap_.run(images_.context(), timed ? &passes : nullptr);
+  return thresholdMap_.run(images_.context(), timed ? &passes : nullptr, only);
 }
 
 void PerceptualPipeline::runTests(int layer, const gl::Texture& thresholds) {
@@ -124,17 +125,23 @@ void PerceptualPipeline::render(double timeS, bool wait) {
   tests_ = nextTests();
   images_.draw({control_.levels(), true}, layerOf_, tests_);
 
-  std::vector<char> mapped(static_cast<size_t>(images_.layers()), 0), tested = mapped;
+  // Where tests need a layer's map; the thesis's form computes all of all.
+  std::vector<std::optional<perception::MapArea>> mapped(static_cast<size_t>(images_.layers()));
+  std::vector<char> tested(mapped.size(), 0);
   for (const ObjectTest& test : tests_) {
-    const auto layer = static_cast<size_t>(layerOf_[static_cast<size_t>(test.object)]);
-    mapped[layer] = tested[layer] = 1;
+    const auto object = static_cast<size_t>(test.object), layer = static_cast<size_t>(layerOf_[object]);
+    const PixelRect& rect = pixels_[object];
+    const perception::MapArea before = mapped[layer].value_or(perception::MapArea{rect.low, rect.high});
+    mapped[layer] = perception::MapArea{glm::min(before.low, rect.low), glm::max(before.high, rect.high)};
+    tested[layer] = 1;
   }
   if (settings_.tests.thresholdMaps == MappedLayers::All)
-    for (const int layer : layerOf_) mapped[static_cast<size_t>(layer)] = 1;
+    for (const int layer : layerOf_)
+      mapped[static_cast<size_t>(layer)] = perception::MapArea{glm::ivec2(0), parent_.sizePx()};
   if (!tests_.empty()) counts_.begin(frameNumber_);
   for (int layer = 1; layer < images_.layers(); ++layer) {
     if (!mapped[static_cast<size_t>(layer)]) continue;
-    const gl::Texture& thresholds = makeMap(layer, true);
+    const gl::Texture& thresholds = makeMap(layer, true, mapped[static_cast<size_t>(layer)]);
     ++mapsMade_;
     if (tested[static_cast<size_t>(layer)]) runTests(layer, thresholds);
   }

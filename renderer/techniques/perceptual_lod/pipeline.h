@@ -50,7 +50,7 @@ class PerceptualPipeline {
  private:
   void takeResults(bool wait);
   std::vector<ObjectTest> nextTests();
-  const gl::Texture& makeMap(int layer, bool timed);
+  const gl::Texture& makeMap(int layer, bool timed, const std::optional<perception::MapArea>& only = {});
   void runTests(int layer, const gl::Texture& thresholds);
 
   frame::Frame& parent_;
