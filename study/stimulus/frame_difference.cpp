@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "perception/metrics/color_video_vdp/color_video_vdp_gpu.h"
+#include "perception/metrics/color_video_vdp.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
 #include "study/stimulus/stimulus_renderer.h"
@@ -92,15 +92,10 @@ double FrameComparer::compareClip(StimulusRenderer& renderer) const {
       one = {timeS, decoded(renderer.readBackState(timeS, after), display_)};
     return one.light;
   };
-  perception::cvvdp::Options options;
-  options.display = perception::cvvdp::displayOf(display_);
-  options.values = perception::cvvdp::Values::Relative;
-  options.framesPerSecond = timeline.refreshHz;
-  const perception::cvvdp::Pair pair = {
-      windowPx_.x, windowPx_.y, end - first,
-      [&](int i) { return shown(first + i, timeline.showsAfter(first + i)); },
-      [&](int i) { return shown(first + i, false); }};
-  return 10.0 - perception::cvvdp::evaluateOnGpu(context_, pair, options).jod;
+  const perception::LightPair pair = {windowPx_, end - first, timeline.refreshHz,
+                                      [&](int i) { return shown(first + i, timeline.showsAfter(first + i)); },
+                                      [&](int i) { return shown(first + i, false); }};
+  return 10.0 - perception::colorVideoVdpJod(context_, pair, display_);
 }
 
 FrameDifference FrameComparer::compare(const Stimulus& stimulus, bool clip) {
@@ -115,12 +110,9 @@ FrameDifference FrameComparer::compare(const Stimulus& stimulus, bool clip) {
   out.ssim = measure("ssim", test, reference);
   out.rmse = measure("rmse", test, reference);
   out.rmseCoded = measure("rmse", testCodes, referenceCodes);
-  perception::cvvdp::Options options;
-  options.display = perception::cvvdp::displayOf(display_);
-  options.values = perception::cvvdp::Values::Relative;
-  const perception::cvvdp::Pair pair = {windowPx_.x, windowPx_.y, 1, [&](int) { return test; },
-                                        [&](int) { return reference; }};
-  out.colorVideoVdp = 10.0 - perception::cvvdp::evaluateOnGpu(context_, pair, options).jod;
+  const perception::LightPair pair = {windowPx_, 1, 0.0, [&](int) { return test; },
+                                      [&](int) { return reference; }};
+  out.colorVideoVdp = 10.0 - perception::colorVideoVdpJod(context_, pair, display_);
   if (clip) out.colorVideoVdpClip = compareClip(renderer);
   return out;
 }
