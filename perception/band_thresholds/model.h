@@ -40,14 +40,15 @@ class BandThresholdModel {
   double anySpectrumCdM2(int band, double contrast, double contrastStep, double denominatorCdM2) const {
     return contrastStep * denominatorCdM2 / (spread(band) + 1.5 * contrast + contrastStep);
   }
-  /// Where an image is too small for bands: the threshold of the most visible frequency [cd/m2].
+  /// Where an image is too small for bands: the contrast threshold of the frequency that is most visible at
+  /// 100 cd/m2, as a share of the luminance [cd/m2].
   double uniformCdM2(double luminanceCdM2) const;
 
  private:
   BandThresholdSettings settings_;
   PoppingModel model_;
   Sensitivity sensitivity_;
-  double velocityDegS_;
+  double velocityDegS_, peakSensitivity_ = 1.0;
   FineTable step_;
   std::vector<double> spreads_;
 };

@@ -25,7 +25,7 @@ struct CameraPath {
 /// A sequence of frames that starts with the run's own.
 struct PathRequest {
   std::variant<LightPath, CameraPath> path;
-  int steps = 8;  ///< from frame to frame; one frame more than steps
+  int steps = 4;  ///< from frame to frame; one frame more than steps
   static const SettingsTable<PathRequest>& table();
 };
 

@@ -164,7 +164,8 @@ glm::dvec3 luminanceRow() {
 }  // namespace
 
 PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx,
-                                         const DisplayProfile& display, const PoppingSettings& settings)
+                                         const DisplayProfile& display, const PoppingSettings& settings,
+                                         bool isSwitch)
     : context_(context),
       sizePx_(sizePx),
       display_(display),
@@ -190,6 +191,8 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
     return isDkl ? dklFromXyz(display.xyz(light)) : lmsFromXyz(display.xyz(light));
   };
   const glm::dvec3 black = planesOf({0, 0, 0});
+  if (std::holds_alternative<TemporalChannels>(settings.temporal) && isSwitch)
+    defines_["TEMPORAL_CHANNELS"] = "1";
   stageDefines_ = defines_;
   stageDefines_["SHOW_STAGES"] = "1";
   conesOfBlack_ = black;
@@ -198,6 +201,8 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   const TableGrid grid = gridOf(settings, display);
   tableLow_ = grid.low, tablePer_ = grid.per;
   sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
+  if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && isSwitch)
+    temporal_.emplace(model_, display, settings, *channels, TemporalGrid{grid.low, grid.per, grid.size});
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
 
@@ -308,6 +313,9 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("tableSize", tableSize_);
   program.set("tableLow", tableLow_);
   program.set("tablePer", tablePer_);
+  if (temporal_)
+    temporal_->bind(program,
+                    level < model_.contrastLevels ? model_.peakCpd[static_cast<size_t>(level)] : 0.0);
 }
 
 void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown) {
@@ -399,8 +407,9 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() + seeds_.bytes() +
-         counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
+  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() +
+         (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() + counters_.bytes() +
+         mean_.bytes() + regions_.bytesHeld();
 }
 
 }  // namespace limen::perception

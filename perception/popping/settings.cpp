@@ -296,6 +296,7 @@ PoppingSettings PoppingSettings::preset(PredictorModel model) {
   out.sensitivity.blueYellow = {{"kelly83", {}}, ChromaticPeakScale{.threshold = 0.012}};
   out.sensitivity.contrast = ConeContrast{};
   out.sensitivity.stimulusArea = ImageArea{};
+  out.temporal = SingleFrame{};
   return out;
 }
 

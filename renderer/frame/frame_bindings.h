@@ -108,6 +108,11 @@ const uint kSampledPyramidImage = 0u;
 // kMultiScaleTile invocations make as many entries of each.
 const int kMultiScaleLayers = 4;
 const int kMultiScaleTile = 16;
+// Maps of at most kMultiScaleLine texels a side: all layers along one axis, then along the other,
+// kMultiScaleColumns at a time.
+const int kMultiScaleLine = 256;
+const int kMultiScaleLineLayers = 8;
+const int kMultiScaleColumns = 8;
 const uint kMultiScaleMinimumMapUnit = 0u;
 const uint kMultiScaleMaximumMapUnit = 1u;
 const uint kMultiScaleLayersUnit = 0u;

@@ -32,19 +32,37 @@ shared vec2 tile[8][8];
 
 vec2 combine(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }
 
-vec2 sourceRange(ivec2 texel) {
-  // A 1-texel map is its own only level: clamping keeps reads inside.
-  texel = min(texel, ivec2(sourceSize - 1));
 #ifdef FROM_DEPTH
-  const float z = linearDepth(texelFetch(depthMap, texel, 0).x, near);
-  imageStore(outBase, texel, vec4(z));
-  return vec2(z);
-#else
-  return vec2(texelFetch(minimumMap, texel, sourceLevel).x, texelFetch(maximumMap, texel, sourceLevel - 1).x);
-#endif
+// Depths of the group's tile: neighbouring invocations read and store neighbouring texels.
+shared float depths[2 * kGroupSide][2 * kGroupSide];
+
+void loadTile() {
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 inTile = ivec2(gl_LocalInvocationID.xy) + kGroupSide * ivec2(i & 1, i >> 1);
+    const ivec2 texel = ivec2(gl_WorkGroupID.xy) * 2 * kGroupSide + inTile;
+    // A 1-texel map is its own only level: clamping keeps reads inside.
+    const float z = linearDepth(texelFetch(depthMap, min(texel, ivec2(sourceSize - 1)), 0).x, near);
+    if (all(lessThan(texel, ivec2(sourceSize)))) imageStore(outBase, texel, vec4(z));
+    depths[inTile.y][inTile.x] = z;
+  }
+  barrier();
 }
 
+vec2 sourceRange(ivec2 texel) {
+  const ivec2 inTile = texel - ivec2(gl_WorkGroupID.xy) * 2 * kGroupSide;
+  return vec2(depths[inTile.y][inTile.x]);
+}
+#else
+vec2 sourceRange(ivec2 texel) {
+  texel = min(texel, ivec2(sourceSize - 1));
+  return vec2(texelFetch(minimumMap, texel, sourceLevel).x, texelFetch(maximumMap, texel, sourceLevel - 1).x);
+}
+#endif
+
 void main() {
+#ifdef FROM_DEPTH
+  loadTile();
+#endif
   const ivec2 at = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
   const ivec2 size1 = ivec2(max(sourceSize / 2, 1));
   const bool inside = all(lessThan(at, size1));

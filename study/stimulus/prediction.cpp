@@ -141,6 +141,7 @@ PredictedPopping Predictor::make(const Stimulus& stimulus) {
   StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   perception::PoppingInput input;
+  input.isSwitch = true;
   input.actual = renderer.readBackState(timeS, true);
   input.predicted = renderer.readBackState(timeS, false);
 

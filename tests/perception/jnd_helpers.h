@@ -12,7 +12,7 @@
 namespace limen::perception {
 
 /// Order in which the JND metrics state their figures; the last only with changes.
-enum { kMedian, kP95, kLargest, kShare, kRating, kDetection, kStep };
+enum { kP95, kMedian, kLargest, kShare, kRating, kDetection, kStep };
 constexpr int kWidth = 96, kHeight = 70;
 
 /// Tests of a metric on the GPU: one context for all of a program.

@@ -343,6 +343,11 @@ void ColorVideoVdpGpu::flush() {
   unread_ = 0;
 }
 
+const std::vector<FrameDifferences>& ColorVideoVdpGpu::frames() {
+  flush();
+  return differences_;
+}
+
 Score ColorVideoVdpGpu::finish() {
   flush();
   return pool(std::move(differences_), frequencies_, isVideo());

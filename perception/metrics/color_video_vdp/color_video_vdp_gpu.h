@@ -33,6 +33,9 @@ class ColorVideoVdpGpu {
   /// Score of all frames since begin(); waits for the GPU.
   Score finish();
 
+  /// Differences of the frames evaluated so far; waits for the GPU.
+  const std::vector<FrameDifferences>& frames();
+
   /// Called after each evaluated frame, with its index; with symmetric padding several follow one add().
   std::function<void(int)> onFrame;
   /// Map of the frame evaluated last (Options::map); see evaluate(). Waits for the GPU.

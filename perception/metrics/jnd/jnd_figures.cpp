@@ -9,8 +9,9 @@ namespace limen::perception {
 
 std::vector<Quantity> jndQuantities(const std::string& of) {
   const Direction lower = Direction::LowerIsBetter;
-  return {{"median", of + ", median", "JND", lower},
-          {"p95", of + ", 95th percentile", "JND", lower},
+  // The one that stands for all of them first.
+  return {{"p95", of + ", 95th percentile", "JND", lower},
+          {"median", of + ", median", "JND", lower},
           {"largest", of + ", largest", "JND", lower},
           {"share_above_1", of + ", share of pixels of 1 JND or more", "", lower},
           {"rating", of + ", highest rating of a region", "", lower, "Schwarz 2009, section 10.3.4"},
@@ -18,7 +19,7 @@ std::vector<Quantity> jndQuantities(const std::string& of) {
 }
 
 std::vector<double> jndValues(const JndFigures& figures) {
-  return {figures.medianJnd,   figures.p95Jnd, figures.largestJnd,
+  return {figures.p95Jnd,      figures.medianJnd, figures.largestJnd,
           figures.shareAbove1, figures.rating, figures.detection};
 }
 

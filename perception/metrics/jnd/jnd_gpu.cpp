@@ -45,7 +45,7 @@ JndGpu::JndGpu(gl::Context& context, glm::ivec2 sizePx, const JndSettings& setti
     : context_(context),
       sizePx_(sizePx),
       settings_(settings),
-      predictor_(context, sizePx, displayOf(settings, refreshHz), settings.model),
+      predictor_(context, sizePx, displayOf(settings, refreshHz), settings.predictor),
       actual_(Format::RGBA32F, sizePx),
       predicted_(Format::RGBA32F, sizePx),
       evaluated_(Format::R8, sizePx),
@@ -116,7 +116,7 @@ void JndGpu::predict(const gl::Texture* displacement) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   const gl::Program& count = context_.programs().compute(kFolder + "count.comp.glsl");
   const gl::Program& choose = context_.programs().compute(kFolder + "choose.comp.glsl");
-  const auto lowest = static_cast<float>(ratingWithoutRegion(settings_.model));
+  const auto lowest = static_cast<float>(ratingWithoutRegion(settings_.predictor));
   for (int round = 0; round < 3; ++round) {
     predictor_.jnd().bindTexture(kCountJndUnit);
     evaluated_.bindTexture(kCountEvaluatedUnit);
@@ -143,9 +143,9 @@ JndFigures JndGpu::figures() const {
   out.largestJnd = std::bit_cast<float>(found.largestBits);
   out.shareAbove1 = found.evaluatedPx > 0 ? static_cast<double>(found.visiblePx) / found.evaluatedPx : 0.0;
   const bool any = found.regionCount > 0;
-  out.rating = any ? double{found.rating} : ratingWithoutRegion(settings_.model);
+  out.rating = any ? double{found.rating} : ratingWithoutRegion(settings_.predictor);
   out.detection =
-      any ? settings_.model.detection.probability(out.rating) : settings_.model.detection.guessRate;
+      any ? settings_.predictor.detection.probability(out.rating) : settings_.predictor.detection.guessRate;
   return out;
 }
 

@@ -27,7 +27,7 @@ const SettingsTable<JndSettings>& JndSettings::table() {
       included(&S::viewing),
       included(&S::shown),
       included(&S::region),
-      {&S::model, "model", "Model of the viewer: the popping predictor, eye movement included",
+      {&S::predictor, "predictor", "Model of the viewer, eye movement included: the popping predictor",
        "Schwarz 2009, section 10.3"}};
   return kTable;
 }

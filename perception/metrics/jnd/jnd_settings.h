@@ -22,7 +22,7 @@ struct JndSettings {
   ViewingSettings viewing{{"desktop_24", {}}};
   ShownSettings shown;
   ComparedRegion region;
-  PoppingSettings model;
+  PoppingSettings predictor;
   static const SettingsTable<JndSettings>& table();
 };
 

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
+#include "experiments/base/error.h"
 #include "perception/metrics/color_video_vdp/color_video_vdp_gpu.h"
 #include "perception/metrics/color_video_vdp/reference.h"
+#include "perception/metrics/metric.h"
+#include "perception/metrics/metric_gpu.h"
 #include "vectors.h"
 
 namespace limen::perception::cvvdp {
@@ -14,13 +18,6 @@ namespace {
 gl::Context& context() {
   static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
   return *kContext;
-}
-
-const Vector& vectorOf(const std::string& id) {
-  static const std::vector<Vector> kVectors = readVectors();
-  for (const Vector& v : kVectors)
-    if (v.id == id) return v;
-  throw std::out_of_range(id);
 }
 
 class CvvdpGpuVectors : public testing::TestWithParam<std::string> {};
@@ -33,13 +30,7 @@ TEST_P(CvvdpGpuVectors, ScoreIsTheAuthors) {
   context().checkDebugMessages();
 }
 
-std::vector<std::string> ids() {
-  std::vector<std::string> out;
-  for (const Vector& v : readVectors()) out.push_back(v.id);
-  return out;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, CvvdpGpuVectors, testing::ValuesIn(ids()),
+INSTANTIATE_TEST_SUITE_P(All, CvvdpGpuVectors, testing::ValuesIn(vectorIds()),
                          [](const testing::TestParamInfo<std::string>& id) { return id.param; });
 
 /// Smooth colour texture that moves, with a disturbance of its own in the test.
@@ -138,6 +129,80 @@ TEST(CvvdpGpu, LightEqualsCode) {
   const Pair linear = {40, 30, 1, [&](int frame) { return light(coded.test(frame)); },
                        [&](int frame) { return light(coded.reference(frame)); }};
   EXPECT_NEAR(evaluateOnGpu(context(), linear, options).jod, expected, 1e-4);
+}
+
+/// Scores of a clip whose defect grows with its strength, 0 to 4.
+std::vector<double> scoresOf(const std::function<double(int x, int y, int frame, int strength)>& value) {
+  constexpr int kFrames = 18;
+  std::vector<double> out;
+  const auto source = [&](int strength) {
+    return [&value, strength](int frame) {
+      Image image(64, 48, 1);
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+          image.at(x, y) = static_cast<float>(value(x, y, frame, strength));
+      return image;
+    };
+  };
+  const Options options = optionsOf("standard_fhd", 30.0);
+  for (int strength = 0; strength <= 4; ++strength)
+    out.push_back(evaluateOnGpu(context(), {64, 48, kFrames, source(strength), source(0)}, options).jod);
+  return out;
+}
+
+void expectFalling(const std::vector<double>& scores) {
+  EXPECT_EQ(scores.front(), 10.0);
+  for (size_t i = 1; i < scores.size(); ++i) EXPECT_LT(scores[i], scores[i - 1] - 0.01) << i;
+}
+
+/// Edges and waves, moving to the right by a pixel a frame.
+double movingPattern(double x, int y) {
+  return 0.5 + (std::sin(0.39 * x) > 0.0 ? 0.15 : -0.15) + 0.1 * std::sin(0.7 * y + 0.2 * x);
+}
+
+TEST(CvvdpClips, ScoreFallsWithGrowingFlicker) {
+  expectFalling(scoresOf([](int x, int y, int frame, int strength) {
+    const double patch = x > 20 && x < 44 && y > 14 && y < 34 ? 1.0 : 0.0;
+    return movingPattern(x, y) + 0.02 * strength * patch * (frame / 2 % 2 ? 1.0 : -1.0);
+  }));
+}
+
+TEST(CvvdpClips, ScoreFallsWithGrowingBlur) {
+  expectFalling(scoresOf([](int x, int y, int frame, int strength) {
+    double sum = 0.0;  // box of growing width along the motion
+    for (int i = -strength; i <= strength; ++i) sum += movingPattern(x - frame + i, y);
+    return sum / (2 * strength + 1);
+  }));
+}
+
+TEST(CvvdpClips, ScoreFallsWithGrowingJudder) {
+  expectFalling(scoresOf([](int x, int y, int frame, int strength) {
+    const int held = frame / (strength + 1) * (strength + 1);  // each picture shown 1 to 5 times
+    return movingPattern(x - held, y);
+  }));
+}
+
+TEST(CvvdpMetric, EvaluatesProductsAsImagesOfLight) {
+  MetricGpu gpu(context());
+  const MetricInfo& info = MetricRegistry::instance().get("color_video_vdp");
+  const Image test = movingFrame(37, 30, 0, 0.05), reference = movingFrame(37, 30, 0, 0.0);
+  ComparisonInput input;
+  input.test = &test, input.reference = &reference, input.gpu = &gpu;
+  Options options = optionsOf("standard_4k");
+  options.values = Values::Relative;
+  options.map = true;
+  const Pair pair = {37, 30, 1, [&](int) { return test; }, [&](int) { return reference; }};
+  for (const char* display : {"standard_4k", "desktop_24"}) {
+    options.display = readDisplay(display);
+    const ReferenceResult expected = evaluate(pair, options);
+    const MetricResult found = info.compare(input, {info.parameters, {{"display", std::string(display)}}});
+    EXPECT_NEAR(found.value, expected.score.jod, 1e-4) << display;
+    ASSERT_TRUE(found.map);
+    for (size_t i = 0; i < found.map->data.size(); ++i)
+      ASSERT_NEAR(found.map->data[i], expected.maps[0].data[i], 1e-4) << i;
+  }
+  input.gpu = nullptr;
+  EXPECT_THROW(info.compare(input, {info.parameters, {}}), Error);
 }
 
 }  // namespace

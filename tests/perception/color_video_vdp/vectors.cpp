@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <stdexcept>
 
 #include "perception/metrics/row_sums.h"
 
@@ -23,7 +24,9 @@ double texture(int x, int y, int c) {
 }  // namespace
 
 std::vector<Row> readRows(const std::string& file) {
-  std::ifstream in(LIMEN_SOURCE_DIR "/tests/perception/color_video_vdp/reference/" + file);
+  const std::string path = LIMEN_SOURCE_DIR "/tests/perception/color_video_vdp/reference/" + file;
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read the reference values " + path);
   std::vector<Row> rows;
   std::vector<std::string> columns;
   std::string line;
@@ -39,6 +42,22 @@ std::vector<Row> readRows(const std::string& file) {
     for (size_t i = 0; i < cells.size(); ++i) row[columns[i]] = cells[i];
   }
   return rows;
+}
+
+const Vector& vectorOf(const std::string& id) {
+  static const std::vector<Vector> kVectors = readVectors();
+  for (const Vector& v : kVectors)
+    if (v.id == id) return v;
+  throw std::out_of_range("no vector " + id);
+}
+
+std::vector<std::string> vectorIds(const std::set<std::string>& without) {
+  std::vector<std::string> out;
+  for (int i = 1; i <= 24; ++i) {
+    std::string id = (i < 10 ? "A0" : "A") + std::to_string(i);
+    if (!without.contains(id)) out.push_back(std::move(id));
+  }
+  return out;
 }
 
 double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,8 @@ struct Vector {
 };
 
 std::vector<Vector> readVectors();
+const Vector& vectorOf(const std::string& id);
+/// Names of the vectors, known without their file so that tests exist, and fail, without it.
+std::vector<std::string> vectorIds(const std::set<std::string>& without = {});
 
 }  // namespace limen::perception::cvvdp

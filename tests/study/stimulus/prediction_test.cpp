@@ -65,6 +65,7 @@ TEST_F(PredictionTest, IsThePredictorsWordOnThePicturesAsTheyAreShown) {
   perception::PoppingInput input;
   input.actual = coded(stimulus, 0);
   input.predicted = coded(stimulus, 1);
+  input.isSwitch = true;
   const perception::PoppingResult expected = perception::predictPopping(input, studyDisplay());
   const PredictedPopping found = Predictor(context(), kPredictionSize, studyDisplay()).predict(stimulus);
   ASSERT_GT(expected.regions.regions.size(), 0U);

@@ -61,6 +61,10 @@ class ShadedShadow : public Technique {
 
   const gl::Texture& product() const override { return loop_ ? loop_->picture() : *picture_; }
 
+  std::vector<std::string> remarks() const override {
+    return visibility_ ? visibility_->remarks() : std::vector<std::string>();
+  }
+
   /// Those of the inner technique, which looks at the same micro-occluders wherever its loop is.
   std::vector<Counter> count(frame::Frame& frame) override {
     if (visibility_) return countInner(*visibility_, frame);
