@@ -72,6 +72,8 @@ const std::vector<PredictorName>& studyPredictors() {
       {"mean_de94", "mean CIE94 difference of the frames"},
       {"flip", "mean FLIP of the frames"},
       {"one_minus_ssim", "1 - SSIM of the frames"},
+      {"color_video_vdp", "10 - JOD of the frames by ColorVideoVDP"},
+      {"color_video_vdp_clip", "10 - JOD of the clip around the change by ColorVideoVDP"},
       {"rmse", "RMS difference of light"},
       {"rmse_coded", "RMS difference of pixel values"}};
   return kNames;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "perception/multiscale/pyramid.h"
+#include "perception/vision/csf.h"
 #include "perception/vision/eye_movement.h"
 #include "perception/vision/masking.h"
 
@@ -103,6 +104,11 @@ BandThresholdModel::BandThresholdModel(const BandThresholdSettings& settings, co
       sensitivity_(model_, display, settings.predictor, true),
       velocityDegS_(
           retinalVelocityDegS(0.0, settings.predictor.eyeModel(), settings.predictor.leastVelocityDegS())) {
+  CsfPoint point = viewingPoint(model_.areaDeg2, model_.widthDeg, display);
+  point.velocityDegS = velocityDegS_;
+  peakSensitivity_ =
+      makeCsf(settings.predictor.sensitivity.achromatic.csf.name, "predictor")->peak(point).sensitivity *
+      model_.scaleA * settings.predictor.sensitivity.greyGain();
   const Masking masking = makeMasking(settings.predictor.masking, "predictor.masking");
   step_ = FineTable([transducer = masking.transducer,
                      jnd = settings.jnd](double x) { return stepOf(transducer, jnd, std::max(x, 0.0)); },
@@ -116,7 +122,10 @@ BandThresholdModel::BandThresholdModel(const BandThresholdSettings& settings, co
 }
 
 double BandThresholdModel::sensitivity(int band, double luminanceCdM2) const {
-  return sensitivity_.at(band, velocityDegS_, luminanceCdM2)[0];
+  // Darker, sensitivity only falls: thresholds are those at the end, and safe.
+  constexpr double kLeastCdM2 = 1e-4, kLargestCdM2 = 1e6;
+  const double held = luminanceCdM2 > kLeastCdM2 ? std::min(luminanceCdM2, kLargestCdM2) : kLeastCdM2;
+  return settings_.predictor.sensitivity.greyGain() * sensitivity_.at(band, velocityDegS_, held)[0];
 }
 
 double BandThresholdModel::contrastStep(int band, double contrast, double luminanceCdM2) const {
@@ -127,7 +136,7 @@ double BandThresholdModel::contrastStep(int band, double contrast, double lumina
 }
 
 double BandThresholdModel::uniformCdM2(double luminanceCdM2) const {
-  return settings_.jnd * settings_.predictor.sensitivity.achromatic.threshold * luminanceCdM2;
+  return settings_.jnd * luminanceCdM2 / peakSensitivity_;
 }
 
 }  // namespace limen::perception

@@ -26,7 +26,8 @@ class BandThresholdModel {
   /// Of |c| times the sensitivity: the largest s such that no change of up to s, to either side, changes the
   /// response by more than `jnd`.
   double step(double normalised) const { return step_(normalised); }
-  /// Calibrated sensitivity of a band to luminance contrast, for a fixating eye.
+  /// Calibrated sensitivity of a band to luminance contrast, for a fixating eye; luminances are held between
+  /// 1e-4 and 1e6 cd/m2.
   double sensitivity(int band, double luminanceCdM2) const;
   /// Largest change of contrast; `contrast` is the band's magnitude.
   double contrastStep(int band, double contrast, double luminanceCdM2) const;
@@ -40,14 +41,15 @@ class BandThresholdModel {
   double anySpectrumCdM2(int band, double contrast, double contrastStep, double denominatorCdM2) const {
     return contrastStep * denominatorCdM2 / (spread(band) + 1.5 * contrast + contrastStep);
   }
-  /// Where an image is too small for bands: the threshold of the most visible frequency [cd/m2].
+  /// Where an image is too small for bands: the contrast threshold of the frequency that is most visible at
+  /// 100 cd/m2, as a share of the luminance [cd/m2].
   double uniformCdM2(double luminanceCdM2) const;
 
  private:
   BandThresholdSettings settings_;
   PoppingModel model_;
   Sensitivity sensitivity_;
-  double velocityDegS_;
+  double velocityDegS_, peakSensitivity_ = 1.0;
   FineTable step_;
   std::vector<double> spreads_;
 };
