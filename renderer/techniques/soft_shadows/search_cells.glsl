@@ -13,20 +13,20 @@ uniform float middleWidth;  // of cells in the middle, as a share of the mean
 // Cells along an axis, and the texels that they divide.
 struct Cells {
   int low, extent, count;
-  float middle, step;
+  float middle;
 };
 
 Cells cellsAlong(int low, int high) {
   const int extent = high - low, count = min(extent, allowedPerAxis);
   // No cell is narrower than a texel.
-  return Cells(low, extent, count, max(middleWidth, float(count) / float(extent)), 2.0 / float(count));
+  return Cells(low, extent, count, max(middleWidth, float(count) / float(extent)));
 }
 
 // Lower bound of a cell.
 int cellBound(Cells cells, int i) {
-  const float s = cells.step * float(i) - 1.0;  // from -1 to 1
-  const float place = s * (cells.middle + (1.0 - cells.middle) * abs(s));
-  return cells.low + int(floor(0.5 * float(cells.extent) * (1.0 + place) + 0.5));
+  const float s = 2.0 * float(i) / float(cells.count) - 1.0;  // from -1 to 1
+  const float place = cells.middle * s + (1.0 - cells.middle) * s * abs(s);
+  return cells.low + int(floor((0.5 + 0.5 * place) * float(cells.extent) + 0.5));
 }
 
 // Begin of the cell below that of bounds low and high, which may lie outside of the area, of the same width.
@@ -60,9 +60,6 @@ bool cellBlocks(CellDepth cell, vec4 p, float depth) { return blocks(cell.z, cel
 // As projectionScale(), where the light is widened as for the search area.
 vec2 widenedScale(float z, float pz, vec2 largest) { return min(vec2(projectionScale(z, pz)), largest); }
 
-// Cells above each other that are visited together, so that one is the next one's neighbour below without being read again.
-#define ROWS_TOGETHER 4
-
 // Visibility by the cells of an area.
 float gatherOccluders(vec4 p, Area area, int level) {
   const Cells columns = cellsAlong(area.low.x, area.high.x), rows = cellsAlong(area.low.y, area.high.y);
@@ -75,73 +72,49 @@ float gatherOccluders(vec4 p, Area area, int level) {
   const vec2 scale = p.z * tangentSize / (float(resolution) * lightSize);
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   const vec2 largest = 1.0 / (scale * leastWidth);
-  const int firstColumn = boundBelow(columns, 0, columns.low, cellBound(columns, 1));
-  // Rows of this invocation: neighbours.
-  const int share = (rows.count + rowStep - 1) / rowStep, endRow = min((firstRow + 1) * share, rows.count);
-  for (int row = firstRow * share; row < endRow; row += ROWS_TOGETHER) {
-    const int together = min(endRow - row, ROWS_TOGETHER);
-    int bounds[ROWS_TOGETHER + 1];
-    for (int i = 0; i <= ROWS_TOGETHER; ++i) bounds[i] = cellBound(rows, min(row + i, endRow));
-    const int below = boundBelow(rows, row, bounds[0], bounds[1]);
-    int low = columns.low;
+  for (int y = firstRow; y < rows.count; y += rowStep) {
+    const ivec2 boundsY = ivec2(cellBound(rows, y), cellBound(rows, y + 1));
+    const vec2 edgesY = scale.y * vec2(boundsY) + shift.y;
+    ivec2 boundsX = ivec2(0, columns.low);
 #if GAP_FILL != GAP_FILL_NONE
-    CellDepth left[ROWS_TOGETHER];
-    bool leftBlocks[ROWS_TOGETHER];
-    for (int i = 0; i < ROWS_TOGETHER; ++i) {
-      left[i] = cellDepth(ivec2(firstColumn, bounds[i]), ivec2(low, bounds[i + 1]));
-      leftBlocks[i] = cellBlocks(left[i], p, depth);
-    }
+    const int below = boundBelow(rows, y, boundsY.x, boundsY.y);
+    const int first = boundBelow(columns, 0, columns.low, cellBound(columns, 1));
+    CellDepth left = cellDepth(ivec2(first, boundsY.x), ivec2(columns.low, boundsY.y));
+    bool leftBlocks = cellBlocks(left, p, depth);
 #if GAP_FILL == GAP_FILL_DIAGONAL
-    CellDepth lowerLeft = cellDepth(ivec2(firstColumn, below), ivec2(low, bounds[0]));
-    bool lowerLeftBlocks = cellBlocks(lowerLeft, p, depth);
+    CellDepth lowerLeft = cellDepth(ivec2(first, below), ivec2(columns.low, boundsY.x));
 #endif
 #endif
     for (int x = 0; x < columns.count; ++x) {
-      const int high = cellBound(columns, x + 1);
-      const vec2 edgesX = scale.x * vec2(float(low), float(high)) + shift.x;
+      boundsX = ivec2(boundsX.y, cellBound(columns, x + 1));
+      const CellDepth own = cellDepth(ivec2(boundsX.x, boundsY.x), ivec2(boundsX.y, boundsY.y));
+      ++examinedCount;
 #if GAP_FILL != GAP_FILL_NONE
-      CellDepth lower = cellDepth(ivec2(low, below), ivec2(high, bounds[0]));
-      bool lowerBlocks = cellBlocks(lower, p, depth);
-#if GAP_FILL == GAP_FILL_DIAGONAL
-      CellDepth corner = lowerLeft;
-      bool cornerBlocks = lowerLeftBlocks;
-      lowerLeft = lower;
-      lowerLeftBlocks = lowerBlocks;
+      const CellDepth lower = cellDepth(ivec2(boundsX.x, below), ivec2(boundsX.y, boundsY.x));
 #endif
-#endif
-      for (int i = 0; i < ROWS_TOGETHER; ++i) {
-        if (i >= together) break;
-        const CellDepth own = cellDepth(ivec2(low, bounds[i]), ivec2(high, bounds[i + 1]));
-        const bool blocking = cellBlocks(own, p, depth);
-        ++examinedCount;
-        if (blocking) {
-          const vec2 edgesY = scale.y * vec2(float(bounds[i]), float(bounds[i + 1])) + shift.y;
-          const vec2 k = widenedScale(own.z, p.z, largest);
-          vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
-          const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
+      const bool blocking = cellBlocks(own, p, depth);
+      if (blocking) {
+        const vec2 edgesX = scale.x * vec2(boundsX) + shift.x;
+        const vec2 k = widenedScale(own.z, p.z, largest);
+        vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
+        const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-          if (leftBlocks[i])
-            start.x = stretchedTo(start.x, widenedScale(left[i].z, p.z, largest).x * edgesX.x + eyeOnLight.x);
-          if (lowerBlocks) start.y = stretchedTo(start.y, widenedScale(lower.z, p.z, largest).y * edgesY.x + eyeOnLight.y);
+        if (leftBlocks) start.x = stretchedTo(start.x, widenedScale(left.z, p.z, largest).x * edgesX.x + eyeOnLight.x);
+        if (cellBlocks(lower, p, depth)) start.y = stretchedTo(start.y, widenedScale(lower.z, p.z, largest).y * edgesY.x + eyeOnLight.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-          if (cornerBlocks)
-            start = min(start, widenedScale(corner.z, p.z, largest) * vec2(edgesX.x, edgesY.x) + eyeOnLight);
+        if (cellBlocks(lowerLeft, p, depth))
+          start = min(start, widenedScale(lowerLeft.z, p.z, largest) * vec2(edgesX.x, edgesY.x) + eyeOnLight);
 #endif
-          accumulateOnLight(start, end);
-        }
-#if GAP_FILL != GAP_FILL_NONE
-#if GAP_FILL == GAP_FILL_DIAGONAL
-        corner = left[i];
-        cornerBlocks = leftBlocks[i];
-#endif
-        left[i] = own;
-        leftBlocks[i] = blocking;
-        lower = own;
-        lowerBlocks = blocking;
-#endif
+        accumulateOnLight(start, end);
       }
-      low = high;
+#if GAP_FILL != GAP_FILL_NONE
+      left = own;
+      leftBlocks = blocking;
+#if GAP_FILL == GAP_FILL_DIAGONAL
+      lowerLeft = lower;
+#endif
+#endif
     }
     if (isSaturated()) return 0.0;
   }
