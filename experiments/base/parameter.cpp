@@ -115,6 +115,46 @@ void flattenInto(const std::vector<Parameter>& declared, const std::string& pref
   }
 }
 
+/// Sets defaults by path; those of parameters that `values` does not name stay.
+void setDefaults(std::vector<Parameter>& declared, const std::string& prefix,
+                 const std::map<std::string, ParameterValue>& values) {
+  for (Parameter& parameter : declared) {
+    const std::string path = joinPath(prefix, parameter.name);
+    const auto value = values.find(path);
+    if (value != values.end() && !parameter.preset) parameter.defaultValue = value->second;
+    for (Alternative& alternative : parameter.alternatives) setDefaults(alternative.parameters, path, values);
+  }
+}
+
+/// Whether a preset was applied.
+bool applyPresets(std::vector<Parameter>& declared, const std::string& prefix,
+                  const std::map<std::string, ParameterValue>& given) {
+  bool applied = false;
+  for (size_t i = 0; i < declared.size(); ++i) {
+    const std::string path = joinPath(prefix, declared[i].name);
+    const auto chosen = given.find(path);
+    const auto* name = chosen == given.end() ? nullptr : std::get_if<std::string>(&chosen->second);
+    if (declared[i].preset && name && ParameterValue(*name) != declared[i].defaultValue &&
+        std::find(declared[i].choices.begin(), declared[i].choices.end(), *name) !=
+            declared[i].choices.end()) {
+      std::map<std::string, ParameterValue> values;
+      for (const auto& [inner, value] : declared[i].preset(*name)) values[joinPath(prefix, inner)] = value;
+      setDefaults(declared, prefix, values);
+      applied = true;
+    }
+    for (Alternative& alternative : declared[i].alternatives)
+      applied = applyPresets(alternative.parameters, path, given) || applied;
+  }
+  return applied;
+}
+
+bool hasPresets(const std::vector<Parameter>& declared) {
+  return std::any_of(declared.begin(), declared.end(), [](const Parameter& parameter) {
+    return parameter.preset || std::any_of(parameter.alternatives.begin(), parameter.alternatives.end(),
+                                           [](const Alternative& one) { return hasPresets(one.parameters); });
+  });
+}
+
 /// "budget: radial", from the choices that a parameter exists under.
 std::string describeWhen(const std::map<std::string, std::string>& when) {
   std::vector<std::string> parts;
@@ -165,10 +205,19 @@ std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared) {
   return out;
 }
 
+std::optional<std::vector<Parameter>> withPresets(const std::vector<Parameter>& declared,
+                                                  const std::map<std::string, ParameterValue>& given) {
+  if (given.empty() || !hasPresets(declared)) return {};
+  std::vector<Parameter> out = declared;
+  if (!applyPresets(out, {}, given)) return {};
+  return out;
+}
+
 ParameterValues::ParameterValues(const std::vector<Parameter>& declared,
                                  const std::map<std::string, ParameterValue>& given,
                                  const std::string& where) {
-  Completion(given, where, values_).fill(declared, {});
+  const std::optional<std::vector<Parameter>> preset = withPresets(declared, given);
+  Completion(given, where, values_).fill(preset ? *preset : declared, {});
   for (const auto& [path, value] : given) {
     if (values_.count(path)) continue;
     std::vector<std::string> known, under;

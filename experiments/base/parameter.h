@@ -50,6 +50,9 @@ struct Parameter {
   std::vector<std::string> formerNames = {};
   /// As an axis label, without the unit; "": the words of the name.
   std::string title = {};
+  /// Choice only: the defaults of its neighbours and of what is below them, by path from there, where
+  /// `choice` is chosen. Null: they have one default each.
+  std::map<std::string, ParameterValue> (*preset)(const std::string& choice) = nullptr;
 };
 
 /// One of several values of a Choice, with the parameters that only it has.
@@ -75,6 +78,10 @@ struct DeclaredAt {
 /// alternatives.
 std::vector<DeclaredAt> flatten(const std::vector<Parameter>& declared);
 
+/// `declared` with the defaults of the presets chosen in `given`, by path; nothing if they are the same.
+std::optional<std::vector<Parameter>> withPresets(const std::vector<Parameter>& declared,
+                                                  const std::map<std::string, ParameterValue>& given);
+
 /// "whole number from 1 to 4096", "one of a, b, c", "number from 0 to 1 (m)".
 std::string describeRange(const Parameter& parameter);
 
@@ -87,9 +94,9 @@ ParameterValue validate(const Parameter& parameter, const ParameterValue& value,
 class ParameterValues {
  public:
   ParameterValues() = default;
-  /// Takes the defaults of `declared` and overrides them with `given`, by path. Throws Error on an unknown
-  /// name (with the nearest known one), one that belongs to an alternative that is not chosen, a bad value or
-  /// a missing required parameter.
+  /// Takes the defaults of `declared`, or of a preset chosen in `given`, and overrides them with `given`, by
+  /// path. Throws Error on an unknown name (with the nearest known one), one that belongs to an alternative
+  /// that is not chosen, a bad value or a missing required parameter.
   ParameterValues(const std::vector<Parameter>& declared, const std::map<std::string, ParameterValue>& given,
                   const std::string& where = {});
 

@@ -367,6 +367,11 @@ class Binding {
     stated_.title = std::move(title);
     return std::move(*this);
   }
+  /// This choice decides the defaults of its neighbours; see Parameter::preset.
+  Binding&& presets(std::map<std::string, ParameterValue> (*of)(const std::string& choice)) && {
+    stated_.preset = of;
+    return std::move(*this);
+  }
   /// At its default it is not part of run keys.
   Binding&& keyedIfGiven() && {
     stated_.keyedIfGiven = true;

@@ -78,13 +78,15 @@ std::string members(const std::vector<Parameter>& declared, const Values& differ
 
 Values withoutDefaults(const std::vector<Parameter>& declared, const Values& values) {
   Values out;
-  visitExisting(declared, values, {},
+  const std::optional<std::vector<Parameter>> preset = withPresets(declared, values);
+  visitExisting(preset ? *preset : declared, values, {},
                 [&](const std::string& path, const ParameterValue& value) { out.emplace(path, value); });
   return out;
 }
 
 std::string toYaml(const std::vector<Parameter>& declared, const Values& values) {
-  return members(declared, withoutDefaults(declared, values), {});
+  const std::optional<std::vector<Parameter>> preset = withPresets(declared, values);
+  return members(preset ? *preset : declared, withoutDefaults(declared, values), {});
 }
 
 std::string toYaml(const ParameterValue& value) {

@@ -111,13 +111,15 @@ nlohmann::json valuesAsJson(const std::vector<SettingsGroup>& groups,
 std::string changedSettings(const std::vector<SettingsGroup>& groups,
                             const std::vector<ParameterValues>& values) {
   std::vector<std::string> changed;
-  for (size_t g = 0; g < groups.size(); ++g)
-    for (const DeclaredAt& at : flatten(groups[g].parameters)) {
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const std::optional<std::vector<Parameter>> preset = withPresets(groups[g].parameters, values[g].all());
+    for (const DeclaredAt& at : flatten(preset ? *preset : groups[g].parameters)) {
       if (!exists(at, values[g])) continue;
       const ParameterValue& value = values[g].all().at(at.path);
       if (value != at.parameter->defaultValue)
         changed.push_back(joinPath(groups[g].name, at.path) + " " + toText(value));
     }
+  }
   return join(changed);
 }
 

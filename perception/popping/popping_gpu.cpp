@@ -164,14 +164,15 @@ glm::dvec3 luminanceRow() {
 }  // namespace
 
 PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx,
-                                         const DisplayProfile& display, const PoppingSettings& settings)
+                                         const DisplayProfile& display, const PoppingSettings& settings,
+                                         bool isSwitch)
     : context_(context),
       sizePx_(sizePx),
       display_(display),
       settings_(settings),
       model_(modelOf(sizePx, display, settings)),
       defines_(maskingDefines(settings.masking)),
-      luminanceOfCones_(luminanceRow()),
+      luminanceOfCones_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
       tableSize_(gridOf(settings, display).size),
       cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
       differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
@@ -184,16 +185,24 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   defineEnum(defines_, "EYE_MOVEMENT", settings.eyeModel());
   defineEnum(defines_, "ADAPTATION", sourceOf(settings));
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
+  const bool isDkl = settings.sensitivity.isDkl();
+  if (isDkl) defines_["CONTRAST_DKL"] = "1";
+  const auto planesOf = [&](const std::array<double, 3>& light) {
+    return isDkl ? dklFromXyz(display.xyz(light)) : lmsFromXyz(display.xyz(light));
+  };
+  const glm::dvec3 black = planesOf({0, 0, 0});
+  if (std::holds_alternative<TemporalChannels>(settings.temporal) && isSwitch)
+    defines_["TEMPORAL_CHANNELS"] = "1";
   stageDefines_ = defines_;
   stageDefines_["SHOW_STAGES"] = "1";
-  const glm::dvec3 black = lmsFromXyz(display.xyz({0, 0, 0}));
   conesOfBlack_ = black;
   conesOfLight_ =
-      glm::dmat3(lmsFromXyz(display.xyz({1, 0, 0})) - black, lmsFromXyz(display.xyz({0, 1, 0})) - black,
-                 lmsFromXyz(display.xyz({0, 0, 1})) - black);
+      glm::dmat3(planesOf({1, 0, 0}) - black, planesOf({0, 1, 0}) - black, planesOf({0, 0, 1}) - black);
   const TableGrid grid = gridOf(settings, display);
   tableLow_ = grid.low, tablePer_ = grid.per;
   sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
+  if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && isSwitch)
+    temporal_.emplace(model_, display, settings, *channels, TemporalGrid{grid.low, grid.per, grid.size});
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
 
@@ -296,7 +305,7 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("gain", static_cast<float>(
                           level < model_.contrastLevels ? model_.gain[static_cast<size_t>(level)] : 1));
   program.set("greyGain",
-              static_cast<float>(settings_.sensitivity.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0));
+              static_cast<float>(opponentFromLms({1, 1, 1}).x / settings_.sensitivity.greyGain()));
   program.set("fixedLuminance", fixed ? static_cast<float>(fixed->luminanceCdM2) : 0.0F);
   program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS()));
   program.set("degSPerPx",
@@ -304,6 +313,9 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("tableSize", tableSize_);
   program.set("tableLow", tableLow_);
   program.set("tablePer", tablePer_);
+  if (temporal_)
+    temporal_->bind(program,
+                    level < model_.contrastLevels ? model_.peakCpd[static_cast<size_t>(level)] : 0.0);
 }
 
 void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown) {
@@ -395,8 +407,9 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() + jnd_.bytes() + seeds_.bytes() +
-         counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
+  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() +
+         (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() + counters_.bytes() +
+         mean_.bytes() + regions_.bytesHeld();
 }
 
 }  // namespace limen::perception

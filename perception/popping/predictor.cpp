@@ -21,6 +21,7 @@
 #include "perception/multiscale/pyramid.h"
 #include "perception/popping/input.h"
 #include "perception/popping/sensitivity.h"
+#include "perception/popping/temporal_sensitivity.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/masking.h"
 
@@ -42,6 +43,12 @@ glm::dvec3 luminanceRow() {
   return {inverse[0].y, inverse[1].y, inverse[2].y};
 }
 
+/// What a level of a frame shows, if the model over time is used.
+struct Content {
+  Planes contrast;  ///< A, a, b over the band's gain
+  Plane luminance;
+};
+
 class Predictor {
  public:
   Predictor(const PoppingInput& input, const DisplayProfile& display, const PoppingSettings& settings,
@@ -52,13 +59,16 @@ class Predictor {
         width_(input.actual.width),
         height_(input.actual.height),
         isStack_(settings.bands.isStack()),
-        luminanceRow_(luminanceRow()),
-        greyGain_(settings.sensitivity.divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0) {
+        luminanceRow_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
+        isDkl_(settings.sensitivity.isDkl()),
+        greyGain_(opponentFromLms({1, 1, 1}).x / settings.sensitivity.greyGain()) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
     pyramid_.kernel = settings.bands.kernel();
     pyramid_.upsampler = settings.bands.upsampler();
     sensitivity_.emplace(result_.model, display, settings, options.tables);
+    if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && input.isSwitch)
+      temporal_.emplace(result_.model, display, settings, *channels, *sensitivity_);
     const Masking masking = makeMasking(settings.masking, "popping");
     transducer_ = masking.transducer;
     closedForm_ = options.tables && isCubic(settings.masking);
@@ -85,10 +95,14 @@ class Predictor {
 
     std::vector<Planes> differences;
     for (int level = 0; level < result_.model.contrastLevels; ++level) {
-      Planes response = respond(actual, level, "actual");
-      const Planes other = respond(predicted, level, "predicted");
-      for (size_t c = 0; c < 3; ++c)
-        for (size_t p = 0; p < response[c].data.size(); ++p) response[c].data[p] -= other[c].data[p];
+      Content before, after;
+      Planes response = respond(actual, level, "actual", after);
+      const Planes other = respond(predicted, level, "predicted", before);
+      if (temporal_)
+        response = switchBetween(predicted, before, actual, after, level);
+      else
+        for (size_t c = 0; c < 3; ++c)
+          for (size_t p = 0; p < response[c].data.size(); ++p) response[c].data[p] -= other[c].data[p];
       keep("difference_" + std::to_string(level), response);
       differences.push_back(std::move(response));
     }
@@ -124,7 +138,8 @@ class Predictor {
         for (int x = 0; x < width_; ++x) {
           for (int c = 0; c < std::min(image.channels, 3); ++c)
             if (!std::isfinite(image.at(x, y, c))) ++flushed;
-          const glm::dvec3 cones = lmsFromXyz(display_.xyz(pixelLight(input_, image, display_, x, y)));
+          const glm::dvec3 xyz = display_.xyz(pixelLight(input_, image, display_, x, y));
+          const glm::dvec3 cones = isDkl_ ? dklFromXyz(xyz) : lmsFromXyz(xyz);
           for (int c = 0; c < 3; ++c) lms[static_cast<size_t>(c)].at(x, y) = cones[c];
           if (!displacement) continue;
           std::array<double, 2> move{};
@@ -187,14 +202,15 @@ class Predictor {
   }
 
   // Contrast, opponent colours, normalisation by sensitivity, masking.
-  Planes respond(const FrameLevels& frame, int level, const std::string& name) {
+  Planes respond(const FrameLevels& frame, int level, const std::string& name, Content& content) {
     const std::string suffix = name + "_" + std::to_string(level);
     const auto i = static_cast<size_t>(level);
     Planes contrast;
+    Plane coarser;
     for (size_t c = 0; c < 3; ++c) {
       contrast[c] = isStack_ ? frame.lms[c][i + 1] : upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
-      const Plane coarser =
-          isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      if (c == 0 || !isDkl_)
+        coarser = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
       for (size_t p = 0; p < own.data.size(); ++p) {
         if (!(coarser.data[p] >= settings_.bands.denominatorEpsilon)) ++guarded_;
@@ -202,7 +218,7 @@ class Predictor {
                               std::max(coarser.data[p], settings_.bands.denominatorEpsilon);
       }
     }
-    const Plane luminance = adaptation(frame, level);
+    Plane luminance = adaptation(frame, level);
     keep("luminance_" + suffix, {&luminance});
     const int width = contrast[0].width, height = contrast[0].height;
     Plane velocity(width, height);
@@ -216,9 +232,13 @@ class Predictor {
               screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree), eyeModel_,
               leastVelocityDegS_);
           velocity.at(x, y) = v;
-          glm::dvec3 opponent =
-              opponentFromLms({contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y)}) / gain;
-          opponent.x /= greyGain_;
+          glm::dvec3 opponent(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
+          if (isDkl_) {
+            opponent /= gain;
+          } else {
+            opponent = opponentFromLms(opponent) / gain;
+            opponent.x /= greyGain_;
+          }
           const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
           for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<size_t>(c);
@@ -230,7 +250,39 @@ class Predictor {
     keep("contrast_" + suffix, contrast);
     keep("velocity_" + suffix, {&velocity});
     keep("response_" + suffix, response);
+    content.contrast = std::move(contrast);
+    content.luminance = std::move(luminance);
     return response;
+  }
+
+  double screenDegS(const FrameLevels& frame, size_t level, size_t pixel) const {
+    const double speedPx = frame.speedPx.empty() ? 0.0 : frame.speedPx[level].data[pixel];
+    return screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree);
+  }
+
+  // Differences of a switch from one content to the other, over time. Both move with the mean of their
+  // speeds.
+  Planes switchBetween(const FrameLevels& from, const Content& before, const FrameLevels& to,
+                       const Content& after, int level) const {
+    const int width = before.luminance.width, height = before.luminance.height;
+    Planes out{Plane(width, height), Plane(width, height), Plane(width, height)};
+    forRowBlocks(height, static_cast<size_t>(width) * 800, [&](int first, int end) {
+      for (size_t p = static_cast<size_t>(first) * width; p < static_cast<size_t>(end) * width; ++p) {
+        const auto i = static_cast<size_t>(level);
+        const double screen = 0.5 * (screenDegS(from, i, p) + screenDegS(to, i, p)),
+                     retinal = retinalVelocityDegS(screen, eyeModel_, leastVelocityDegS_);
+        const auto contrast = [&](const Content& content) {
+          return std::array<double, 3>{content.contrast[0].data[p], content.contrast[1].data[p],
+                                       content.contrast[2].data[p]};
+        };
+        const std::array<double, 3> difference = switchDifference(
+            contrast(after), temporal_->at(level, retinal, after.luminance.data[p]), contrast(before),
+            temporal_->at(level, retinal, before.luminance.data[p]),
+            temporal_->holdBlurAt(level, screen, retinal), [this](double c) { return transducer(c); });
+        for (size_t c = 0; c < 3; ++c) out[c].data[p] = difference[c];
+      }
+    });
+    return out;
   }
 
   /// Two neighbours of a row or column of level 0 in a coarser level, and the second's weight.
@@ -369,9 +421,11 @@ class Predictor {
   const int width_, height_;
   const bool isStack_;
   const glm::dvec3 luminanceRow_;
-  const double greyGain_;
+  const bool isDkl_;
+  const double greyGain_;  // of cone contrasts
   PyramidSettings pyramid_;
   std::optional<Sensitivity> sensitivity_;
+  std::optional<TemporalSensitivity> temporal_;  // of a switch that is seen over time
   std::function<double(double)> transducer_;
   bool closedForm_ = false;
   std::set<std::string> wanted_;

@@ -25,6 +25,17 @@ bool sameModel(const ChosenEntry& a, const ChosenEntry& b) {
   return a.name == b.name && Kelly83Scale::of(a).referenceCdM2 == Kelly83Scale::of(b).referenceCdM2;
 }
 
+/// Mechanisms of a castleCSF that add up; none if `name` is another model.
+std::vector<CastleMechanism> castleMechanisms(const std::string& name) {
+  using enum CastleMechanism;
+  if (name == "castlecsf") return {Sustained, Transient};
+  if (name == "castlecsf_sustained") return {Sustained};
+  if (name == "castlecsf_transient") return {Transient};
+  if (name == "castlecsf_rg") return {RedGreen};
+  if (name == "castlecsf_yv") return {YellowViolet};
+  return {};
+}
+
 double finiteOrZero(double value) { return std::isfinite(value) && value > 0.0 ? value : 0.0; }
 
 }  // namespace
@@ -69,15 +80,17 @@ CsfPoint viewingPoint(double areaDeg2, double widthDeg, const DisplayProfile& di
 
 std::array<double, 3> calibration(const PoppingSettings& settings, const CsfPoint& viewing) {
   const auto scale = [&](const auto& channel) {
+    if (std::holds_alternative<AbsoluteScale>(channel.scale)) return 1.0;
+    const auto& reference = std::get<1>(channel.scale);
     const std::string& model = channel.csf.name;
     CsfPoint point = viewing;
-    point.velocityDegS = settings.sensitivity.velocityDegS;
-    point.luminanceCdM2 = channel.luminanceCdM2;
+    point.velocityDegS = reference.velocityDegS;
+    point.luminanceCdM2 = reference.luminanceCdM2;
     const double peak = makeCsf(model, "popping")->peak(point).sensitivity;
     if (!(peak > 0.0) || !std::isfinite(peak))
       throw Error("sensitivity '" + model + "' has no peak at the calibration's velocity and luminance",
-                  "popping", "choose another sensitivity.velocity_deg_s or luminance_cd_m2");
-    return 1.0 / (channel.threshold * peak);
+                  "popping", "choose another velocity_deg_s or luminance_cd_m2 of its scale");
+    return 1.0 / (reference.threshold * peak);
   };
   return {scale(settings.sensitivity.achromatic), scale(settings.sensitivity.redGreen),
           scale(settings.sensitivity.blueYellow)};
@@ -124,6 +137,21 @@ Sensitivity::Channel Sensitivity::makeChannel(const ChosenEntry& entry, double s
     channel.kind = Channel::Kind::Kelly83;
     channel.luminanceScale = FineTable([reference](double l) { return chromaticScale(l, reference); },
                                        kLowLuminance, kHighLuminance, 1024);
+  } else if (const std::vector<CastleMechanism> mechanisms = castleMechanisms(name); !mechanisms.empty()) {
+    channel.kind = Channel::Kind::Castle;
+    const double area = viewing_.areaDeg2;
+    for (const CastleMechanism mechanism : mechanisms) {
+      Channel::Product product{mechanism, {}, {}};
+      for (const double cpd : peakCpd_) {
+        product.luminance.emplace_back([=](double l) { return castleSpatial(mechanism, cpd, l, area); },
+                                       kLowLuminance, kHighLuminance, 1024);
+        if (mechanism != CastleMechanism::Transient)
+          product.velocity.emplace_back([=](double v) { return castleTemporal(mechanism, cpd * v, 1.0); },
+                                        kLowVelocity, kHighVelocity, 2048);
+      }
+      channel.products.push_back(std::move(product));
+    }
+    return channel;
   } else if (velocity && luminance) {
     return channel;
   } else {
@@ -172,6 +200,15 @@ double Sensitivity::evaluate(const Channel& channel, int level, double velocityD
       return channel.byLevel[i](velocityDegS);
     case Channel::Kind::Luminance:
       return channel.byLevel[i](luminanceCdM2);
+    case Channel::Kind::Castle: {
+      double sum = 0.0;
+      for (const Channel::Product& product : channel.products)
+        sum += product.luminance[i](luminanceCdM2) *
+               (product.velocity.empty()
+                    ? castleTemporal(product.mechanism, peakCpd_[i] * velocityDegS, luminanceCdM2)
+                    : product.velocity[i](velocityDegS));
+      return sum;
+    }
     case Channel::Kind::Direct:
       break;
   }

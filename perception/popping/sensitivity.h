@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "perception/popping/predictor.h"
+#include "perception/vision/castle_csf.h"
 #include "perception/vision/csf.h"
 
 namespace limen::perception {
@@ -44,9 +45,15 @@ class Sensitivity {
   struct Channel {
     std::shared_ptr<const Csf> csf;
     double scale = 1.0;
-    enum class Kind { Direct, Daly98, Kelly83, Velocity, Luminance } kind = Kind::Direct;
+    enum class Kind { Direct, Daly98, Kelly83, Velocity, Luminance, Castle } kind = Kind::Direct;
     std::vector<FineTable> byLevel;  // Kelly83, Velocity, Luminance
     FineTable luminanceScale;        // Kelly83
+    /// Castle: products of a function of luminance and one of velocity, by level, which are added.
+    struct Product {
+      CastleMechanism mechanism;
+      std::vector<FineTable> luminance, velocity;  // velocity: none for the transient mechanism
+    };
+    std::vector<Product> products;
   };
   Channel makeChannel(const ChosenEntry& entry, double scale, bool tables) const;
   double evaluate(const Channel& channel, int level, double velocityDegS, double luminanceCdM2) const;

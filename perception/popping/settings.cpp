@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "perception/vision/colour.h"
 #include "perception/vision/csf.h"
 #include "perception/vision/masking.h"
 
@@ -33,20 +34,47 @@ Binding<S> csfChoice(std::vector<std::string> names, std::string description) {
 
 constexpr Range kContrast{1e-5, 1.0}, kLuminance{1e-3, 1e4}, kDrift{1e-3, 10.0};
 constexpr const char* kDriftText = "smallest retinal velocity, due to drift";
+constexpr const char* kScaleText = "scale of the sensitivity";
+
+template <class S>
+SettingsTable<S> peakTable(std::vector<std::string> formerThresholds,
+                           std::vector<std::string> formerLuminances) {
+  return {Binding(&S::threshold, "threshold", kContrast, "contrast",
+                  "contrast threshold at the peak of sensitivity", kModel)
+              .formerly(std::move(formerThresholds)),
+          Binding(&S::luminanceCdM2, "luminance_cd_m2", kLuminance, "cd/m2",
+                  "adaptation luminance to which the threshold refers", kOwn)
+              .formerly(std::move(formerLuminances)),
+          Binding(&S::velocityDegS, "velocity_deg_s", Range{0.01, 100.0}, "deg/s",
+                  "retinal velocity to which the threshold refers", kOwn)
+              .formerly({"calibration_velocity_deg_s", "velocity_deg_s"})};
+}
+
+std::map<std::string, ParameterValue> presetValues(const std::string& choice) {
+  return PoppingSettings::table().write(PoppingSettings::preset(fromText<PredictorModel>(choice)));
+}
 
 }  // namespace
+
+const SettingsTable<AchromaticPeakScale>& AchromaticPeakScale::table() {
+  static const SettingsTable<AchromaticPeakScale> kTable = peakTable<AchromaticPeakScale>(
+      {"threshold_achromatic", "threshold"}, {"calibration_luminance_cd_m2", "luminance_cd_m2"});
+  return kTable;
+}
+
+const SettingsTable<ChromaticPeakScale>& ChromaticPeakScale::table() {
+  static const SettingsTable<ChromaticPeakScale> kTable =
+      peakTable<ChromaticPeakScale>({"threshold_red_green", "threshold_blue_yellow", "threshold"},
+                                    {"calibration_chromatic_cd_m2", "luminance_cd_m2"});
+  return kTable;
+}
 
 const SettingsTable<AchromaticSettings>& AchromaticSettings::table() {
   using S = AchromaticSettings;
   static const SettingsTable<S> kTable = {
       csfChoice<S>(csfNames(Channel::Achromatic), "contrast sensitivity of the channel")
           .formerly({"csf_achromatic"}),
-      Binding(&S::threshold, "threshold", kContrast, "contrast",
-              "contrast threshold at the peak of sensitivity", kModel)
-          .formerly({"threshold_achromatic"}),
-      Binding(&S::luminanceCdM2, "luminance_cd_m2", kLuminance, "cd/m2",
-              "adaptation luminance to which the threshold refers", kOwn)
-          .formerly({"calibration_luminance_cd_m2"})};
+      {&S::scale, "scale", kScaleText, kOwn}};
   return kTable;
 }
 
@@ -55,12 +83,7 @@ const SettingsTable<ChromaticSettings>& ChromaticSettings::table() {
   static const SettingsTable<S> kTable = {
       csfChoice<S>(chromaticCsfNames(), "contrast sensitivity of the channel")
           .formerly({"csf_red_green", "csf_blue_yellow"}),
-      Binding(&S::threshold, "threshold", kContrast, "contrast",
-              "contrast threshold at the peak of sensitivity", kModel)
-          .formerly({"threshold_red_green", "threshold_blue_yellow"}),
-      Binding(&S::luminanceCdM2, "luminance_cd_m2", kLuminance, "cd/m2",
-              "adaptation luminance to which the threshold refers", kOwn)
-          .formerly({"calibration_chromatic_cd_m2"})};
+      {&S::scale, "scale", kScaleText, kOwn}};
   return kTable;
 }
 
@@ -86,17 +109,26 @@ const SettingsTable<SensitivitySettings>& SensitivitySettings::table() {
   using S = SensitivitySettings;
   static const SettingsTable<S> kTable = {
       {&S::achromatic, "achromatic", "channel A, luminance contrast"},
-      {&S::redGreen, "red_green", "channel a"},
-      {&S::blueYellow, "blue_yellow", "channel b"},
-      Binding(&S::velocityDegS, "velocity_deg_s", Range{0.01, 100.0}, "deg/s",
-              "retinal velocity to which the thresholds refer", kOwn)
-          .formerly({"calibration_velocity_deg_s"}),
-      Binding(&S::stimulusArea, "stimulus_area", "area in Barten's sensitivity", kModel)
-          .formerly({"stimulus_area_deg2"}),
-      Binding(&S::divideGreyGain, "divide_grey_gain", "divide A by 3.05, its value for a grey contrast of 1",
-              kOwn)
+      {&S::redGreen, "red_green", "channel a, or RG"},
+      {&S::blueYellow, "blue_yellow", "channel b, or YV"},
+      {&S::contrast, "contrast", "colour space of the contrasts", kModel},
+      Binding(&S::stimulusArea, "stimulus_area", "area of the stimulus in sensitivities that depend on it",
+              kModel)
+          .formerly({"stimulus_area_deg2"})};
+  return kTable;
+}
+
+const SettingsTable<ConeContrast>& ConeContrast::table() {
+  static const SettingsTable<ConeContrast> kTable = {
+      Binding(&ConeContrast::divideGreyGain, "divide_grey_gain",
+              "divide A by 3.05, its value for a grey contrast of 1", kOwn)
           .formerly({"divide_grey_gain"})};
   return kTable;
+}
+
+double SensitivitySettings::greyGain() const {
+  const auto* cones = std::get_if<ConeContrast>(&contrast);
+  return cones && !cones->divideGreyGain ? opponentFromLms({1, 1, 1}).x : 1.0;
 }
 
 const SettingsTable<FlooredTracking>& FlooredTracking::table() {
@@ -110,6 +142,24 @@ const SettingsTable<MonotoneTracking>& MonotoneTracking::table() {
   static const SettingsTable<MonotoneTracking> kTable = {
       Binding(&MonotoneTracking::leastVelocityDegS, "least_velocity_deg_s", kDrift, "deg/s", kDriftText, kOwn)
           .formerly({"least_velocity_deg_s"})};
+  return kTable;
+}
+
+const SettingsTable<TemporalChannels>& TemporalChannels::table() {
+  using S = TemporalChannels;
+  static const SettingsTable<S> kTable = {
+      {&S::windowS,
+       "window_s",
+       {0.05, 4.0},
+       "s",
+       "length of the impulse responses, half before the switch and half after it",
+       kOwn},
+      {&S::holdShare,
+       "hold_share",
+       {0.0, 1.0},
+       "",
+       "share of a frame's time during which the display shows it; 1: LCD, near 0: a flash",
+       kOwn}};
   return kTable;
 }
 
@@ -207,9 +257,14 @@ const SettingsTable<RatingSettings>& RatingSettings::table() {
 const SettingsTable<PoppingSettings>& PoppingSettings::table() {
   using S = PoppingSettings;
   static const SettingsTable<S> kTable = {
+      Binding(&S::model, "model",
+              "sets the defaults of all other settings: castleCSF in absolute units, or the thesis's choices",
+              "Ashraf et al. 2024; Schwarz 2009, section 10.3")
+          .presets(&presetValues),
       {&S::sensitivity, "sensitivity",
        "contrast sensitivities of the channels, and their reference conditions"},
       {&S::eyeMovement, "eye_movement", "retinal velocity that remains after the eye's tracking", kModel},
+      {&S::temporal, "temporal", "what is seen of a switch over time"},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
       {&S::bands, "bands", "how pictures are decomposed into frequency bands"},
@@ -230,6 +285,19 @@ const SettingsTable<PoppingSettings>& PoppingSettings::table() {
       {&S::rating, "rating", "rating R of a region by its difference Sigma"},
       {&S::detection, "detection", "probability that a region of rating R is reported"}};
   return kTable;
+}
+
+PoppingSettings PoppingSettings::preset(PredictorModel model) {
+  PoppingSettings out;
+  out.model = model;
+  if (model == PredictorModel::Limen2026) return out;
+  out.sensitivity.achromatic = {{"daly98", {}}, AchromaticPeakScale{}};
+  out.sensitivity.redGreen = {{"kelly83", {}}, ChromaticPeakScale{}};
+  out.sensitivity.blueYellow = {{"kelly83", {}}, ChromaticPeakScale{.threshold = 0.012}};
+  out.sensitivity.contrast = ConeContrast{};
+  out.sensitivity.stimulusArea = ImageArea{};
+  out.temporal = SingleFrame{};
+  return out;
 }
 
 EyeMovement PoppingSettings::eyeModel() const {

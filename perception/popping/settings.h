@@ -7,24 +7,53 @@
 #include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
 #include "perception/popping/detection.h"
+#include "perception/popping/temporal_settings.h"
 #include "perception/popping/weight_settings.h"
 #include "perception/vision/eye_movement.h"
 
 /// Settings of the popping predictor. Schwarz 2009, sections 10.3.3 and 10.3.4.
 namespace limen::perception {
 
-/// Sensitivity of channel A.
-struct AchromaticSettings {
-  ChosenEntry csf{"daly98", {}};  ///< of CsfRegistry
-  double threshold = 0.005;       ///< contrast threshold at the peak of sensitivity
-  double luminanceCdM2 = 100.0;   ///< adaptation luminance to which the threshold refers
-  static const SettingsTable<AchromaticSettings>& table();
+/// Complete choices of settings. The name sets the defaults of all others; see PoppingSettings::preset().
+enum class PredictorModel {
+  Limen2026,    ///< castleCSF in absolute units
+  Schwarz2009,  ///< the thesis's choices
 };
-/// Of channel a or b.
-struct ChromaticSettings {
-  ChosenEntry csf{"kelly83", {}};  ///< of CsfRegistry, with Kelly83Scale for kelly83
+constexpr EnumNames<PredictorModel, 2> enumNames(PredictorModel) {
+  return {{{{PredictorModel::Limen2026, "limen_2026"}, {PredictorModel::Schwarz2009, "schwarz_2009"}}}};
+}
+
+// Scale of a channel's sensitivity.
+struct AbsoluteScale {
+  static constexpr const char *kKind = "absolute",
+                              *kSummary = "as the model states it, 1 / the contrast at threshold";
+};
+/// The model's shape, with its peak brought to 1 / `threshold`.
+struct AchromaticPeakScale {
+  static constexpr const char *kKind = "peak", *kSummary = "its peak is brought to 1 / threshold";
+  double threshold = 0.005;      ///< contrast threshold at the peak of sensitivity
+  double luminanceCdM2 = 100.0;  ///< adaptation luminance to which the threshold refers
+  double velocityDegS = 0.15;    ///< retinal velocity to which it refers
+  static const SettingsTable<AchromaticPeakScale>& table();
+};
+struct ChromaticPeakScale {
+  static constexpr const char *kKind = AchromaticPeakScale::kKind, *kSummary = AchromaticPeakScale::kSummary;
   double threshold = 0.010;
   double luminanceCdM2 = 35.0;
+  double velocityDegS = 0.15;
+  static const SettingsTable<ChromaticPeakScale>& table();
+};
+
+/// Sensitivity of channel A.
+struct AchromaticSettings {
+  ChosenEntry csf{"castlecsf", {}};  ///< of CsfRegistry
+  std::variant<AbsoluteScale, AchromaticPeakScale> scale;
+  static const SettingsTable<AchromaticSettings>& table();
+};
+/// Of channel a or b; RG or YV.
+struct ChromaticSettings {
+  ChosenEntry csf{"castlecsf_rg", {}};  ///< of CsfRegistry, with Kelly83Scale for kelly83
+  std::variant<AbsoluteScale, ChromaticPeakScale> scale;
   static const SettingsTable<ChromaticSettings>& table();
 };
 /// How a predictor scales Kelly 1983 with luminance.
@@ -40,17 +69,34 @@ struct ImageArea {
 };
 struct FixedArea {
   static constexpr const char *kKind = "fixed", *kSummary = "a given one";
-  double deg2 = 187.0;
+  double deg2 = 7.07;
   static const SettingsTable<FixedArea>& table();
+};
+
+// What contrasts are taken of.
+struct DklContrast {
+  static constexpr const char *kKind = "dkl",
+                              *kSummary = "A, RG and YV of DKL space adapted to D65, each over the local A";
+};
+struct ConeContrast {
+  static constexpr const char *kKind = "cones",
+                              *kSummary = "each cone over its own local response, then Hunt's opponents";
+  bool divideGreyGain = true;  ///< divide A by 3.05, so that it is luminance contrast
+  static const SettingsTable<ConeContrast>& table();
 };
 
 struct SensitivitySettings {
   AchromaticSettings achromatic;
-  ChromaticSettings redGreen, blueYellow{.threshold = 0.012};
-  double velocityDegS = 0.15;                       ///< retinal velocity to which the thresholds refer
-  std::variant<ImageArea, FixedArea> stimulusArea;  ///< of Barten's CSF
-  bool divideGreyGain = true;                       ///< divide A by 3.05, so that it is luminance contrast
+  ChromaticSettings redGreen, blueYellow{.csf = {"castlecsf_yv", {}}, .scale = {}};
+  std::variant<DklContrast, ConeContrast> contrast;
+  /// Of CSFs that depend on it. 7.07 deg2: a Gabor patch of sigma 1.5 degrees, about which ColorVideoVDP
+  /// reads castleCSF.
+  std::variant<FixedArea, ImageArea> stimulusArea;
   static const SettingsTable<SensitivitySettings>& table();
+
+  bool isDkl() const { return std::holds_alternative<DklContrast>(contrast); }
+  /// Channel A of a grey contrast of 1: 1 unless cones are weighted as Hunt does without division by 3.05.
+  double greyGain() const;
 };
 
 // Retinal velocity that remains after the eye's tracking; see EyeMovement.
@@ -170,9 +216,12 @@ struct RatingSettings {
 
 /// Every constant of the popping predictor.
 struct PoppingSettings {
+  /// Names the choices made in all other members.
+  PredictorModel model = PredictorModel::Limen2026;
   SensitivitySettings sensitivity;
   std::variant<MonotoneTracking, FlooredTracking, LiteralTracking, NoTracking> eyeMovement;
-  ChosenEntry masking{"schwarz", {}};  ///< of MaskingRegistry
+  std::variant<TemporalChannels, SingleFrame> temporal;  ///< of switches
+  ChosenEntry masking{"schwarz", {}};                    ///< of MaskingRegistry
   BandSettings bands;
   std::variant<LocalAdaptation, MeanAdaptation, FixedAdaptation, LevelAdaptation> adaptation;
   double minkowskiExponent = 2.4;
@@ -183,6 +232,8 @@ struct PoppingSettings {
   RatingSettings rating;
   DetectionModel detection;
   static const SettingsTable<PoppingSettings>& table();
+  /// The settings that a model stands for. Limen2026: those of PoppingSettings{}.
+  static PoppingSettings preset(PredictorModel model);
 
   EyeMovement eyeModel() const;
   /// Smallest retinal velocity, due to drift; the default's if the eye model has none.

@@ -10,6 +10,9 @@
 layout(local_size_x = THREADS) in;
 layout(binding = kEvaluateFinestUnit) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
 layout(binding = kEvaluateGaussianUnit) uniform sampler2D gaussian;   // levels from 1
+#if REST
+layout(binding = kEvaluateRestUnit) uniform sampler2D rest;  // what rounding took from level 1
+#endif
 layout(binding = kEvaluateImage, r32f) uniform writeonly image2D threshold;
 #if STAGES
 layout(binding = kEvaluateStagesImage, rg32f) uniform writeonly image2D stages;
@@ -17,11 +20,18 @@ layout(binding = kEvaluateStagesImage, rg32f) uniform writeonly image2D stages;
 // For each tile column, then each tile row: first sample and count at each level from 1.
 layout(std430, binding = kEvaluatePatchesBuffer) readonly buffer Patches { ivec2 patches[]; };
 uniform int tileColumns;
+uniform ivec2 firstTile;  // of those that this dispatch evaluates
 // For each level from 1 all columns of the map, then likewise all rows: first sample, its weight, the third's;
 // the second has the rest.
 layout(std430, binding = kEvaluateTapsBuffer) readonly buffer Taps { vec4 taps[]; };
+#if MEAN_REMOVED
+layout(std430, binding = kThresholdMeanBuffer) readonly buffer Mean { float meanLuminance; };
+#else
+const float meanLuminance = 0.0;
+#endif
 
 const ivec2 kTile = ivec2(TILE_X, TILE_Y);
+ivec2 tileNumber() { return firstTile + ivec2(gl_WorkGroupID.xy); }
 const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
 const int kPlanes = LEVELS - 1;
 
@@ -45,12 +55,12 @@ shared vec4 rowTaps[kPlanes * kTile.y];
 shared float rows[kFirstRow[kPlanes] * kTile.x];  // at the tile's columns
 
 ivec2 originOf(int i) {
-  return ivec2(patches[int(gl_WorkGroupID.x) * kPlanes + i - 1].x,
-               patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].x);
+  return ivec2(patches[tileNumber().x * kPlanes + i - 1].x,
+               patches[(tileColumns + tileNumber().y) * kPlanes + i - 1].x);
 }
 ivec2 countOf(int i) {
-  return ivec2(patches[int(gl_WorkGroupID.x) * kPlanes + i - 1].y,
-               patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
+  return ivec2(patches[tileNumber().x * kPlanes + i - 1].y,
+               patches[(tileColumns + tileNumber().y) * kPlanes + i - 1].y);
 }
 
 // A flat field stays flat to the last bit.
@@ -59,24 +69,36 @@ float weigh(float first, float second, float third, vec4 tap) {
 }
 #endif
 
+#if REST
+// What level 1 has been reduced by in shared memory: interpolated beside the whole luminance, a band that is faint
+// beside it would be all rounding error.
+float base = 0.0;
+#endif
+
 // Contrasts of one pixel, and (return) its adaptation luminance; `gathered`: levels 1 ... there.
 float contrastsOf(float finestValue, float gathered[max(kPlanes, 1)], out float c[BANDS + 1]) {
   c[BANDS] = 0.0;
 #if LEVELS == 1
-  return finestValue;
+  return finestValue + meanLuminance;
 #else
 #if FINEST_LUMINANCE
-  float band0 = finestValue - gathered[0], luminance = finestValue;
+#if REST
+  float band0 = (finestValue - base) - gathered[0];
+  gathered[0] += base;
+#else
+  float band0 = finestValue - gathered[0];
+#endif
+  float luminance = finestValue;
 #else
   float band0 = finestValue, luminance = finestValue + gathered[0];
 #endif
   for (int i = 0; i < BANDS; ++i) {
     float difference = i == 0 ? band0 : gathered[max(i - 1, 0)] - gathered[i];
-    c[i] = abs(difference) / max(gathered[i + 1], run.light.w) * run.bands[i].y;
+    c[i] = abs(difference) / max(gathered[i + 1] + meanLuminance, run.light.w) * run.bands[i].y;
   }
   float near = ADAPTATION_LEVEL == 0 ? luminance : gathered[max(ADAPTATION_LEVEL - 1, 0)];
   float far = gathered[min(ADAPTATION_LEVEL, kPlanes - 1)];
-  return max(near + run.rule.x * (far - near), 0.0);
+  return max(near + meanLuminance + run.rule.x * (far - near), 0.0);
 #endif
 }
 
@@ -85,22 +107,36 @@ float contrastsOf(float finestValue, float gathered[max(kPlanes, 1)], out float 
 const int kFirstSlots = (36 * 20 + THREADS - 1) / THREADS;
 
 void loadTile(int thread, int x, int mapColumns) {
+#if REST
+  base = texelFetch(gaussian, clamp(originOf(1), ivec2(0), textureSize(gaussian, 0) - 1), 0).r;
+#endif
   // All loads are under way before the first is used.
   float loaded[kFirstSlots + kPlanes - 1];
+#if REST
+  float lost[kFirstSlots];
+#endif
   for (int slot = 0; slot < kFirstSlots + kPlanes - 1; ++slot) {
     int i = max(slot - kFirstSlots + 2, 1), p = thread + (slot < kFirstSlots ? slot * THREADS : 0);
     ivec2 at = originOf(i) + ivec2(p % kWidth[i - 1], p / kWidth[i - 1]);
-    loaded[slot] = texelFetch(gaussian, clamp(at, ivec2(0), textureSize(gaussian, i - 1) - 1), i - 1).r;
+    at = clamp(at, ivec2(0), textureSize(gaussian, i - 1) - 1);
+    loaded[slot] = texelFetch(gaussian, at, i - 1).r;
+#if REST
+    if (slot < kFirstSlots) lost[slot] = texelFetch(rest, at, 0).r;
+#endif
   }
   vec4 columnTaps[kPlanes];
   for (int plane = 0; plane < kPlanes; ++plane) columnTaps[plane] = taps[plane * mapColumns + x];
   for (int slot = 0; slot < kFirstSlots + kPlanes - 1; ++slot) {
     int i = max(slot - kFirstSlots + 2, 1), p = thread + (slot < kFirstSlots ? slot * THREADS : 0);
-    if (p < kStart[i] - kStart[i - 1]) samples[kStart[i - 1] + p] = loaded[slot];
+    float value = loaded[slot];
+#if REST
+    if (slot < kFirstSlots) value = (value - base) + value * (lost[slot] / kRestScale);
+#endif
+    if (p < kStart[i] - kStart[i - 1]) samples[kStart[i - 1] + p] = value;
   }
   for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
     int plane = i / kTile.y, mapRows = imageSize(threshold).y;
-    int y = min(int(gl_WorkGroupID.y) * kTile.y + i % kTile.y, mapRows - 1);
+    int y = min(tileNumber().y * kTile.y + i % kTile.y, mapRows - 1);
     rowTaps[i] = taps[kPlanes * mapColumns + plane * mapRows + y];
   }
   barrier();
@@ -118,7 +154,7 @@ void loadTile(int thread, int x, int mapColumns) {
 
 void main() {
   int thread = int(gl_LocalInvocationIndex);
-  ivec2 size = imageSize(threshold), tile = ivec2(gl_WorkGroupID.xy) * kTile;
+  ivec2 size = imageSize(threshold), tile = tileNumber() * kTile;
   ivec2 first = tile + ivec2(thread % kTile.x, thread / kTile.x * kRun);
   int x = min(first.x, size.x - 1);
   float finestValues[kRun];

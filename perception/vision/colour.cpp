@@ -39,6 +39,18 @@ glm::dvec3 opponentFromLms(const glm::dvec3& lms) {
           (lms.x + lms.y - 2.0 * lms.z) / 9.0};
 }
 
+glm::dvec3 dklFromXyz(const glm::dvec3& xyz) {
+  const auto cones = [](const glm::dvec3& c) {
+    return glm::dvec3(0.187596268556126 * c.x + 0.585168649077728 * c.y - 0.026384263306304 * c.z,
+                      -0.133397430663221 * c.x + 0.405505777260049 * c.y + 0.034502127690364 * c.z,
+                      0.000244379021663 * c.x - 0.000542995890619 * c.y + 0.019406849066323 * c.z);
+  };
+  static const glm::dvec3 kWhite = cones(whiteXyz());
+  const glm::dvec3 lms = cones(xyz) / (kWhite.x + kWhite.y);
+  return {lms.x + lms.y, lms.x - kWhite.x / kWhite.y * lms.y,
+          (kWhite.x + kWhite.y) / kWhite.z * lms.z - lms.x - lms.y};
+}
+
 double relativeLuminance(const std::array<double, 3>& linearRgb) {
   return 0.2126 * linearRgb[0] + 0.7152 * linearRgb[1] + 0.0722 * linearRgb[2];
 }

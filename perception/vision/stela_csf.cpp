@@ -56,20 +56,23 @@ namespace {
 // (1 + k / l)^-n for k of 1e-6 and n of 1e10, where 1 + k / l would round.
 double hyperbola(double k, double n, double l) { return std::exp(-n * std::log1p(k / l)); }
 
-double channel(double rho, double l, double area, const StelaChannel& c) {
-  const double gain = c.gain[1] > 0.0 ? c.gain[0] * hyperbola(c.gain[1], c.gain[2], l) *
-                                            (1.0 - hyperbola(c.gain[3], c.gain[4], l))
-                                      : c.gain[0] * std::pow(l, c.gain[2]);
+}  // namespace
+
+double stelaSpatial(double rho, double l, double areaDeg2, const StelaChannel& c) {
+  double gain = c.gain[0];
+  if (c.gain[1] > 0.0)
+    gain *= hyperbola(c.gain[1], c.gain[2], l);
+  else
+    gain *= std::pow(l, c.gain[2]);
+  if (c.gain[1] > 0.0 && c.gain[4] > 0.0) gain *= 1.0 - hyperbola(c.gain[3], c.gain[4], l);
   const double peak = c.frequency[0] * hyperbola(c.frequency[1], c.frequency[2], l);
   const double octave = std::log10(rho / peak);
   double shape = std::pow(10.0, -octave * octave / std::exp2(c.bandwidth));
   if (rho < peak) shape = std::max(shape, 1.0 - c.truncation);
   const double relative = rho / c.cornerCpd;
   const double critical = c.area / (1.0 + relative * relative);
-  return gain * shape * rho * std::sqrt(critical * (area / (area + critical)));
+  return gain * shape * rho * std::sqrt(critical * (areaDeg2 / (areaDeg2 + critical)));
 }
-
-}  // namespace
 
 double csfStela(double rho, double omega, double l, double areaDeg2, double eccentricityDeg,
                 const StelaConstants& k) {
@@ -84,8 +87,8 @@ double csfStela(double rho, double omega, double l, double areaDeg2, double ecce
   const double off = std::pow(omega, k.transientExponent) - std::pow(best, k.transientExponent);
   const double transient = std::exp(-off * off / k.transientWidth);
   const double drop = (k.drop + rho * k.dropPerCpd) * std::abs(eccentricityDeg);
-  return std::pow(10.0, -drop) * (sustained * channel(rho, l, areaDeg2, k.sustained) +
-                                  transient * channel(rho, l, areaDeg2, k.transient));
+  return std::pow(10.0, -drop) * (sustained * stelaSpatial(rho, l, areaDeg2, k.sustained) +
+                                  transient * stelaSpatial(rho, l, areaDeg2, k.transient));
 }
 
 namespace {

@@ -7,7 +7,9 @@ namespace limen::perception {
 
 /// Constants of one of the two mechanisms of stelaCSF.
 struct StelaChannel {
-  std::array<double, 5> gain;  ///< over luminance: k1 (1 + k2/L)^-k3 (1 - (1 + k4/L)^-k5); k2 = 0: k1 L^k3
+  /// Over luminance: k1 (1 + k2/L)^-k3 (1 - (1 + k4/L)^-k5); k5 = 0: without the last factor; k2 = 0: k1
+  /// L^k3.
+  std::array<double, 5> gain;
   std::array<double, 3> frequency;  ///< of the peak [cpd]: k1 (1 + k2/L)^-k3
   double bandwidth = 1.0;           ///< lg 2 of the log-parabola's width
   double truncation = 0.0;          ///< below the peak it falls by no more than this share
@@ -28,6 +30,10 @@ struct StelaConstants {
 /// Mantiuk, Ashraf and Chapiro 2022 (doi 10.1145/3528223.3530115) and the achromatic mechanism of Ashraf,
 /// Mantiuk, Chapiro and Wuerger 2024 (doi 10.1167/jov.24.4.5), constants as published with them.
 extern const StelaConstants kStela2022, kCastle2024;
+
+/// Sensitivity of one mechanism to a stimulus at its best temporal frequency, in the fovea. Arguments as
+/// below, finite, all but the luminance positive.
+double stelaSpatial(double rho, double l, double areaDeg2, const StelaChannel& channel);
 
 /// Sensitivity to a Gabor patch or grating: spatial frequency rho [cpd], temporal frequency omega [Hz],
 /// luminance l [cd/m2], area of the patch pi sigma^2 [deg2], eccentricity [deg]. NaN in any argument and an

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
-// Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
-// sample_raster.h.
+// Without LARGE: SMALL_LANES invocations a triangle, which share its pixels if its bounding box has at most SMALL_PIXELS; all
+// others are queued in bands of rows. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
+// triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
+// triangles; see sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/frame/raster_regions.h"
 #include "renderer/frame/raster_triangle.glsl"
 
 #ifndef SMALL_LANES
 #define SMALL_LANES 1
+#define SMALL_PIXELS 32
 #endif
 
 layout(local_size_x = kRasterGroup) in;
+#ifdef REGIONS
+layout(std140, binding = kRasterRegionsBlock) uniform Regions { RasterRegion regions[kMostRasterRegions]; };
+RasterRegion region = RasterRegion(ivec2(0), ivec2(0), 0, 0, 0, 0);  // of the triangle in hand
+#endif
+
 // A buffer, not an image: its atomics without a result cost no waiting.
 #ifdef IDS
 layout(std430, binding = kRasterDepthsBuffer) readonly buffer Depths { uint depths[]; };
@@ -20,7 +28,7 @@ layout(std430, binding = kRasterDepthsBuffer) buffer Depths { uint depths[]; };
 #endif
 layout(std430, binding = kRasterQueueBuffer) buffer Queue {
   RasterQueueHeader queue;
-  uvec2 bands[];  // triangle, first row of the band in its bounding box
+  uvec2 bands[];  // triangle, first row of the band in its bounding box (above 16 bits: its region)
 };
 
 #ifdef PEEL
@@ -48,18 +56,37 @@ uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
 // As TriangleRanges has them: first triangle of a range, and the triangles up to its end.
-layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
-
-const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
-#if defined(SAMPLES) || defined(IDS)
-// Every pixel waits for what is known of it, so that many groups share them.
-const int kBandPixels = 1024;   // of a bounding box, in a band
-const int kFewestBandRows = 1;  // but so many rows it has; see rowsOfBand
+#ifdef REGIONS
+layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec4 ranges[]; };  // z: region
 #else
-const int kBandPixels = 16384;
-const int kFewestBandRows = 4;
+layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 #endif
-const int kMostBandRows = 32;
+
+// Pixels that a triangle may write, the last included, and where a pixel's result is.
+#ifdef REGIONS
+const int kWordsOfPixel = REGIONS;  // 1: its depth; 2: its depth, and the complement of its triangle
+ivec2 lowestPixel() { return region.low; }
+ivec2 highestPixel() { return region.high - 1; }
+int placeOf(ivec2 pixel) {
+  const ivec2 at = pixel - region.low;
+  return region.at + kWordsOfPixel * (at.y * (region.high.x - region.low.x) + at.x);
+}
+#else
+ivec2 lowestPixel() { return ivec2(0); }
+ivec2 highestPixel() { return sizePx - 1; }
+int placeOf(ivec2 pixel) { return pixel.y * sizePx.x + pixel.x; }
+#endif
+
+// Pixels of a bounding box in a band, and rows that it has at least. Many groups share those of which each waits for what is
+// known of it.
+#if defined(SAMPLES) || defined(IDS)
+const int kBandPixels = 1024, kFewestBandRows = 1;
+#elif defined(REGIONS)
+const int kBandPixels = 16384, kFewestBandRows = 4;
+#else
+const int kBandPixels = 2048, kFewestBandRows = 1;
+#endif
+const int kMostBandRows = 32, kMostBands = 2048;  // of a triangle: the queue has room for few hundreds of so many
 const int kPlain = 1024;  // pixels of a band that a group goes through without cutting rows first, which costs it barriers
 
 struct Triangle {
@@ -120,8 +147,8 @@ Triangle load(uint index) {
   const vec2 limit = vec2(sizePx) + 1.0;
   low = clamp(low - (0.01 + kBeyondCentre), vec2(-1.0), limit);
   high = clamp(high + (0.01 + kBeyondCentre), vec2(-1.0), limit);
-  t.low = max(ivec2(ceil(low)), ivec2(0));
-  t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
+  t.low = max(ivec2(ceil(low)), lowestPixel());
+  t.size = max(min(ivec2(floor(high)), highestPixel()) - t.low + 1, ivec2(0));
   if (t.size.x == 0 || t.size.y == 0) t.size = ivec2(0);
   return t;
 }
@@ -174,8 +201,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
 #endif
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
-  const int at = pixel.y * sizePx.x + pixel.x;
-#ifdef IDS
+  const int at = placeOf(pixel);
+#if defined(IDS) && defined(REGIONS)
+  if (depths[at] == bits) atomicMax(ids[at + 1], ~index);
+#elif defined(IDS)
   if (depths[at] == bits) atomicMin(ids[at], index);
 #else
   atomicMax(depths[at], bits);
@@ -183,7 +212,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
 }
 #endif
 
-int rowsOfBand(Triangle t) { return clamp(kBandPixels / t.size.x, kFewestBandRows, kMostBandRows); }
+int rowsOfBand(Triangle t) {
+  const int leastRows = (t.size.y + kMostBands - 1) / kMostBands;
+  return clamp(kBandPixels / t.size.x, max(kFewestBandRows, leastRows), kMostBandRows);
+}
 
 // Half-line of pixel positions in a row on which an edge's product u = first - x * second is not below `-slack`.
 void cutSpan(float first, float second, float slack, inout float low, inout float high) {
@@ -271,8 +303,13 @@ void main() {
   const uint count = min(queue.queued, QUEUE_CAPACITY);
   for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
     const uint index = bands[item].x;
-    const Triangle t = load(index);
+#ifdef REGIONS
+    region = regions[bands[item].y >> 16];
+    const int first = int(bands[item].y & 0xffffu);
+#else
     const int first = int(bands[item].y);
+#endif
+    const Triangle t = load(index);
     const int end = min(first + rowsOfBand(t), t.size.y);
     if ((end - first) * t.size.x <= kPlain)
       shadeBox(t, index, first, end);
@@ -281,7 +318,11 @@ void main() {
   }
 }
 #else
-// Number in the scene of the n-th triangle drawn.
+#ifdef REGIONS
+uint regionIndex = 0u;
+#endif
+
+// Number in the scene of the n-th triangle drawn. Finds its region.
 uint chosenTriangle(uint n) {
   if (rangeCount == 0) return n;
   int low = 0, high = rangeCount - 1;  // the first range that ends after n
@@ -292,6 +333,10 @@ uint chosenTriangle(uint n) {
     else
       low = middle + 1;
   }
+#ifdef REGIONS
+  regionIndex = ranges[low].z;
+  region = regions[regionIndex];
+#endif
   return ranges[low].x + n - (low > 0 ? ranges[low - 1].y : 0u);
 }
 
@@ -303,13 +348,15 @@ void main() {
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
-  if (pixels <= kSmall) {
-#if SMALL_LANES == 1
-    for (int y = 0; y < t.size.y; ++y)
-      for (int x = 0; x < t.size.x; ++x) shade(t, index, t.low + ivec2(x, y));
-#else
-    for (int i = int(lane); i < pixels; i += SMALL_LANES) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
-#endif
+  if (pixels <= SMALL_PIXELS) {
+    if (pixels == 0) return;
+    const ivec2 step = ivec2(SMALL_LANES % t.size.x, SMALL_LANES / t.size.x);
+    ivec2 at = ivec2(int(lane) % t.size.x, int(lane) / t.size.x);
+    while (at.y < t.size.y) {
+      shade(t, index, t.low + at);
+      at += step;
+      if (at.x >= t.size.x) at += ivec2(-t.size.x, 1);
+    }
     return;
   }
   if (lane > 0u) return;
@@ -317,7 +364,11 @@ void main() {
   const uint slot = atomicAdd(queue.queued, uint((t.size.y + rows - 1) / rows));
   for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {
     if (slot + uint(band) < QUEUE_CAPACITY)
+#ifdef REGIONS
+      bands[slot + uint(band)] = uvec2(index, uint(first) | regionIndex << 16);
+#else
       bands[slot + uint(band)] = uvec2(index, uint(first));
+#endif
     else
       shadeRows(t, index, first, min(first + rows, t.size.y));
   }

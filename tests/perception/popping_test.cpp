@@ -53,9 +53,12 @@ double amplitude(const Image& stage, double cyclesPerSample) {
   return 2.0 * std::hypot(cosine, sine) / weights;
 }
 
-/// 100 cd/m2 whatever the picture, no masking: responses are contrast times sensitivity.
+PoppingSettings thesisSettings() { return PoppingSettings::preset(PredictorModel::Schwarz2009); }
+
+/// The thesis's, with 100 cd/m2 whatever the picture and no masking: responses are contrast times
+/// sensitivity.
 PoppingSettings plainSettings() {
-  PoppingSettings settings;
+  PoppingSettings settings = thesisSettings();
   settings.masking = {"none", {}};
   settings.adaptation = FixedAdaptation{100.0};
   return settings;
@@ -78,13 +81,13 @@ TEST(PoppingModel, StudyDisplayHasFiveContrastLevels) {
     EXPECT_NEAR(model.gain[i], gain[i], 1e-3);
   }
   // 20.0 or 20.1 in: 452 deg2 (24.46 x 18.47).
-  EXPECT_NEAR(model.areaDeg2, 452.0, 5.0);
+  EXPECT_NEAR(poppingModel(1024, 768, studyDisplay(), thesisSettings()).areaDeg2, 452.0, 5.0);
 }
 
 // Thresholds 0.5, 1.0, 1.2 % are peak sensitivities 200, 100, 83.33; peaks at 0.15 deg/s are 245.44 (D98, 100
 // cd/m2) and 32.458 (K83, 35 cd/m2): factors 0.81488, 3.0809, 2.5674.
 TEST(PoppingModel, CalibrationMatchesTheThresholds) {
-  const PoppingModel model = poppingModel(1024, 768, studyDisplay(), {});
+  const PoppingModel model = poppingModel(1024, 768, studyDisplay(), thesisSettings());
   EXPECT_NEAR(model.scaleA, 0.81488, 1e-5);
   EXPECT_NEAR(model.scaleRg, 3.0809, 1e-4);
   EXPECT_NEAR(model.scaleBy, 2.5674, 1e-4);
@@ -110,18 +113,39 @@ PoppingSettings settingsFrom(const std::map<std::string, ParameterValue>& given)
   return PoppingSettings::table().read(ParameterValues(PoppingSettings::table().parameters(), given));
 }
 
-TEST(Popping, DefaultsAreThoseOfTheThesis) {
-  const PoppingSettings defaults = settingsFrom({});
-  EXPECT_EQ(defaults.sensitivity.achromatic.threshold, 0.005);
-  EXPECT_EQ(defaults.sensitivity.redGreen.threshold, 0.010);
-  EXPECT_EQ(defaults.sensitivity.blueYellow.threshold, 0.012);
-  EXPECT_EQ(defaults.regions.thresholdJnd, 2.0);
-  EXPECT_EQ(defaults.minkowskiExponent, 2.4);
-  EXPECT_EQ(defaults.rating.scale, 0.375);
-  EXPECT_EQ(defaults.rating.base, 2.25);
-  EXPECT_EQ(defaults.regions.connectivity, 8);
-  EXPECT_EQ(defaults.eyeModel(), EyeMovement::Monotone);
-  EXPECT_EQ(defaults.bands.peakModel, PeakModel::WithUpsample);
+TEST(Popping, PresetIsTheThesisPredictor) {
+  const PoppingSettings preset = settingsFrom({{"model", "schwarz_2009"}});
+  const auto& achromatic = std::get<AchromaticPeakScale>(preset.sensitivity.achromatic.scale);
+  EXPECT_EQ(preset.sensitivity.achromatic.csf.name, "daly98");
+  EXPECT_EQ(achromatic.threshold, 0.005);
+  EXPECT_EQ(achromatic.luminanceCdM2, 100.0);
+  EXPECT_EQ(preset.sensitivity.redGreen.csf.name, "kelly83");
+  EXPECT_EQ(preset.sensitivity.blueYellow.csf.name, "kelly83");
+  EXPECT_EQ(std::get<ChromaticPeakScale>(preset.sensitivity.redGreen.scale).threshold, 0.010);
+  EXPECT_EQ(std::get<ChromaticPeakScale>(preset.sensitivity.blueYellow.scale).threshold, 0.012);
+  EXPECT_EQ(std::get<ChromaticPeakScale>(preset.sensitivity.blueYellow.scale).luminanceCdM2, 35.0);
+  EXPECT_TRUE(std::holds_alternative<ConeContrast>(preset.sensitivity.contrast));
+  EXPECT_TRUE(std::holds_alternative<ImageArea>(preset.sensitivity.stimulusArea));
+  EXPECT_EQ(preset.regions.thresholdJnd, 2.0);
+  EXPECT_EQ(preset.minkowskiExponent, 2.4);
+  EXPECT_EQ(preset.rating.scale, 0.375);
+  EXPECT_EQ(preset.rating.base, 2.25);
+  EXPECT_EQ(preset.regions.connectivity, 8);
+  EXPECT_EQ(preset.eyeModel(), EyeMovement::Monotone);
+  EXPECT_EQ(preset.bands.peakModel, PeakModel::WithUpsample);
+}
+
+// A preset changes defaults only: what is given, even the other preset's value, stays.
+TEST(Popping, SettingsBesideAPresetAreKept) {
+  const PoppingSettings mixed =
+      settingsFrom({{"model", "schwarz_2009"}, {"sensitivity.achromatic.csf", "castlecsf"}});
+  EXPECT_EQ(mixed.model, PredictorModel::Schwarz2009);
+  EXPECT_EQ(mixed.sensitivity.achromatic.csf.name, "castlecsf");
+  EXPECT_EQ(mixed.sensitivity.redGreen.csf.name, "kelly83");
+  EXPECT_EQ(PoppingSettings::table().write(settingsFrom({})),
+            PoppingSettings::table().write(PoppingSettings{}));
+  EXPECT_EQ(PoppingSettings::table().write(settingsFrom({{"model", "schwarz_2009"}})),
+            PoppingSettings::table().write(thesisSettings()));
 }
 
 TEST(Popping, SettingsAreReadAsWritten) {
@@ -148,6 +172,9 @@ TEST(Popping, WhatMeansNothingCannotBeWritten) {
   EXPECT_THROW(settingsFrom({{"adaptation.luminance_cd_m2", 50.0}}), Error);
   EXPECT_THROW(settingsFrom({{"eye_movement", "none"}, {"eye_movement.least_velocity_deg_s", 0.1}}), Error);
   EXPECT_THROW(settingsFrom({{"flicker", "ignored"}, {"flicker.weight", 0.1}}), Error);
+  EXPECT_THROW(settingsFrom({{"sensitivity.achromatic.scale", "absolute"},
+                             {"sensitivity.achromatic.scale.threshold", 0.01}}),
+               Error);
   EXPECT_THROW(settingsFrom({{"sensitivity.red_green.csf", "martin92_rg"},
                              {"sensitivity.red_green.csf.reference_cd_m2", 30.0}}),
                Error);
@@ -331,7 +358,8 @@ TEST(Popping, TablesMatchDirectEvaluation) {
   in.actualDisplacement = noiseImage(48, 40, 2, 1, -60.0, 60.0);
   PoppingOptions direct;
   direct.tables = false;
-  std::vector<PoppingSettings> all(4);
+  std::vector<PoppingSettings> all(4, thesisSettings());
+  all.emplace_back();
   all[1].sensitivity.achromatic.csf.name = "barten03";
   all[1].sensitivity.redGreen.csf.name = "martin92_rg";
   all[1].sensitivity.blueYellow.csf.name = "martin92_by";
@@ -348,14 +376,17 @@ TEST(Popping, TablesMatchDirectEvaluation) {
 // Away from level 0 as well, over the whole range: the tables' promise is 1e-6 of the value.
 TEST(Popping, SensitivityTablesKeepTheirPromise) {
   const PoppingModel model = poppingModel(1024, 768, studyDisplay(), {});
-  const Sensitivity table(model, studyDisplay(), {}, true), direct(model, studyDisplay(), {}, false);
-  for (int level = 0; level < 5; ++level)
-    for (double lgV = -3.3; lgV < 2.6; lgV += 0.173)
-      for (double lgL = -4.4; lgL < 4.4; lgL += 0.61) {
-        const auto a = table.at(level, std::pow(10.0, lgV), std::pow(10.0, lgL));
-        const auto b = direct.at(level, std::pow(10.0, lgV), std::pow(10.0, lgL));
-        for (size_t c = 0; c < 3; ++c) ASSERT_NEAR(a[c], b[c], 1e-6 * b[c] + 1e-12) << lgV << " " << lgL;
-      }
+  for (const PoppingSettings& settings : {PoppingSettings{}, thesisSettings()}) {
+    const Sensitivity table(model, studyDisplay(), settings, true),
+        direct(model, studyDisplay(), settings, false);
+    for (int level = 0; level < 5; ++level)
+      for (double lgV = -3.3; lgV < 2.6; lgV += 0.173)
+        for (double lgL = -4.4; lgL < 4.4; lgL += 0.61) {
+          const auto a = table.at(level, std::pow(10.0, lgV), std::pow(10.0, lgL));
+          const auto b = direct.at(level, std::pow(10.0, lgV), std::pow(10.0, lgL));
+          for (size_t c = 0; c < 3; ++c) ASSERT_NEAR(a[c], b[c], 1e-6 * b[c] + 1e-12) << lgV << " " << lgL;
+        }
+  }
 }
 
 TEST(Popping, WeightsScaleTheMap) {

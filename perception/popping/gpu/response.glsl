@@ -3,10 +3,13 @@
 // all of them, then responseDifference().
 #include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/masking.glsl"
+#ifdef TEMPORAL_CHANNELS
+#include "perception/popping/gpu/temporal.glsl"
+#endif
 
 layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
-layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // layer: 0 actual, 1 predicted
+layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // or A, RG, YV of DKL space; layer: 0 actual, 1 predicted
 layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
 layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
 layout(binding = kMeanLuminanceBuffer, std430) readonly buffer Mean { float meanLuminance[2]; };
@@ -79,16 +82,18 @@ float luminanceAt(int frame, ivec2 pixel) {
   return mix(above, below, weight.y);
 }
 
-vec3 sensitivityAt(float velocity, float luminance) {
+// Of this level in a table over velocity and luminance.
+vec4 tableAt(sampler2D table, float velocity, float luminance) {
   vec2 place = clamp((log2(vec2(velocity, luminance)) - tableLow) * tablePer, vec2(0.0), vec2(tableSize - 1));
   ivec2 node = min(ivec2(place), tableSize - 2);
   vec2 t = place - vec2(node);
   node.y += level * tableSize.y;
-  vec3 above = mix(texelFetch(sensitivities, node, 0).xyz, texelFetch(sensitivities, node + ivec2(1, 0), 0).xyz, t.x);
-  vec3 below = mix(texelFetch(sensitivities, node + ivec2(0, 1), 0).xyz,
-                   texelFetch(sensitivities, node + ivec2(1, 1), 0).xyz, t.x);
+  vec4 above = mix(texelFetch(table, node, 0), texelFetch(table, node + ivec2(1, 0), 0), t.x);
+  vec4 below = mix(texelFetch(table, node + ivec2(0, 1), 0), texelFetch(table, node + ivec2(1, 1), 0), t.x);
   return mix(above, below, t.y);
 }
+
+vec3 sensitivityAt(float velocity, float luminance) { return tableAt(sensitivities, velocity, luminance).xyz; }
 
 // What a debug image may show of a frame.
 struct Stages {
@@ -102,6 +107,11 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   vec3 across = taps(pixel.x), down = taps(pixel.y);
   precise vec3 difference = vec3(0.0);
   uint guardedHere = 0u;
+#ifdef TEMPORAL_CHANNELS
+  vec3 contrasts[2];
+  vec2 luminances;
+  float screenDegS = 0.0;
+#endif
   for (int frame = 0; frame < frameCount; ++frame) {
     vec4 own = texelFetch(cones, ivec3(pixel, frame), level);
     precise vec3 finer = vec3(0.0);
@@ -113,13 +123,20 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
         finer = fma(vec3(weight), next[at].xyz, finer);
         coarser = fma(vec3(weight), after[at].xyz, coarser);
       }
+#ifdef CONTRAST_DKL
+    coarser = coarser.xxx;
+#endif
     for (int c = 0; c < 3; ++c)
       if (!(coarser[c] >= epsilon)) ++guardedHere;
+#ifdef CONTRAST_DKL
+    precise vec3 contrast = (own.xyz - finer) / max(coarser, vec3(epsilon)) * (1.0 / gain);
+#else
     precise vec3 cone = (own.xyz - finer) / max(coarser, vec3(epsilon));
     precise vec3 contrast =
         vec3(2.0 * cone.x + cone.y + cone.z / 20.0, cone.x - 12.0 / 11.0 * cone.y + cone.z / 11.0,
              (cone.x + cone.y - 2.0 * cone.z) / 9.0) *
         vec3(1.0 / (gain * greyGain), 1.0 / gain, 1.0 / gain);
+#endif
     float luminance = luminanceAt(frame, pixel), velocity = retinalVelocity(own.w * degSPerPx);
     precise vec3 normalised = contrast * sensitivityAt(velocity, luminance);
     precise vec3 response =
@@ -128,7 +145,20 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
 #ifdef SHOW_STAGES
     if (frame == shownFrame) shown = Stages(contrast, response, luminance, velocity);
 #endif
+#ifdef TEMPORAL_CHANNELS
+    contrasts[frame] = contrast;
+    luminances[frame] = luminance;
+    screenDegS += 0.5 * own.w * degSPerPx;
+#endif
   }
+#ifdef TEMPORAL_CHANNELS
+  float retinalDegS = retinalVelocity(screenDegS);
+  SwitchContent contents[2];
+  for (int frame = 0; frame < frameCount; ++frame)
+    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, retinalDegS, luminances[frame]),
+                                    tableAt(onsetGains, retinalDegS, luminances[frame]));
+  difference = switchDifference(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
+#endif
   if (guardedHere != 0u) atomicAdd(groupGuarded, guardedHere);
   return difference;
 }

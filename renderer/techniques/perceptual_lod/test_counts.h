@@ -8,47 +8,42 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
+#include "renderer/techniques/perceptual_lod/layer_images.h"
 #include "renderer/techniques/perceptual_lod/level_view.h"
 #include "renderer/techniques/perceptual_lod/settings.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 
-/// What the GPU counts for one object.
-struct CountRequest {
-  int object = 0, level = 0;
-  scene::TriangleRange triangles;  ///< of the object's current level
-  PixelRect pixels;
-};
-
 /// Counts of tests that arrive frames later: by occlusion queries (Schwarz 2009, section 9.5), or in a
 /// compute shader whose sums are copied to mapped memory behind a fence. Batches, one per frame, are read in
 /// order; nothing waits unless asked to.
 class TestCounts {
  public:
-  /// `visible` is R32F, cleared each frame and set to 1 where a test found a visible difference. `withNext`:
-  /// the next coarser level is tested too.
-  TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
-             const gl::Texture& visible);
+  /// `defines`: of gathered.glsl. `sizePx`: of the picture.
+  TestCounts(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines, int testsPerFrame,
+             glm::ivec2 sizePx);
   ~TestCounts();
   TestCounts(const TestCounts&) = delete;
   TestCounts& operator=(const TestCounts&) = delete;
 
   /// False if too many batches are in flight for another one.
   bool ready() const { return batches_[next_].tests.empty(); }
-  void begin(int64_t frame, float blackCdM2, float rangeCdM2);
-  /// The textures of lod_difference.glsl are bound by the caller.
-  void count(const CountRequest& request);
+  void begin(int64_t frame);
+  /// What lod_difference.glsl reads is bound by the caller. `number`: of the frame's planned tests.
+  void count(const ObjectTest& test, int number, const PixelRect& pixels);
+  const gl::Program& program() const { return program_; }
   void end();
   /// The oldest batch, if it is of frame `newest` or earlier and has arrived.
   std::optional<std::vector<LevelTest>> take(int64_t newest, bool wait);
-  int64_t bytes() const { return counts_.bytes() * (1 + kBatches); }
+  int64_t bytes() const { return counts_.bytes() * (1 + kBatches) + (colour_ ? colour_->bytes() : 0); }
 
  private:
   static constexpr size_t kBatches = 8, kQueries = 3;
   struct Batch {
     int64_t frame = 0;
     std::vector<LevelTest> tests;  ///< empty: free
+    std::vector<int> numbers;      ///< of the tests in their frame
     void* fence = nullptr;
   };
   bool arrived(const Batch& batch, bool wait) const;
@@ -59,12 +54,11 @@ class TestCounts {
 
   CountMethod method_;
   size_t testsPerFrame_;
-  bool withNext_;
   const gl::Program& program_;
-  const gl::Texture& visible_;
   gl::Buffer counts_;
   uint32_t readBack_ = 0, vertexArray_ = 0;
   const uint32_t* mapped_ = nullptr;
+  std::optional<gl::Texture> colour_;  ///< nothing is written to it; queries need a target
   std::optional<gl::Framebuffer> target_;
   std::vector<uint32_t> queries_;
   std::vector<Batch> batches_;

@@ -51,6 +51,25 @@ class ThresholdMapGpuTest : public gl::GlTest {
   }
 };
 
+TEST_F(ThresholdMapGpuTest, APartOfTheMapIsThatPartOfTheWholeMap) {
+  const Plane luminance = picture(201, 143);
+  gl::Texture input(gl::Format::R32F, {201, 143});
+  input.write(toImage(luminance));
+  ThresholdMapGpu gpu(context(), input.sizePx(), display(), {}, {}, false);
+  const Image whole = gpu.run(input).read();
+  gl::Texture flat(gl::Format::R32F, {201, 143});
+  flat.clear(glm::vec4(50.0F));
+  for (const MapArea area :
+       {MapArea{{70, 40}, {90, 80}}, MapArea{{0, 0}, {1, 1}}, MapArea{{190, 100}, {201, 143}}}) {
+    gpu.run(flat);  // so that nothing is left of the last run
+    const Image part = gpu.run(input, nullptr, area).read();
+    for (int y = area.low.y; y < area.high.y; ++y)
+      for (int x = area.low.x; x < area.high.x; ++x)
+        ASSERT_EQ(part.data[size_t(y) * 201 + size_t(x)], whole.data[size_t(y) * 201 + size_t(x)])
+            << x << ", " << y;
+  }
+}
+
 TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
   // Of the pyramid those alone on which it differs most from the stack: every variant is a program to
   // compile.
@@ -149,6 +168,36 @@ TEST_F(ThresholdMapGpuTest, NineFetchesOfOddSizesAreTheReferencesNineFetches) {
       pattern(101, 67, [](int x, int y) { return 60.0 + 40.0 * std::sin(0.15 * x) * std::cos(0.11 * y); });
   const ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
   EXPECT_LT(largestError(image, settings, "nine fetches"), 0.02);
+}
+
+TEST_F(ThresholdMapGpuTest, NineFetchesIn16BitsHoldFaintContrasts) {
+  // Luminance itself in 16 bits has steps of 1/16 cd/m2 at 100 cd/m2: contrasts of 0.03 % are all rounding.
+  // Less its mean, it has steps of 2^-11 of the distance from there.
+  const ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
+  for (const double contrast : {0.001, 0.01, 0.1}) {
+    const Plane image = pattern(128, 128, [&](int x, int y) {
+      return 100.0 * (1.0 + contrast * std::sin(0.35 * x) * std::cos(0.23 * y));
+    });
+    EXPECT_LT(largestError(image, settings, "faint", {.precision = 16}), 0.03) << contrast;
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, LuminanceStoredInPlaceOfTheFinestBandIsAsExact) {
+  for (const auto& [name, image] : adversarialPatterns())
+    EXPECT_LT(largestError(image, settingsOf(), name, {.finest = FinestStored::Luminance}), 0.005) << name;
+}
+
+TEST_F(ThresholdMapGpuTest, EvenSizesAreReducedLikeAllOthers) {
+  // Sizes whose levels are even twice, once and not at all, with one level a pass as for large images.
+  for (const glm::ivec2 size : {glm::ivec2(256, 192), {136, 88}, {150, 90}, {130, 62}})
+    for (const char* border : {"clamp", "mirror"}) {
+      const Plane image = noisePattern(size.x, size.y);
+      for (const std::variant<AutomaticLevels, GivenLevels>& perPass :
+           {std::variant<AutomaticLevels, GivenLevels>(), {GivenLevels{1}}})
+        EXPECT_LT(largestError(image, settingsOf({{"border", text(border)}}), border,
+                               {.levelsPerPass = perPass, .finest = FinestStored::Luminance}),
+                  0.005);
+    }
 }
 
 TEST_F(ThresholdMapGpuTest, ColourIsTurnedIntoTheDisplaysLuminance) {
