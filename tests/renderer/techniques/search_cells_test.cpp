@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kBitmask = "soft_shadows/bitmask";
 
-class SearchCells : public TechniqueTest {
+class SearchCellsTest : public TechniqueTest {
  protected:
   static Given cells(int64_t budget, Given more = {}) {
     more["occluders.division"] = std::string("cells");
@@ -36,7 +36,7 @@ class SearchCells : public TechniqueTest {
 };
 
 /// Without a limit every cell is one texel, as is every texel of level 0.
-TEST_F(SearchCells, WithoutALimitAreTheMapsTexels) {
+TEST_F(SearchCellsTest, WithoutALimitAreTheMapsTexels) {
   const scene::Scene scene = makeScene("two_boxes");
   for (const char* fill : {"none", "left_bottom", "diagonal"}) {
     Given cell = cells(0, {{"occluders.division.least_width", 0.0}}), level = levels(0);
@@ -51,7 +51,7 @@ TEST_F(SearchCells, WithoutALimitAreTheMapsTexels) {
 
 /// Never more than a budget. Sides of powers of two leave an axis of a large area with between half of its
 /// share and all of it, cells with all of it.
-TEST_F(SearchCells, UseMoreOfABudgetThanLevels) {
+TEST_F(SearchCellsTest, UseMoreOfABudgetThanLevels) {
   const scene::Scene scene = makeScene("sphere_grid");
   constexpr int64_t kBudget = 36;
   Given fine = cells(kBudget), coarse = levels(kBudget);
@@ -62,7 +62,7 @@ TEST_F(SearchCells, UseMoreOfABudgetThanLevels) {
   EXPECT_GT(a.counter("examined_per_px"), b.counter("examined_per_px"));
 }
 
-TEST_F(SearchCells, ErrLessThanLevelsOfTheSameBudget) {
+TEST_F(SearchCellsTest, ErrLessThanLevelsOfTheSameBudget) {
   for (const char* name : {"palm", "street_light", "columns_hall"}) {
     const scene::Scene scene = makeScene(name);
     const glm::ivec2 sizePx(96, 72);
@@ -75,7 +75,7 @@ TEST_F(SearchCells, ErrLessThanLevelsOfTheSameBudget) {
   }
 }
 
-TEST_F(SearchCells, AreTheSameInSplitPasses) {
+TEST_F(SearchCellsTest, AreTheSameInSplitPasses) {
   const scene::Scene scene = makeScene("sphere_grid");
   const Image single =
       render(scene, kBitmask, cells(64, {{"passes", std::string("single")}}), {61, 45}).product;
@@ -89,7 +89,7 @@ TEST_F(SearchCells, AreTheSameInSplitPasses) {
 }
 
 /// Of a budget for each pixel, too.
-TEST_F(SearchCells, FollowABudgetMap) {
+TEST_F(SearchCellsTest, FollowABudgetMap) {
   const scene::Scene scene = makeScene("sphere_grid");
   Given given = cells(64);
   given.erase("budget.limit");
@@ -105,7 +105,7 @@ TEST_F(SearchCells, FollowABudgetMap) {
   }
 }
 
-TEST_F(SearchCells, RefuseWhatOnlyLevelsHave) {
+TEST_F(SearchCellsTest, RefuseWhatOnlyLevelsHave) {
   EXPECT_FALSE(refusal(kBitmask, cells(64)));
   EXPECT_TRUE(refusal(kBitmask, cells(64, {{"occluders.depths", std::string("nearest")}})));
   EXPECT_TRUE(refusal(kBitmask, cells(64, {{"levels", std::string("blend")}})));
