@@ -8,10 +8,9 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kBitmask = "soft_shadows/bitmask";
-
 class SearchCellsTest : public TechniqueTest {
  protected:
+  static constexpr const char* kBitmask = "soft_shadows/bitmask";
   static Given cells(int64_t budget, Given more = {}) {
     more["occluders.division"] = std::string("cells");
     more["budget.limit"] = budget;
