@@ -53,18 +53,22 @@ class Describer {
   }
 
   void addMetrics() {
-    for (size_t i = 0; i < descriptor_.metrics.size(); ++i) {
-      const Configuration& metric = descriptor_.metrics[i];
+    for (const Configuration& metric : descriptor_.metrics) {
       const CatalogueEntry& entry = catalogue_.metrics.at(metric.name);
-      const Quantity& quantity = entry.quantity;
-      // A metric that declares neither its own name nor a title goes by its registered name.
-      const std::string title =
-          quantity.title.empty() ? titleFromName(metric.name, quantity.unit) : quantity.title;
-      const std::string full = measurementTitle(title, metric, descriptor_.metrics, entry.parameters);
-      add({descriptor_.metricNames[i], full, quantity.unit, quantity.direction, "error", "", entry.source});
-      if (!descriptor_.reference) continue;
-      add({descriptor_.metricNames[i] + kNoiseSuffix, full + ", noise of the reference", quantity.unit,
-           Direction::Neither, "fact", "", "95 % bound on a difference of two runs; docs/analyse.md"});
+      const std::vector<std::string> names =
+          measurementNames(metric, descriptor_.metrics, entry.parameters, entry.figures);
+      for (size_t i = 0; i < names.size(); ++i) {
+        const Quantity& quantity = entry.figures.empty() ? entry.quantity : entry.figures[i];
+        // A metric that declares neither its own name nor a title goes by its registered name.
+        const std::string title =
+            quantity.title.empty() ? titleFromName(metric.name, quantity.unit) : quantity.title;
+        const std::string full = measurementTitle(title, metric, descriptor_.metrics, entry.parameters);
+        add({names[i], full, quantity.unit, quantity.direction,
+             quantity.direction == Direction::Neither ? "fact" : "error", "", entry.source});
+        if (!descriptor_.reference || !entry.figures.empty()) continue;
+        add({names[i] + kNoiseSuffix, full + ", noise of the reference", quantity.unit, Direction::Neither,
+             "fact", "", "95 % bound on a difference of two runs; docs/analyse.md"});
+      }
     }
   }
 

@@ -216,12 +216,15 @@ class Reader {
     }
     for (size_t i = 0; i < out_.metrics.size(); ++i) {
       const Configuration& metric = out_.metrics[i];
-      const std::string name =
-          measurementName(metric, out_.metrics, catalogue_.metrics.at(metric.name).parameters);
-      if (std::find(out_.metricNames.begin(), out_.metricNames.end(), name) != out_.metricNames.end())
-        problems_.add(marks[i], "metric '" + name + "' is listed twice",
-                      "keep one, or give them different values");
-      out_.metricNames.push_back(name);
+      const CatalogueEntry& info = catalogue_.metrics.at(metric.name);
+      const std::vector<std::string> names =
+          measurementNames(metric, out_.metrics, info.parameters, info.figures);
+      if (std::find(out_.metricNames.begin(), out_.metricNames.end(), names[0]) != out_.metricNames.end())
+        problems_.add(
+            marks[i],
+            "metric '" + measurementName(metric, out_.metrics, info.parameters) + "' is listed twice",
+            "keep one, or give them different values");
+      out_.metricNames.insert(out_.metricNames.end(), names.begin(), names.end());
     }
   }
 

@@ -83,7 +83,7 @@ struct Descriptor {
   Timing timing;
   Artefacts artefacts;
   std::vector<Configuration> metrics;
-  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` yield, in the same order
+  std::vector<std::string> metricNames;              ///< of the measurements that `metrics` yield, in order
   nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
   std::vector<ExpectationStatement> expectations;
   std::vector<PublishedTable> published;

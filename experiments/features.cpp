@@ -184,6 +184,9 @@ std::string describe(const Coverage& coverage) {
     }
     covered += line;
     for (const std::string& path : coverage.descriptors.at(feature.id)) covered += "          " + path + "\n";
+    for (const NotBuilt& one : feature.notBuilt)
+      covered +=
+          fmt::format("          not built: {} (section {}): {}\n", one.method, one.section, one.reason);
   }
   return fmt::format(
       "covered:\n{}surveyed only, not built:\n{}not covered:\n{}{} of {} features are covered by {} "

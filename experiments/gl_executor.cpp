@@ -12,6 +12,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/frame_path.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
 #include "experiments/measured_quantities.h"
@@ -69,6 +70,7 @@ struct SharedScene {
   // For one image size:
   glm::ivec2 sizePx{0};
   std::shared_ptr<const ViewImages> view;  ///< shared with the threads that write pictures
+  std::optional<ShownSurfaces> surfaces;   ///< made when a metric first needs them
 };
 
 /// What is computed from a product while the GPU works.
@@ -214,6 +216,7 @@ class GlExecutor : public Executor {
     if (scene_->sizePx != sizePx) {
       const Stopwatch watch(seconds_["rendering"]);
       scene_->view = std::make_shared<const ViewImages>(viewImages(*context_, scene_->onGpu, sizePx));
+      scene_->surfaces.reset();
       scene_->sizePx = sizePx;
     }
     return *scene_;
@@ -240,21 +243,32 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      reference = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on);
+      reference = found.image;
+      if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
       referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
       referenceTexture->write(*reference);
     }
-    std::vector<std::pair<std::string, Image>> maps;
+    MetricPictures shown;
     {
       const Stopwatch watch(seconds_["metrics"]);
-      const perception::ComparisonInput evaluated{
-          &run.technique->product(),
-          referenceTexture ? &*referenceTexture : nullptr,
-          &product,
-          reference.get(),
-          evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
-          &metricGpu_};
-      for (store::Measurement& measurement : evaluate(plan, evaluated, maps))
+      perception::ComparisonInput evaluated{&run.technique->product(),
+                                            referenceTexture ? &*referenceTexture : nullptr,
+                                            &product,
+                                            reference.get(),
+                                            evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
+                                            &metricGpu_};
+      evaluated.depicts = depicts(run.info->product);
+      if (const ShownSurfaces* surfaces = surfacesFor(plan, on)) evaluated.surfaces = &surfaces->textures();
+      const perception::PathRenderer path = [&](const perception::PathRequest& request,
+                                                const perception::PathVisitor& visit) {
+        FramePath(*context_, on.onGpu, on.sizePx, plan, references_, referenceIdentity(plan, on).dump())
+            .render(request, visit);
+      };
+      evaluated.path = &path;
+      evaluated.wantsPictures = plan.artefacts.pictures;
+      evaluated.wantsLight = plan.artefacts.exr;
+      for (store::Measurement& measurement : evaluate(plan, evaluated, shown))
         run.outcome.measurements.push_back(std::move(measurement));
       countNonFinite(product, run.outcome);
     }
@@ -262,9 +276,13 @@ class GlExecutor : public Executor {
       run.outcome.measurements.push_back(measurementOf(counter, *run.info));
     if (reference && plan.artefacts.pictures)
       run.outcome.measurements.push_back(measured("error_png_white", kErrorScale));
-    for (const auto& [name, map] : maps)
-      if (name == "relative_error" && plan.artefacts.pictures)
+    for (const auto& [name, map] : shown.maps) {
+      if (!plan.artefacts.pictures) break;
+      if (name == "relative_error")
         run.outcome.measurements.push_back(measured("relative_error_png_white", kErrorScale));
+      if (name == "jnd" || name == "jnd_change")
+        run.outcome.measurements.push_back(measured(name + "_png_white", kJndPictureWhite));
+    }
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::Threshold) {
       run.outcome.measurements.push_back(measured("threshold_png_black", perception::kThresholdPictureBlack));
       run.outcome.measurements.push_back(measured("threshold_png_white", perception::kThresholdPictureWhite));
@@ -274,9 +292,20 @@ class GlExecutor : public Executor {
       run.outcome.measurements.push_back({"product_png_white", kJndPictureWhite, "JND", "fact"});
     if (plan.artefacts.pictures && run.info->product == techniques::ProductKind::VisibilityChange)
       run.outcome.measurements.push_back(measured("product_png_white", kErrorScale));
-    startAfterwork(run, on, std::move(product), reference, std::move(maps));
+    startAfterwork(run, on, std::move(product), reference, std::move(shown));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
+  }
+
+  /// Null if no metric of the run needs them.
+  const ShownSurfaces* surfacesFor(const PlannedRun& plan, SharedScene& on) {
+    const bool needed =
+        std::any_of(plan.metrics.begin(), plan.metrics.end(), [](const Configuration& metric) {
+          return perception::MetricRegistry::instance().get(metric.name).needsSurfaces;
+        });
+    if (!needed) return nullptr;
+    if (!on.surfaces) on.surfaces.emplace(*context_, on.onGpu, on.sizePx);
+    return &*on.surfaces;
   }
 
   void prepare(LiveRun& run, const SharedScene& on) {
@@ -305,18 +334,22 @@ class GlExecutor : public Executor {
     if (count > 0) outcome.error = std::to_string(count) + " values of the product are not finite";
   }
 
-  std::shared_ptr<const Image> referenceFor(const PlannedRun& run, const SharedScene& on) {
-    nlohmann::json identity = {{"reference", run.reference.name},         {"version", run.reference.version},
-                               {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
-                               {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
-    return references_.get(sha256(identity.dump()), on.sizePx.x, on.sizePx.y,
-                           [&] { return renderOnce(*context_, on.onGpu, on.sizePx, run.reference); });
+  nlohmann::json referenceIdentity(const PlannedRun& run, const SharedScene& on) const {
+    return {{"reference", run.reference.name},         {"version", run.reference.version},
+            {"values", run.reference.values.toJson()}, {"scene", on.facts["content_hash"]},
+            {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
+  }
+
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
+    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y, [&] {
+      RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
+      return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
+    });
   }
 
   /// Hashes the product and writes artefacts, which takes longer than a fast technique's frames.
   void startAfterwork(LiveRun& run, const SharedScene& on, Image product,
-                      std::shared_ptr<const Image> reference,
-                      std::vector<std::pair<std::string, Image>> maps) {
+                      std::shared_ptr<const Image> reference, MetricPictures shown) {
     const bool writes = run.plan->artefacts.pictures || run.plan->artefacts.exr;
     std::map<std::string, techniques::PictureMaker> views;
     if (run.plan->artefacts.pictures) {
@@ -324,11 +357,11 @@ class GlExecutor : public Executor {
       views = run.technique->pictures();
     }
     auto work = [writes, plan = run.plan, folder = folder_, view = on.view, product = std::move(product),
-                 reference = std::move(reference), maps = std::move(maps), views = std::move(views)] {
+                 reference = std::move(reference), shown = std::move(shown), views = std::move(views)] {
       Afterwork out;
       out.productHash = productHash(product);
       if (writes)
-        out.artefacts = writeArtefacts(*plan, folder, product, reference.get(), view->shading, maps, views);
+        out.artefacts = writeArtefacts(*plan, folder, product, reference.get(), view->shading, shown, views);
       return out;
     };
     // In parallel with the GPU; with a software renderer, however, files must not be compressed while frames

@@ -35,6 +35,8 @@ const std::vector<store::QuantityRow>& commonQuantities() {
       {"relative_error_png_white", "White of the relative error's picture", "", kNeither, "fact", "", ""},
       {"threshold_png_black", "Black of the threshold's picture", "cd/m2", kNeither, "fact", "", ""},
       {"threshold_png_white", "White of the threshold's picture", "cd/m2", kNeither, "fact", "", ""},
+      {"jnd_png_white", "White of the picture of visible differences", "JND", kNeither, "fact", "", ""},
+      {"jnd_change_png_white", "White of the picture of visible changes", "JND", kNeither, "fact", "", ""},
       {"product_png_white", "White of the product's picture", "", kNeither, "fact", "", ""}};
   return kCommon;
 }

@@ -29,6 +29,16 @@ std::string measurementName(const Configuration& metric, const std::vector<Confi
   return name;
 }
 
+std::vector<std::string> measurementNames(const Configuration& metric, const std::vector<Configuration>& all,
+                                          const std::vector<Parameter>& declared,
+                                          const std::vector<Quantity>& figures) {
+  const std::string own = measurementName(metric, all, declared);
+  if (figures.empty()) return {own};
+  std::vector<std::string> out;
+  for (const Quantity& figure : figures) out.push_back(own + "_" + figure.name);
+  return out;
+}
+
 std::string measurementTitle(const std::string& title, const Configuration& metric,
                              const std::vector<Configuration>& all, const std::vector<Parameter>& declared) {
   std::string out = title;

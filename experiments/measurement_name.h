@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/quantity.h"
 #include "experiments/executor.h"
 
 namespace limen::experiments {
@@ -12,6 +13,11 @@ namespace limen::experiments {
 /// descriptor lists the metric more than once ("rmse", "rmse_penumbra"). `declared`: the metric's parameters.
 std::string measurementName(const Configuration& metric, const std::vector<Configuration>& all,
                             const std::vector<Parameter>& declared);
+
+/// Names of all that a metric stores: its own, or one for each of its `figures`.
+std::vector<std::string> measurementNames(const Configuration& metric, const std::vector<Configuration>& all,
+                                          const std::vector<Parameter>& declared,
+                                          const std::vector<Quantity>& figures);
 
 /// After a metric's name: the noise that the reference leaves in a difference of two values of it.
 inline constexpr const char* kNoiseSuffix = "_noise";

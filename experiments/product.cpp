@@ -40,6 +40,7 @@ Image productPicture(techniques::ProductKind kind, const Image& product, const I
 }
 
 double mapWhite(const std::string& mapName) {
+  if (mapName == "jnd" || mapName == "jnd_change") return kJndPictureWhite;
   return mapName == "absolute_error" || mapName == "relative_error" ? kErrorScale : 1.0;
 }
 

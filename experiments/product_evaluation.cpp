@@ -16,7 +16,7 @@
 namespace limen::experiments {
 
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
-                                         std::vector<std::pair<std::string, Image>>& maps) {
+                                         MetricPictures& shown) {
   const references::SamplingNoise* noise =
       run.reference.name.empty() ? nullptr
                                  : references::SamplingNoiseRegistry::instance().find(run.reference.name);
@@ -24,24 +24,33 @@ std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception
   for (const Configuration& metric : run.metrics) {
     const perception::MetricInfo& info = perception::MetricRegistry::instance().get(metric.name);
     perception::MetricResult result = info.compare(input, metric.values);
-    const std::string name = measurementName(metric, run.metrics, info.parameters);
-    out.push_back(
-        {name, std::isfinite(result.value) ? std::optional(result.value) : std::nullopt, info.unit, "error"});
+    const std::vector<std::string> names =
+        measurementNames(metric, run.metrics, info.parameters, info.figures);
+    const auto store = [&](const std::string& name, double value, const Quantity& quantity) {
+      out.push_back({name, std::isfinite(value) ? std::optional(value) : std::nullopt, quantity.unit,
+                     quantity.direction == Direction::Neither ? "fact" : "error"});
+    };
+    if (info.figures.empty()) store(names[0], result.value, info.quantity());
+    for (size_t i = 0; i < info.figures.size(); ++i) store(names[i], result.figures.at(i), info.figures[i]);
     if (info.averagesPixels && noise != nullptr && result.evaluatedPixels > 0)
-      out.push_back({name + kNoiseSuffix,
+      out.push_back({names[0] + kNoiseSuffix,
                      noiseOfDifference(noise->deviation(run.reference.values), result.evaluatedPixels),
                      info.unit, "fact"});
-    const bool known =
-        std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.first == result.mapName; });
-    if (result.map && !known) maps.emplace_back(result.mapName, std::move(*result.map));
+    const auto known = [](const auto& list, const std::string& name, auto nameOf) {
+      return std::any_of(list.begin(), list.end(), [&](const auto& one) { return nameOf(one) == name; });
+    };
+    if (result.map && !known(shown.maps, result.mapName, [](const auto& map) { return map.first; }))
+      shown.maps.emplace_back(result.mapName, std::move(*result.map));
+    for (perception::MetricPicture& picture : result.pictures)
+      if (!known(shown.pictures, picture.name, [](const auto& one) { return one.name; }))
+        shown.pictures.push_back(std::move(picture));
   }
   return out;
 }
 
 std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::string& folder,
                                             const Image& product, const Image* reference,
-                                            const Image& shading,
-                                            const std::vector<std::pair<std::string, Image>>& maps,
+                                            const Image& shading, const MetricPictures& shown,
                                             const std::map<std::string, techniques::PictureMaker>& views) {
   const std::string base = "artefacts/" + run.key.substr(0, 16) + "/";
   // In parallel: compressing one picture takes as long as many frames of a fast technique.
@@ -72,11 +81,17 @@ std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::st
     exr("product", product);
     if (reference) exr("reference", *reference);
   }
-  for (const auto& [name, map] : maps) {
+  for (const auto& [name, map] : shown.maps) {
     const std::string kind = name == "absolute_error" ? "error" : name;
     if (run.artefacts.pictures)
       picture(kind, [&name = name, &map = map] { return perception::errorPicture(map, mapWhite(name)); });
     if (run.artefacts.exr) exr(kind, map);
+  }
+  for (const perception::MetricPicture& one : shown.pictures) {
+    if (one.coded)
+      picture("view_" + one.name, [&one] { return one.image; });
+    else
+      exr(one.name, one.image);
   }
   std::vector<store::Artefact> out;
   for (std::future<store::Artefact>& file : files) out.push_back(file.get());

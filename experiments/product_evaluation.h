@@ -12,17 +12,22 @@
 
 namespace limen::experiments {
 
+/// What metrics show, for artefacts.
+struct MetricPictures {
+  std::vector<std::pair<std::string, Image>> maps;  ///< name, image
+  std::vector<perception::MetricPicture> pictures;
+};
+
 /// Applies the run's metrics; those that average pixels get a fact NAME_noise if the reference is sampled.
-/// Maps for pictures are added to `maps` (name, image).
+/// Maps and pictures are added to `shown`, each name once.
 std::vector<store::Measurement> evaluate(const PlannedRun& run, const perception::ComparisonInput& input,
-                                         std::vector<std::pair<std::string, Image>>& maps);
+                                         MetricPictures& shown);
 
 /// Writes the run's pictures below `folder`/artefacts and returns them with their hashes; paths are relative
 /// to `folder`. `views` (Technique::pictures()) become artefacts of kind "view_NAME_png".
 std::vector<store::Artefact> writeArtefacts(const PlannedRun& run, const std::string& folder,
                                             const Image& product, const Image* reference,
-                                            const Image& shading,
-                                            const std::vector<std::pair<std::string, Image>>& maps,
+                                            const Image& shading, const MetricPictures& shown,
                                             const std::map<std::string, techniques::PictureMaker>& views);
 
 }  // namespace limen::experiments

@@ -5,29 +5,36 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "experiments/base/image.h"
 
 namespace limen::experiments {
 
-/// Reference products on disk (32-bit EXR), named by a hash of everything that determines them. Safe to share
-/// between processes: files appear atomically.
+/// A reference's product with what is to be known of how it was made (Technique::remarks()): which tracer,
+/// for example, where the descriptor leaves that open.
+struct Reference {
+  std::shared_ptr<const Image> image;
+  std::vector<std::string> remarks;
+};
+
+/// Reference products on disk (32-bit EXR, and their remarks beside them as JSON), named by a hash of
+/// everything that determines them. Safe to share between processes: files appear atomically.
 class ReferenceCache {
  public:
   explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
       : folder_(std::move(folder)), bytesInMemory_(bytesInMemory) {}
 
-  /// The product named `key` of `width` x `height` pixels, made by `make` if neither memory nor disk has it,
-  /// or a file of another size. Memory holds those used last.
-  std::shared_ptr<const Image> get(const std::string& key, int width, int height,
-                                   const std::function<Image()>& make);
+  /// The product named `key` of `width` x `height` pixels, made by `make` if neither memory nor disk has it
+  /// with its remarks, or a file of another size. Memory holds those used last.
+  Reference get(const std::string& key, int width, int height, const std::function<Reference()>& make);
 
  private:
   struct Held {
     std::string key;
-    std::shared_ptr<const Image> image;
+    Reference reference;
   };
-  void hold(const std::string& key, std::shared_ptr<const Image> image);
+  void hold(const std::string& key, Reference reference);
 
   std::string folder_;
   size_t bytesInMemory_;

@@ -6,8 +6,40 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/shaded.h"
 
 namespace limen::experiments {
+
+perception::LitSurfaces ShownSurfaces::of(frame::Frame& frame) {
+  frame::ShadedSetting albedo, direct;
+  albedo.ambient = 1.0, albedo.diffuse = 0.0, albedo.background = -1.0;
+  direct.ambient = 0.0, direct.diffuse = 1.0, direct.background = 0.0;
+  return {&frame.get<frame::Shaded>(albedo).texture(), &frame.get<frame::Shaded>(direct).texture()};
+}
+
+ShownSurfaces::ShownSurfaces(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx)
+    : frame_(context, onGpu, sizePx) {
+  frame_.begin();
+  textures_ = of(frame_);
+  frame_.end();
+}
+
+perception::Depicts depicts(techniques::ProductKind kind) {
+  using perception::Depicts;
+  using techniques::ProductKind;
+  switch (kind) {
+    case ProductKind::Visibility:
+    case ProductKind::LightColour:
+      return Depicts::ShareOfLight;
+    case ProductKind::Colour:
+      return Depicts::Light;
+    case ProductKind::Threshold:
+    case ProductKind::VisibilityChange:
+    case ProductKind::JndMap:
+      return Depicts::Nothing;
+  }
+  return Depicts::Nothing;
+}
 
 nlohmann::json sceneFacts(const scene::Scene& scene) {
   const scene::Bounds bounds = scene.bounds();
@@ -55,8 +87,8 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
                   {}, "choose another light or another technique");
 }
 
-Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
-                 const Configuration& technique) {
+RenderedOnce renderWithRemarks(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                               const Configuration& technique) {
   const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(technique.name);
   requireTraits(info, onGpu.scene);
   const auto made = info.make(technique.values);
@@ -65,9 +97,14 @@ Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec
   frame.begin();
   made->render(frame);
   frame.end();
-  Image product = made->product().read();
+  RenderedOnce out{made->product().read(), made->remarks()};
   context.checkDebugMessages();
-  return product;
+  return out;
+}
+
+Image renderOnce(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,
+                 const Configuration& technique) {
+  return renderWithRemarks(context, onGpu, sizePx, technique).product;
 }
 
 }  // namespace limen::experiments

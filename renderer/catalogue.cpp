@@ -40,6 +40,7 @@ Catalogue readRegistries() {
     entry.source = info.source;
     entry.parameters = info.parameters;
     entry.quantity = info.quantity();
+    entry.figures = info.figures;
     entry.needsReference = info.needsReference;
   }
   out.shading = frame::ShadedSetting::table().parameters();

@@ -19,6 +19,8 @@ struct ValidateOptions : StudyInput {
   ValidationSetting setting;
   std::string guess = "catch", lapse = "free";
   std::vector<double> coverageEdges, ratingEdges;
+  std::string scores;
+  std::vector<std::string> quality;
 };
 
 /// A rate from 0 to below 1.
@@ -46,6 +48,9 @@ void validate(const ValidateOptions& options) {
   if (options.lapse != "free") setting.lapse = rateOf(options.lapse, "--lapse", "'free'");
   if (setting.guess.value_or(0.0) + setting.lapse.value_or(0.0) >= 1.0)
     throw Error("guess and lapse rates sum to 1 or more", "--guess, --lapse");
+  if (options.scores.empty() && !options.quality.empty())
+    throw Error("there are no scores", "--quality", "name their table with --scores");
+  if (!options.scores.empty()) setting.scores = readClipScores(options.scores, options.quality);
   const StudyAnswers study = readStudy(options);
   const std::vector<store::StudyPrediction> predictions = store::readPredictions(options.choice.store);
   print(options, headOf(study),
@@ -100,6 +105,14 @@ void addStudyCommands(CLI::App& app) {
                       "sessions')");
   command->add_option("--settings", setting.settings,
                       "First digits of the SHA-256 of the predictor's settings (default: the newest)");
+  command->add_option(
+      "--scores", options->scores,
+      "CSV of other scores to test: column clip (limen study export --clips) or stimulus_hash, and a "
+      "column for each predictor; larger means more visible");
+  command
+      ->add_option("--quality", options->quality, "Columns of --scores in which larger means better instead")
+      ->type_name("NAME,...")
+      ->delimiter(',');
   addDefaulted(*command, "--guess", options->guess,
                "Guess rate of the fitted link: catch (their rate), free, or a number");
   addDefaulted(*command, "--lapse", options->lapse, "Lapse rate of the fitted link: free, or a number");

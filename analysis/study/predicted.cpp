@@ -57,9 +57,10 @@ double ratingScore(std::vector<double> ratings, double without, size_t top) {
 
 const std::vector<PredictorName>& studyPredictors() {
   static const std::vector<PredictorName> kNames = {
-      {"rating", "R of the region rated highest"},
+      {"rating", "R of the region rated highest, at the cue if there is one"},
+      {"rest_rating", "R of the region rated highest away from the cue"},
       {"detection_score", "Table 10.1 of rating score and coverage"},
-      {"rating_score", "mean R of the most highly rated regions"},
+      {"rating_score", "mean R of the most highly rated regions, at the cue if there is one"},
       {"rating_level", "level of that mean; what the thesis correlates as its rating score"},
       {"coverage_score", "level of the popping pixels' share of the object"},
       {"detection_probability", "of the rating, by the link that the prediction was made with"},
@@ -71,6 +72,8 @@ const std::vector<PredictorName>& studyPredictors() {
       {"mean_de94", "mean CIE94 difference of the frames"},
       {"flip", "mean FLIP of the frames"},
       {"one_minus_ssim", "1 - SSIM of the frames"},
+      {"color_video_vdp", "10 - JOD of the frames by ColorVideoVDP"},
+      {"color_video_vdp_clip", "10 - JOD of the clip around the change by ColorVideoVDP"},
       {"rmse", "RMS difference of light"},
       {"rmse_coded", "RMS difference of pixel values"}};
   return kNames;
@@ -85,8 +88,8 @@ std::map<std::string, double> predictorValues(const nlohmann::json& figures, con
   if (number("rating") && figures.contains("regions")) {
     std::vector<double> ratings;
     for (const nlohmann::json& region : figures["regions"])
-      ratings.push_back(region.at("rating").get<double>());
-    out["region_count"] = static_cast<double>(ratings.size());
+      if (region.value("at_cue", true)) ratings.push_back(region.at("rating").get<double>());
+    out["region_count"] = static_cast<double>(figures["regions"].size());
     out["rating_score"] = ratingScore(ratings, out["rating"], bins.topRegions);
     const int rating = ratingLevel(out["rating_score"], bins);
     out["rating_level"] = rating;
@@ -140,6 +143,7 @@ ChosenPredictions choosePredictions(const std::vector<store::StudyPrediction>& p
     if (!choice.settings.empty() && hash.rfind(choice.settings, 0) != 0) continue;
     out.settingsHash = hash;
     out.programVersion = one->programVersion;
+    out.version = one->settings.value("popping_version", 1);
   }
   if (!choice.settings.empty() && out.settingsHash.empty())
     throw Error("no prediction with settings '" + choice.settings + "'", "--settings",

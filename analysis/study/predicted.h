@@ -57,6 +57,7 @@ using PredictionKey = std::pair<std::string, std::string>;
 /// Predictions of one program with one set of settings: figures of different ones are not comparable.
 struct ChosenPredictions {
   std::string settingsHash, programVersion;
+  int version = 1;  ///< of the predictor's figures; 1: ratings are of all regions, whatever was cued
   std::map<PredictionKey, std::map<std::string, double>> values;  ///< of predictorValues()
 };
 

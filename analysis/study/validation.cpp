@@ -83,6 +83,15 @@ void compareWith(std::vector<Agreement>& out, const PartValidation& part, const 
     }
 }
 
+/// Predictors that are compared with each other: one for each kind, and all that others bring.
+bool isCompared(const std::string& predictor) {
+  for (const PredictorName& own : studyPredictors())
+    if (own.name == predictor)
+      return predictor == "rating" || predictor == "flip" || predictor == "one_minus_ssim" ||
+             predictor == "color_video_vdp" || predictor == "color_video_vdp_clip";
+  return true;
+}
+
 void compareTrials(PartValidation& out) {
   std::vector<int> outcomes;
   std::map<std::string, std::vector<double>> scores;
@@ -98,13 +107,20 @@ void compareTrials(PartValidation& out) {
     out.notes.push_back("all trials with a change were answered alike: no area under a curve");
     return;
   }
-  for (const PredictorName& predictor : studyPredictors()) {
-    if (!full(predictor.name)) continue;
-    TrialArea area{predictor.name, rocArea(scores[predictor.name], outcomes), {}};
-    if (predictor.name != "rating" && full("rating"))
-      area.againstRating = compareRocAreas(scores[predictor.name], scores["rating"], outcomes);
+  for (const std::string& predictor : out.predictors) {
+    if (!full(predictor)) continue;
+    TrialArea area{predictor, rocArea(scores[predictor], outcomes), {}};
+    if (predictor != "rating" && full("rating"))
+      area.againstRating = compareRocAreas(scores[predictor], scores["rating"], outcomes);
     out.areas.push_back(std::move(area));
   }
+  std::vector<std::string> compared;
+  for (const std::string& predictor : out.predictors)
+    if (full(predictor) && isCompared(predictor)) compared.push_back(predictor);
+  for (size_t i = 0; i < compared.size(); ++i)
+    for (size_t k = i + 1; k < compared.size(); ++k)
+      out.comparisons.push_back(
+          {compared[i], compared[k], compareRocAreas(scores[compared[i]], scores[compared[k]], outcomes)});
 }
 
 void fitLinks(PartValidation& out, const ObserverCounts& catches, const ValidationSetting& setting,
@@ -154,9 +170,34 @@ StudyValidation validateStudy(const StudyAnswers& study,
   if (wanted.empty())
     throw Error("no trial with a change asks for yes or no", study.plan.name,
                 "name another protocol with --protocol");
-  const ChosenPredictions chosen = choosePredictions(predictions, study.plan, wanted, setting);
+  ChosenPredictions chosen;
+  if (predictions.empty() && setting.scores) {
+    for (const PredictionKey& key : wanted) chosen.values[key];
+    out.notes.push_back(
+        "the store has no predictions (limen study predict makes them): only the scores are tested");
+  } else {
+    chosen = choosePredictions(predictions, study.plan, wanted, setting);
+    std::erase_if(chosen.values, [&](const auto& one) { return wanted.count(one.first) == 0; });
+  }
+  std::vector<std::string> predictors;
+  for (const PredictorName& predictor : studyPredictors()) predictors.push_back(predictor.name);
+  if (setting.scores) {
+    const size_t others = addClipScores(*setting.scores, study.plan, chosen.values);
+    if (others > 0)
+      out.notes.push_back(
+          std::to_string(others) +
+          " rows of the scores are of clips without a change, or of none in this study: left out");
+    out.scoresFile = setting.scores->file;
+    out.scoresHash = setting.scores->hash;
+    predictors.insert(predictors.end(), setting.scores->names.begin(), setting.scores->names.end());
+  }
   out.settingsHash = chosen.settingsHash;
   out.programVersion = chosen.programVersion;
+  if (!chosen.settingsHash.empty() && chosen.version < 2)
+    out.notes.push_back(
+        "predictions of version 1: rated by the highest of all regions, also where a cue asks about one "
+        "place "
+        "(limen study predict makes those at the cue)");
   std::set<std::string> names;
   for (const auto& [used, predicted] : displays) {
     const auto name = displayNames.find(predicted);
@@ -175,8 +216,7 @@ StudyValidation validateStudy(const StudyAnswers& study,
         ++catches[answer.observer].trials;
         catches[answer.observer].yes += answer.outcome == 1 ? 1 : 0;
       }
-    std::vector<std::string> predictors;
-    for (const PredictorName& predictor : studyPredictors()) predictors.push_back(predictor.name);
+    one.predictors = predictors;
     compareWith(one.agreements, one, study.plan.name, predictors, false,
                 [](const Scenario& scenario) { return std::optional<double>(scenario.rate); });
     compareWith(one.severity, one, study.plan.name, {"rating_score", "rating_level"}, true,

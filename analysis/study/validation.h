@@ -13,6 +13,7 @@
 #include "analysis/study/link.h"
 #include "analysis/study/predicted.h"
 #include "analysis/study/published.h"
+#include "analysis/study/scores.h"
 #include "experiments/store/predictions.h"
 
 namespace limen::analysis {
@@ -44,28 +45,39 @@ struct TrialArea {
   std::optional<RocComparison> againstRating;  ///< this predictor minus `rating`; none for that itself
 };
 
+/// Two predictors on the same trials.
+struct TrialComparison {
+  std::string first, second;
+  RocComparison areas;  ///< first minus second
+};
+
 struct PartValidation {
   std::string part;
+  std::vector<std::string> predictors;  ///< Limen's own, then those of ClipScores
   std::vector<Scenario> scenarios;
   std::vector<Agreement> agreements;
   std::vector<Agreement> severity;  ///< rating_score and its level with mean severity; no clamp
   std::vector<TrialArea> areas;     ///< empty if all trials were answered alike
+  /// Rating, FLIP, SSIM, ColorVideoVDP and ClipScores, each with each.
+  std::vector<TrialComparison> comparisons;
   std::optional<Calibration> calibration;
   LinkReport link;
   std::vector<std::string> notes;
 };
 
 struct ValidationSetting : PredictionChoice {
-  std::optional<double> guess;  ///< of the link; none: from catch trials
-  bool fitGuess = false;        ///< fitted together with the catch trials
-  std::optional<double> lapse;  ///< none: fitted
-  size_t samples = 400;         ///< of the bootstrap over observers, for the link
+  std::optional<ClipScores> scores;  ///< to compare with the predictors, or instead of them if there are none
+  std::optional<double> guess;       ///< of the link; none: from catch trials
+  bool fitGuess = false;             ///< fitted together with the catch trials
+  std::optional<double> lapse;       ///< none: fitted
+  size_t samples = 400;              ///< of the bootstrap over observers, for the link
   uint64_t seed = 1;
   bool onlyAgreements = false;  ///< no areas, calibration and link
 };
 
 struct StudyValidation {
-  std::string settingsHash, programVersion;  ///< of the predictions
+  std::string settingsHash, programVersion;  ///< of the predictions; "" without any
+  std::string scoresFile, scoresHash;        ///< of ClipScores; "" without them
   std::vector<std::string> displays;         ///< that were predicted for
   std::vector<PartValidation> parts;         ///< those that ask for yes or no
   std::vector<std::string> notes;
@@ -82,7 +94,7 @@ StudyValidation validateStudy(const StudyAnswers& study,
                               const ValidationSetting& setting = {});
 
 /// A section for each part with tables "scenarios" (rates and predictors of each), "agreement", "areas",
-/// "calibration", "bins", "link" and "link_errors".
+/// "comparisons", "calibration", "bins", "link" and "link_errors".
 Result resultOf(const StudyValidation& validation);
 
 }  // namespace limen::analysis

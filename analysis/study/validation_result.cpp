@@ -16,9 +16,9 @@ ResultTable scenarioTable(const PartValidation& part) {
       .add(count("yes", "trials"), countOf(&Scenario::yes, &Scenario::trials))
       .add(share("rate"), &Scenario::rate)
       .add(number("mean_severity"), &Scenario::meanSeverity);
-  for (const PredictorName& predictor : studyPredictors())
-    out.add(number(predictor.name), [&](const Scenario& one) {
-      const auto value = one.predictors.find(predictor.name);
+  for (const std::string& predictor : part.predictors)
+    out.add(number(predictor), [&predictor](const Scenario& one) {
+      const auto value = one.predictors.find(predictor);
       return value == one.predictors.end() ? ResultCell() : ResultCell(value->second);
     });
   ResultTable table = out;
@@ -72,6 +72,17 @@ ResultTable areaTable(const PartValidation& part) {
       .add(interval("minus_rating"), against(&RocComparison::interval))
       .add(forData(number("z")), against(&RocComparison::z))
       .add(probability("p", "p (DeLong)"), against(&RocComparison::p));
+}
+
+ResultTable comparisonTable(const PartValidation& part) {
+  const auto areas = [](auto... of) { return at(&TrialComparison::areas, of...); };
+  return TableOf("comparisons", "differences of these areas, on the same trials", part.comparisons)
+      .add(text("first"), &TrialComparison::first)
+      .add(text("second", "minus"), &TrialComparison::second)
+      .add(number("difference"), areas(&RocComparison::difference))
+      .add(interval("difference"), areas(&RocComparison::interval))
+      .add(forData(number("z")), areas(&RocComparison::z))
+      .add(probability("p", "p (DeLong)"), areas(&RocComparison::p));
 }
 
 struct LinkRow {
@@ -148,6 +159,7 @@ Section sectionOf(const PartValidation& part) {
   out.add(agreementTable(part.agreements, false));
   out.add(agreementTable(part.severity, true));
   out.add(areaTable(part));
+  if (!part.comparisons.empty()) out.add(comparisonTable(part));
   if (part.calibration) addCalibration(out, *part.calibration, "detection_probability", "95 %");
   out.add(linkTable(link));
   out.add(errorTable(link));
@@ -161,8 +173,14 @@ Section sectionOf(const PartValidation& part) {
 Result resultOf(const StudyValidation& validation) {
   Result out;
   out.command = "validate";
-  out.head.fact(text("program_version", "predictions made by"), validation.programVersion);
-  out.head.fact(text("settings_hash", "settings' SHA-256"), validation.settingsHash);
+  if (!validation.settingsHash.empty()) {
+    out.head.fact(text("program_version", "predictions made by"), validation.programVersion);
+    out.head.fact(text("settings_hash", "settings' SHA-256"), validation.settingsHash);
+  }
+  if (!validation.scoresFile.empty()) {
+    out.head.fact(text("scores", "scores of"), validation.scoresFile);
+    out.head.fact(forData(text("scores_hash")), validation.scoresHash);
+  }
   out.head.fact(list("predicted_for", "for display"), validation.displays);
   for (const PartValidation& part : validation.parts) out.sections.push_back(sectionOf(part));
   out.notes = validation.notes;

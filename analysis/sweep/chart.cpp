@@ -66,6 +66,11 @@ std::string script(const Chart& chart, const ChartAxis& x, const ChartAxis& y, s
       shortestNumber(x.high), shortestNumber(reversed ? y.high : y.low),
       shortestNumber(reversed ? y.low : y.high));
   out += ticksScript("x", x) + ticksScript("y", y);
+  if (chart.limit && y.low <= *chart.limit && *chart.limit <= y.high)
+    out += fmt::format(
+        "set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead dashtype 2 lw 1 lc rgb '#777777'\n"
+        "set label 1 {1} at graph 0.99, first {0} right offset 0, 0.5 noenhanced\n",
+        shortestNumber(*chart.limit), gnuplotQuoted(chart.limitLabel));
   // Data set 0 is the front (with its ends at the border), then comes one for each series: x, y, low, high.
   std::string plots = "'" + chart.name + ".dat' index 0 using 1:2 with steps lw 2 lc rgb '#777777'";
   for (size_t series = 0; series < seriesCount; ++series)
@@ -151,13 +156,18 @@ std::string decorate(const ChartMark& mark, const std::string& use, std::vector<
     number = fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", at.x, at.y + 4,
                          mark.frontNumber);
   }
+  const std::string ring =
+      mark.ringed
+          ? fmt::format("<circle class=\"ring\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"10\"/>", place.x, place.y)
+          : "";
   return fmt::format(
       "<g class=\"mark s{}{}\" data-series=\"{}\" data-run=\"{}\" data-label=\"{}\" data-x=\"{}\" "
-      "data-y=\"{}\" data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}<circle class=\"hit\" "
+      "data-y=\"{}\" data-hover=\"{}\" tabindex=\"0\" role=\"img\" aria-label=\"{}\">{}{}<circle "
+      "class=\"hit\" "
       "cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"11\"/>{}</g>",
       colourOf(mark.series), mark.onFront ? " front" : "", mark.series, escapeHtml(mark.key),
       escapeHtml(mark.label), shortestNumber(mark.x), shortestNumber(mark.y), escapeHtml(mark.hover),
-      escapeHtml(spoken), use, place.x, place.y, number);
+      escapeHtml(spoken), use, ring, place.x, place.y, number);
 }
 
 // gnuplot writes the points of a plot in the order of its data, so the n-th <use> of a series is its n-th

@@ -23,6 +23,7 @@ struct ChartMark {
   std::string key;       ///< of the run
   std::string label;     ///< what it is
   std::string hover;     ///< lines of text, separated by line feeds
+  bool ringed = false;   ///< the cheapest within the chart's limit
 };
 
 /// Marks of one panel, written as gnuplot script and data and drawn as SVG.
@@ -32,8 +33,10 @@ struct Chart {
   std::string xTitle, yTitle;
   bool yUpsideDown = false;  ///< linear and reversed, so that better is always below
   std::vector<ChartMark> marks;
-  std::vector<size_t> front;  ///< indices of marks, from fast to exact; empty: no line
-  bool hasFront = true;       ///< a page that hides marks draws the front of the others
+  std::vector<size_t> front;         ///< indices of marks, from fast to exact; empty: no line
+  std::optional<double> limit = {};  ///< drawn as a line across, at this value of y
+  std::string limitLabel = {};       ///< "1 JND"
+  bool hasFront = true;              ///< a page that hides marks draws the front of the others
 };
 
 /// Range and ticks that the panels of a figure share.

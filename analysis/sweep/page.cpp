@@ -110,6 +110,16 @@ std::string renderCellName(const Sweep& sweep, const Cell& cell) {
   return out + "</span>";
 }
 
+std::string renderTies(const Sweep& sweep, const std::vector<size_t>& ties) {
+  constexpr size_t kNamedTies = 2;
+  if (ties.empty()) return "";
+  std::string text;
+  for (const size_t tie : ties)
+    text += (text.empty() ? "" : "; ") + escapeHtml(sweep.label(sweep.cells[tie]));
+  if (ties.size() > kNamedTies) text = fmt::format("{} others", ties.size());
+  return "<span class=\"ties\">≈ " + text + "</span>";
+}
+
 std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures) {
   std::string body = "<main>\n";
   body += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +

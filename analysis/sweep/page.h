@@ -24,6 +24,7 @@ std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictu
 // Its sections, each a piece of HTML or "" if there is nothing to say.
 std::string renderNotices(const Sweep& sweep);
 std::string renderVerdict(const Sweep& sweep);
+std::string renderVisible(const Sweep& sweep);       ///< within the verdict
 std::string renderVerdictRules(const Sweep& sweep);  ///< items of a list
 std::string renderLegend(const Sweep& sweep);
 std::string renderSpeed(const Sweep& sweep, const PageCharts& charts);
@@ -38,6 +39,8 @@ std::string renderEnvironment(const Sweep& sweep);
 
 /// "soft_shadows/pcss, samples 8" with the marker of its series, as HTML.
 std::string renderCellName(const Sweep& sweep, const Cell& cell);
+/// "≈ pcss, samples 8": settings not told apart from one that is named; "" without any.
+std::string renderTies(const Sweep& sweep, const std::vector<size_t>& ties);
 /// "1.23 ms", with the interval if there is one, as plain text.
 std::string describeTime(const Sweep& sweep, const Cell& cell, bool withInterval);
 /// "[1.2–1.4]"

@@ -130,6 +130,19 @@ std::string renderRunTable(const Sweep& sweep) {
                      toHtml(table, options));
 }
 
+/// How references were made where that was left open, with the runs compared with each.
+std::string referenceRemarks(const Sweep& sweep) {
+  std::map<std::string, size_t> runs;
+  for (const Cell& cell : sweep.cells)
+    if (cell.run.sceneFacts.contains("reference_remarks"))
+      for (const nlohmann::json& remark : cell.run.sceneFacts.at("reference_remarks"))
+        ++runs[remark.get<std::string>()];
+  std::string out;
+  for (const auto& [remark, count] : runs)
+    out += "<p><b>Reference of " + counted(count, "run") + ":</b> " + escapeHtml(remark) + "</p>\n";
+  return out;
+}
+
 std::string renderRemarks(const Sweep& sweep) {
   std::vector<const Cell*> cells;
   for (const Cell& cell : sweep.cells)
@@ -139,12 +152,14 @@ std::string renderRemarks(const Sweep& sweep) {
       toHtml(TableOf("remarks", "", cells)
                  .add(html("run"), [&](const Cell* cell) { return renderCellName(sweep, *cell); })
                  .add(text("in"), [&](const Cell* cell) { return sweep.panels[cell->panel].title; })
-                 .add(html("chosen, and why"), [](const Cell* cell) {
-                   std::string out = "<ul>";
-                   for (const nlohmann::json& remark : cell->run.sceneFacts.at("remarks"))
-                     out += "<li>" + escapeHtml(remark.get<std::string>()) + "</li>";
-                   return out + "</ul>";
-                 })));
+                 .add(html("chosen, and why"),
+                      [](const Cell* cell) {
+                        std::string out = "<ul>";
+                        for (const nlohmann::json& remark : cell->run.sceneFacts.at("remarks"))
+                          out += "<li>" + escapeHtml(remark.get<std::string>()) + "</li>";
+                        return out + "</ul>";
+                      })) +
+          referenceRemarks(sweep));
 }
 
 std::string renderProblems(const Sweep& sweep) {

@@ -9,8 +9,6 @@
 namespace limen::analysis {
 namespace {
 
-constexpr size_t kNamedTies = 2;
-
 /// Levels that name the same settings in every panel, as one column.
 struct LevelColumn {
   double first, last;
@@ -59,12 +57,7 @@ std::string renderWinner(const Sweep& sweep, const Panel& panel, const TradeOffV
       "<td data-level=\"{}\"{}>{}<span class=\"value\">{}</span><span class=\"why\">{}</span>", heading,
       span > 1 ? fmt::format(" colspan=\"{}\"", span) : "", renderCellName(sweep, winner),
       escapeHtml(describeTime(sweep, winner, false)), renderError(sweep, winner, panel));
-  if (level.ties.empty()) return out + "</td>";
-  std::string ties;
-  for (const size_t tie : level.ties)
-    ties += (ties.empty() ? "" : "; ") + escapeHtml(sweep.label(sweep.cells[tie]));
-  if (level.ties.size() > kNamedTies) ties = fmt::format("{} others", level.ties.size());
-  return out + "<span class=\"ties\">≈ " + ties + "</span></td>";
+  return out + renderTies(sweep, level.ties) + "</td>";
 }
 
 std::string renderMatrix(const Sweep& sweep) {
@@ -159,6 +152,7 @@ std::string renderVerdict(const Sweep& sweep) {
     for (const Panel& panel : sweep.panels) out += "<li>" + renderSentence(sweep, panel) + "</li>\n";
     out += "</ul>\n";
   }
+  out += renderVisible(sweep);
   const auto undrawn = static_cast<size_t>(std::count_if(sweep.cells.begin(), sweep.cells.end(),
                                                          [](const Cell& cell) { return !cell.isDrawn(); }));
   if (undrawn > 0)

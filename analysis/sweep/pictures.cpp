@@ -34,10 +34,13 @@ const store::Artefact* find(const store::Run& run, const std::string& kind) {
   return nullptr;
 }
 
-// The map of the error that the charts show, else the plain error, else any other.
+// The map of the error that the charts show, else the plain error, else any other. A metric with several
+// figures names its map: "jnd" of "jnd_p95".
 const store::Artefact* findErrorMap(const store::Run& run, const std::string& metric) {
-  for (const std::string& kind : {metric + "_png", std::string("error_png")})
-    if (const store::Artefact* map = find(run, kind)) return map;
+  for (std::string name = metric; !name.empty();
+       name.resize(name.find('_') == std::string::npos ? 0 : name.rfind('_')))
+    if (const store::Artefact* map = find(run, name + "_png")) return map;
+  if (const store::Artefact* map = find(run, "error_png")) return map;
   for (const store::Artefact& artefact : run.artefacts)
     if (artefact.kind.ends_with("_png") && artefact.kind != "product_png" &&
         artefact.kind != "reference_png" && !artefact.kind.starts_with(kViewPrefix))

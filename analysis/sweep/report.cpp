@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/page.h"
 #include "analysis/sweep/trade_off.h"
+#include "analysis/sweep/visible.h"
 #include "experiments/base/error.h"
 #include "experiments/base/staged_folder.h"
 
@@ -70,6 +73,10 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
                                     const std::string& folder, PageCharts& page) {
   std::vector<Chart> charts;
   std::vector<std::vector<double>> xs, ys;
+  const VisibleVerdict visible = findVisible(sweep);
+  const auto shown =
+      std::find_if(visible.measures.begin(), visible.measures.end(),
+                   [&](const VisibleVerdict::Measure& measure) { return measure.axis.name == sweep.y.name; });
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
     const Panel& panel = sweep.panels[index];
     Chart chart;
@@ -80,6 +87,13 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
     chart.yUpsideDown = sweep.y.higherIsBetter();
     chart.hasFront = isCounter ? sweep.y.direction != Direction::Neither : sweep.noVerdict.empty();
     std::vector<double>&x = xs.emplace_back(), &y = ys.emplace_back();
+    std::optional<size_t> cheapest;
+    if (shown != visible.measures.end()) {
+      cheapest = shown->panels[index].cheapest;
+      chart.limit = kVisibleFrom;
+      chart.limitLabel = withUnit(kVisibleFrom, sweep.y);
+      y.push_back(kVisibleFrom);  // so that the line is in sight even if all marks are on one side of it
+    }
     std::vector<std::pair<double, double>> points;
     for (const size_t cellIndex : panel.cells) {
       const Cell& cell = sweep.cells[cellIndex];
@@ -94,6 +108,10 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
                      cell.run.key,
                      sweep.label(cell),
                      hoverText(sweep, cell, xAxis, *at)};
+      if (cellIndex == cheapest) {
+        mark.ringed = !isCounter;
+        mark.hover += "\ncheapest below " + chart.limitLabel;
+      }
       x.push_back(*at);
       if (mark.interval) x.insert(x.end(), {mark.interval->low, mark.interval->high});
       y.push_back(*cell.y);

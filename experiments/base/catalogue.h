@@ -26,7 +26,8 @@ struct CatalogueEntry {
   std::vector<Quantity> counters = {};  ///< what its runs may measure besides the common quantities
 
   // Metrics only.
-  Quantity quantity = "";  ///< what it measures
+  Quantity quantity = "";              ///< what it measures
+  std::vector<Quantity> figures = {};  ///< if it measures several things (MetricInfo::figures)
   bool needsReference = true;
 };
 

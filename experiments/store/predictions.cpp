@@ -23,6 +23,13 @@ bool isThere(sqlite3* database, const StudyPrediction& key) {
 
 std::string settingsHash(const nlohmann::json& settings) { return sha256(jsonText(settings)); }
 
+std::string clipName(const std::string& stimulusHash, const std::string& displayHash, int widthPx,
+                     int heightPx) {
+  const std::string text =
+      stimulusHash + "\n" + displayHash + "\n" + std::to_string(widthPx) + "x" + std::to_string(heightPx);
+  return "clip_" + sha256(text).substr(0, 16);
+}
+
 PredictionLog::PredictionLog(const std::string& path)
     : database_(openDatabase(path, false, 1, Contents::Sessions)) {}
 

@@ -25,6 +25,11 @@ struct StudyPrediction {
 /// SHA-256 of settings as the store holds them.
 std::string settingsHash(const nlohmann::json& settings);
 
+/// Names what a stimulus looks like in one window of one display: "clip_" and 16 hexadecimal digits. Exported
+/// clips have these names, and scores of them come back under them.
+std::string clipName(const std::string& stimulusHash, const std::string& displayHash, int widthPx,
+                     int heightPx);
+
 /// Writes predictions. Like SessionLog, every member throws Error.
 class PredictionLog {
  public:

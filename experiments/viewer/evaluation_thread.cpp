@@ -36,8 +36,8 @@ std::string identityOf(const ViewSetup& setup) {
 
 /// The figures that all pictures have come first; those of special defects follow by name.
 size_t rankOf(const std::string& metric) {
-  constexpr std::array<const char*, 7> kFirst = {"rmse", "mae",       "psnr",         "ssim",
-                                                 "flip", "p99_error", "largest_error"};
+  constexpr std::array<const char*, 8> kFirst = {"rmse", "mae", "psnr",      "ssim",
+                                                 "flip", "jnd", "p99_error", "largest_error"};
   return static_cast<size_t>(std::find(kFirst.begin(), kFirst.end(), metric) - kFirst.begin());
 }
 
@@ -87,13 +87,21 @@ class EvaluationThread::Work {
 
   void evaluate(const EvaluationRequest& request, EvaluationResult& out) {
     const bool everywhere = experiments::evaluatedEverywhere(request.kind);
+    const perception::Depicts depicted = experiments::depicts(request.kind);
+    std::optional<experiments::ShownSurfaces> surfaces;
+    if (depicted == perception::Depicts::ShareOfLight) {
+      viewed_.show(completeScene(request.setup.scene));
+      surfaces.emplace(context_, viewed_.get(), request.setup.sizePx);
+    }
     for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
-      if (!info.needsReference) continue;
+      if (!info.needsReference || info.needsPath) continue;
       const ParameterValues defaults(info.parameters, {});
       const auto compare = [&, &metric = info](const Image& product, std::map<std::string, ErrorMap>& maps) {
-        const perception::ComparisonInput input{
+        perception::ComparisonInput input{
             nullptr,    nullptr, &product, out.reference.get(), everywhere ? nullptr : &request.view->mask,
             &metricGpu_};
+        input.depicts = depicted;
+        if (surfaces) input.surfaces = &surfaces->textures();
         perception::MetricResult result = metric.compare(input, defaults);
         if (result.map && !maps.count(result.mapName)) {
           const double white = experiments::mapWhite(result.mapName);

@@ -37,6 +37,7 @@ void paintPopping(const Image& actual, const Image& before, const EvaluationRequ
   perception::PoppingInput input;
   input.actual = actual;
   input.predicted = before;
+  input.isSwitch = true;
   const perception::PoppingResult popping = perception::predictPopping(input, request.display);
   perception::OverlayOptions options;
   options.legend = false;

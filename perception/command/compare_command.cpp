@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "experiments/base/error.h"
 #include "experiments/base/failure.h"
@@ -16,6 +17,7 @@
 #include "perception/command/map_picture.h"
 #include "perception/command/output_files.h"
 #include "perception/command/popping_report.h"
+#include "perception/command/video_difference.h"
 #include "perception/metrics/metric.h"
 
 namespace limen::perception {
@@ -26,19 +28,22 @@ struct CompareOptions : ImageOptions {
   std::string test, reference, mapFolder;
   std::vector<std::string> metrics;
   bool all = false, regions = false;
+  double framesPerSecond = 0.0;  ///< 0: that of the videos, if there are any
 };
 
 /// Named like a metric: the popping predictor on the pair, with nothing moving.
 constexpr const char* kJnd = "jnd";
 
-/// What to run, each with its settings (same order); `jnd` is separate from the metrics.
+/// What to run, each with its settings (same order); `jnd` and ColorVideoVDP, which evaluates videos as a
+/// whole, are separate from the metrics.
 struct Selection {
   std::vector<std::string> metrics;
-  bool jnd = false;
-  std::vector<SettingsGroup> groups;  ///< of the metrics, then of jnd
+  bool jnd = false, video = false;
+  std::vector<SettingsGroup> groups;  ///< of the metrics, then of ColorVideoVDP, then of jnd
 
   std::vector<std::string> names() const {
     std::vector<std::string> all = metrics;
+    if (video) all.emplace_back(VideoDifference::kName);
     if (jnd) all.emplace_back(kJnd);
     return all;
   }
@@ -55,24 +60,37 @@ const std::vector<std::string>& usualFigures() {
   return kNames;
 }
 
+/// Registered ones that take a pair of images; `jnd` is done here, on the CPU too.
+std::vector<std::string> imageMetrics() {
+  std::vector<std::string> names;
+  for (const auto& [name, info] : MetricRegistry::instance().all())
+    if (name != kJnd && !info.needsPath) names.push_back(name);
+  return names;
+}
+
 std::vector<std::string> allMetrics() {
   std::vector<std::string> names = defaultMetrics();
+  names.emplace_back(VideoDifference::kName);
   names.emplace_back(kJnd);
   return names;
 }
 
-Selection select(const std::vector<std::string>& asked, const DisplayProfile& display) {
+Selection select(const std::vector<std::string>& asked, const DisplayProfile& display,
+                 const std::string& displayName) {
   Selection out;
   for (auto name = asked.begin(); name != asked.end(); ++name) {
     if (std::find(asked.begin(), name, *name) != name)
       throw Error("'" + *name + "' is given twice", "--metrics", "give each metric once");
     if (*name == kJnd) {
       out.jnd = true;
+    } else if (*name == VideoDifference::kName) {
+      out.video = true;
     } else {
       out.metrics.push_back(*name);
     }
   }
   out.groups = metricSettings(out.metrics, display);
+  if (out.video) out.groups.push_back(VideoDifference::settings(displayName));
   if (out.jnd) out.groups.push_back({kJnd, PoppingSettings::table().parameters()});
   return out;
 }
@@ -160,6 +178,20 @@ struct Conclusions {
   }
 };
 
+/// Frame rate of the videos among the inputs, or as stated; 0 if nothing says.
+double rateOf(const CompareOptions& options, const std::vector<VideoFacts>& videos) {
+  if (options.framesPerSecond > 0.0) return options.framesPerSecond;
+  double rate = 0.0;
+  for (const VideoFacts& facts : videos) {
+    if (!(facts.framesPerSecond > 0.0)) continue;
+    if (rate > 0.0 && facts.framesPerSecond != rate)
+      throw Error(fmt::format("the videos have {:.6g} and {:.6g} frames/s", rate, facts.framesPerSecond),
+                  "--fps", "state the rate at which both are shown");
+    rate = facts.framesPerSecond;
+  }
+  return rate;
+}
+
 bool areIdentical(const InputImage& a, const InputImage& b) {
   return a.nonFinite == 0 && b.nonFinite == 0 && a.linear.channels == b.linear.channels &&
          a.linear.data == b.linear.data;
@@ -189,7 +221,7 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   const Selection selected = select(!options.metrics.empty() ? options.metrics
                                     : usual                  ? usualMetrics()
                                                              : allMetrics(),
-                                    display);
+                                    display, options.displayName);
   if (options.list) {
     printSettings(options, selected.groups);
     return kExitSuccess;
@@ -203,14 +235,19 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
       selected.jnd ? PoppingSettings::table().read(values.back()) : PoppingSettings{};
   const ParameterValues input = options.input();
   ImageMetrics metrics(selected.metrics, values);
-  Figures declared = metrics.declared();
-  if (selected.jnd) append(declared, declaredPoppingFigures());
-  const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, declared, "");
 
   const std::vector<ImageSequence> sequences = {expandImages(options.test), expandImages(options.reference)};
   const std::vector<FrameSet> frames = alignSequences(sequences);
   std::vector<std::string> files;
   for (const FrameSet& frame : frames) files.insert(files.end(), frame.paths.begin(), frame.paths.end());
+  const double rate = selected.video ? rateOf(options, videosOf(sequences)) : 0.0;
+  std::optional<VideoDifference> video;
+  if (selected.video)
+    video.emplace(values[selected.metrics.size()], options.displayName, frames.size(), rate);
+  Figures declared = metrics.declared();
+  if (video) append(declared, VideoDifference::declared(video->isVideo()));
+  if (selected.jnd) append(declared, declaredPoppingFigures());
+  const std::vector<Limit> limits = parseLimits(options.failAbove, options.failBelow, declared, "");
   OutputFiles outputs(frames, files);
   outputs.addFolder("--map", options.mapFolder);
 
@@ -228,8 +265,9 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
   header.json = options.json;
   header.sentenceFirst = true;
   header.videos = videosOf(sequences);
+  if (video && video->isVideo()) header.overallFigures = {VideoDifference::kVideoName};
   if (usual) header.shownFigures = usualFigures();
-  header.primaryFigures = {"rmse", "psnr", "ssim", "de94", "flip", "largest_jnd"};
+  header.primaryFigures = {"rmse", "psnr", "ssim", "de94", "flip", VideoDifference::kName, "largest_jnd"};
   ReportPrinter printer(header, frames.size(), limits);
   Conclusions conclusions;
   for (const FrameSet& frame : frames) {
@@ -243,6 +281,10 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
     std::vector<MetricMap>* const wanted = options.mapFolder.empty() ? nullptr : &maps;
     report.figures = namingFile(frame.label(), [&] { return metrics.run(test, reference, wanted); });
     report.extra = metrics.facts();
+    if (video) {
+      append(report.figures, namingFile(frame.label(), [&] { return video->add(test, reference, wanted); }));
+      report.extra[VideoDifference::kName] = video->facts();
+    }
     if (selected.jnd) predictJnd(test, reference, display, popping, options.regions, report, wanted);
     for (const MetricMap& map : maps)
       writeMap(map, outputs.folder(options.mapFolder, frame), header.statement, report);
@@ -251,7 +293,13 @@ int compare(const CompareOptions& options, const std::vector<std::string>& words
     conclusions.add(report.figures, identical, frame.label());
     printer.add(report);
   }
-  return printer.finish(conclusions.sentence(selected.jnd, display));
+  std::string sentence = conclusions.sentence(selected.jnd, display);
+  if (video && video->isVideo()) {
+    const Figures overall = video->finish();
+    printer.addOverall(overall, {{VideoDifference::kName, video->facts()}});
+    if (const std::string more = video->sentence(overall); !more.empty()) sentence += "\n" + more;
+  }
+  return printer.finish(sentence);
 }
 
 }  // namespace
@@ -275,12 +323,19 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
                     "The regions in which the change would pop as a switch between two frames");
   command
       ->add_option("--metrics", options->metrics,
-                   "Only these: " + join(MetricRegistry::instance().names()) +
+                   "Only these: " + join(imageMetrics()) +
                        ", jnd (the popping predictor, nothing moving)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->excludes(all);
+  command
+      ->add_option(
+          "--fps", options->framesPerSecond,
+          "Frames per second of the sequences, for color_video_vdp (default: as the videos state; of "
+          "images none, each is then compared by itself)")
+      ->type_name("RATE")
+      ->check(CLI::Range(1.0, 1000.0));
   command
       ->add_option("--map", options->mapFolder,
                    "Folder for the metrics' maps: EXR of the values, PNG for viewing")
@@ -295,7 +350,8 @@ void addCompareCommand(CLI::App& app, int& exitCode, const std::vector<std::stri
                    "Exit with 1 if a figure for which higher is better is below a limit")
       ->type_name("FIGURE=VALUE")
       ->allow_extra_args(false);
-  addSettingsHelp(*command, [] { return select(allMetrics(), displayPreset("desktop_24")).groups; });
+  addSettingsHelp(*command,
+                  [] { return select(allMetrics(), displayPreset("desktop_24"), "desktop_24").groups; });
   command->callback([options, &exitCode, words] { exitCode = compare(*options, words); });
 }
 

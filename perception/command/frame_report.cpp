@@ -146,7 +146,7 @@ void ReportPrinter::add(const FrameReport& report) {
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "limen-perceive: %swarning: %s\n", printable(prefix).c_str(),
                  printable(warning).c_str());
-  for (const std::string& words : exceeded(report.figures, limits_)) exceeded_.push_back(prefix + words);
+  checkLimits(report.figures, prefix, false);
   summary_.add(report.figures, report.frame.label());
 
   if (!header_.json) {
@@ -157,6 +157,23 @@ void ReportPrinter::add(const FrameReport& report) {
   line["event"] = frames_ == 1 ? "result" : "frame";
   if (frames_ == 1) line.update(headerJson());
   printLine(line);
+}
+
+void ReportPrinter::checkLimits(const Figures& figures, const std::string& prefix, bool overall) {
+  std::vector<Limit> own;
+  for (const Limit& limit : limits_) {
+    const bool isOverall = std::find(header_.overallFigures.begin(), header_.overallFigures.end(),
+                                     limit.figure) != header_.overallFigures.end();
+    if (isOverall == overall) own.push_back(limit);
+  }
+  for (const std::string& words : exceeded(figures, own)) exceeded_.push_back(prefix + words);
+}
+
+void ReportPrinter::addOverall(const Figures& figures, const nlohmann::json& extra) {
+  checkLimits(figures, "", true);
+  overall_.insert(overall_.end(), figures.begin(), figures.end());
+  if (!header_.extra.is_object()) header_.extra = nlohmann::json::object();
+  header_.extra.update(extra);
 }
 
 int ReportPrinter::finish(const std::string& sentence) {
@@ -170,11 +187,13 @@ int ReportPrinter::finish(const std::string& sentence) {
     line["worst_frame"] = worst.empty() ? nlohmann::json() : nlohmann::json(worst);
     line["worst_by"] = header_.primaryFigures.empty() ? "" : header_.primaryFigures.front();
     line["warning_count"] = warnings_;
+    if (!overall_.empty()) line["overall"] = figuresAsJson(overall_);
     if (!sentence.empty()) line["sentence"] = sentence;
     printLine(line);
   } else if (frames_ > 1) {
     if (!sentence.empty()) std::printf("\n%s\n", sentence.c_str());
     std::printf("\n%zu frames\n%s", frames_, summary_.table(header_.shownFigures).c_str());
+    if (!overall_.empty()) std::printf("all frames together\n%s", figureTable(overall_).c_str());
     if (!worst.empty())
       std::printf("worst frame by %s: %s\n", header_.primaryFigures.front().c_str(), worst.c_str());
   }

@@ -24,9 +24,10 @@ struct ReportHeader {
   nlohmann::json extra;     ///< further members of the JSON result; an object or null
   std::vector<std::string>
       primaryFigures;  ///< shown for each frame of a sequence; the first determines the worst
-  std::vector<std::string> shownFigures;  ///< in text; empty: all
-  std::vector<VideoFacts> videos;         ///< that are read
-  bool sentenceFirst = false;             ///< of a single image: its sentence comes first, the statement last
+  std::vector<std::string> shownFigures;    ///< in text; empty: all
+  std::vector<std::string> overallFigures;  ///< that addOverall() will give
+  std::vector<VideoFacts> videos;           ///< that are read
+  bool sentenceFirst = false;  ///< of a single image: its sentence comes first, the statement last
   bool json = false;
 };
 
@@ -56,6 +57,8 @@ class ReportPrinter {
 
   /// Throws Error if a limit is on a figure that cannot be determined.
   void add(const FrameReport& report);
+  /// Figures of all frames together, for the summary, with further members of its JSON object.
+  void addOverall(const Figures& figures, const nlohmann::json& extra);
   /// Prints the summary. Returns the exit code: kExitFailedRuns if a limit was exceeded (said on stderr),
   /// else success.
   /// `sentence`, if given, says what the frames of a sequence come down to.
@@ -65,11 +68,14 @@ class ReportPrinter {
   nlohmann::json headerJson() const;
   void printStatement() const;
   void printText(const FrameReport& report) const;
+  /// Records which limits on figures of a frame, or on those of all frames together, are exceeded.
+  void checkLimits(const Figures& figures, const std::string& prefix, bool overall);
 
   ReportHeader header_;
   size_t frames_;
   std::vector<Limit> limits_;
   FigureSummary summary_;
+  Figures overall_;
   std::vector<std::string> exceeded_;
   size_t warnings_ = 0;
 };

@@ -194,6 +194,7 @@ void predict(const Call& call, const FrameSet& frame, const FrameSet* previous, 
   input.actual = after.shown();
   input.predicted = before.shown();
   input.linear = true;
+  input.isSwitch = true;
   if (!frame.paths[kMotion].empty())
     input.actualDisplacement = readMap(frame.paths[kMotion], "--motion", 2, after);
   if (!frame.paths[kOldMotion].empty())

@@ -20,6 +20,25 @@ class Texture;
 namespace limen::perception {
 
 class MetricGpu;
+struct PathFrame;
+struct PathRequest;
+
+/// What a product is to a viewer.
+enum class Depicts {
+  Light,         ///< linear light, 1: the display's white
+  ShareOfLight,  ///< share of the direct light that arrives at each pixel's surface
+  Nothing        ///< a quantity that is not looked at
+};
+
+/// The surfaces that a share of light falls on: RGBA32F, linear.
+struct LitSurfaces {
+  const gl::Texture* albedo = nullptr;  ///< reflectance; negative in the background
+  const gl::Texture* direct = nullptr;  ///< reflectance times the cosine towards the light
+};
+
+/// Renders the frames of a path in order, both products, and visits each with the one before it.
+using PathVisitor = std::function<void(int step, const PathFrame& before, const PathFrame& now)>;
+using PathRenderer = std::function<void(const PathRequest&, const PathVisitor&)>;
 
 /// One pair of products to compare. All images have the same size. The textures are the technique's output;
 /// the images are the same values read back (once for all metrics of a run).
@@ -31,13 +50,27 @@ struct ComparisonInput {
   /// 1 where the product is meaningful (receivers), 0 elsewhere; 1 channel. Null: everywhere.
   const Image* mask = nullptr;
   MetricGpu* gpu = nullptr;  ///< for metrics with needsGl; null if there is no GL context
+  Depicts depicts = Depicts::Light;
+  const LitSurfaces* surfaces = nullptr;  ///< for metrics with needsSurfaces; null if there are none
+  const PathRenderer* path = nullptr;     ///< for metrics with needsPath; null if there is no scene
+  bool wantsPictures = false;             ///< coded ones of MetricResult::pictures will be used
+  bool wantsLight = false;                ///< those of linear light will be
+};
+
+/// What a metric shows besides its map.
+struct MetricPicture {
+  std::string name;   ///< "jnd_regions"
+  Image image;        ///< 3 channels
+  bool coded = true;  ///< for a display, as writePng() takes it; otherwise linear light
 };
 
 struct MetricResult {
   double value = 0.0;
+  std::vector<double> figures = {};  ///< those that MetricInfo::figures declares, in its order
   /// Per-pixel map (1 channel, larger is worse), if the metric has one.
   std::optional<Image> map;
   std::string mapName;  ///< "absolute_error", "flip", ...
+  std::vector<MetricPicture> pictures = {};
   /// Pixels that were evaluated. If there are none (an empty region), `value` is that of a perfect product.
   int64_t evaluatedPixels = 0;
 };
@@ -55,7 +88,12 @@ struct MetricInfo {
   std::string title = {};  ///< as an axis label, without the unit: "RMSE", "Mean FLIP error"
   std::string unit = {};   ///< "" for pure numbers
   Direction direction = Direction::LowerIsBetter;
+  /// Of a metric with several figures: each is stored under the metric's name followed by its own ("p95" of
+  /// "jnd": jnd_p95). Empty: `value` alone is stored.
+  std::vector<Quantity> figures = {};
   bool needsGl = false;
+  bool needsSurfaces = false;  ///< shows visibility and light colour on the scene's surfaces
+  bool needsPath = false;      ///< evaluates several frames
   /// Changing the reference changes the value by at most the root mean square of its pixels' changes, as for
   /// means of errors over pixels.
   bool averagesPixels = false;

@@ -80,7 +80,7 @@ void measure(gl::Context& context, glm::ivec2 size, const std::string& content, 
   input.actual = &actual, input.predicted = &predicted, input.actualDisplacement = &moved;
   input.disocclusion = &weight;
   const DisplayProfile display = displayPreset("schwarz_2009");
-  PoppingPredictorGpu predictor(context, size, display);
+  PoppingPredictorGpu predictor(context, size, display, {}, in.isSwitch);
   const bool software = context.device().software;
 
   gl::PassList passes;
@@ -161,7 +161,12 @@ int measureAll(bool quick) {
               : std::vector<glm::ivec2>{{1024, 768}, {1920, 1080}, {3840, 2160}};
     for (const glm::ivec2 size : sizes)
       for (const bool isScene : {true, false})
-        measure(*context, size, isScene ? "scene" : "noise", makeInput(size, isScene), size.x <= 1920);
+        for (const bool isSwitch : {false, true}) {
+          PoppingInput input = makeInput(size, isScene);
+          input.isSwitch = isSwitch;
+          measure(*context, size, std::string(isScene ? "scene" : "noise") + (isSwitch ? " switched" : ""),
+                  input, size.x <= 1920);
+        }
     context->checkDebugMessages();
     return kExitSuccess;
   } catch (const std::exception& error) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "perception/popping/gpu/regions_gpu.h"
 #include "perception/popping/predictor.h"
+#include "perception/popping/temporal_gpu.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
@@ -31,8 +33,9 @@ struct PoppingGpuInput {
 class PoppingPredictorGpu {
  public:
   /// Throws Error like poppingModel(), and on a masking model or decomposition without a GPU version.
+  /// `isSwitch`: as PoppingInput::isSwitch.
   PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx, const DisplayProfile& display,
-                      const PoppingSettings& settings = {});
+                      const PoppingSettings& settings = {}, bool isSwitch = false);
 
   /// With `passes`, stages are opened as passes "popping/...".
   void run(const PoppingGpuInput& input, gl::PassList* passes = nullptr);
@@ -77,6 +80,7 @@ class PoppingPredictorGpu {
   glm::vec2 tableLow_, tablePer_;
   gl::Texture cones_;  ///< Gaussian pyramids of cone responses and speed; layers: actual, predicted
   gl::Texture differences_, sensitivities_, jnd_, seeds_;
+  std::optional<TemporalTablesGpu> temporal_;
   gl::Buffer counters_, mean_;
   RegionsGpu regions_;
 };

@@ -21,6 +21,7 @@
 #include "perception/multiscale/pyramid.h"
 #include "perception/popping/input.h"
 #include "perception/popping/sensitivity.h"
+#include "perception/popping/temporal_sensitivity.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/masking.h"
 
@@ -42,6 +43,12 @@ glm::dvec3 luminanceRow() {
   return {inverse[0].y, inverse[1].y, inverse[2].y};
 }
 
+/// What a level of a frame shows, if the model over time is used.
+struct Content {
+  Planes contrast;  ///< A, a, b over the band's gain
+  Plane luminance;
+};
+
 class Predictor {
  public:
   Predictor(const PoppingInput& input, const DisplayProfile& display, const PoppingSettings& settings,
@@ -54,12 +61,15 @@ class Predictor {
         isStack_(settings.bands.isStack()),
         luminanceRow_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
         isDkl_(settings.sensitivity.isDkl()),
+        isFitted_(settings.bands.isFitted()),
         greyGain_(opponentFromLms({1, 1, 1}).x / settings.sensitivity.greyGain()) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
     pyramid_.kernel = settings.bands.kernel();
     pyramid_.upsampler = settings.bands.upsampler();
     sensitivity_.emplace(result_.model, display, settings, options.tables);
+    if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && input.isSwitch)
+      temporal_.emplace(result_.model, display, settings, *channels, *sensitivity_);
     const Masking masking = makeMasking(settings.masking, "popping");
     transducer_ = masking.transducer;
     closedForm_ = options.tables && isCubic(settings.masking);
@@ -86,10 +96,14 @@ class Predictor {
 
     std::vector<Planes> differences;
     for (int level = 0; level < result_.model.contrastLevels; ++level) {
-      Planes response = respond(actual, level, "actual");
-      const Planes other = respond(predicted, level, "predicted");
-      for (size_t c = 0; c < 3; ++c)
-        for (size_t p = 0; p < response[c].data.size(); ++p) response[c].data[p] -= other[c].data[p];
+      Content before, after;
+      Planes response = respond(actual, level, "actual", after);
+      const Planes other = respond(predicted, level, "predicted", before);
+      if (temporal_)
+        response = switchBetween(predicted, before, actual, after, level);
+      else
+        for (size_t c = 0; c < 3; ++c)
+          for (size_t p = 0; p < response[c].data.size(); ++p) response[c].data[p] -= other[c].data[p];
       keep("difference_" + std::to_string(level), response);
       differences.push_back(std::move(response));
     }
@@ -188,24 +202,45 @@ class Predictor {
     return std::copysign(std::pow(x, 0.7) * std::pow(1.0 + 1.0 / (x * x * x), -0.1), c);
   }
 
+  /// A level at its own size, blurred along both axes.
+  Plane blur(const Plane& plane, const std::array<double, 5>& taps) const {
+    Kernel kernel;
+    kernel.taps = taps;
+    return resample(plane, dilatedTaps(plane.width, kernel, 1, pyramid_.border),
+                    dilatedTaps(plane.height, kernel, 1, pyramid_.border));
+  }
+
+  /// Contrasts of the opponent channels from those of the planes.
+  glm::dvec3 opponentOf(const glm::dvec3& contrast) const {
+    if (isDkl_) return contrast;
+    glm::dvec3 opponent = opponentFromLms(contrast);
+    opponent.x /= greyGain_;
+    return opponent;
+  }
+
   // Contrast, opponent colours, normalisation by sensitivity, masking.
-  Planes respond(const FrameLevels& frame, int level, const std::string& name) {
+  Planes respond(const FrameLevels& frame, int level, const std::string& name, Content& content) {
     const std::string suffix = name + "_" + std::to_string(level);
     const auto i = static_cast<size_t>(level);
-    Planes contrast;
-    Plane coarser;
+    Planes contrast, coarser, once, twice;
     for (size_t c = 0; c < 3; ++c) {
       contrast[c] = isStack_ ? frame.lms[c][i + 1] : upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
-      if (c == 0 || !isDkl_)
-        coarser = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      if (c > 0 && isDkl_)
+        coarser[c] = coarser[0];
+      else
+        coarser[c] = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
+      if (isFitted_) {
+        once[c] = blur(own, {0.0, 0.25, 0.5, 0.25, 0.0});
+        twice[c] = blur(own, Kernel::binomial5().taps);
+      }
       for (size_t p = 0; p < own.data.size(); ++p) {
-        if (!(coarser.data[p] >= settings_.bands.denominatorEpsilon)) ++guarded_;
-        contrast[c].data[p] = (own.data[p] - contrast[c].data[p]) /
-                              std::max(coarser.data[p], settings_.bands.denominatorEpsilon);
+        if (!(coarser[c].data[p] >= settings_.bands.denominatorEpsilon)) guarded_ += isDkl_ ? 3 : 1;
+        coarser[c].data[p] = std::max(coarser[c].data[p], settings_.bands.denominatorEpsilon);
+        contrast[c].data[p] = (own.data[p] - contrast[c].data[p]) / coarser[c].data[p];
       }
     }
-    const Plane luminance = adaptation(frame, level);
+    Plane luminance = adaptation(frame, level);
     keep("luminance_" + suffix, {&luminance});
     const int width = contrast[0].width, height = contrast[0].height;
     Plane velocity(width, height);
@@ -219,25 +254,69 @@ class Predictor {
               screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree), eyeModel_,
               leastVelocityDegS_);
           velocity.at(x, y) = v;
-          glm::dvec3 opponent(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
-          if (isDkl_) {
-            opponent /= gain;
+          const glm::dvec3 whole(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
+          const glm::dvec3 opponent = opponentOf(whole) / gain;
+          glm::dvec3 normalised;
+          if (isFitted_) {
+            const auto weights = sensitivity_->weights(level, v, luminance.at(x, y));
+            glm::dvec3 parts[kBandParts];
+            for (int c = 0; c < 3; ++c) {
+              const auto at = static_cast<size_t>(c);
+              const double own = frame.lms[at][i].at(x, y), scale = 1.0 / coarser[at].at(x, y);
+              parts[0][c] = (own - once[at].at(x, y)) * scale;
+              parts[1][c] = (once[at].at(x, y) - twice[at].at(x, y)) * scale;
+              parts[2][c] = whole[c] - (own - twice[at].at(x, y)) * scale;
+            }
+            normalised = glm::dvec3(0.0);
+            for (size_t k = 0; k < kBandParts; ++k)
+              normalised += glm::dvec3(weights[k][0], weights[k][1], weights[k][2]) * opponentOf(parts[k]);
           } else {
-            opponent = opponentFromLms(opponent) / gain;
-            opponent.x /= greyGain_;
+            const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
+            normalised = opponent * glm::dvec3(s[0], s[1], s[2]);
           }
-          const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
           for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<size_t>(c);
             contrast[at].at(x, y) = opponent[c];
-            response[at].at(x, y) = transducer(opponent[c] * s[at]);
+            response[at].at(x, y) = transducer(normalised[c]);
           }
         }
     });
     keep("contrast_" + suffix, contrast);
     keep("velocity_" + suffix, {&velocity});
     keep("response_" + suffix, response);
+    content.contrast = std::move(contrast);
+    content.luminance = std::move(luminance);
     return response;
+  }
+
+  double screenDegS(const FrameLevels& frame, size_t level, size_t pixel) const {
+    const double speedPx = frame.speedPx.empty() ? 0.0 : frame.speedPx[level].data[pixel];
+    return screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree);
+  }
+
+  // Differences of a switch from one content to the other, over time. Both move with the mean of their
+  // speeds.
+  Planes switchBetween(const FrameLevels& from, const Content& before, const FrameLevels& to,
+                       const Content& after, int level) const {
+    const int width = before.luminance.width, height = before.luminance.height;
+    Planes out{Plane(width, height), Plane(width, height), Plane(width, height)};
+    forRowBlocks(height, static_cast<size_t>(width) * 800, [&](int first, int end) {
+      for (size_t p = static_cast<size_t>(first) * width; p < static_cast<size_t>(end) * width; ++p) {
+        const auto i = static_cast<size_t>(level);
+        const double screen = 0.5 * (screenDegS(from, i, p) + screenDegS(to, i, p)),
+                     retinal = retinalVelocityDegS(screen, eyeModel_, leastVelocityDegS_);
+        const auto contrast = [&](const Content& content) {
+          return std::array<double, 3>{content.contrast[0].data[p], content.contrast[1].data[p],
+                                       content.contrast[2].data[p]};
+        };
+        const std::array<double, 3> difference = switchDifference(
+            contrast(after), temporal_->at(level, retinal, after.luminance.data[p]), contrast(before),
+            temporal_->at(level, retinal, before.luminance.data[p]),
+            temporal_->holdBlurAt(level, screen, retinal), [this](double c) { return transducer(c); });
+        for (size_t c = 0; c < 3; ++c) out[c].data[p] = difference[c];
+      }
+    });
+    return out;
   }
 
   /// Two neighbours of a row or column of level 0 in a coarser level, and the second's weight.
@@ -376,10 +455,11 @@ class Predictor {
   const int width_, height_;
   const bool isStack_;
   const glm::dvec3 luminanceRow_;
-  const bool isDkl_;
+  const bool isDkl_, isFitted_;
   const double greyGain_;  // of cone contrasts
   PyramidSettings pyramid_;
   std::optional<Sensitivity> sensitivity_;
+  std::optional<TemporalSensitivity> temporal_;  // of a switch that is seen over time
   std::function<double(double)> transducer_;
   bool closedForm_ = false;
   std::set<std::string> wanted_;

@@ -21,6 +21,9 @@ struct PoppingInput {
   /// Values are light (Rec. 709, 1: the display's white); those above 1 are brighter than the display's
   /// white. Otherwise they are pixel values, which the display's transfer curve turns into light.
   bool linear = false;
+  /// The predicted content is shown until the actual one replaces it, and viewers watch for that: `temporal`
+  /// of the settings applies. Otherwise both are compared as lasting pictures.
+  bool isSwitch = false;
   /// Displacement of each pixel against the previous frame: 2 or more channels, pixels per frame. Empty:
   /// nothing moves. If only one is given, it is used for both frames.
   Image actualDisplacement, predictedDisplacement;
@@ -74,9 +77,9 @@ struct PoppingOptions {
 
 /// Names of the stages of a model, in the order of computation: "lms_actual_0" ... (cone responses, alpha the
 /// speed in pixels per frame), "contrast_actual_0" ... (A, a, b), "luminance_actual_0" ... (adaptation,
-/// cd/m2), "velocity_actual_0" ... (retinal, deg/s), "response_actual_0" ... (JND, A, a, b), the same for
-/// "predicted", "difference_0" ... (A, a, b), "jnd" (before weighting), "signed_jnd" (weighted), "weight",
-/// "weighted_jnd", "seeds", "labels", "rating".
+/// cd/m2), "velocity_actual_0" ... (retinal, deg/s), "response_actual_0" ... (JND, A, a, b, as a
+/// lasting picture), the same for "predicted", "difference_0" ... (A, a, b), "jnd" (before weighting),
+/// "signed_jnd" (weighted), "weight", "weighted_jnd", "seeds", "labels", "rating".
 std::vector<std::string> poppingStages(const PoppingModel& model);
 
 /// The model that predictPopping() uses. Throws Error like that.

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/csf.h"
 #include "perception/vision/masking.h"
@@ -145,6 +146,24 @@ const SettingsTable<MonotoneTracking>& MonotoneTracking::table() {
   return kTable;
 }
 
+const SettingsTable<TemporalChannels>& TemporalChannels::table() {
+  using S = TemporalChannels;
+  static const SettingsTable<S> kTable = {
+      {&S::windowS,
+       "window_s",
+       {0.05, 4.0},
+       "s",
+       "length of the impulse responses, half before the switch and half after it",
+       kOwn},
+      {&S::holdShare,
+       "hold_share",
+       {0.0, 1.0},
+       "",
+       "share of a frame's time during which the display shows it; 1: LCD, near 0: a flash",
+       kOwn}};
+  return kTable;
+}
+
 const SettingsTable<LevelsByPeak>& LevelsByPeak::table() {
   static const SettingsTable<LevelsByPeak> kTable = {
       Binding(&LevelsByPeak::leastPeakCpd, "least_peak_cpd", Range{0.01, 30.0}, "cpd",
@@ -176,17 +195,35 @@ const SettingsTable<BandSettings>& BandSettings::table() {
               "bands from a halving pyramid, or all at full size (slow, CPU only)", kModel)
           .formerly({"decomposition"}),
       {&S::levels, "levels", "number of levels", kModel},
+      {&S::weights, "weights", "what a level's contrast is multiplied by", kModel},
       Binding(&S::kernelCentre, "kernel_centre", Range{0.3, 0.5}, "",
               "centre of the five-tap low-pass of Burt and Adelson; 0.375: binomial", kModel)
           .formerly({"kernel_centre"}),
       Binding(&S::peakModel, "peak_model", "frequency that a level represents", kModel)
           .formerly({"peak_model"}),
-      Binding(&S::compensateGain, "compensate_gain", "divide a level's contrast by its filter's gain", kModel)
-          .formerly({"compensate_gain"}),
       Binding(&S::denominatorEpsilon, "denominator_epsilon", Range{1e-9, 10.0}, "cd/m2",
               "smallest cone response used as a contrast's denominator", kOwn)
           .formerly({"denominator_epsilon"})};
   return kTable;
+}
+
+const SettingsTable<PeakWeights>& PeakWeights::table() {
+  static const SettingsTable<PeakWeights> kTable = {Binding(&PeakWeights::compensateGain, "compensate_gain",
+                                                            "divide a level's contrast by its filter's gain",
+                                                            kModel)
+                                                        .formerly({"compensate_gain"})};
+  return kTable;
+}
+
+bool BandSettings::compensatesGain() const {
+  const auto* peak = std::get_if<PeakWeights>(&weights);
+  return !peak || peak->compensateGain;
+}
+
+void BandSettings::check() const {
+  if (isStack() && isFitted())
+    throw Error("weights of a stack are not fitted", "weights",
+                "choose weights: peak, or decomposition: pyramid");
 }
 
 Upsampler BandSettings::upsampler() const {
@@ -246,6 +283,7 @@ const SettingsTable<PoppingSettings>& PoppingSettings::table() {
       {&S::sensitivity, "sensitivity",
        "contrast sensitivities of the channels, and their reference conditions"},
       {&S::eyeMovement, "eye_movement", "retinal velocity that remains after the eye's tracking", kModel},
+      {&S::temporal, "temporal", "what is seen of a switch over time"},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
       {&S::bands, "bands", "how pictures are decomposed into frequency bands"},
@@ -277,6 +315,7 @@ PoppingSettings PoppingSettings::preset(PredictorModel model) {
   out.sensitivity.blueYellow = {{"kelly83", {}}, ChromaticPeakScale{.threshold = 0.012}};
   out.sensitivity.contrast = ConeContrast{};
   out.sensitivity.stimulusArea = ImageArea{};
+  out.temporal = SingleFrame{};
   return out;
 }
 

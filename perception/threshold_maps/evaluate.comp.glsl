@@ -17,11 +17,13 @@ layout(binding = kEvaluateStagesImage, rg32f) uniform writeonly image2D stages;
 // For each tile column, then each tile row: first sample and count at each level from 1.
 layout(std430, binding = kEvaluatePatchesBuffer) readonly buffer Patches { ivec2 patches[]; };
 uniform int tileColumns;
+uniform ivec2 firstTile;  // of those that this dispatch evaluates
 // For each level from 1 all columns of the map, then likewise all rows: first sample, its weight, the third's;
 // the second has the rest.
 layout(std430, binding = kEvaluateTapsBuffer) readonly buffer Taps { vec4 taps[]; };
 
 const ivec2 kTile = ivec2(TILE_X, TILE_Y);
+ivec2 tileNumber() { return firstTile + ivec2(gl_WorkGroupID.xy); }
 const int kRun = TILE_X * TILE_Y / THREADS;  // pixels of an invocation, one below the other
 const int kPlanes = LEVELS - 1;
 
@@ -45,12 +47,12 @@ shared vec4 rowTaps[kPlanes * kTile.y];
 shared float rows[kFirstRow[kPlanes] * kTile.x];  // at the tile's columns
 
 ivec2 originOf(int i) {
-  return ivec2(patches[int(gl_WorkGroupID.x) * kPlanes + i - 1].x,
-               patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].x);
+  return ivec2(patches[tileNumber().x * kPlanes + i - 1].x,
+               patches[(tileColumns + tileNumber().y) * kPlanes + i - 1].x);
 }
 ivec2 countOf(int i) {
-  return ivec2(patches[int(gl_WorkGroupID.x) * kPlanes + i - 1].y,
-               patches[(tileColumns + int(gl_WorkGroupID.y)) * kPlanes + i - 1].y);
+  return ivec2(patches[tileNumber().x * kPlanes + i - 1].y,
+               patches[(tileColumns + tileNumber().y) * kPlanes + i - 1].y);
 }
 
 // A flat field stays flat to the last bit.
@@ -100,7 +102,7 @@ void loadTile(int thread, int x, int mapColumns) {
   }
   for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
     int plane = i / kTile.y, mapRows = imageSize(threshold).y;
-    int y = min(int(gl_WorkGroupID.y) * kTile.y + i % kTile.y, mapRows - 1);
+    int y = min(tileNumber().y * kTile.y + i % kTile.y, mapRows - 1);
     rowTaps[i] = taps[kPlanes * mapColumns + plane * mapRows + y];
   }
   barrier();
@@ -118,7 +120,7 @@ void loadTile(int thread, int x, int mapColumns) {
 
 void main() {
   int thread = int(gl_LocalInvocationIndex);
-  ivec2 size = imageSize(threshold), tile = ivec2(gl_WorkGroupID.xy) * kTile;
+  ivec2 size = imageSize(threshold), tile = tileNumber() * kTile;
   ivec2 first = tile + ivec2(thread % kTile.x, thread / kTile.x * kRun);
   int x = min(first.x, size.x - 1);
   float finestValues[kRun];

@@ -194,7 +194,8 @@ void ThresholdMapGpu::keepStages() {
       &context_.programs().compute("perception/threshold_maps/evaluate.comp.glsl", defines_);
 }
 
-const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* passes) {
+const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* passes,
+                                        const std::optional<MapArea>& only) {
   assert(input.sizePx() == sizePx_ && (gl::channelCount(input.format()) == 4) == colourInput_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   run_->bindUniform(kThresholdRunBlock);
@@ -212,7 +213,7 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
   };
   timed("threshold_map/levels",
         [&] { settings_.nineFetch() || levels_ == 1 ? reduceNineFetch(input) : reduce(input); });
-  timed("threshold_map/evaluate", [&] { evaluate(); });
+  timed("threshold_map/evaluate", [&] { evaluate(only.value_or(MapArea{glm::ivec2(0), sizePx_})); });
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_TEXTURE_UPDATE_BARRIER_BIT);
   return threshold_;
@@ -270,13 +271,15 @@ void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
   }
 }
 
-void ThresholdMapGpu::evaluate() {
+void ThresholdMapGpu::evaluate(const MapArea& area) {
   finest_.bindTexture(kEvaluateFinestUnit);
   if (gaussian_) gaussian_->bindTexture(kEvaluateGaussianUnit);
   threshold_.bindImage(kEvaluateImage, Access::Write);
   if (stages_) stages_->bindImage(kEvaluateStagesImage, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
-  programs_->evaluate->dispatch(sizePx_, kTilePx);
+  const glm::ivec2 firstTile = area.low / kTilePx;
+  programs_->evaluate->set("firstTile", firstTile);
+  programs_->evaluate->dispatch(glm::min(area.high, sizePx_) - firstTile * kTilePx, kTilePx);
 }
 
 std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {

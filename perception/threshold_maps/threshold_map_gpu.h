@@ -18,6 +18,11 @@
 
 namespace limen::perception {
 
+/// Pixels of an image, `high` excluded.
+struct MapArea {
+  glm::ivec2 low{0}, high{0};
+};
+
 /// Threshold maps of images of one size, on the GPU in compute shaders. Agrees with computeThresholdMap() for
 /// the same settings within 0.5 % of each pixel's threshold in 32 bits and 2 % in 16 bits (nine fetches in 16
 /// bits aside, which store luminance itself as the thesis does and lose faint contrasts). Luminances outside
@@ -40,7 +45,9 @@ class ThresholdMapGpu {
   ThresholdMapGpu& operator=(const ThresholdMapGpu&) = delete;
 
   /// Allocates and compiles nothing and does not wait. `passes`: times reduction and evaluation separately.
-  const gl::Texture& run(const gl::Texture& linearColourOrLuminance, gl::PassList* passes = nullptr);
+  /// `only`: thresholds within it suffice; others may be those of an earlier image.
+  const gl::Texture& run(const gl::Texture& linearColourOrLuminance, gl::PassList* passes = nullptr,
+                         const std::optional<MapArea>& only = {});
   /// R32F, cd/m2.
   const gl::Texture& map() const { return threshold_; }
 
@@ -58,7 +65,7 @@ class ThresholdMapGpu {
   struct Programs;
   void reduce(const gl::Texture& input);
   void reduceNineFetch(const gl::Texture& input);
-  void evaluate();
+  void evaluate(const MapArea& area);
 
   gl::Context& context_;
   glm::ivec2 sizePx_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
+// group a band. REGIONS: several rectangles in one buffer, each with triangles of its own; see region_raster.h. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
 // sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/frame/raster_regions.h"
 #include "renderer/frame/raster_triangle.glsl"
 
 #ifndef SMALL_LANES
@@ -11,6 +12,11 @@
 #endif
 
 layout(local_size_x = kRasterGroup) in;
+#ifdef REGIONS
+layout(std140, binding = kRasterRegionsBlock) uniform Regions { RasterRegion regions[kMostRasterRegions]; };
+RasterRegion region = RasterRegion(ivec2(0), ivec2(0), 0, 0, 0, 0);  // of the triangle in hand
+#endif
+
 // A buffer, not an image: its atomics without a result cost no waiting.
 #ifdef IDS
 layout(std430, binding = kRasterDepthsBuffer) readonly buffer Depths { uint depths[]; };
@@ -20,7 +26,7 @@ layout(std430, binding = kRasterDepthsBuffer) buffer Depths { uint depths[]; };
 #endif
 layout(std430, binding = kRasterQueueBuffer) buffer Queue {
   RasterQueueHeader queue;
-  uvec2 bands[];  // triangle, first row of the band in its bounding box
+  uvec2 bands[];  // triangle, first row of the band in its bounding box (above 16 bits: its region)
 };
 
 #ifdef PEEL
@@ -48,7 +54,26 @@ uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
 // As TriangleRanges has them: first triangle of a range, and the triangles up to its end.
+#ifdef REGIONS
+layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec4 ranges[]; };  // z: region
+#else
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
+#endif
+
+// Pixels that a triangle may write, the last included, and where a pixel's result is.
+#ifdef REGIONS
+const int kWordsOfPixel = REGIONS;  // 1: its depth; 2: its depth, and the complement of its triangle
+ivec2 lowestPixel() { return region.low; }
+ivec2 highestPixel() { return region.high - 1; }
+int placeOf(ivec2 pixel) {
+  const ivec2 at = pixel - region.low;
+  return region.at + kWordsOfPixel * (at.y * (region.high.x - region.low.x) + at.x);
+}
+#else
+ivec2 lowestPixel() { return ivec2(0); }
+ivec2 highestPixel() { return sizePx - 1; }
+int placeOf(ivec2 pixel) { return pixel.y * sizePx.x + pixel.x; }
+#endif
 
 const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
 #if defined(SAMPLES) || defined(IDS)
@@ -120,8 +145,8 @@ Triangle load(uint index) {
   const vec2 limit = vec2(sizePx) + 1.0;
   low = clamp(low - (0.01 + kBeyondCentre), vec2(-1.0), limit);
   high = clamp(high + (0.01 + kBeyondCentre), vec2(-1.0), limit);
-  t.low = max(ivec2(ceil(low)), ivec2(0));
-  t.size = max(min(ivec2(floor(high)), sizePx - 1) - t.low + 1, ivec2(0));
+  t.low = max(ivec2(ceil(low)), lowestPixel());
+  t.size = max(min(ivec2(floor(high)), highestPixel()) - t.low + 1, ivec2(0));
   if (t.size.x == 0 || t.size.y == 0) t.size = ivec2(0);
   return t;
 }
@@ -174,8 +199,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   if (!(depth * (1.0 + peelBias) < texelFetch(previousDepth, pixel, 0).x)) return;
 #endif
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
-  const int at = pixel.y * sizePx.x + pixel.x;
-#ifdef IDS
+  const int at = placeOf(pixel);
+#if defined(IDS) && defined(REGIONS)
+  if (depths[at] == bits) atomicMax(ids[at + 1], ~index);
+#elif defined(IDS)
   if (depths[at] == bits) atomicMin(ids[at], index);
 #else
   atomicMax(depths[at], bits);
@@ -271,8 +298,13 @@ void main() {
   const uint count = min(queue.queued, QUEUE_CAPACITY);
   for (uint item = gl_WorkGroupID.x; item < count; item += gl_NumWorkGroups.x) {
     const uint index = bands[item].x;
-    const Triangle t = load(index);
+#ifdef REGIONS
+    region = regions[bands[item].y >> 16];
+    const int first = int(bands[item].y & 0xffffu);
+#else
     const int first = int(bands[item].y);
+#endif
+    const Triangle t = load(index);
     const int end = min(first + rowsOfBand(t), t.size.y);
     if ((end - first) * t.size.x <= kPlain)
       shadeBox(t, index, first, end);
@@ -281,7 +313,11 @@ void main() {
   }
 }
 #else
-// Number in the scene of the n-th triangle drawn.
+#ifdef REGIONS
+uint regionIndex = 0u;
+#endif
+
+// Number in the scene of the n-th triangle drawn. Finds its region.
 uint chosenTriangle(uint n) {
   if (rangeCount == 0) return n;
   int low = 0, high = rangeCount - 1;  // the first range that ends after n
@@ -292,6 +328,10 @@ uint chosenTriangle(uint n) {
     else
       low = middle + 1;
   }
+#ifdef REGIONS
+  regionIndex = ranges[low].z;
+  region = regions[regionIndex];
+#endif
   return ranges[low].x + n - (low > 0 ? ranges[low - 1].y : 0u);
 }
 
@@ -317,7 +357,11 @@ void main() {
   const uint slot = atomicAdd(queue.queued, uint((t.size.y + rows - 1) / rows));
   for (int first = 0, band = 0; first < t.size.y; first += rows, ++band) {
     if (slot + uint(band) < QUEUE_CAPACITY)
+#ifdef REGIONS
+      bands[slot + uint(band)] = uvec2(index, uint(first) | regionIndex << 16);
+#else
       bands[slot + uint(band)] = uvec2(index, uint(first));
+#endif
     else
       shadeRows(t, index, first, min(first + rows, t.size.y));
   }

@@ -83,7 +83,10 @@ const uint kPeelPreviousDepthUnit = 0u;
 const uint kLinearDepthSourceUnit = 0u;
 const uint kLinearDepthImage = 0u;
 
-// Minimum and maximum pyramid of a shadow map; three levels a dispatch.
+// Minimum and maximum pyramid of a shadow map: three levels in the first dispatch, which stores the map as
+// well, four in each further one. That is what eight image units hold.
+const int kPyramidFirstLevels = 3;
+const int kPyramidNextLevels = 4;
 const uint kPyramidDepthMapUnit = 0u;
 const uint kPyramidBaseImage = 0u;
 const uint kPyramidMinimumMapUnit = 0u;
@@ -91,15 +94,25 @@ const uint kPyramidMaximumMapUnit = 1u;
 const uint kPyramidMinimum1Image = 1u;
 const uint kPyramidMinimum2Image = 2u;
 const uint kPyramidMinimum3Image = 3u;
+const uint kPyramidMinimum4Image = 0u;
 const uint kPyramidMaximum1Image = 4u;
 const uint kPyramidMaximum2Image = 5u;
 const uint kPyramidMaximum3Image = 6u;
+const uint kPyramidMaximum4Image = 7u;
 
 // Sampled pyramid.
 const uint kSampledPyramidMapUnit = 0u;
 const uint kSampledPyramidImage = 0u;
 
-// Multi-scale shadow map.
+// Multi-scale shadow map: up to kMultiScaleLayers layers a dispatch; groups of kMultiScaleTile x
+// kMultiScaleTile invocations make as many entries of each.
+const int kMultiScaleLayers = 4;
+const int kMultiScaleTile = 16;
+// Maps of at most kMultiScaleLine texels a side: all layers along one axis, then along the other,
+// kMultiScaleColumns at a time.
+const int kMultiScaleLine = 256;
+const int kMultiScaleLineLayers = 8;
+const int kMultiScaleColumns = 8;
 const uint kMultiScaleMinimumMapUnit = 0u;
 const uint kMultiScaleMaximumMapUnit = 1u;
 const uint kMultiScaleLayersUnit = 0u;

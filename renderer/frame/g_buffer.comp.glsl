@@ -8,12 +8,11 @@ layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kGBufferIdsUnit) uniform usampler2D triangleIds;
 layout(binding = kGBufferOutImage, OUT_FORMAT) uniform writeonly image2D outImage;
 #ifdef CHANNEL_RECEIVER
-#include "renderer/frame/receiver_plane.glsl"
+#include "renderer/frame/receiver.glsl"
 layout(binding = kGBufferPlanesImage, rg32f) uniform writeonly image2D outPlanes;
 #endif
 
 uniform mat4 anchorToCamera, cameraToAnchor;
-uniform mat4 cameraToLight;
 uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform ivec2 sizePx, pictureSizePx;
 #ifdef GIVEN_PLACES
@@ -58,14 +57,7 @@ void main() {
     result = vec4(depth);
 #endif
 #ifdef CHANNEL_RECEIVER
-    const vec3 p = (cameraToLight * vec4(position, 1.0)).xyz;
-    const vec3 n = mat3(cameraToLight) * normal;
-    if (p.z > 0.0 && dot(n, p) < 0.0) {
-      // On the plane n.q = n.p, depth as a function of u = x/z, v = y/z is z = n.p / n.(u,v,1).
-      const float along = abs(dot(n, p / p.z));
-      result = vec4(p, min(p.z * (abs(n.x) + abs(n.y)) / max(along, 1e-6), 1e6 * p.z));
-      plane = planeGradient(p, n);
-    }
+    result = receiverAt(position, normal, plane);
 #endif
 #endif
   }

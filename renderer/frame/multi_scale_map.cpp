@@ -13,7 +13,13 @@
 namespace limen::frame {
 namespace {
 
-constexpr const char* kShader = "renderer/frame/multi_scale_map.comp.glsl";
+const gl::Program& layersProgram(gl::Context& context, bool byLines, bool first) {
+  if (byLines)
+    return context.programs().compute("renderer/frame/multi_scale_lines.comp.glsl",
+                                      first ? gl::ShaderDefines{{"ROWS", "1"}} : gl::ShaderDefines{});
+  return context.programs().compute("renderer/frame/multi_scale_map.comp.glsl",
+                                    first ? gl::ShaderDefines{{"FROM_PYRAMID", "1"}} : gl::ShaderDefines{});
+}
 
 int log2Of(int powerOfTwo) {
   assert(std::has_single_bit(static_cast<unsigned>(powerOfTwo)));
@@ -41,25 +47,58 @@ MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowA
     : resolution_(resolution),
       layers_(std::max(log2Of(resolution), 1)),
       anchor_(anchor),
-      first_(context.programs().compute(kShader, {{"FROM_PYRAMID", "1"}})),
-      next_(context.programs().compute(kShader)),
+      byLines_(resolution <= kMultiScaleLine),
+      first_(layersProgram(context, byLines_, true)),
+      next_(layersProgram(context, byLines_, false)),
       texture_(allocate(resolution, layers_)) {}
 
 void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
   texture_.bindImage(kMultiScaleImage, gl::Access::Write);
-  for (int layer = 1; layer <= layers_; ++layer) {
+  minimum.bindTexture(kMultiScaleMinimumMapUnit);
+  maximum.bindTexture(kMultiScaleMaximumMapUnit);
+  first_.set("sourceLevel", level);
+  if (byLines_)
+    buildByLines();
+  else
+    buildByTiles();
+}
+
+void MultiScaleLayers::buildByLines() const {
+  static_assert(1 << kMultiScaleLineLayers == kMultiScaleLine);
+  for (const gl::Program* program : {&first_, &next_}) {
+    for (int layer = 1; layer <= layers_; ++layer)
+      program->set(("offsets[" + std::to_string(layer - 1) + "]").c_str(), sourceOffsets(anchor_, layer));
+    program->set("layerCount", layers_);
+    program->set("resolution", resolution_);
+    if (program == &first_)
+      program->dispatch({resolution_, 1}, {1, 1});
+    else
+      program->dispatch({resolution_, layers_}, {kMultiScaleColumns, 1});
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    texture_.bindTexture(kMultiScaleLayersUnit);
+  }
+}
+
+void MultiScaleLayers::buildByTiles() const {
+  for (int layer = 1; layer <= layers_; layer += kMultiScaleLayers) {
     const gl::Program& program = layer == 1 ? first_ : next_;
-    if (layer == 1) {
-      minimum.bindTexture(kMultiScaleMinimumMapUnit);
-      maximum.bindTexture(kMultiScaleMaximumMapUnit);
-      program.set("sourceLevel", level);
-    } else {
-      texture_.bindTexture(kMultiScaleLayersUnit);
+    if (layer > 1) texture_.bindTexture(kMultiScaleLayersUnit);
+    // Each layer's offsets are multiples of the first one's.
+    const int stride = layer == 1 ? 1 : sourceOffsets(anchor_, layer).y;
+    const int made = std::min(kMultiScaleLayers, layers_ + 1 - layer);
+    glm::ivec2 reach(0);
+    for (int i = 0; i < made; ++i) {
+      const glm::ivec2 offsets = sourceOffsets(anchor_, layer + i) / stride;
+      program.set(("offsets[" + std::to_string(i) + "]").c_str(), offsets);
+      reach += glm::ivec2(-offsets.x, offsets.y);
     }
-    program.set("layer", layer);
+    program.set("firstLayer", layer);
+    program.set("layersMade", made);
     program.set("resolution", resolution_);
-    program.set("offsets", sourceOffsets(anchor_, layer));
-    program.dispatch(glm::ivec2(resolution_));
+    program.set("stride", stride);
+    program.set("reach", reach);
+    const int tiles = (resolution_ / stride + kMultiScaleTile - 1) / kMultiScaleTile;
+    program.dispatch(glm::ivec2(tiles * stride), {1, 1});
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 }

@@ -28,8 +28,14 @@ class MultiScaleLayers {
   int layers() const { return layers_; }
 
  private:
+  /// Several layers a dispatch.
+  void buildByTiles() const;
+  /// All layers in two dispatches, of a small map.
+  void buildByLines() const;
+
   int resolution_, layers_;
   WindowAnchor anchor_;
+  bool byLines_;
   const gl::Program &first_, &next_;
   gl::Texture texture_;
 };

@@ -12,9 +12,10 @@
 #include "renderer/frame/shadow_map.h"
 
 namespace limen::frame {
-namespace {
 
-gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const SurfaceBuffers& surface) {
+gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& frame) {
+  const bool lit = !frame.scene().lights.empty();
+  const SurfaceBuffers& surface = frame.gpuScene().surface();
   gl::ShaderDefines defines;
   if (lit) defines["LIT"] = "1";
   if (lit && setting.shadow) defines["SHADOW"] = "1";
@@ -24,8 +25,6 @@ gl::ShaderDefines definesOf(const ShadedSetting& setting, bool lit, const Surfac
   if (surface.hasAttributes()) defines["ATTRIBUTES"] = "1";
   return defines;
 }
-
-}  // namespace
 
 std::string ShadedSetting::key() const {
   std::string out;
@@ -64,9 +63,35 @@ Shaded::Shaded(Frame& frame, ShadedSetting setting)
     : setting_(std::move(setting)),
       lit_(!frame.scene().lights.empty()),
       program_(frame.context().programs().compute("renderer/frame/shaded.comp.glsl",
-                                                  definesOf(setting_, lit_, frame.gpuScene().surface()))),
+                                                  shadingDefines(setting_, frame))),
       texture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/shaded", texture_.bytes());
+}
+
+void configureShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting) {
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  program.set("anchorToCamera", glm::mat4(toCamera));
+  program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("sizePx", frame.sizePx());
+  program.set("background", glm::vec3(static_cast<float>(setting.background)));
+  program.set("ambient", static_cast<float>(setting.ambient));
+  program.set("diffuse", static_cast<float>(setting.diffuse));
+  program.set("specular", static_cast<float>(setting.specular));
+  program.set("shininess", static_cast<float>(setting.shininess));
+  const scene::Camera& seenBy =
+      setting.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting.eyeDtS);
+  program.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
+  if (!frame.scene().lights.empty()) {
+    // Seen from the scene's centre: apertures are for a distant light.
+    const scene::AreaLight& light = frame.scene().lights[0];
+    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
+    program.set("sunRadius",
+                static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
+    program.set("lightPosition", glm::vec3(light.centre - frame.gpuScene().anchor()));
+  }
+  frame.geometry().bindStorage();
+  frame.gpuScene().surface().bindStorage();
 }
 
 void Shaded::make(Frame& frame) {
@@ -78,27 +103,7 @@ void Shaded::make(Frame& frame) {
     map = &frame.casters().get<ShadowMap>(ShadowMapSettings{setting_.shadowResolution, Raster::Auto});
   }
   const auto scope = frame.passes().open("frame/shaded");
-  const glm::dmat4& toCamera = frame.anchorToCamera();
-  program_.set("anchorToCamera", glm::mat4(toCamera));
-  program_.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
-  program_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-  program_.set("sizePx", frame.sizePx());
-  program_.set("background", glm::vec3(static_cast<float>(setting_.background)));
-  program_.set("ambient", static_cast<float>(setting_.ambient));
-  program_.set("diffuse", static_cast<float>(setting_.diffuse));
-  program_.set("specular", static_cast<float>(setting_.specular));
-  program_.set("shininess", static_cast<float>(setting_.shininess));
-  const scene::Camera& seenBy =
-      setting_.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting_.eyeDtS);
-  program_.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
-  if (lit_) {
-    // Seen from the scene's centre: apertures are for a distant light.
-    const scene::AreaLight& light = frame.scene().lights[0];
-    const double distance = glm::length(light.centre - frame.gpuScene().anchor());
-    program_.set("sunRadius",
-                 static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
-    program_.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
-  }
+  configureShading(program_, frame, setting_);
   if (map) {
     const LightFrustum& frustum = map->frustum();
     program_.set("tangentLow", glm::vec2(frustum.low));
@@ -112,8 +117,6 @@ void Shaded::make(Frame& frame) {
   }
   ids.bindTexture(kShadedIdsUnit);
   texture_.bindImage(kShadedOutImage, gl::Access::Write);
-  frame.geometry().bindStorage();
-  frame.gpuScene().surface().bindStorage();
   program_.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -55,4 +55,9 @@ class Shaded : public FrameInput {
   gl::Texture texture_;
 };
 
+/// For passes that shade pixels with shading.glsl and find the light's share of each in their own way: its
+/// defines, and its uniforms and storage.
+gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& frame);
+void configureShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting);
+
 }  // namespace limen::frame

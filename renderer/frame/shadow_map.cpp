@@ -160,31 +160,32 @@ void MinMaxPyramid::make(Frame& frame) {
   frustum_ = raster.frustum();
   const auto scope = frame.passes().open(pass_);
   const int count = levels();
-  // Three levels a dispatch: with both channels that is what eight image units hold.
-  for (int base = 0; base < std::max(count - 1, 1); base += 3) {
+  constexpr std::array kMinima = {kPyramidMinimum1Image, kPyramidMinimum2Image, kPyramidMinimum3Image,
+                                  kPyramidMinimum4Image};
+  constexpr std::array kMaxima = {kPyramidMaximum1Image, kPyramidMaximum2Image, kPyramidMaximum3Image,
+                                  kPyramidMaximum4Image};
+  int made = 0;
+  for (int base = 0; base < std::max(count - 1, 1); base += made) {
     const gl::Program& program = base == 0 ? first_ : next_;
+    const int most = base == 0 ? kPyramidFirstLevels : kPyramidNextLevels;
+    made = std::min(most, std::max(count - 1 - base, 1));
     program.set("near", static_cast<float>(frustum_.near));
     program.set("sourceSize", settings_.resolution >> base);
-    const int made = std::min(3, count - 1 - base);
-    program.set("levelsMade", made);
+    program.set("levelsMade", std::min(made, count - 1 - base));
+    for (int i = 0; i < most; ++i) {
+      // Image units past the last level are bound to the last level and never written.
+      minimum_.bindImage(kMinima[static_cast<size_t>(i)], gl::Access::Write,
+                         std::min(base + 1 + i, count - 1));
+      maximum_.bindImage(kMaxima[static_cast<size_t>(i)], gl::Access::Write,
+                         std::min(base + i, maximum_.levels() - 1));
+    }
     if (base == 0) {
       raster.depth().bindTexture(kPyramidDepthMapUnit);
       minimum_.bindImage(kPyramidBaseImage, gl::Access::Write, 0);
     } else {
-      static_assert(kPyramidMinimum2Image == kPyramidMinimum1Image + 1 &&
-                    kPyramidMinimum3Image == kPyramidMinimum1Image + 2 &&
-                    kPyramidMaximum2Image == kPyramidMaximum1Image + 1 &&
-                    kPyramidMaximum3Image == kPyramidMaximum1Image + 2);
       minimum_.bindTexture(kPyramidMinimumMapUnit);
       maximum_.bindTexture(kPyramidMaximumMapUnit);
       program.set("sourceLevel", base);
-    }
-    for (int i = 0; i < 3; ++i) {
-      // Image units past the last level are bound to the last level and never written.
-      minimum_.bindImage(kPyramidMinimum1Image + static_cast<uint32_t>(i), gl::Access::Write,
-                         std::min(base + 1 + i, count - 1));
-      maximum_.bindImage(kPyramidMaximum1Image + static_cast<uint32_t>(i), gl::Access::Write,
-                         std::min(base + i, maximum_.levels() - 1));
     }
     program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -16,9 +16,9 @@ std::unique_ptr<ShadowTracer> makeShadowTracer(Tracer tracer, frame::Frame& fram
   try {
     return std::make_unique<ComputeTracer>(frame.context(), frame.gpuScene().rays(frame.context()),
                                            triangles);
-  } catch (const Error&) {
+  } catch (const Error& error) {
     if (tracer == Tracer::Gpu) throw;
-    return std::make_unique<EmbreeTracer>(triangles);
+    return std::make_unique<EmbreeTracer>(triangles, "on the GPU, " + error.message());
   }
 }
 

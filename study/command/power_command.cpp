@@ -174,7 +174,7 @@ void runPower(const PowerOptions& given, Run& run) {
   if (observer.behaviour.fromModel || Simulation(protocol).needsModel())
     model = makePoppingModel(
         protocol, perception::readDisplay(options.display.empty() ? protocol.display : options.display),
-        options.predictions);
+        observer.behaviour.popping, options.predictions);
   installInterruptHandlers();
   const bool terminal = isatty(STDERR_FILENO) != 0;
   int shown = -1;

@@ -101,7 +101,7 @@ void runSimulate(const SimulateOptions& options, Run& run) {
   std::unique_ptr<StimulusModel> model;
   if (observer.behaviour.fromModel || Simulation(protocol).needsModel())
     model = makePoppingModel(
-        protocol, request.display,
+        protocol, request.display, observer.behaviour.popping,
         options.predictions.empty() ? request.store + ".predictions.json" : options.predictions);
   installInterruptHandlers();
   auto progress = std::make_shared<SimulationProgress>(options.observers, options.quiet);

@@ -91,7 +91,7 @@ class ExampleRun {
     };
     std::unique_ptr<StimulusModel> model;
     if (study.observer.behaviour.fromModel || Simulation(protocol).needsModel())
-      model = makePoppingModel(protocol, request.display, cacheOf(study));
+      model = makePoppingModel(protocol, request.display, study.observer.behaviour.popping, cacheOf(study));
     return !simulateSessions(protocol, request, model.get()).stopped;
   }
 
@@ -100,7 +100,9 @@ class ExampleRun {
     request_.say(study.name + ": predictions for the stimuli");
     StorePredictionRequest request;
     request.store = storeOf(study);
-    request.popping = ParameterValues(perception::PoppingSettings::table().parameters(), {}, "predictor");
+    // What observers saw with, if they saw with it.
+    request.popping = ParameterValues(perception::PoppingSettings::table().parameters(),
+                                      study.observer.behaviour.popping, "predictor");
     request.cacheFile = cacheOf(study);
     request.progress = [this](int done, int all) {
       request_.progress(fmt::format("{} of {} stimuli", done, all));

@@ -16,8 +16,9 @@ namespace limen::study {
 
 /// A vision model's prediction for a stimulus.
 struct StimulusPrediction {
-  double rating = 0.0;   ///< R of the region rated highest; without a region, below the lowest possible
-  bool popping = false;  ///< whether there is a region
+  /// R of the region rated highest, at the cue if there is one; without a region, below the lowest possible.
+  double rating = 0.0;
+  bool popping = false;  ///< whether there is such a region
 };
 class StimulusModel {
  public:

@@ -8,6 +8,7 @@
 #include "experiments/base/assignments.h"
 #include "experiments/base/error.h"
 #include "experiments/base/registry.h"
+#include "perception/popping/settings.h"
 
 namespace limen::study {
 namespace {
@@ -124,10 +125,12 @@ const RegisteredObserver<DriftingSettings> kDrifting{
 
 struct ModelSettings {
   perception::DetectionModel detection;
+  perception::PoppingSettings popping;
   double strengthSd = 0.0, valuePerRating = -1.0;
   static const SettingsTable<ModelSettings>& table() {
     static const SettingsTable<ModelSettings> kTable = {
         {&ModelSettings::detection, "detection", "probability that a region of rating R is reported"},
+        {&ModelSettings::popping, "popping", "the predictor; its own detection is not used"},
         {&ModelSettings::strengthSd,
          "strength_sd",
          {0.0, 100.0},
@@ -143,10 +146,11 @@ struct ModelSettings {
 };
 
 const RegisteredObserver<ModelSettings> kModel{
-    {"model", 1, "the popping predictor on the frames of every stimulus"}, [](const ModelSettings& settings) {
+    {"model", 2, "the popping predictor on the frames of every stimulus"}, [](const ModelSettings& settings) {
       ObserverBehaviour out;
       out.fromModel = true;
       out.detection = settings.detection;
+      out.popping = perception::PoppingSettings::table().write(settings.popping);
       out.strengthSd = settings.strengthSd;
       out.valuePerRating = settings.valuePerRating;
       return out;

@@ -26,6 +26,8 @@ struct ObserverBehaviour {
   double lapsePerHundred = 0.0;        ///< added to the lapse rate over 100 trials
   double strengthSd = 0.0;             ///< over observers, in addition to the block's
   perception::DetectionModel detection;
+  /// Of perception::PoppingSettings, for the predictor; what is left out takes its default.
+  std::map<std::string, ParameterValue> popping;
   double valuePerRating = -1.0;  ///< Pairwise: scale value of a step of rating
 };
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "perception/popping/settings.h"
 #include "renderer/gl/context.h"
 #include "study/stimulus/prediction.h"
 
@@ -13,8 +14,11 @@ namespace {
 class PoppingModel : public StimulusModel {
  public:
   PoppingModel(const Protocol& protocol, const perception::DisplayProfile& display,
-               const std::string& cacheFile)
-      : protocol_(protocol), display_(display), cache_(cacheFile) {}
+               const std::map<std::string, ParameterValue>& popping, const std::string& cacheFile)
+      : protocol_(protocol),
+        display_(display),
+        popping_(perception::PoppingSettings::table().parameters(), popping, "settings of the predictor"),
+        cache_(cacheFile) {}
 
   StimulusPrediction predict(const Trial& trial, const Variables& axes, size_t which) override {
     // Looking up a stimulus by its own hash would cost more than the rest of a simulated trial.
@@ -29,11 +33,11 @@ class PoppingModel : public StimulusModel {
     if (!predictor_) {
       context_ = gl::createHeadlessContext();
       predictor_ = std::make_unique<Predictor>(
-          *context_, glm::ivec2(protocol_.window.widthPx, protocol_.window.heightPx), display_,
-          ParameterValues(), &cache_);
+          *context_, glm::ivec2(protocol_.window.widthPx, protocol_.window.heightPx), display_, popping_,
+          &cache_);
     }
     const PredictedPopping popping = predictor_->predict(stimuli.at(which));
-    const StimulusPrediction out{popping.rating, !popping.regions.empty()};
+    const StimulusPrediction out{popping.rating, popping.popsAtCue()};
     known_.emplace(key, out);
     return out;
   }
@@ -41,6 +45,7 @@ class PoppingModel : public StimulusModel {
  private:
   const Protocol& protocol_;
   perception::DisplayProfile display_;
+  ParameterValues popping_;
   PredictionCache cache_;
   std::unique_ptr<gl::Context> context_;  // outlives what was made in it
   std::unique_ptr<Predictor> predictor_;
@@ -51,8 +56,9 @@ class PoppingModel : public StimulusModel {
 
 std::unique_ptr<StimulusModel> makePoppingModel(const Protocol& protocol,
                                                 const perception::DisplayProfile& display,
+                                                const std::map<std::string, ParameterValue>& popping,
                                                 const std::string& cacheFile) {
-  return std::make_unique<PoppingModel>(protocol, display, cacheFile);
+  return std::make_unique<PoppingModel>(protocol, display, popping, cacheFile);
 }
 
 }  // namespace limen::study

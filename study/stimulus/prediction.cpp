@@ -11,14 +11,12 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/lod_pair.h"
 #include "renderer/scene/lod_set.h"
+#include "study/stimulus/cued_place.h"
 #include "study/stimulus/state_view.h"
 #include "study/stimulus/stimulus_renderer.h"
 
 namespace limen::study {
 namespace {
-
-/// Raised when predictions of the same stimulus change.
-constexpr int kVersion = 1;
 
 /// Displacements and weights of a change in a moving view (Schwarz 2009, section 10.3.5).
 void addMotion(perception::PoppingInput& input, frame::Frame& parent,
@@ -63,8 +61,31 @@ Image objectMask(frame::Frame& frame, size_t object,
   return mask;
 }
 
+/// The highest rating among regions that are, or are not, what the question is about.
+std::optional<double> highestRating(const std::vector<PredictedPopping::Region>& regions, bool atCue) {
+  std::optional<double> out;
+  for (const PredictedPopping::Region& region : regions)
+    if (region.atCue == atCue) out = std::max(out.value_or(region.rating), region.rating);
+  return out;
+}
+
 double ratingWithoutRegion(const perception::PoppingSettings& settings) {
   return perception::poppingRating(settings.regions.thresholdJnd, settings) - 1.0;
+}
+
+/// `out` has the figures of a sequence without region and, in any order, its regions.
+void rate(PredictedPopping& out, bool cued, const perception::PoppingSettings& settings) {
+  std::stable_sort(out.regions.begin(), out.regions.end(),
+                   [](const auto& a, const auto& b) { return a.rating > b.rating; });
+  if (cued) {
+    const std::optional<double> rest = highestRating(out.regions, false);
+    out.restRating = rest.value_or(out.rating);
+    out.restDetectionProbability = rest ? settings.detection.probability(*rest) : out.detectionProbability;
+  }
+  if (const std::optional<double> asked = highestRating(out.regions, true)) {
+    out.rating = *asked;
+    out.detectionProbability = settings.detection.probability(*asked);
+  }
 }
 
 }  // namespace
@@ -84,8 +105,8 @@ std::string Predictor::key(const Stimulus& stimulus) const {
   Stimulus decisive = stimulus;
   decisive.showings = 1;
   decisive.gapS = 0.0;
-  decisive.cue = {};
-  const nlohmann::json all = {{"prediction", kVersion},
+  decisive.cue.durationS = 0.0;
+  const nlohmann::json all = {{"prediction", PredictedPopping::kVersion},
                               {"stimulus", stimulusHash(decisive)},
                               {"window_px", {windowPx_.x, windowPx_.y}},
                               {"display", display_.hash()},
@@ -103,7 +124,11 @@ PredictedPopping Predictor::withoutChange() const {
 
 PredictedPopping Predictor::predict(const Stimulus& stimulus) {
   const Timeline timeline = timelineOf(stimulus, display_.refreshHz);
-  if (timeline.changed == timeline.frames) return withoutChange();
+  if (timeline.changed == timeline.frames) {
+    PredictedPopping none = withoutChange();
+    rate(none, stimulus.cue.kind != Cue::Kind::None, perception::PoppingSettings::table().read(popping_));
+    return none;
+  }
   const std::string known = key(stimulus);
   if (const auto found = cache_.find(known)) return *found;
   const PredictedPopping made = make(stimulus);
@@ -116,6 +141,7 @@ PredictedPopping Predictor::make(const Stimulus& stimulus) {
   StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   perception::PoppingInput input;
+  input.isSwitch = true;
   input.actual = renderer.readBackState(timeS, true);
   input.predicted = renderer.readBackState(timeS, false);
 
@@ -138,17 +164,17 @@ PredictedPopping Predictor::make(const Stimulus& stimulus) {
   const perception::PoppingResult result = perception::predictPopping(input, display_, settings);
 
   PredictedPopping out = withoutChange();
+  const bool cued = stimulus.cue.kind != Cue::Kind::None;
+  frame.setLevels(levels.second);
+  const std::optional<CuedPlace> place = cuedPlace(frame, stimulus, renderer.timeline(), display_);
+  const std::set<uint32_t> asked = place ? regionsAt(result.regions, *place) : std::set<uint32_t>();
   for (const perception::PoppingRegion& region : result.regions.regions) {
     out.regions.push_back({region.sizePx, region.sigma, region.rating, region.largestJnd,
-                           region.detectionProbability, region.least, region.most});
+                           region.detectionProbability, region.least, region.most,
+                           !cued || asked.count(region.label) > 0});
     out.poppingPx += region.sizePx;
   }
-  std::stable_sort(out.regions.begin(), out.regions.end(),
-                   [](const auto& a, const auto& b) { return a.rating > b.rating; });
-  if (!out.regions.empty()) {
-    out.rating = out.regions.front().rating;
-    out.detectionProbability = settings.detection.probability(out.rating);
-  }
+  rate(out, cued, settings);
   out.coverage = result.summary.coverage;
   out.coverageOfObject =
       stimulus.levels

@@ -22,20 +22,29 @@ struct PredictedPopping {
     int64_t sizePx = 0;
     double sigmaJnd = 0.0, rating = 0.0, largestJnd = 0.0, detectionProbability = 0.0;
     glm::ivec2 leastPx{0}, mostPx{0};  ///< bounding box, both corners inclusive, window pixels
+    bool atCue = true;                 ///< whether the question is about it; true of all without a cue
   };
-  /// Of the region rated highest. Without a region, one less than the lowest possible rating of a region, so
-  /// that it stays finite.
+  /// Version of the figures below, raised when their meaning changes. 1: `rating` and `detectionProbability`
+  /// were those of the region rated highest, cued or not, and the figures of the rest did not exist.
+  static constexpr int kVersion = 2;
+  /// What the question is about: the region rated highest among those at the cue (see cued_place.h), of all
+  /// without a cue. Without such a region, one less than the lowest possible rating of a region, so that it
+  /// stays finite.
   double rating = 0.0;
   double detectionProbability = 0.0;  ///< probability for that rating; the guess rate without a region
-  std::vector<Region> regions;        ///< highest rating first
-  int64_t poppingPx = 0;              ///< in all regions
-  double coverage = 0.0;              ///< of the window
+  /// The same of all regions away from the cue; nothing without a cue.
+  std::optional<double> restRating, restDetectionProbability;
+  std::vector<Region> regions;  ///< highest rating first
+  int64_t poppingPx = 0;        ///< in all regions
+  double coverage = 0.0;        ///< of the window
   /// Share of the changing object's pixels, before or after the change, that lie in a region; of the window
   /// if a technique changes.
   double coverageOfObject = 0.0;
   double largestJnd = 0.0;
   double largestDe94 = 0.0;  ///< CIE94 between the two pictures, for comparison with the predictor
   bool operator==(const PredictedPopping&) const;
+  /// Whether there is a region that the question is about.
+  bool popsAtCue() const;
 };
 nlohmann::json toJson(const PredictedPopping& prediction);
 PredictedPopping predictedPoppingFromJson(const nlohmann::json& json);
@@ -68,8 +77,8 @@ class Predictor {
 
   /// A sequence without change has no region. Throws Error like StimulusRenderer.
   PredictedPopping predict(const Stimulus& stimulus);
-  /// SHA-256 over everything that determines the prediction: what changes and when, window, display,
-  /// settings.
+  /// SHA-256 over everything that determines the prediction: what changes and when, where the cue points,
+  /// window, display, settings.
   std::string key(const Stimulus& stimulus) const;
 
  private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kForm = 1;
+constexpr int kForm = 2;
 
 json pair(glm::ivec2 value) { return {value.x, value.y}; }
 glm::ivec2 pairFromJson(const json& object) { return {object.at(0).get<int>(), object.at(1).get<int>()}; }
@@ -51,15 +52,20 @@ json toJson(const PredictedPopping& prediction) {
                        {"largest_jnd", region.largestJnd},
                        {"detection_probability", region.detectionProbability},
                        {"least_px", pair(region.leastPx)},
-                       {"most_px", pair(region.mostPx)}});
-  return {{"rating", prediction.rating},
-          {"detection_probability", prediction.detectionProbability},
-          {"regions", regions},
-          {"popping_px", prediction.poppingPx},
-          {"coverage", prediction.coverage},
-          {"coverage_of_object", prediction.coverageOfObject},
-          {"largest_jnd", prediction.largestJnd},
-          {"max_de94", prediction.largestDe94}};
+                       {"most_px", pair(region.mostPx)},
+                       {"at_cue", region.atCue}});
+  json out = {{"rating", prediction.rating},
+              {"detection_probability", prediction.detectionProbability},
+              {"regions", regions},
+              {"popping_px", prediction.poppingPx},
+              {"coverage", prediction.coverage},
+              {"coverage_of_object", prediction.coverageOfObject},
+              {"largest_jnd", prediction.largestJnd},
+              {"max_de94", prediction.largestDe94}};
+  if (prediction.restRating) out["rest_rating"] = *prediction.restRating;
+  if (prediction.restDetectionProbability)
+    out["rest_detection_probability"] = *prediction.restDetectionProbability;
+  return out;
 }
 
 PredictedPopping predictedPoppingFromJson(const json& object) {
@@ -70,13 +76,24 @@ PredictedPopping predictedPoppingFromJson(const json& object) {
     out.regions.push_back({region.at("size_px").get<int64_t>(), region.at("sigma_jnd").get<double>(),
                            region.at("rating").get<double>(), region.at("largest_jnd").get<double>(),
                            region.at("detection_probability").get<double>(),
-                           pairFromJson(region.at("least_px")), pairFromJson(region.at("most_px"))});
+                           pairFromJson(region.at("least_px")), pairFromJson(region.at("most_px")),
+                           region.at("at_cue").get<bool>()});
   out.poppingPx = object.at("popping_px").get<int64_t>();
   out.coverage = object.at("coverage").get<double>();
   out.coverageOfObject = object.at("coverage_of_object").get<double>();
   out.largestJnd = object.at("largest_jnd").get<double>();
   out.largestDe94 = object.at("max_de94").get<double>();
+  const auto optional = [&](const char* name) {
+    const auto found = object.find(name);
+    return found == object.end() ? std::nullopt : std::optional<double>(found->get<double>());
+  };
+  out.restRating = optional("rest_rating");
+  out.restDetectionProbability = optional("rest_detection_probability");
   return out;
+}
+
+bool PredictedPopping::popsAtCue() const {
+  return std::any_of(regions.begin(), regions.end(), [](const Region& region) { return region.atCue; });
 }
 
 bool PredictedPopping::operator==(const PredictedPopping& other) const {

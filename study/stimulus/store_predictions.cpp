@@ -131,7 +131,9 @@ StorePredictionEnd predictAll(const Shown& shown, const StorePredictionRequest& 
     row.widthPx = place.widthPx;
     row.heightPx = place.heightPx;
     row.predictor = "popping";
-    row.settings = {{"popping", request.popping.toJson()}, {"metrics", FrameComparer::settings()}};
+    row.settings = {{"popping", request.popping.toJson()},
+                    {"popping_version", PredictedPopping::kVersion},
+                    {"metrics", FrameComparer::settings()}};
     row.programVersion = projectVersion() + " (commit " + buildCommit() + ")";
     for (const auto& [hash, stimulusJson] : stimuli) {
       if (interruptSignal() != 0) {

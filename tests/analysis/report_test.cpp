@@ -209,6 +209,78 @@ TEST_F(ReportTest, DoesNotCallALittleLessErrorForMuchMoreTimeWorthIt) {
   EXPECT_THAT(report(), HasSubstr("worth its time is 1 of 2 settings: 1 of a"));
 }
 
+class VisibleReport : public ReportTest {
+ protected:
+  struct Setting {
+    const char* technique;
+    std::vector<double> ms;
+    double jnd;
+  };
+  /// A report on runs with a visible difference each; y: the charts' axis.
+  std::string reportOf(const std::vector<Setting>& settings, const std::string& y) {
+    std::vector<store::Run> runs;
+    for (const Setting& setting : settings) {
+      runs.push_back(makeRun(setting.technique, "s", 1, setting.ms, 0.1));
+      runs.back().measurements.push_back({"jnd_p95", setting.jnd, "JND", "error"});
+      runs.back().parameters["metrics"] = {
+          {{"name", "jnd"}, {"display", "phone_6"}, {"display.distance_m", 0.3}}};
+    }
+    store::Descriptions described;
+    described.quantities = {
+        {"gpu_ms", "GPU time", "ms", Direction::LowerIsBetter, "time", "frame", ""},
+        {"rmse", "RMSE", "", Direction::LowerIsBetter, "error", "", ""},
+        {"jnd_p95", "Visible difference", "JND", Direction::LowerIsBetter, "error", "", ""}};
+    {
+      store::Store store(folder_.path("s.sqlite"), store::Access::ReadWrite);
+      store::Experiment experiment;
+      experiment.title = "t";
+      experiment.report = {{"x", "gpu_ms"}, {"y", y}};
+      writeExperiment(store, experiment, std::move(runs), {}, {"Test GPU", false, {{"command", "x"}}},
+                      described);
+    }
+    return report();
+  }
+};
+
+TEST_F(VisibleReport, NamesTheCheapestSettingBelowOneJndAndMarksIt) {
+  const std::string page =
+      reportOf({{"cheap", {1, 1}, 1.5}, {"fits", {2, 2}, 0.99}, {"dear", {5, 5}, 0.2}}, "jnd_p95");
+  EXPECT_THAT(page, HasSubstr("the cheapest setting below 1 JND is fits, samples=1: 2 ms, 0.99 JND"));
+  EXPECT_THAT(page, HasSubstr("on the display phone_6 from 0.3 m"));
+  EXPECT_EQ(count(page, "class=\"ring\""), 1U);
+  EXPECT_THAT(page, HasSubstr(">1 JND</"));
+  EXPECT_THAT(page, HasSubstr("cheapest below 1 JND"));
+}
+
+TEST_F(VisibleReport, OneJndItselfIsNotBelow) {
+  EXPECT_THAT(reportOf({{"at", {1, 1}, 1.0}, {"fits", {2, 2}, 0.5}}, "jnd_p95"),
+              HasSubstr("below 1 JND is fits, samples=1: 2 ms, 0.5 JND"));
+}
+
+TEST_F(VisibleReport, SaysThatNoSettingIsBelow) {
+  const std::string page = reportOf({{"a", {1, 1}, 3.0}, {"b", {2, 2}, 1.25}}, "jnd_p95");
+  EXPECT_THAT(page, HasSubstr("no setting is below 1 JND; the closest is b, samples=1 with 1.25 JND"));
+  EXPECT_EQ(count(page, "class=\"ring\""), 0U);
+}
+
+TEST_F(VisibleReport, TimesNotToldApartAreTies) {
+  const std::string page = reportOf({{"a", {2.0, 2.2, 2.1}, 0.9}, {"b", {2.1, 2.3, 2.2}, 0.5}}, "jnd_p95");
+  EXPECT_THAT(page.substr(page.find("What a viewer")), HasSubstr("≈ b"));
+}
+
+// A chart of another error is left as it is; what a viewer would see is said all the same.
+TEST_F(VisibleReport, IsSaidBesideAnotherError) {
+  const std::string page = reportOf({{"a", {1, 1}, 3.0}, {"b", {2, 2}, 0.5}}, "rmse");
+  EXPECT_THAT(page, HasSubstr("What a viewer would see"));
+  EXPECT_EQ(count(page, "class=\"ring\""), 0U);
+  EXPECT_THAT(page, Not(HasSubstr(">1 JND</")));
+}
+
+TEST_F(ReportTest, SaysNothingOfVisibleDifferencesWithoutAny) {
+  write({makeRun("a", "s", 1, {1, 1}, 0.5)});
+  EXPECT_THAT(report(), Not(HasSubstr("What a viewer would see")));
+}
+
 TEST_F(ReportTest, SaysWhyThereIsNoVerdictAndDrawsNoFront) {
   {
     store::Store store(folder_.path("s.sqlite"), store::Access::ReadWrite);

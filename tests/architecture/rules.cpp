@@ -40,7 +40,8 @@ std::vector<fs::path> sourcesUnder(const fs::path& root, bool withTests) {
 
 bool isPublicHeader(const Module& module, const std::string& path) {
   // Parts of a module that others name one by one.
-  for (const std::string part : {"perception/metrics/", "perception/popping/", "perception/threshold_maps/"})
+  for (const std::string part : {"perception/band_thresholds/", "perception/metrics/", "perception/popping/",
+                                 "perception/threshold_maps/"})
     if (path.rfind(part, 0) == 0) return path.find('/', part.size()) == std::string::npos;
   return path.find('/', module.folder.size() + 1) == std::string::npos;
 }

@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/describe_names.h"
 #include "tests/experiments/base/declare.h"
 #include "tests/experiments/fake_bench.h"
 
@@ -77,6 +78,35 @@ TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {
                   "reference: {name: soft/sampled}\nmetrics: [{name: flip, ppd: 30}]\n")
                 .metricNames,
             std::vector<std::string>{"flip"});
+}
+
+// Each figure can be an axis and an expectation, and is described in the store with its own unit.
+TEST(Descriptor, AMetricWithSeveralFiguresGivesAMeasurementForEach) {
+  Catalogue catalogue = fakeCatalogue();
+  CatalogueEntry& metric = catalogue.metrics["seen"];
+  metric.parameters = {integerParameter("steps", 4, 1, 9, "", "Steps")};
+  metric.figures = {{"p95", "Seen, 95th percentile", "JND", Direction::LowerIsBetter},
+                    {"step", "Step", "", Direction::Neither}};
+  const auto read = [&](const std::string& metrics) {
+    return parseDescriptor(
+        "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
+        "reference: {name: soft/sampled}\nmetrics: " +
+            metrics +
+            "\nreport: {y: seen_p95}\n"
+            "expect: [{metric: seen_p95, below: 1}]\n",
+        "d.yaml", catalogue, {});
+  };
+  const Descriptor descriptor = read("[rmse, seen, {name: seen, steps: 9}]");
+  EXPECT_EQ(descriptor.metricNames,
+            (std::vector<std::string>{"rmse", "seen_p95", "seen_step", "seen_9_p95", "seen_9_step"}));
+  EXPECT_THROW(read("[seen, seen]"), Error);
+  const store::Descriptions described = describeNames(descriptor, catalogue);
+  ASSERT_NE(described.quantity("seen_9_p95"), nullptr);
+  EXPECT_EQ(described.quantity("seen_9_p95")->title, "Seen, 95th percentile, 9");
+  EXPECT_EQ(described.quantity("seen_9_p95")->unit, "JND");
+  EXPECT_EQ(described.quantity("seen_p95")->kind, "error");
+  EXPECT_EQ(described.quantity("seen_step")->kind, "fact");
+  EXPECT_EQ(described.quantity("seen"), nullptr) << "only its figures are stored";
 }
 
 TEST(Descriptor, NumbersInTheFormsOfYaml) {

@@ -21,16 +21,22 @@ class ReferenceCacheTest : public testing::Test {
   /// The reference's first value, of a cache that has nothing in memory; counts how often it is made.
   float read() {
     ReferenceCache cache(folder_);
-    const auto image = cache.get("key", 4, 3, [this] {
+    return read(cache);
+  }
+  float read(ReferenceCache& cache) {
+    const Reference reference = cache.get("key", 4, 3, [this] {
       ++made_;
-      return Image(4, 3, 1, 0.25F);
+      return Reference{std::make_shared<const Image>(4, 3, 1, 0.25F), {tracer_}};
     });
-    EXPECT_EQ(image->width, 4);
-    EXPECT_EQ(image->height, 3);
-    return image->at(0, 0);
+    EXPECT_EQ(reference.image->width, 4);
+    EXPECT_EQ(reference.image->height, 3);
+    EXPECT_EQ(reference.remarks, std::vector<std::string>{"by " + madeBy_});
+    return reference.image->at(0, 0);
   }
 
   std::string folder_;
+  std::string tracer_ = "by the CPU",
+              madeBy_ = "the CPU";  // what makes references now, and made the one read
   int made_ = 0;
 };
 
@@ -48,6 +54,31 @@ TEST_F(ReferenceCacheTest, AFileOfAnotherSizeOrNoPictureIsReplaced) {
   EXPECT_EQ(made_, 2);
   EXPECT_EQ(read(), 0.25F);
   EXPECT_EQ(made_, 2);
+}
+
+// A reference of another day says what made it then, not what would make it now.
+TEST_F(ReferenceCacheTest, RemarksComeWithThePictureFromMemoryAndDisk) {
+  read();
+  tracer_ = "by the GPU";
+  read();
+  ReferenceCache cache(folder_);
+  read(cache);
+  read(cache);
+  EXPECT_EQ(made_, 1);
+}
+
+// Without them nobody could say what made the picture, as with those of earlier versions.
+TEST_F(ReferenceCacheTest, APictureWithoutItsRemarksIsMadeAgain) {
+  read();
+  tracer_ = "by the GPU", madeBy_ = "the GPU";
+  std::filesystem::remove(folder_ + "/key.json");
+  read();
+  EXPECT_EQ(made_, 2);
+  for (const char* damaged : {"", "{\"remarks\": [", "[]", "{\"remarks\": [1]}"}) {
+    std::ofstream(folder_ + "/key.json") << damaged;
+    read();
+  }
+  EXPECT_EQ(made_, 6);
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ class PoppingGpu : public gl::GlTest {
   static Run onGpu(const PoppingInput& in, const PoppingSettings& settings = {},
                    const DisplayProfile& display = studyDisplay()) {
     const Upload upload(in);
-    PoppingPredictorGpu predictor(context(), {in.actual.width, in.actual.height}, display, settings);
+    PoppingPredictorGpu predictor(context(), {in.actual.width, in.actual.height}, display, settings,
+                                  in.isSwitch);
     predictor.run(upload.input);
     return {predictor.jnd().read(), predictor.readRegions(), predictor.readCounts()};
   }
@@ -147,6 +148,35 @@ class PoppingGpu : public gl::GlTest {
 
   inline static double largest_ = 0.0;
 };
+
+TEST_F(PoppingGpu, SwitchesAgreeOverTime) {
+  PoppingInput in = linearPair(sceneImage(200, 150, 0.45), sceneImage(200, 150, 0.452));
+  in.isSwitch = true;
+  expectReference(in, "at rest");
+  in.actualDisplacement = Image(200, 150, 2);
+  in.predictedDisplacement = Image(200, 150, 2);
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 200; ++x) {
+      in.actualDisplacement.at(x, y, 0) = 0.1F * static_cast<float>(x);
+      in.predictedDisplacement.at(x, y, 0) = 0.11F * static_cast<float>(x);
+      in.actualDisplacement.at(x, y, 1) = in.predictedDisplacement.at(x, y, 1) =
+          0.02F * static_cast<float>(y);
+    }
+  const PoppingResult held = expectReference(in, "moving up to 30 deg/s");
+  PoppingSettings settings;
+  settings.temporal = TemporalChannels{.windowS = 0.8, .holdShare = 0.25};
+  const PoppingResult flashed = expectReference(in, "shown for a quarter of a frame", settings);
+  EXPECT_GT(flashed.summary.meanJnd, held.summary.meanJnd);
+  settings.temporal = SingleFrame{};
+  in.predictedDisplacement = in.actualDisplacement;
+  expectReference(in, "single frame", settings);
+  const Upload upload(in);
+  PoppingPredictorGpu predictor(context(), {200, 150}, studyDisplay(), {}, true);
+  predictor.run(upload.input);
+  const Image first = predictor.jnd().read();
+  predictor.run(upload.input);
+  EXPECT_EQ(predictor.jnd().read().data, first.data);
+}
 
 TEST_F(PoppingGpu, MovedDiscMatchesTheReference) {
   PoppingInput in = linearPair(sceneImage(200, 150, 0.45), sceneImage(200, 150, 0.452));
@@ -263,6 +293,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   };
   with({});
   with({{"model", "schwarz_2009"}});
+  with({{"bands.weights", "fitted"}, {"bands.levels.least_peak_cpd", 0.25}});
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
   with({{"masking.b", 4.0}, {"masking.s", 0.5}});
   with({{"model", "schwarz_2009"}, {"sensitivity.red_green.csf.reference_cd_m2", 20.0}});
@@ -274,7 +305,8 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   with({{"adaptation", "fixed"}, {"adaptation.luminance_cd_m2", 20.0}});
   with({{"bands.decomposition.upsampler", "linear"}, {"bands.peak_model", "no_upsample"}});
   with({{"bands.peak_model", "halving"},
-        {"bands.compensate_gain", false},
+        {"bands.weights", "peak"},
+        {"bands.weights.compensate_gain", false},
         {"sensitivity.contrast", "cones"},
         {"sensitivity.contrast.divide_grey_gain", false}});
   with({{"collapse", "magnitude"}, {"minkowski_exponent", 4.0}});
@@ -290,7 +322,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
 }
 
 TEST_F(PoppingGpu, StacksAreRefused) {
-  PoppingSettings settings;
+  PoppingSettings settings = PoppingSettings::preset(PredictorModel::Schwarz2009);
   settings.bands.decomposition = StackBands{};
   EXPECT_THROW(PoppingPredictorGpu(context(), {32, 32}, studyDisplay(), settings), Error);
 }

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <optional>
 
 #include "experiments/base/error.h"
 #include "perception/metrics/comparison.h"
 #include "perception/metrics/flip/flip_gpu.h"
 #include "perception/metrics/metric_gpu.h"
+#include "perception/metrics/metric_texture.h"
 
 namespace limen::perception {
 namespace {
-
-gl::Texture upload(const Image& image) {
-  const bool grey = image.channels == 1;
-  gl::Texture texture(grey ? gl::Format::R32F : gl::Format::RGBA32F, {image.width, image.height});
-  if (image.channels != 3) {
-    texture.write(image);
-    return texture;
-  }
-  Image padded(image.width, image.height, 4, 1.0F);
-  for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
-    std::copy_n(image.data.begin() + static_cast<std::ptrdiff_t>(3 * pixel), 3,
-                padded.data.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
-  texture.write(padded);
-  return texture;
-}
 
 struct FlipMetricSettings {
   double pixelsPerDegree = FlipGpu::kDefaultPixelsPerDegree;
@@ -55,8 +40,8 @@ MetricResult measure(const ComparisonInput& input, const FlipMetricSettings& set
     kept = made;
   }
   std::optional<gl::Texture> test, reference;
-  if (!input.testTexture) test.emplace(upload(*input.test));
-  if (!input.referenceTexture) reference.emplace(upload(*input.reference));
+  if (!input.testTexture) test.emplace(metricTexture(*input.test));
+  if (!input.referenceTexture) reference.emplace(metricTexture(*input.reference));
 
   MetricResult result;
   result.value =

@@ -42,6 +42,8 @@ const uint kReduceCoarserImage = 0u;
 // Response of a level.
 const uint kResponseConesUnit = 0u;
 const uint kResponseSensitivitiesUnit = 2u;
+const uint kResponseSteadyUnit = 6u;
+const uint kResponseOnsetUnit = 7u;
 
 // Differences of a level.
 const uint kDifferencesImage = 0u;

@@ -8,16 +8,13 @@ layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(std430, binding = kLevelTestCountsBuffer) buffer Counts { uint counts[]; };  // covered, visible, next visible; a test each
 layout(binding = kLevelTestVisibleImage, r32f) uniform writeonly image2D visibleMap;
 
-uniform ivec2 lowPx, highPx;  // rectangle, high excluded
-uniform int test;
-
 shared uint sums[3];
 
 void main() {
   if (gl_LocalInvocationIndex < 3u) sums[gl_LocalInvocationIndex] = 0u;
   barrier();
-  const ivec2 pixel = lowPx + ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(pixel, highPx))) {
+  const ivec2 pixel = tests[test].low + ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(pixel, tests[test].high))) {
     const Seen seen = look(pixel);
     if (seen.covered) atomicAdd(sums[0], 1u);
     if (seen.visible) {

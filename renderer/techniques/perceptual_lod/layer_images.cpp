@@ -4,186 +4,275 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
-#include "renderer/frame/g_buffer.h"
-#include "renderer/frame/shadow_map.h"
-#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
+#include "renderer/frame/shaded.h"
 
 namespace limen::techniques {
 namespace {
 
 constexpr const char* kFolder = "renderer/techniques/perceptual_lod/";
-constexpr const char* kComposite = "perceptual_lod/composite";
-
-std::string contextPass(int layer) { return "perceptual_lod/context_" + std::to_string(layer); }
+constexpr const char* kCompose = "perceptual_lod/compose";
+/// Tests have at least this much room in a frame; further ones wait for the next.
+constexpr int64_t kTestWords = int64_t{1} << 25;
 
 double attenuationOf(const PerceptualLodSettings& settings) {
   const auto* darkened = std::get_if<DarkenedShadows>(&settings.castShadows);
   return darkened ? darkened->factor : 1.0;
 }
 
+int64_t area(glm::ivec2 size) { return int64_t{size.x} * size.y; }
+int64_t area(const PixelRect& rect) { return rect.empty() ? 0 : area(rect.high - rect.low); }
+
+PixelRect unionOf(const PixelRect& a, const PixelRect& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
 }  // namespace
 
-LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings)
+LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings, const SeenOn& seenOn)
     : parent_(parent),
       shading_(settings.shading),
       attenuation_(attenuationOf(settings)),
-      compositeProgram_(parent.context().programs().compute(std::string(kFolder) + "composite.comp.glsl")),
-      contextProgram_(parent.context().programs().compute(std::string(kFolder) + "context.comp.glsl")),
-      maskProgram_(parent.context().programs().compute(std::string(kFolder) + "shadow_mask.comp.glsl")),
-      frontColour_(gl::Format::RGBA32F, parent.sizePx()),
-      frontKey_(gl::Format::RGBA32UI, parent.sizePx()),
-      secondColour_(gl::Format::RGBA32F, parent.sizePx()),
-      secondKey_(gl::Format::RGBA32UI, parent.sizePx()),
-      shown_(nothingOf(parent.scene())) {
-  parent.passes().setBytesHeld(
-      kComposite, frontColour_.bytes() + frontKey_.bytes() + secondColour_.bytes() + secondKey_.bytes());
-  const bool shadows = shading_.shadow && !parent.scene().lights.empty();
-  if (shadows) casters_ = std::make_unique<LevelView>(parent, "casters");
-  for (int i = 0; i <= layerCount(settings.layers); ++i) {
-    layers_.push_back(std::make_unique<Layer>(parent, i == 0 ? "background" : "layer_" + std::to_string(i)));
-    Layer& layer = *layers_.back();
-    layer.view.frame().setCasters(casters());
-    if (i == 0) continue;
-    layer.context.emplace(gl::Format::RGBA32F, parent.sizePx());
-    layer.context->clear(glm::vec4(0.0F));
-    int64_t bytes = layer.context->bytes();
-    if (shadows && std::holds_alternative<DarkenedShadows>(settings.castShadows)) {
-      layer.mask.emplace(gl::Format::R32F, parent.sizePx());
-      layer.mask->clear(glm::vec4(0.0F));
-      layer.others = std::make_unique<LevelView>(parent, "casters_but_" + std::to_string(i));
-      bytes += layer.mask->bytes();
-    }
-    parent.passes().setBytesHeld(contextPass(i), bytes);
+      blackCdM2_(static_cast<float>(seenOn.display.blackLevelCdM2())),
+      rangeCdM2_(static_cast<float>(seenOn.display.whiteLevelCdM2() - seenOn.display.blackLevelCdM2())),
+      layers_(1 + layerCount(settings.layers)),
+      view_(parent, "view", parent.sizePx()),
+      picture_(gl::Format::RGBA32F, parent.sizePx()),
+      behind_(gl::Format::R32F, parent.sizePx()),
+      context_(gl::Format::R32F, parent.sizePx()),
+      shown_(nothingOf(parent.scene())),
+      table_(frame::kMostRasterRegions),
+      tests_(kMostTests),
+      drawn_(static_cast<size_t>(layers_), 0) {
+  const scene::Scene& scene = parent.scene();
+  const int tests = settings.tests.objectsPerFrame;
+  camera_ = std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/raster", layers_ + 2 * tests);
+  int64_t layerWords = 2 * layers_ * area(parent.sizePx());
+  int64_t oneTest = 4 * area(parent.sizePx());
+  if (shading_.shadow && !scene.lights.empty()) {
+    const int resolution = shading_.shadowResolution;
+    light_ = frame::LightCasters(scene).fit(glm::dvec2(0.0), resolution);
+    shadows_ = std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/shadow_raster",
+                                                     layers_ + 3 * tests, &*light_, resolution);
+    layerWords += layers_ * area(glm::ivec2(resolution));
+    oneTest += 3 * area(glm::ivec2(resolution));
+    for (const scene::LodObject& object : scene.lodObjects)
+      lightPixels_.push_back(lightPixelsOf(object.bounds));
   }
+  testWords_ = std::max(oneTest, std::min(oneTest * tests, kTestWords));
+  gathered_.emplace(4 * (layerWords + testWords_), nullptr);
+  regionTable_.emplace(static_cast<int64_t>(table_.size() * sizeof(frame::RasterRegion)), nullptr);
+  testTable_.emplace(static_cast<int64_t>(tests_.size() * sizeof(PlannedTest)), nullptr);
+  compose_ = &parent.context().programs().compute(std::string(kFolder) + "compose.comp.glsl", defines());
+  for (const gl::Texture* texture : {&picture_, &behind_, &context_}) texture->clear(glm::vec4(0.0F));
+  parent.passes().setBytesHeld("perceptual_lod/raster",
+                               gathered_->bytes() + camera_->bytes() + (shadows_ ? shadows_->bytes() : 0));
+  parent.passes().setBytesHeld(kCompose, picture_.bytes() + behind_.bytes() + context_.bytes());
 }
 
-scene::LodSelection LayerImages::selectionOf(int layer) const {
-  scene::LodSelection out = shown_;
-  out.background = layer == 0;
-  for (size_t i = 0; i < layerOf_.size(); ++i)
-    if (layerOf_[i] != layer) out.levels[i] = scene::LodSelection::kOmitted;
+LayerImages::~LayerImages() = default;
+
+gl::ShaderDefines LayerImages::defines() const { return frame::shadingDefines(shading_, parent_); }
+
+PixelRect LayerImages::lightPixelsOf(const scene::Bounds& bounds) const {
+  const glm::ivec2 size(shading_.shadowResolution);
+  if (bounds.empty()) return {};
+  const glm::dmat4 toLight = parent_.scene().lights[0].toLightSpace();
+  glm::dvec2 low(1e300), high(-1e300);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 world(corner & 1 ? bounds.high.x : bounds.low.x,
+                           corner & 2 ? bounds.high.y : bounds.low.y,
+                           corner & 4 ? bounds.high.z : bounds.low.z);
+    const glm::dvec3 p(toLight * glm::dvec4(world, 1.0));
+    if (p.z < light_->near) return {glm::ivec2(0), size};
+    const glm::dvec2 at =
+        (glm::dvec2(p) / p.z - light_->low) / (light_->high - light_->low) * glm::dvec2(size);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  // One more texel on each side for the raster's rounding.
+  const glm::dvec2 limit(size);
+  return {glm::ivec2(glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), limit)),
+          glm::ivec2(glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), limit))};
+}
+
+const frame::Frame& LayerImages::moveTo(double timeS) {
+  view_.setTime(timeS);
+  view_.begin();
+  return view_;
+}
+
+int64_t LayerImages::wordsOf(const ObjectTest& test) const {
+  const auto object = static_cast<size_t>(test.object);
+  const int versions = int{test.finest} + int{test.next};
+  int64_t out = 2 * versions * area(pixelsOf(parent_.scene().lodObjects[object].bounds, view_));
+  if (shadows_) out += (1 + versions) * area(lightPixels_[object]);
   return out;
 }
 
-void LayerImages::drawLayer(int layer) {
-  frame::Frame& frame = layers_[static_cast<size_t>(layer)]->view.show(timeS_, selectionOf(layer));
-  frame.get<frame::Shaded>(shading_);
-  layers_[static_cast<size_t>(layer)]->drawn = true;
-}
-
-void LayerImages::render(double timeS, const scene::LodSelection& shown, const std::vector<int>& layerOf) {
-  timeS_ = timeS;
-  shown_ = shown;
-  layerOf_ = layerOf;
-  if (casters_) casters_->show(timeS, shown);
-  std::vector<int> drawn;
-  for (int i = 0; i < layers(); ++i) {
-    layers_[static_cast<size_t>(i)]->drawn = false;
-    // The background is drawn even if it is empty: its constant is behind everything.
-    if (i > 0 && std::find(layerOf.begin(), layerOf.end(), i) == layerOf.end()) continue;
-    drawLayer(i);
-    drawn.push_back(i);
+size_t LayerImages::fitting(const std::vector<ObjectTest>& tests) const {
+  int64_t words = 0;
+  size_t count = 0;
+  for (; count < std::min(tests.size(), size_t{kMostTests}); ++count) {
+    words += wordsOf(tests[count]);
+    if (count > 0 && words > testWords_) break;
   }
-  layersDrawn_ = static_cast<int>(drawn.size());
-  compositeLayers(drawn);
+  return count;
 }
 
-void LayerImages::compositeLayers(const std::vector<int>& drawn) {
-  static_assert(kCompositeDepthsUnit - kCompositeColoursUnit >= kCompositeLayers &&
-                kCompositeIdsUnit - kCompositeDepthsUnit >= kCompositeLayers);
-  // Made before the pass opens: passes do not nest.
-  const auto scope = parent_.passes().open(kComposite);
-  const gl::Program& program = compositeProgram_;
-  program.set("sizePx", parent_.sizePx());
-  program.set("background", glm::vec3(static_cast<float>(shading_.background)));
-  frontColour_.bindImage(kCompositeFrontColourImage, gl::Access::ReadWrite);
-  frontKey_.bindImage(kCompositeFrontKeyImage, gl::Access::ReadWrite);
-  secondColour_.bindImage(kCompositeSecondColourImage, gl::Access::ReadWrite);
-  secondKey_.bindImage(kCompositeSecondKeyImage, gl::Access::ReadWrite);
-  constexpr std::array<const char*, kCompositeLayers> kNumbers = {
-      "layerNumbers[0]", "layerNumbers[1]", "layerNumbers[2]", "layerNumbers[3]", "layerNumbers[4]"};
-  for (size_t done = 0; done < drawn.size(); done += kCompositeLayers) {
-    const size_t count = std::min<size_t>(kCompositeLayers, drawn.size() - done);
-    for (size_t k = 0; k < kCompositeLayers; ++k) {
-      // Units beyond `count` are bound to something and never read.
-      const int layer = drawn[done + std::min(k, count - 1)];
-      frame::Frame& frame = layers_[static_cast<size_t>(layer)]->view.frame();
-      const auto& ids = frame.get<frame::TriangleIds>();
-      const auto unit = static_cast<uint32_t>(k);
-      frame.get<frame::Shaded>(shading_).texture().bindTexture(kCompositeColoursUnit + unit);
-      ids.depth().bindTexture(kCompositeDepthsUnit + unit);
-      ids.texture().bindTexture(kCompositeIdsUnit + unit);
-      program.set(kNumbers[k], layer);
+void LayerImages::plan(const std::vector<int>& layerOf, const std::vector<ObjectTest>& tests) {
+  const scene::Scene& scene = parent_.scene();
+  const auto versionRegions = [&](int per) { return static_cast<size_t>(kLayerSlots + per * kMostTests); };
+  cameraRegions_.assign(versionRegions(2), {nothingOf(scene), glm::ivec2(0), glm::ivec2(0)});
+  lightRegions_.assign(shadows_ ? versionRegions(3) : 0, cameraRegions_[0]);
+  std::vector<char> tested(scene.lodObjects.size(), 0);
+  for (const ObjectTest& test : tests) tested[static_cast<size_t>(test.object)] = 1;
+  const auto extend = [](frame::RegionContent& region, size_t object, int level, const PixelRect& rect) {
+    region.selection.levels[object] = level;
+    const PixelRect both = unionOf({region.low, region.high}, rect);
+    region.low = both.low;
+    region.high = both.high;
+  };
+
+  drawn_.assign(static_cast<size_t>(layers_), 0);
+  drawn_[0] = 1;
+  for (auto* regions : {&cameraRegions_, &lightRegions_}) {
+    if (regions->empty()) continue;
+    regions->front().selection.background = shown_.background;
+    regions->front().high = regions == &cameraRegions_ ? view_.sizePx() : shadows_->sizePx();
+  }
+  std::vector<PixelRect> pixels;
+  for (size_t i = 0; i < layerOf.size(); ++i) {
+    pixels.push_back(pixelsOf(scene.lodObjects[i].bounds, view_));
+    const auto layer = static_cast<size_t>(layerOf[i]);
+    drawn_[layer] = 1;
+    // What the camera does not see may cast a shadow that it does.
+    if (!pixels[i].empty()) extend(cameraRegions_[layer], i, shown_.levels[i], pixels[i]);
+    if (shadows_ && !tested[i]) extend(lightRegions_[layer], i, shown_.levels[i], lightPixels_[i]);
+  }
+  layersDrawn_ = static_cast<int>(std::count(drawn_.begin(), drawn_.end(), 1));
+
+  trianglesTested_ = 0;
+  testCount_ = static_cast<int>(tests.size());
+  for (size_t i = 0; i < tests.size(); ++i) {
+    const ObjectTest& test = tests[i];
+    const auto object = static_cast<size_t>(test.object);
+    const scene::TriangleRange range = scene.triangles(scene.lodObjects[object], test.level);
+    const auto add = [&](std::vector<frame::RegionContent>& regions, int at, int level,
+                         const PixelRect& rect) {
+      extend(regions[static_cast<size_t>(at)], object, level, rect);
+      return at;
+    };
+    const int camera = kLayerSlots + 2 * static_cast<int>(i), light = kLayerSlots + 3 * static_cast<int>(i);
+    PlannedTest out{layerOf[object],    -1, -1, -1, -1, -1, range.first, range.count, pixels[object].low,
+                    pixels[object].high};
+    if (test.finest) out.cameraFinest = kFirstCameraRegion + add(cameraRegions_, camera, 0, pixels[object]);
+    if (test.next)
+      out.cameraNext = kFirstCameraRegion + add(cameraRegions_, camera + 1, test.level + 1, pixels[object]);
+    if (shadows_) {
+      const PixelRect& rect = lightPixels_[object];
+      out.lightCurrent = out.lightFinest = add(lightRegions_, light, test.level, rect);
+      if (test.finest) out.lightFinest = add(lightRegions_, light + 1, 0, rect);
+      if (test.next) out.lightNext = add(lightRegions_, light + 2, test.level + 1, rect);
     }
-    program.set("layerCount", static_cast<int>(count));
-    program.set("first", done == 0 ? 1 : 0);
-    program.dispatch(parent_.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    tests_[i] = out;
+    if (test.finest) trianglesTested_ += scene.triangles(scene.lodObjects[object], 0).count;
+    if (test.next) trianglesTested_ += scene.triangles(scene.lodObjects[object], test.level + 1).count;
   }
 }
 
-void LayerImages::makeContext(int number) {
-  Layer& layer = *layers_.at(static_cast<size_t>(number));
-  const frame::ShadowMap* map = nullptr;
-  const frame::Receivers* receivers = nullptr;
-  if (layer.mask) {
-    scene::LodSelection others = shown_;
-    for (size_t i = 0; i < layerOf_.size(); ++i)
-      if (layerOf_[i] == number) others.levels[i] = scene::LodSelection::kOmitted;
-    map =
-        &layer.others->show(timeS_, others)
-             .get<frame::ShadowMap>(frame::ShadowMapSettings{shading_.shadowResolution, frame::Raster::Auto});
-    receivers = &layer.view.frame().get<frame::Receivers>();
+void LayerImages::draw(const scene::LodSelection& shown, const std::vector<int>& layerOf,
+                       const std::vector<ObjectTest>& tests) {
+  shown_ = shown;
+  plan(layerOf, tests);
+  int64_t words = 0;
+  const auto place = [&](const std::vector<frame::RegionContent>& regions, int first, int wordsOfPixel) {
+    for (size_t i = 0; i < regions.size(); ++i) {
+      table_[static_cast<size_t>(first) + i] = {
+          regions[i].low, regions[i].high, static_cast<int>(words), 0, 0, 0};
+      words += wordsOfPixel * regions[i].pixels();
+    }
+  };
+  if (shadows_) place(lightRegions_, 0, shadows_->wordsOfPixel());
+  place(cameraRegions_, kFirstCameraRegion, camera_->wordsOfPixel());
+  regionTable_->write(0, regionTable_->bytes(), table_.data());
+  if (testCount_ > 0)
+    testTable_->write(0, static_cast<int64_t>(testCount_) * int64_t{sizeof(PlannedTest)}, tests_.data());
+  {
+    const auto scope = parent_.passes().open("perceptual_lod/clear");
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    constexpr uint32_t kNothing = 0;
+    glClearNamedBufferSubData(gathered_->id(), GL_R32UI, 0, 4 * words, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                              &kNothing);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  const auto scope = parent_.passes().open(contextPass(number));
-  if (map) {
-    const frame::LightFrustum& frustum = map->frustum();
-    maskProgram_.set("sizePx", parent_.sizePx());
-    maskProgram_.set("tangentLow", glm::vec2(frustum.low));
-    maskProgram_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-    maskProgram_.set("resolution", shading_.shadowResolution);
-    maskProgram_.set("bias", frame::kShadowBias);
-    maskProgram_.set("slopeBias", frame::kShadowSlopeBias);
-    maskProgram_.set("maxSlope", frame::kShadowMaxSlope);
-    receivers->texture().bindTexture(kShadowMaskReceiversUnit);
-    map->texture().bindTexture(kShadowMaskShadowMapUnit);
-    layer.mask->bindImage(kShadowMaskImage, gl::Access::Write);
-    maskProgram_.dispatch(parent_.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  regionTable_->bindUniform(frame::kRasterRegionsBlock);
+  if (shadows_) shadows_->draw(view_, lightRegions_, table_, 0, *gathered_);
+  regionTable_->bindUniform(frame::kRasterRegionsBlock);
+  camera_->draw(view_, cameraRegions_, table_, kFirstCameraRegion, *gathered_);
+}
+
+void LayerImages::bindGathered(const gl::Program& program) {
+  frame::configureShading(program, view_, shading_);
+  if (light_) {
+    program.set("tangentLow", glm::vec2(light_->low));
+    program.set("tangentSize", glm::vec2(light_->high - light_->low));
+    program.set("resolution", shading_.shadowResolution);
+    program.set("bias", frame::kShadowBias);
+    program.set("slopeBias", frame::kShadowSlopeBias);
+    program.set("maxSlope", frame::kShadowMaxSlope);
+    const glm::dmat4 toLight = parent_.scene().lights[0].toLightSpace(parent_.gpuScene().anchor());
+    program.set("cameraToLight", glm::mat4(toLight * glm::inverse(view_.anchorToCamera())));
+    program.set("lightNear", static_cast<float>(light_->near));
   }
-  contextProgram_.set("sizePx", parent_.sizePx());
-  contextProgram_.set("layer", number);
-  contextProgram_.set("attenuation", layer.mask ? static_cast<float>(attenuation_) : 1.0F);
-  frontColour_.bindTexture(kContextFrontColourUnit);
-  frontKey_.bindTexture(kContextFrontKeyUnit);
-  secondColour_.bindTexture(kContextSecondColourUnit);
-  (layer.mask ? *layer.mask : frontColour_).bindTexture(kContextMaskUnit);
-  layer.context->bindImage(kContextImage, gl::Access::Write);
-  contextProgram_.dispatch(parent_.sizePx());
+  program.set("layerCount", layers_);
+  program.set("testCount", testCount_);
+  program.set("blackCdM2", blackCdM2_);
+  program.set("rangeCdM2", rangeCdM2_);
+  regionTable_->bindUniform(frame::kRasterRegionsBlock);
+  testTable_->bindUniform(kPlannedTestsBlock);
+  gathered_->bindStorage(kGatheredBuffer);
+}
+
+void LayerImages::compose(int mappedLayer) {
+  const std::string layer = mappedLayer > 0 ? "layer_" + std::to_string(mappedLayer) + "/" : "";
+  const auto scope = parent_.passes().open(layer + kCompose);
+  bindGathered(*compose_);
+  compose_->set("mappedLayer", mappedLayer > 0 ? mappedLayer : -1);
+  compose_->set("attenuation", light_ ? static_cast<float>(attenuation_) : 1.0F);
+  picture_.bindImage(kComposePictureImage, gl::Access::Write);
+  behind_.bindImage(kComposeBehindImage, gl::Access::Write);
+  context_.bindImage(kComposeContextImage, gl::Access::Write);
+  compose_->dispatch(parent_.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-void LayerImages::prime(double timeS) {
-  timeS_ = timeS;
-  shown_ = nothingOf(parent_.scene());
-  layerOf_.assign(parent_.scene().lodObjects.size(), 0);
-  if (casters_) casters_->show(timeS, shown_);
-  for (int i = 0; i < layers(); ++i) drawLayer(i);
-  compositeLayers({0});
-  for (int i = 1; i < layers(); ++i) makeContext(i);
-}
-
-const gl::Texture& LayerImages::image(int layer) {
-  return layers_.at(static_cast<size_t>(layer))->view.frame().get<frame::Shaded>(shading_).texture();
-}
-const gl::Texture* LayerImages::mask(int layer) const {
-  const auto& mask = layers_.at(static_cast<size_t>(layer))->mask;
-  return mask ? &*mask : nullptr;
-}
-const gl::Texture& LayerImages::context(int layer) const {
-  return *layers_.at(static_cast<size_t>(layer))->context;
+std::map<std::string, const gl::Texture*> LayerImages::views() {
+  if (!layerView_)
+    layerView_ =
+        &parent_.context().programs().compute(std::string(kFolder) + "layer_view.comp.glsl", defines());
+  std::map<std::string, const gl::Texture*> out;
+  const auto texture = [&](const std::string& name, gl::Format format) -> const gl::Texture& {
+    return views_.try_emplace(name, format, parent_.sizePx()).first->second;
+  };
+  for (int layer = 0; layer < layers_; ++layer) {
+    if (!drawn_[static_cast<size_t>(layer)]) continue;
+    const std::string number = std::to_string(layer), name = layer == 0 ? "background" : "layer_" + number;
+    const gl::Texture& image = texture(name, gl::Format::RGBA32F);
+    const gl::Texture& mask = texture("shadow_mask_" + number, gl::Format::R32F);
+    bindGathered(*layerView_);
+    layerView_->set("shownLayer", layer);
+    image.bindImage(kLayerViewImage, gl::Access::Write);
+    mask.bindImage(kLayerViewMaskImage, gl::Access::Write);
+    layerView_->dispatch(parent_.sizePx());
+    out[name] = &image;
+    if (layer > 0 && light_ && attenuation_ < 1.0) out["shadow_mask_" + number] = &mask;
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  return out;
 }
 
 }  // namespace limen::techniques

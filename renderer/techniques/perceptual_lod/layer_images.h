@@ -1,72 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "renderer/frame/region_raster.h"
 #include "renderer/gl/texture.h"
 #include "renderer/techniques/perceptual_lod/level_view.h"
+#include "renderer/techniques/perceptual_lod/perceptual_lod_bindings.h"
 #include "renderer/techniques/perceptual_lod/settings.h"
 
 namespace limen::techniques {
 
+/// An object that a frame tests, and what is drawn for that.
+struct ObjectTest {
+  int object = 0, level = 0;
+  bool finest = false;  ///< the finest level as well; without: the object is shown with it
+  bool next = false;    ///< the next coarser level as well
+};
+
 /// The picture split into layers (Schwarz 2009, section 9.5): layer 0 is the background, layers 1.. hold
-/// objects by distance. All colours are linear RGBA32F as in frame::Shaded.
+/// objects by distance. Layers and the versions of objects under test are drawn together, each into a
+/// rectangle of its own (see frame::RegionRaster), once for the camera and, if there are shadows, once for
+/// the light: nothing is drawn twice.
 ///
-/// Each layer is lit with the shadows of everything. The composite keeps, for each pixel, the nearest surface
-/// and the nearest one of another layer, which is all that each C_i needs. Depths are the raster's own, so
-/// the composite equals the ordinary picture bit for bit.
+/// Each layer is lit with the shadows of everything. For each pixel the nearest surface and the nearest one
+/// of another layer count, which is all that each C_i needs. Depths are the raster's own, so the picture
+/// equals the ordinary one bit for bit.
 class LayerImages {
  public:
-  LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings);
+  LayerImages(frame::Frame& parent, const PerceptualLodSettings& settings, const SeenOn& seenOn);
+  ~LayerImages();
 
-  int layers() const { return static_cast<int>(layers_.size()); }  ///< the background included
-  /// Renders all non-empty layers and their composite. `layerOf`: 1.. for each object.
-  void render(double timeS, const scene::LodSelection& shown, const std::vector<int>& layerOf);
-  /// Computes M_i, if shadows are a pattern, and C_i of a layer of the last render().
-  void makeContext(int layer);
-  /// Runs every input and pass once, so that none is new in a timed frame.
-  void prime(double timeS);
+  int layers() const { return layers_; }  ///< the background included
+  /// The camera of the frames to come, for pixelsOf().
+  const frame::Frame& moveTo(double timeS);
+  /// How many of these tests, from the first on, fit into one frame: at least one.
+  size_t fitting(const std::vector<ObjectTest>& tests) const;
+  /// Draws everything. `layerOf`: 1.. for each object.
+  void draw(const scene::LodSelection& shown, const std::vector<int>& layerOf,
+            const std::vector<ObjectTest>& tests);
+  /// The picture and, if `mappedLayer` > 0, C_i of that layer.
+  void compose(int mappedLayer);
+  /// What gathered.glsl reads.
+  void bindGathered(const gl::Program& program);
+  /// Defines of programs that include gathered.glsl.
+  gl::ShaderDefines defines() const;
 
-  const gl::Texture& composite() const { return frontColour_; }
-  const gl::Texture& frontKey() const { return frontKey_; }  ///< RGBA32UI: depth's bits, triangle, layer
-  const gl::Texture& secondColour() const { return secondColour_; }
-  const gl::Texture& secondKey() const { return secondKey_; }
-  const gl::Texture& image(int layer);          ///< O_i
-  const gl::Texture* mask(int layer) const;     ///< M_i: R32F, 0 or 1; null without shadow masks
-  const gl::Texture& context(int layer) const;  ///< C_i of a layer of objects
-  /// The shadow casters of the frame; null without shadows.
-  frame::Frame* casters() { return casters_ ? &casters_->frame() : nullptr; }
-  /// The camera of the last render().
-  const frame::Frame& view() { return layers_[0]->view.frame(); }
+  const gl::Texture& picture() const { return picture_; }  ///< linear RGBA32F as in frame::Shaded
+  /// R32F, cd/m2: what the picture would show without the layer of which a pixel shows an object. Where
+  /// compose() has mapped that layer.
+  const gl::Texture& behind() const { return behind_; }
+  const gl::Texture& context() const { return context_; }  ///< C_i, R32F, cd/m2, of the last layer mapped
   const scene::LodSelection& shown() const { return shown_; }
   int layersDrawn() const { return layersDrawn_; }
-  bool hasShadows() const { return casters_ != nullptr; }
+  uint64_t trianglesTested() const {
+    return trianglesTested_;
+  }  ///< drawn for tests only, shadows not counted
+  /// Of the last draw(), for looking at: "layer_i", "shadow_mask_i" (0 or 1; if shadows are a pattern),
+  /// "background". Slow.
+  std::map<std::string, const gl::Texture*> views();
 
  private:
-  struct Layer {
-    Layer(frame::Frame& parent, const std::string& name) : view(parent, name) {}
-    LevelView view;
-    bool drawn = false;
-    std::optional<gl::Texture> context, mask;
-    std::unique_ptr<LevelView> others;  ///< all casters except the layer's own
-  };
-  scene::LodSelection selectionOf(int layer) const;
-  void drawLayer(int layer);
-  void compositeLayers(const std::vector<int>& drawn);
+  void plan(const std::vector<int>& layerOf, const std::vector<ObjectTest>& tests);
+  int64_t wordsOf(const ObjectTest& test) const;
+  PixelRect lightPixelsOf(const scene::Bounds& bounds) const;
 
   frame::Frame& parent_;
   const frame::ShadedSetting shading_;
   const double attenuation_;
-  const gl::Program &compositeProgram_, &contextProgram_, &maskProgram_;
-  gl::Texture frontColour_, frontKey_, secondColour_, secondKey_;
-  std::unique_ptr<LevelView> casters_;
-  std::vector<std::unique_ptr<Layer>> layers_;
-  double timeS_ = 0.0;
+  const float blackCdM2_, rangeCdM2_;
+  const int layers_;
+  frame::Frame view_;
+  std::optional<frame::LightFrustum> light_;
+  std::unique_ptr<frame::RegionRaster> camera_, shadows_;
+  std::vector<PixelRect> lightPixels_;  ///< of each object, in the shadow map
+  const gl::Program *compose_ = nullptr, *layerView_ = nullptr;
+  gl::Texture picture_, behind_, context_;
+  int64_t testWords_ = 0;
+  std::optional<gl::Buffer> gathered_, regionTable_, testTable_;
+
+  // Of the last draw().
   scene::LodSelection shown_;
-  std::vector<int> layerOf_;
-  int layersDrawn_ = 0;
+  std::vector<frame::RasterRegion> table_;
+  std::vector<PlannedTest> tests_;
+  std::vector<frame::RegionContent> cameraRegions_, lightRegions_;
+  int testCount_ = 0, layersDrawn_ = 0;
+  uint64_t trianglesTested_ = 0;
+  std::vector<char> drawn_;
+  std::map<std::string, gl::Texture> views_;
 };
 
 }  // namespace limen::techniques

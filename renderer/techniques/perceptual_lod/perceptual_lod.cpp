@@ -5,11 +5,14 @@
 //
 // What the thesis leaves open, and the choices made here:
 // - Layers: their number, and uniform, logarithmic or explicit distance borders (parameters).
-// - Depth: the raster's own, so that the composite equals the ordinary picture bit for bit.
-// - Shadow mask M_i: surfaces of layer i that are shadowed according to a shadow map without the layer's own
-// objects,
-//   whether or not an object of the layer shadows them too. In C_i it darkens what lies behind the visible
-//   part of the layer by a constant factor.
+// - Depth: the raster's own, so that the picture equals the ordinary one bit for bit.
+// - Nothing is drawn twice: layers, and the versions of objects under test, each go into a rectangle of their
+// own of one buffer in the same dispatches; what is not tested is neither drawn nor cleared nor shaded again.
+// An object that is shown with its finest level needs no second drawing of it, and the next coarser level is
+// drawn only if the object may go there.
+// - Shadow mask M_i: surfaces of layer i that are shadowed by other layers, whether or not an object of the
+// layer shadows them too. In C_i it darkens what lies behind the visible part of the layer by a constant
+// factor.
 // - Where only one of two levels covers a pixel, the other shows what the other layers have there; objects of
 // the same layer behind it are ignored. An object of the same layer between the two levels' surfaces is taken
 // to be part of the object.
@@ -89,7 +92,7 @@ std::vector<Quantity> layeredQuantities() {
 
 const RegisteredTechnique<PerceptualLod> kPerceptualLodRegistered{
     {.name = "lod/perceptual",
-     .version = 1,
+     .version = 2,
      .summary =
          "Levels by visible difference: layers, a threshold map of each layer's surroundings, tests in turn",
      .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",

@@ -2,47 +2,54 @@
 // What the shaders of perceptual levels of detail are bound to. For C++ and GLSL.
 #pragma once
 
+#include "renderer/frame/raster_regions.h"
 #include "renderer/gl/shader_shared.h"
 
 #ifdef __cplusplus
 namespace limen::techniques {
+using glm::ivec2;
 #endif
 
-// Composite of the layers.
-const int kCompositeLayers = 5;  // in one dispatch: three textures each, of the 16 that are granted
-const uint kCompositeColoursUnit = 0u;
-const uint kCompositeDepthsUnit = 5u;
-const uint kCompositeIdsUnit = 10u;
-const uint kCompositeFrontColourImage = 0u;
-const uint kCompositeFrontKeyImage = 1u;
-const uint kCompositeSecondColourImage = 2u;
-const uint kCompositeSecondKeyImage = 3u;
+const int kLayerSlots = 9;  // layer 0 is the background
+const int kMostTests = 16;
 
-// Mask of shadows.
-const uint kShadowMaskReceiversUnit = 0u;
-const uint kShadowMaskShadowMapUnit = 1u;
-const uint kShadowMaskImage = 0u;
+// Regions of a frame: of the shadow map, then of the picture. Each has the layers, without the objects under
+// test in the shadow map, then versions of those objects.
+const int kFirstLightVersion = kLayerSlots;
+const int kFirstCameraRegion = kLayerSlots + 3 * kMostTests;
+const int kFirstCameraVersion = kFirstCameraRegion + kLayerSlots;
 
-// Context of a layer.
-const uint kContextFrontColourUnit = 0u;
-const uint kContextFrontKeyUnit = 1u;
-const uint kContextSecondColourUnit = 2u;
-const uint kContextMaskUnit = 3u;
-const uint kContextImage = 0u;
+// An object under test.
+struct PlannedTest {  // std140
+  int layer;
+  int lightCurrent, lightFinest, lightNext;  // regions; -1: there is none
+  int cameraFinest, cameraNext;       // finest: -1 if it is the current level; next: -1 if it is not tried
+  uint firstTriangle, triangleCount;  // of the current level
+  ivec2 low, high;                    // all pixels that it may cover
+};
+#ifdef __cplusplus
+static_assert(sizeof(PlannedTest) == 48 && offsetof(PlannedTest, low) == 32);
+static_assert(kFirstCameraVersion + 2 * kMostTests <= frame::kMostRasterRegions);
+#endif
+
+// All shaders that read the regions; 0 to 7 are the scene's buffers.
+const uint kPlannedTestsBlock = 2u;
+const uint kGatheredBuffer = 8u;
+
+// Composition.
+const uint kComposePictureImage = 0u;
+const uint kComposeBehindImage = 1u;
+const uint kComposeContextImage = 2u;
+
+// A layer on its own.
+const uint kLayerViewImage = 0u;
+const uint kLayerViewMaskImage = 1u;
 
 // Test of a level.
-const uint kLevelTestFrontColourUnit = 0u;
-const uint kLevelTestFrontKeyUnit = 1u;
-const uint kLevelTestSecondColourUnit = 2u;
-const uint kLevelTestSecondKeyUnit = 3u;
-const uint kLevelTestThresholdUnit = 4u;
-const uint kLevelTestFinestColourUnit = 5u;
-const uint kLevelTestFinestDepthUnit = 6u;
-const uint kLevelTestFinestIdsUnit = 7u;
-const uint kLevelTestNextColourUnit = 8u;
-const uint kLevelTestNextDepthUnit = 9u;
-const uint kLevelTestNextIdsUnit = 10u;
-const uint kLevelTestCountsBuffer = 0u;
+const uint kLevelTestPictureUnit = 0u;
+const uint kLevelTestBehindUnit = 1u;
+const uint kLevelTestThresholdUnit = 2u;
+const uint kLevelTestCountsBuffer = 9u;
 const uint kLevelTestVisibleImage = 0u;
 
 #ifdef __cplusplus

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +21,11 @@ class PerceptualPipeline {
 
   /// Runs every pass once without changing a level.
   void prime(double timeS);
-  /// One frame: takes the results that are due, draws layers and composite, tests the next objects. `wait`:
-  /// wait for results that are due.
+  /// One frame: takes the results that are due, draws layers and tests, composes the picture, tests the next
+  /// objects. `wait`: wait for results that are due.
   void render(double timeS, bool wait);
 
-  const gl::Texture& picture() const { return images_.composite(); }
+  const gl::Texture& picture() const { return images_.picture(); }
   const TestedLevels& control() const { return control_; }
   /// Levels of the last frame's picture.
   const scene::LodSelection& shown() const { return images_.shown(); }
@@ -33,24 +33,25 @@ class PerceptualPipeline {
   LayerImages& images() { return images_; }
   /// All tests whose results the last frame used.
   const std::vector<LevelTest>& taken() const { return taken_; }
-  int mapsMade() const { return mapsMade_; }                    ///< in the last frame
-  int64_t trianglesTested() const { return trianglesTested_; }  ///< drawn for tests in the last frame
+  /// What the last frame drew to test.
+  const std::vector<ObjectTest>& planned() const { return tests_; }
+  int mapsMade() const { return mapsMade_; }  ///< in the last frame
+  /// Drawn for tests in the last frame.
+  int64_t trianglesTested() const { return static_cast<int64_t>(images_.trianglesTested()); }
+  /// C_i [cd/m2] and its threshold map [cd/m2] for a layer of the last frame. Slow.
+  struct Surroundings {
+    const gl::Texture *context, *thresholds;
+  };
+  Surroundings surroundings(int layer);
   /// "layer_i", "shadow_mask_i", "context_i", "threshold_map_i" (cd/m2), layers counted from 1; "background",
-  /// "visible_pixels".
+  /// "visible_pixels". All are made on demand, of the last frame.
   std::map<std::string, const gl::Texture*> debugViews();
 
  private:
-  /// Views needed by one test of a frame.
-  struct TestViews {
-    TestViews(frame::Frame& parent, int number, bool shadows, bool withNext);
-    LevelView finest;
-    std::unique_ptr<LevelView> next, finestCasters, nextCasters;
-  };
   void takeResults(bool wait);
-  std::vector<char> testable() const;
-  void makeMap(int layer);
-  void test(int number, int object, bool priming);
-  frame::Frame& versionOf(LevelView& view, LevelView* casters, int object, int level);
+  std::vector<ObjectTest> nextTests();
+  const gl::Texture& makeMap(int layer, bool timed, const std::optional<perception::MapArea>& only = {});
+  void runTests(int layer, const gl::Texture& thresholds);
 
   frame::Frame& parent_;
   const PerceptualLodSettings settings_;
@@ -58,17 +59,15 @@ class PerceptualPipeline {
   LayerImages images_;
   TestedLevels control_;
   perception::ThresholdMapGpu thresholdMap_;
-  std::vector<gl::Texture> maps_;  ///< TM_i, of layers of objects
   gl::Texture visible_;
-  std::vector<std::unique_ptr<TestViews>> testViews_;
   TestCounts counts_;
   int64_t frameNumber_ = 0;
-  double timeS_ = 0.0;
   std::vector<int> layerOf_;
   std::vector<PixelRect> pixels_;
+  std::vector<ObjectTest> tests_;
   std::vector<LevelTest> taken_;
   int mapsMade_ = 0;
-  int64_t trianglesTested_ = 0;
+  std::map<std::string, gl::Texture> views_;
 };
 
 }  // namespace limen::techniques

@@ -12,9 +12,8 @@ namespace {
 
 constexpr int64_t kWordsPerTest = 4;
 
-const gl::Program& programOf(gl::Context& context, CountMethod method, bool withNext) {
+const gl::Program& programOf(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines) {
   const std::string folder = "renderer/techniques/perceptual_lod/";
-  const gl::ShaderDefines defines = withNext ? gl::ShaderDefines{{"NEXT", "1"}} : gl::ShaderDefines{};
   if (method == CountMethod::Compute)
     return context.programs().compute(folder + "count_visible.comp.glsl", defines);
   return context.programs().get({folder + "full_screen.vert.glsl", folder + "count_visible.frag.glsl"},
@@ -23,16 +22,18 @@ const gl::Program& programOf(gl::Context& context, CountMethod method, bool with
 
 }  // namespace
 
-TestCounts::TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
-                       const gl::Texture& visible)
+TestCounts::TestCounts(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines,
+                       int testsPerFrame, const gl::Texture& visible)
     : method_(method),
       testsPerFrame_(static_cast<size_t>(testsPerFrame)),
-      withNext_(withNext),
-      program_(programOf(context, method, withNext)),
+      program_(programOf(context, method, defines)),
       visible_(visible),
       counts_(kWordsPerTest * 4 * testsPerFrame, nullptr),
       batches_(kBatches) {
-  for (Batch& batch : batches_) batch.tests.reserve(testsPerFrame_);
+  for (Batch& batch : batches_) {
+    batch.tests.reserve(testsPerFrame_);
+    batch.numbers.reserve(testsPerFrame_);
+  }
   if (method == CountMethod::Query) {
     queries_.resize(kBatches * testsPerFrame_ * kQueries);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
@@ -55,27 +56,29 @@ TestCounts::~TestCounts() {
   glDeleteBuffers(1, &readBack_);
 }
 
-void TestCounts::begin(int64_t frame, float blackCdM2, float rangeCdM2) {
+void TestCounts::begin(int64_t frame) {
   assert(ready());
   batches_[next_].frame = frame;
-  visible_.clear(glm::vec4(0.0F));
-  program_.set("blackCdM2", blackCdM2);
-  program_.set("rangeCdM2", rangeCdM2);
+  batches_[next_].numbers.clear();
+  // Only what the last tests marked: a picture of zeros would cost more than some tests.
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  constexpr float kNothing = 0.0F;
+  for (const PixelRect& rect : marked_)
+    glClearTexSubImage(visible_.id(), 0, rect.low.x, rect.low.y, 0, rect.high.x - rect.low.x,
+                       rect.high.y - rect.low.y, 1, GL_RED, GL_FLOAT, &kNothing);
+  marked_.clear();
   if (method_ == CountMethod::Compute) counts_.clearUint(0);
 }
 
-void TestCounts::count(const CountRequest& request) {
+void TestCounts::count(const ObjectTest& test, int number, const PixelRect& pixels) {
   Batch& batch = batches_[next_];
-  const size_t test = batch.tests.size();
-  assert(test < testsPerFrame_);
-  batch.tests.push_back({request.object, request.level, 0, 0, 0});
-  program_.set("firstTriangle", request.triangles.first);
-  program_.set("triangleCount", request.triangles.count);
-  const glm::ivec2 size = request.pixels.high - request.pixels.low;
+  assert(number >= 0 && static_cast<size_t>(number) < testsPerFrame_);
+  batch.tests.push_back({test.object, test.level, 0, 0, 0, test.next});
+  batch.numbers.push_back(number);
+  marked_.push_back(pixels);
+  program_.set("test", number);
+  const glm::ivec2 size = pixels.high - pixels.low;
   if (method_ == CountMethod::Compute) {
-    program_.set("lowPx", request.pixels.low);
-    program_.set("highPx", request.pixels.high);
-    program_.set("test", static_cast<int>(test));
     counts_.bindStorage(kLevelTestCountsBuffer);
     visible_.bindImage(kLevelTestVisibleImage, gl::Access::Write);
     program_.dispatch(size);
@@ -85,12 +88,12 @@ void TestCounts::count(const CountRequest& request) {
   program_.use();
   glBindVertexArray(vertexArray_);
   glEnable(GL_SCISSOR_TEST);
-  glScissor(request.pixels.low.x, request.pixels.low.y, size.x, size.y);
-  for (size_t kind = 0; kind < (withNext_ ? kQueries : kQueries - 1); ++kind) {
+  glScissor(pixels.low.x, pixels.low.y, size.x, size.y);
+  for (size_t kind = 0; kind < kQueries; ++kind) {
     const GLboolean write = kind == 1 ? GL_TRUE : GL_FALSE;
     glColorMask(write, write, write, write);
     program_.set("counted", static_cast<int>(kind));
-    glBeginQuery(GL_SAMPLES_PASSED, query(next_, test, kind));
+    glBeginQuery(GL_SAMPLES_PASSED, query(next_, static_cast<size_t>(number), kind));
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEndQuery(GL_SAMPLES_PASSED);
   }
@@ -124,8 +127,8 @@ bool TestCounts::arrived(const Batch& batch, bool wait) const {
   if (wait) return true;  // reading a query waits for it
   GLuint available = GL_FALSE;
   // Queries complete in order: if the last of the batch is available, all are.
-  glGetQueryObjectuiv(query(oldest_, batch.tests.size() - 1, withNext_ ? 2 : 1), GL_QUERY_RESULT_AVAILABLE,
-                      &available);
+  glGetQueryObjectuiv(query(oldest_, static_cast<size_t>(batch.numbers.back()), kQueries - 1),
+                      GL_QUERY_RESULT_AVAILABLE, &available);
   return available == GL_TRUE;
 }
 
@@ -133,7 +136,10 @@ std::optional<std::vector<LevelTest>> TestCounts::take(int64_t newest, bool wait
   Batch& batch = batches_[oldest_];
   if (batch.tests.empty() || batch.frame > newest || !arrived(batch, wait)) return std::nullopt;
   read(oldest_);
+  // In the objects' turn; they were counted layer by layer.
   std::optional<std::vector<LevelTest>> out(batch.tests);
+  for (size_t i = 0; i < batch.tests.size(); ++i)
+    (*out)[static_cast<size_t>(batch.numbers[i])] = batch.tests[i];
   batch.tests.clear();
   glDeleteSync(static_cast<GLsync>(batch.fence));
   batch.fence = nullptr;
@@ -145,13 +151,14 @@ void TestCounts::read(size_t number) {
   std::vector<LevelTest>& tests = batches_[number].tests;
   for (size_t i = 0; i < tests.size(); ++i) {
     uint32_t counts[kQueries] = {0, 0, 0};
+    const auto at = static_cast<size_t>(batches_[number].numbers[i]);
     if (method_ == CountMethod::Compute) {
-      const uint32_t* at = mapped_ + static_cast<int64_t>(number) * counts_.bytes() / 4 +
-                           static_cast<int64_t>(i) * kWordsPerTest;
-      std::copy(at, at + kQueries, counts);
+      const uint32_t* from = mapped_ + static_cast<int64_t>(number) * counts_.bytes() / 4 +
+                             static_cast<int64_t>(at) * kWordsPerTest;
+      std::copy(from, from + kQueries, counts);
     } else {
-      for (size_t kind = 0; kind < (withNext_ ? kQueries : kQueries - 1); ++kind)
-        glGetQueryObjectuiv(query(number, i, kind), GL_QUERY_RESULT, &counts[kind]);
+      for (size_t kind = 0; kind < kQueries; ++kind)
+        glGetQueryObjectuiv(query(number, at, kind), GL_QUERY_RESULT, &counts[kind]);
     }
     tests[i].coveredPx = counts[0];
     tests[i].visiblePx = counts[1];

@@ -8,27 +8,21 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
+#include "renderer/techniques/perceptual_lod/layer_images.h"
 #include "renderer/techniques/perceptual_lod/level_view.h"
 #include "renderer/techniques/perceptual_lod/settings.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 
-/// What the GPU counts for one object.
-struct CountRequest {
-  int object = 0, level = 0;
-  scene::TriangleRange triangles;  ///< of the object's current level
-  PixelRect pixels;
-};
-
 /// Counts of tests that arrive frames later: by occlusion queries (Schwarz 2009, section 9.5), or in a
 /// compute shader whose sums are copied to mapped memory behind a fence. Batches, one per frame, are read in
 /// order; nothing waits unless asked to.
 class TestCounts {
  public:
-  /// `visible` is R32F, cleared each frame and set to 1 where a test found a visible difference. `withNext`:
-  /// the next coarser level is tested too.
-  TestCounts(gl::Context& context, CountMethod method, int testsPerFrame, bool withNext,
+  /// `defines`: of gathered.glsl. `visible` is R32F and 1 where a test of the last frame found a visible
+  /// difference, 0 elsewhere.
+  TestCounts(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines, int testsPerFrame,
              const gl::Texture& visible);
   ~TestCounts();
   TestCounts(const TestCounts&) = delete;
@@ -36,9 +30,10 @@ class TestCounts {
 
   /// False if too many batches are in flight for another one.
   bool ready() const { return batches_[next_].tests.empty(); }
-  void begin(int64_t frame, float blackCdM2, float rangeCdM2);
-  /// The textures of lod_difference.glsl are bound by the caller.
-  void count(const CountRequest& request);
+  void begin(int64_t frame);
+  /// What lod_difference.glsl reads is bound by the caller. `number`: of the frame's planned tests.
+  void count(const ObjectTest& test, int number, const PixelRect& pixels);
+  const gl::Program& program() const { return program_; }
   void end();
   /// The oldest batch, if it is of frame `newest` or earlier and has arrived.
   std::optional<std::vector<LevelTest>> take(int64_t newest, bool wait);
@@ -49,6 +44,7 @@ class TestCounts {
   struct Batch {
     int64_t frame = 0;
     std::vector<LevelTest> tests;  ///< empty: free
+    std::vector<int> numbers;      ///< of the tests in their frame
     void* fence = nullptr;
   };
   bool arrived(const Batch& batch, bool wait) const;
@@ -59,7 +55,6 @@ class TestCounts {
 
   CountMethod method_;
   size_t testsPerFrame_;
-  bool withNext_;
   const gl::Program& program_;
   const gl::Texture& visible_;
   gl::Buffer counts_;
@@ -68,6 +63,7 @@ class TestCounts {
   std::optional<gl::Framebuffer> target_;
   std::vector<uint32_t> queries_;
   std::vector<Batch> batches_;
+  std::vector<PixelRect> marked_;  ///< where `visible` may hold 1
   size_t next_ = 0, oldest_ = 0;
 };
 

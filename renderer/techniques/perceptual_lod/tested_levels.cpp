@@ -71,11 +71,15 @@ int LevelRule::step(const LevelTest& test) const {
   const double visible = measure(test.visiblePx, test.coveredPx);
   if (visible > upper()) return -1;
   if (!(visible < lower())) return 0;
+  if (lookAhead() && !test.nextTested) return 0;
   return lookAhead() && measure(test.nextVisiblePx, test.coveredPx) > upper() ? 0 : 1;
 }
 
 TestedLevels::TestedLevels(LevelRule rule, std::vector<int> levelCounts, int startLevel)
-    : rule_(rule), levelCounts_(std::move(levelCounts)), lastSteps_(levelCounts_.size(), 0) {
+    : rule_(rule),
+      levelCounts_(std::move(levelCounts)),
+      lastSteps_(levelCounts_.size(), 0),
+      stays_(levelCounts_.size(), 0) {
   for (const int count : levelCounts_) {
     assert(count >= 1);
     levels_.push_back(std::clamp(startLevel, 0, count - 1));
@@ -93,6 +97,11 @@ std::vector<int> TestedLevels::nextTests(int count, const std::vector<char>& tes
   return out;
 }
 
+bool TestedLevels::triesNext(int object) const {
+  const auto i = static_cast<size_t>(object);
+  return rule_.lookAhead() && levels_[i] + 1 < levelCounts_[i] && !stays_[i];
+}
+
 void TestedLevels::apply(const LevelTest& test) {
   ++tested_;
   const auto object = static_cast<size_t>(test.object);
@@ -100,6 +109,7 @@ void TestedLevels::apply(const LevelTest& test) {
     ++dropped_;
     return;
   }
+  stays_[object] = test.coveredPx > 0 && !(rule_.measure(test.visiblePx, test.coveredPx) < rule_.lower());
   const int level = std::clamp(test.level + rule_.step(test), 0, levelCounts_[object] - 1);
   const int step = level - test.level;
   if (step == 0) return;
@@ -107,6 +117,7 @@ void TestedLevels::apply(const LevelTest& test) {
   if (step == -lastSteps_[object]) ++reversals_;
   lastSteps_[object] = step;
   levels_[object] = level;
+  stays_[object] = 0;
 }
 
 }  // namespace limen::techniques

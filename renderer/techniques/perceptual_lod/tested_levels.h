@@ -15,6 +15,7 @@ struct LevelTest {
   uint32_t coveredPx = 0;      ///< pixels where the object is seen at this level or at the finest
   uint32_t visiblePx = 0;      ///< of these, how many differ from the finest level by more than the threshold
   uint32_t nextVisiblePx = 0;  ///< the same for the next coarser level, if that was tested
+  bool nextTested = true;
 };
 
 /// Limits in pixels: the thesis's, counts that grow with resolution and with the object.
@@ -61,7 +62,7 @@ struct LevelRule {
     return coveredPx > 0 ? double(count) / coveredPx : 0.0;
   }
   /// +1: coarser, -1: finer, 0: keep; the caller clamps. An object of which nothing is visible keeps its
-  /// level.
+  /// level, and so does one whose next level would have to be known and was not tested.
   int step(const LevelTest& test) const;
 };
 
@@ -76,6 +77,12 @@ class TestedLevels {
   /// The next at most `count` objects in turn among those that may be tested (`testable`, one per object) and
   /// have more than one level.
   std::vector<int> nextTests(int count, const std::vector<char>& testable);
+  /// Makes it this object's turn.
+  void resumeWith(int object) { turn_ = static_cast<size_t>(object); }
+  /// Whether a test of the object should try its next coarser level: the rule asks for it, there is one, and
+  /// when the object was last tested at its level it had few enough visible pixels to go there, or was not
+  /// tested yet.
+  bool triesNext(int object) const;
   /// Applies a test; a test of a level that the object has since left is dropped.
   void apply(const LevelTest& test);
 
@@ -88,6 +95,7 @@ class TestedLevels {
  private:
   LevelRule rule_;
   std::vector<int> levelCounts_, levels_, lastSteps_;
+  std::vector<char> stays_;  ///< by its last test at its level, the object goes no coarser
   size_t turn_ = 0;
   int64_t tested_ = 0, dropped_ = 0, switches_ = 0, reversals_ = 0;
 };

@@ -17,7 +17,7 @@ void append(std::vector<Counter>& all, std::vector<Counter> more) {
 
 }  // namespace
 
-SearchTechnique::SearchTechnique(Parts parts)
+SearchTechnique::SearchTechnique(SearchParts parts)
     : pass_(std::move(parts.shader), std::move(parts.pass), {}),
       search_(parts.search, parts.levels, parts.occluders),
       quality_(parts.levels, parts.passes),

@@ -14,6 +14,18 @@
 
 namespace limen::techniques {
 
+/// What a search technique is composed of.
+struct SearchParts {
+  std::string shader, pass;  ///< as for VisibilityTechnique
+  SearchSettings search;
+  LevelSettings levels;
+  PassSettings passes;
+  OccluderChoice occluders;
+  MapChoice maps;
+  std::unique_ptr<Gathering> gathering;
+  std::unique_ptr<ProductStage> last;  ///< null: the visibility as gathered
+};
+
 /// The techniques that backproject the shadow map's texels onto the light, composed of parts: maps, the
 /// search for occluders in them, levels, budgets, the gathering of occluders, and what turns that into the
 /// product. Source: Schwarz 2009, chapters 4 and 5.
@@ -43,17 +55,7 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   static std::vector<Quantity> quantities();
 
  protected:
-  struct Parts {
-    std::string shader, pass;  ///< as for VisibilityPass
-    SearchSettings search;
-    LevelSettings levels;
-    PassSettings passes;
-    OccluderChoice occluders;
-    MapChoice maps;
-    std::unique_ptr<Gathering> gathering;
-    std::unique_ptr<ProductStage> last;  ///< null: the visibility as gathered
-  };
-  explicit SearchTechnique(Parts parts);
+  explicit SearchTechnique(SearchParts parts);
 
  private:
   const frame::LightFrustum& bindInputs(frame::Frame& frame, const frame::ShadowMapSettings& map) override;

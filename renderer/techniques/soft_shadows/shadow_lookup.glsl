@@ -4,9 +4,12 @@
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
 
+// IN_SHADING: within a pass that shades, which finds the receivers itself and calls visibilityOf().
+#ifndef IN_SHADING
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kReceiversUnit) uniform sampler2D receivers;
 layout(binding = kVisibilityImage, r32f) uniform writeonly image2D outVisibility;
+#endif
 #ifdef COUNT
 layout(binding = kCountsImage, rgba32ui) uniform uimage2D outCounts;
 layout(binding = kSearchImage, rgba32ui) uniform writeonly uimage2D outSearch;
@@ -36,7 +39,7 @@ vec2 mapTexel(vec2 tangent) { return (tangent - tangentLow) / tangentSize * floa
 // through whatever lies near.
 float boundedSlope(vec4 receiver) { return min(receiver.w, maxSlope * receiver.z); }
 
-#if defined(BIAS_PLANE) || defined(BIAS_NORMAL_OFFSET)
+#if (defined(BIAS_PLANE) || defined(BIAS_NORMAL_OFFSET)) && !defined(IN_SHADING)
 layout(binding = kReceiverPlanesUnit) uniform sampler2D receiverPlanes;
 #endif
 #ifdef BIAS_PLANE
@@ -63,6 +66,19 @@ vec4 movedOff(vec4 receiver, vec2 plane) {
 }
 #endif
 
+#ifdef IN_SHADING
+// Makes a receiver, with the gradient of its plane, the one that is looked up.
+vec4 takeReceiver(vec4 receiver, vec2 plane) {
+#ifdef BIAS_PLANE
+  receiverPlane = plane;
+#endif
+#ifdef BIAS_NORMAL_OFFSET
+  return receiver.w < 0.0 ? receiver : movedOff(receiver, plane);
+#else
+  return receiver;
+#endif
+}
+#else
 // The receiver of a pixel; w < 0: none.
 vec4 loadReceiver(ivec2 pixel) {
 #ifdef BIAS_PLANE
@@ -78,6 +94,7 @@ vec4 loadReceiver(ivec2 pixel) {
   return receiver;
 #endif
 }
+#endif
 
 // Depth that a blocker must undercut to count, for texels of the given level: a constant share of the distance plus the
 // change of the receiver's own plane over `slopeBias` texels (the slope sums both axes). BIAS_BY_LEVEL: a constant that grows
@@ -122,6 +139,7 @@ bool planeCutsLight(vec4 receiver) {
 }
 #endif
 
+#ifndef IN_SHADING
 void store(ivec2 pixel, float visibility) {
   imageStore(outVisibility, pixel, vec4(visibility));
 #ifdef COUNT
@@ -129,11 +147,12 @@ void store(ivec2 pixel, float visibility) {
   imageStore(outSearch, pixel, uvec4(areaTexels, examinedCount, usedCount, floatBitsToUint(levelUsed)));
 #endif
 }
+#endif
 
 float visibilityOf(vec4 receiver, ivec2 pixel);
 
 // Techniques that split their work into passes have entry points of their own.
-#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER) && !defined(LEVEL_STEPS)
+#if !defined(SPLIT_CLASSIFY) && !defined(SPLIT_GATHER) && !defined(LEVEL_STEPS) && !defined(IN_SHADING)
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;

@@ -51,13 +51,7 @@ void VisibilityPass::makeInputs(frame::Frame& frame, PassInputs& inputs,
 void VisibilityPass::bind(frame::Frame& frame, const gl::Program& program, PassInputs& inputs,
                           const frame::ShadowMapSettings& map, const CountImages* counts) const {
   const frame::LightFrustum& frustum = inputs.bindInputs(frame, map);
-  program.set("sizePx", frame.sizePx());
-  program.set("tangentLow", glm::vec2(frustum.low));
-  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-  program.set("near", static_cast<float>(frustum.near));
-  program.set("lightSize", glm::vec2(frame.scene().lights[0].size));
-  program.set("eyeOnLight", glm::vec2(map.eye));
-  program.set("resolution", map.resolution);
+  setMapUniforms(program, frame, frustum, map);
   inputs.setUniforms(program);
   const ReceiverTextures receivers = receiversOf(frame, map.eye);
   receivers.points.bindTexture(kReceiversUnit);
@@ -74,6 +68,17 @@ void VisibilityPass::run(frame::Frame& frame, PassInputs& inputs, const frame::S
   bind(frame, chosen, inputs, map, counts);
   chosen.dispatch(frame.sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void setMapUniforms(const gl::Program& program, const frame::Frame& frame, const frame::LightFrustum& frustum,
+                    const frame::ShadowMapSettings& map) {
+  program.set("sizePx", frame.sizePx());
+  program.set("tangentLow", glm::vec2(frustum.low));
+  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+  program.set("near", static_cast<float>(frustum.near));
+  program.set("lightSize", glm::vec2(frame.scene().lights[0].size));
+  program.set("eyeOnLight", glm::vec2(map.eye));
+  program.set("resolution", map.resolution);
 }
 
 BoundPyramid bindPyramid(frame::Frame& frame, const frame::ShadowMapSettings& map) {

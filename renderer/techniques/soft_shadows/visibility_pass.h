@@ -57,6 +57,10 @@ class VisibilityPass {
   const gl::Program* plain_ = nullptr;
 };
 
+/// Sets the uniforms of shadow_lookup.glsl for a map of this frustum.
+void setMapUniforms(const gl::Program& program, const frame::Frame& frame, const frame::LightFrustum& frustum,
+                    const frame::ShadowMapSettings& map);
+
 /// Levels of the pyramid that was bound, and its frustum.
 struct BoundPyramid {
   const frame::LightFrustum& frustum;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -55,6 +56,24 @@ TEST(StudyScores, MeanOfTheMostHighlyRated) {
   EXPECT_EQ(values.at("one_minus_ssim"), 0.25);
   EXPECT_EQ(values.at("region_count"), 2.0);
   EXPECT_EQ(values.count("flip"), 0U);
+}
+
+TEST(StudyScores, AreOfWhatTheCueAskedAbout) {
+  // The only region at the cue is rated 2, those away from it 4 and 3.
+  const json cued = json::parse(
+      R"({"rating": 2, "rest_rating": 4, "coverage_of_object": 0.03, "regions": [{"rating": 4, "at_cue": false},
+          {"rating": 3, "at_cue": false}, {"rating": 2, "at_cue": true}]})");
+  const auto values = predictorValues(cued);
+  EXPECT_EQ(values.at("rating"), 2.0);
+  EXPECT_EQ(values.at("rest_rating"), 4.0);
+  EXPECT_EQ(values.at("rating_score"), 2.0);
+  EXPECT_EQ(values.at("region_count"), 3.0);
+  // Predictions of before say nothing of cues: all their regions count.
+  json older = cued;
+  for (json& region : older["regions"]) region.erase("at_cue");
+  older.erase("rest_rating");
+  EXPECT_EQ(predictorValues(older).at("rating_score"), 3.0);
+  EXPECT_EQ(predictorValues(older).count("rest_rating"), 0U);
 }
 
 TEST(PoppingLink, IsTheHighestPointOfALongRidge) {
@@ -260,6 +279,62 @@ TEST_F(ValidationTest, TrialsByHand) {
   ASSERT_EQ(part.severity.size(), 2U);  // rating_score and its level
   EXPECT_EQ(part.severity[0].scenarios, 2U);
   EXPECT_NEAR(part.severity[0].pearson->coefficient.value, -1.0, 1e-12);
+}
+
+TEST_F(ValidationTest, TestsAnybodysScores) {
+  // Trials of TrialsByHand: a is noticed once in two, b twice in two.
+  const std::string protocol = "task: {type: yes_no}\nfactors:\n  s: [a, b]\n";
+  const std::vector<HandMadeTrial> a = trials({{"s", "a"}}, 1, 2), b = trials({{"s", "b"}}, 2, 2);
+  addHandMadeSession(store(), "p", protocol, a + b);
+  StudyChoice choice;
+  choice.store = store();
+  const StudyPlan plan = readStudyAnswers(choice).plan;
+  const std::string clipA = store::clipName(handMadeHash(a[0]), "display_hash", plan.widthPx, plan.heightPx),
+                    clipB = store::clipName(handMadeHash(b[0]), "display_hash", plan.widthPx, plan.heightPx);
+  EXPECT_NE(clipA, clipB);
+  const auto scores = [&](const std::string& text, const std::vector<std::string>& quality = {}) {
+    std::ofstream(folder_.path("scores.csv")) << text;
+    ValidationSetting setting;
+    setting.scores = readClipScores(folder_.path("scores.csv"), quality);
+    return validate(setting);
+  };
+  const std::string rows = "clip,mine,jod\n" + clipA + ",1,9\n" + clipB + ",2,8\nclip_0,5,5\n";
+  // Without predictions the scores stand alone: both order a below b if the second is a quality.
+  const PartValidation alone = scores(rows, {"jod"}).parts.at(0);
+  ASSERT_EQ(alone.areas.size(), 2U);
+  for (const TrialArea& area : alone.areas) {
+    EXPECT_NEAR(area.area.area, 5.0 / 6.0, 1e-12);  // as for the rating there
+    EXPECT_FALSE(area.againstRating);
+  }
+  ASSERT_EQ(alone.comparisons.size(), 1U);
+  EXPECT_EQ(alone.comparisons[0].areas.difference, 0.0);
+
+  const auto figures = [](double rating, double flip) { return json{{"rating", rating}, {"flip", flip}}; };
+  addHandMadePrediction(store(), handMadeHash(a[0]), figures(1.0, 0.4));
+  addHandMadePrediction(store(), handMadeHash(b[0]), figures(2.0, 0.3));
+  const StudyValidation both = scores(rows);
+  const PartValidation& part = both.parts.at(0);
+  EXPECT_THAT(both.notes, testing::Contains(testing::HasSubstr("1 rows of the scores")));
+  std::map<std::string, double> areas;
+  for (const TrialArea& area : part.areas) areas[area.predictor] = area.area.area;
+  EXPECT_NEAR(areas.at("mine"), 5.0 / 6.0, 1e-12);
+  EXPECT_NEAR(areas.at("jod"), 1.0 / 6.0, 1e-12);  // taken as it is, it goes the wrong way
+  EXPECT_EQ(part.comparisons.size(), 6U);          // rating, flip, mine, jod
+  EXPECT_EQ(part.scenarios[0].predictors.at("mine"), 1.0);
+  EXPECT_EQ(agreement(part, "mine").scenarios, 2U);
+  // The same by stimulus.
+  const std::string byStimulus =
+      "stimulus_hash,mine\n" + handMadeHash(a[0]) + ",1\n" + handMadeHash(b[0]) + ",2\n";
+  EXPECT_EQ(scores(byStimulus).parts.at(0).scenarios[1].predictors.at("mine"), 2.0);
+
+  expectError([&] { scores("clip,mine\n" + clipA + ",1\n"); }, "1 of 2 clips with a change have no score");
+  expectError([&] { scores("clip,mine\nclip_0,1\n"); }, "not those of this study");
+  expectError([&] { scores("name,mine\n" + clipA + ",1\n"); }, "no columns that name clips");
+  expectError([&] { scores("clip\n" + clipA + "\n"); }, "no column of scores");
+  expectError([&] { scores("clip,mine\n" + clipA + ",good\n"); }, "mine");
+  expectError([&] { scores("clip,mine\n" + clipA + ",1\n" + clipA + ",1\n"); }, "twice");
+  expectError([&] { scores("clip,flip\n" + clipA + ",1\n"); }, "Limen's own predictors");
+  expectError([&] { scores(rows, {"jnd"}); }, "no column 'jnd'");
 }
 
 TEST_F(ValidationTest, OrderAndClampAsInTheThesis) {

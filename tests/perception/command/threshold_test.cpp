@@ -17,7 +17,8 @@ const double kThresholdAt100 = 0.2 * std::pow(10.0, 0.745);
 TEST_F(ThresholdCli, FlatFieldHasThePublishedThreshold) {
   ASSERT_NEAR(kThresholdAt100, 1.11181, 5e-6);
   save("flat.exr", flat(64, 48, {100.0F, 100.0F, 100.0F}), {OIIO::TypeDesc::FLOAT, {}, {}});
-  const nlohmann::json found = result({"threshold", "flat.exr", "--scene-luminance", "-o", "map.exr"});
+  const nlohmann::json found =
+      result({"threshold", "flat.exr", "--map", "single", "--scene-luminance", "-o", "map.exr"});
   for (const char* name : {"min", "p1", "median", "p99", "max", "mean"})
     EXPECT_NEAR(figure(found, name), kThresholdAt100, 2e-5) << name;
   EXPECT_NEAR(figure(found, "mean_adaptation"), 100.0, 1e-4);
@@ -37,12 +38,13 @@ TEST_F(ThresholdCli, SameFieldInAnyFormHasTheSameThreshold) {
   save("grey.exr", flat(32, 32, {lit}), {OIIO::TypeDesc::FLOAT, {}, {}});
   save("coded.png", flat(32, 32, {coded, coded, coded}), {OIIO::TypeDesc::UINT16, {}, {}});
   save("coded8.tif", flat(32, 32, {coded}));
-  EXPECT_NEAR(figure(result({"threshold", "lit.exr"}), "median"), kThresholdAt100, 2e-5);
-  EXPECT_NEAR(figure(result({"threshold", "grey.exr"}), "median"), kThresholdAt100, 2e-5);
-  EXPECT_NEAR(figure(result({"threshold", "coded.png"}), "median"), kThresholdAt100, 1e-4 * kThresholdAt100);
+  EXPECT_NEAR(figure(result({"threshold", "lit.exr", "--map", "single"}), "median"), kThresholdAt100, 2e-5);
+  EXPECT_NEAR(figure(result({"threshold", "grey.exr", "--map", "single"}), "median"), kThresholdAt100, 2e-5);
+  EXPECT_NEAR(figure(result({"threshold", "coded.png", "--map", "single"}), "median"), kThresholdAt100,
+              1e-4 * kThresholdAt100);
   // 8 bits: half a step of code in light.
   const double step = light(coded + 0.5 / 255) - light(coded);
-  EXPECT_NEAR(figure(result({"threshold", "coded8.tif"}), "median"), kThresholdAt100,
+  EXPECT_NEAR(figure(result({"threshold", "coded8.tif", "--map", "single"}), "median"), kThresholdAt100,
               1.01 * kThresholdAt100 * step * 249.5 / 100.0);
 }
 
@@ -72,22 +74,22 @@ TEST_F(ThresholdCli, StatisticsAreThoseOfTheMap) {
 TEST_F(ThresholdCli, SettingsReachTheModelAndTheStatement) {
   save("flat.exr", flat(32, 32, {100.0F}), {OIIO::TypeDesc::FLOAT, {}, {}});
   const nlohmann::json found =
-      result({"threshold", "flat.exr", "--scene-luminance", "--set", "tvi_factor=0.4"});
+      result({"threshold", "flat.exr", "--map", "single", "--scene-luminance", "--set", "tvi_factor=0.4"});
   EXPECT_NEAR(figure(found, "median"), 2.0 * kThresholdAt100, 4e-5);
   EXPECT_EQ(found.at("settings").at("tvi_factor"), 0.4);
   EXPECT_THAT(found.at("statement").get<std::string>(),
               AllOf(HasSubstr("Limen 0."), HasSubstr("threshold map"), HasSubstr("tvi_factor 0.4"),
                     HasSubstr("display schwarz_2009"), Not(HasSubstr("\n"))));
-  expectRefused({"threshold", "flat.exr", "--set", "tvi_facter=0.4"}, {"tvi_factor"});
-  EXPECT_THAT(call({"threshold", "--list"}).out, HasSubstr("tvi_factor=0.2"));
-  EXPECT_THAT(call({"threshold", "--help"}).out, HasSubstr("tvi_factor=0.2"));
+  expectRefused({"threshold", "flat.exr", "--map", "single", "--set", "tvi_facter=0.4"}, {"tvi_factor"});
+  EXPECT_THAT(call({"threshold", "--map", "single", "--list"}).out, HasSubstr("tvi_factor=0.2"));
+  EXPECT_THAT(call({"threshold", "--help"}).out, HasSubstr("predictor.minkowski_exponent="));
 }
 
 TEST_F(ThresholdCli, SettingsOfAResultRepeatIt) {
   save("a.png", noise(40, 30, 3, 1));
-  const nlohmann::json first = result(
-      {"threshold", "a.png", "--set", "tvi_factor=0.31", "--set", "masking=lubin", "--set", "levels=5"});
-  std::vector<std::string> again = {"threshold", "a.png"};
+  const nlohmann::json first = result({"threshold", "a.png", "--map", "single", "--set", "tvi_factor=0.31",
+                                       "--set", "masking=lubin", "--set", "levels=5"});
+  std::vector<std::string> again = {"threshold", "a.png", "--map", "single"};
   for (const auto& [name, value] : first.at("settings").items()) {
     if (name == "input") continue;
     again.emplace_back("--set");
@@ -120,26 +122,48 @@ TEST_F(ThresholdCli, SequencesWriteAMapForEachFrame) {
   for (int n = 1; n <= 3; ++n)
     save("f_00" + std::to_string(n) + ".exr", flat(16, 16, {100.0F * static_cast<float>(n) / 2.0F}),
          {OIIO::TypeDesc::FLOAT, {}, {}});
-  const experiments::CallResult answer =
-      call({"threshold", "f_%03d.exr", "--scene-luminance", "--json", "-o", "maps/t_###.exr"});
+  const experiments::CallResult answer = call(
+      {"threshold", "f_%03d.exr", "--map", "single", "--scene-luminance", "--json", "-o", "maps/t_###.exr"});
   ASSERT_EQ(answer.exitCode, 0) << answer.err;
   const std::vector<nlohmann::json> lines = jsonLines(answer.out);
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_NEAR(figure(lines[1], "median"), kThresholdAt100, 2e-5);
   EXPECT_EQ(lines[3].at("figures").at("median").at("max_frame"), "frame 3");
   for (int n = 1; n <= 3; ++n) EXPECT_TRUE(exists("maps/t_00" + std::to_string(n) + ".exr"));
-  expectRefused({"threshold", "f_%03d.exr", "-o", "t.exr"}, {"%04d"});
+  expectRefused({"threshold", "f_%03d.exr", "--map", "single", "-o", "t.exr"}, {"%04d"});
 }
 
 TEST_F(ThresholdCli, OddImagesAreFinite) {
   save("one.png", flat(1, 1, {0.5F, 0.5F, 0.5F}));
   save("black.png", flat(33, 7, {0.0F, 0.0F, 0.0F}));
   save("row.exr", flat(50, 1, {1e30F}), {OIIO::TypeDesc::FLOAT, {}, {}});
-  for (const char* name : {"one.png", "black.png", "row.exr"}) {
-    const nlohmann::json found = result({"threshold", name});
-    expectFinite(found);
-    EXPECT_GT(figure(found, "min"), 0.0) << name;
+  for (const char* name : {"one.png", "black.png", "row.exr"})
+    for (const char* kind : {"bands", "single"}) {
+      const nlohmann::json found = result({"threshold", name, "--map", kind});
+      expectFinite(found);
+      EXPECT_GT(figure(found, "min"), 0.0) << name << ' ' << kind;
+    }
+}
+
+TEST_F(ThresholdCli, BandsAreTheDefaultAndOneCanBeAskedFor) {
+  save("flat.exr", flat(128, 96, {100.0F}), {OIIO::TypeDesc::FLOAT, {}, {}});
+  const nlohmann::json combined = result({"threshold", "flat.exr", "--scene-luminance"});
+  EXPECT_THAT(combined.at("statement").get<std::string>(), HasSubstr("by frequency band"));
+  ASSERT_GE(combined.at("bands").size(), 4U);
+  // No band of a flat field is masked: the combined map is no larger than the most sensitive band's.
+  double least = 1e9;
+  for (size_t band = 0; band < combined.at("bands").size(); ++band) {
+    const nlohmann::json one = result({"threshold", "flat.exr", "--scene-luminance", "--set", "output=band",
+                                       "--set", "output.band=" + std::to_string(band)});
+    EXPECT_NEAR(figure(one, "median"), combined.at("bands")[band].at("median_cd_m2").get<double>(), 1e-6);
+    EXPECT_NEAR(figure(one, "min") / figure(one, "max"), 1.0, 1e-9);
+    least = std::min(least, figure(one, "median"));
   }
+  EXPECT_LT(figure(combined, "max"), least);
+  EXPECT_GT(figure(combined, "min"), 0.2 * least);
+  expectRefused({"threshold", "flat.exr", "--set", "output=band", "--set", "output.band=9"},
+                {"frequency band"});
+  expectRefused({"threshold", "flat.exr", "--map", "one"}, {"bands"});
 }
 
 }  // namespace

@@ -51,6 +51,25 @@ class ThresholdMapGpuTest : public gl::GlTest {
   }
 };
 
+TEST_F(ThresholdMapGpuTest, APartOfTheMapIsThatPartOfTheWholeMap) {
+  const Plane luminance = picture(201, 143);
+  gl::Texture input(gl::Format::R32F, {201, 143});
+  input.write(toImage(luminance));
+  ThresholdMapGpu gpu(context(), input.sizePx(), display(), {}, {}, false);
+  const Image whole = gpu.run(input).read();
+  gl::Texture flat(gl::Format::R32F, {201, 143});
+  flat.clear(glm::vec4(50.0F));
+  for (const MapArea area :
+       {MapArea{{70, 40}, {90, 80}}, MapArea{{0, 0}, {1, 1}}, MapArea{{190, 100}, {201, 143}}}) {
+    gpu.run(flat);  // so that nothing is left of the last run
+    const Image part = gpu.run(input, nullptr, area).read();
+    for (int y = area.low.y; y < area.high.y; ++y)
+      for (int x = area.low.x; x < area.high.x; ++x)
+        ASSERT_EQ(part.data[size_t(y) * 201 + size_t(x)], whole.data[size_t(y) * 201 + size_t(x)])
+            << x << ", " << y;
+  }
+}
+
 TEST_F(ThresholdMapGpuTest, AgreesWithTheReferenceOnAdversarialImages) {
   // Of the pyramid those alone on which it differs most from the stack: every variant is a program to
   // compile.

@@ -76,6 +76,46 @@ TEST_F(MultiScaleMapTest, EveryEntryHoldsTheRangeOfItsWindow) {
     }
 }
 
+// Several dispatches of several layers, each in several groups: every border of the map, of a group's tile
+// and of a dispatch's last layer is met, since the places are drawn at random near them and anywhere.
+TEST_F(MultiScaleMapTest, EntriesOfLargeMapsHoldTheRangesOfTheirWindows) {
+  std::mt19937 random(20261123);
+  for (const WindowAnchor anchor : {WindowAnchor::Centre, WindowAnchor::Corner})
+    for (const int resolution : {128, 256, 512}) {
+      Image map(resolution, resolution, 1);
+      // Steps of few texels: an entry that misses a row or column of its window has another range.
+      for (float& z : map.data) z = random() % 37 == 0 ? kEmptyDepth : static_cast<float>(random() % 100000);
+      const DepthPyramid pyramid(map);
+      const MultiScaleLayers layers(context(), resolution, anchor);
+      layers.build(pyramid.minimum(), pyramid.maximum(), 0);
+      const auto place = [&] {
+        const int anywhere = static_cast<int>(random() % static_cast<unsigned>(resolution));
+        switch (random() % 4) {
+          case 0:
+            return static_cast<int>(random() % 20);
+          case 1:
+            return resolution - 1 - static_cast<int>(random() % 20);
+          case 2:
+            return anywhere / 16 * 16 + (random() % 2 == 0 ? 0 : 15);
+          default:
+            return anywhere;
+        }
+      };
+      for (int layer = 1; layer <= layers.layers(); ++layer) {
+        const Image made = layers.texture().readLayer(layer - 1);
+        const int size = 1 << layer;
+        for (int i = 0; i < 150; ++i) {
+          const glm::ivec2 at(place(), place());
+          const glm::ivec2 start = at - (anchor == WindowAnchor::Centre ? size / 2 : 0);
+          const glm::vec2 expected =
+              rangeOf(map, glm::clamp(start, 0, resolution), glm::clamp(start + size, 0, resolution));
+          ASSERT_EQ(glm::vec2(made.at(at.x, at.y, 0), made.at(at.x, at.y, 1)), expected)
+              << resolution << " layer " << layer << " at " << at.x << ' ' << at.y;
+        }
+      }
+    }
+}
+
 TEST_F(MultiScaleMapTest, LayersOfAHybridHoldTheRangesOfItsBaseTexels) {
   // Over level 2 of a map of 32: windows of 2, 4, 8 base texels are windows of 8, 16, 32 texels of the map.
   std::mt19937 random(3);

@@ -86,8 +86,8 @@ class PerceptualLodTest : public TechniqueTest {
   /// A pipeline on a scene, frame by frame.
   struct Bench {
     Bench(const scene::Scene& scene, const PerceptualLodSettings& settings,
-          glm::ivec2 sizePx = glm::ivec2(kSize))
-        : gpuScene(scene), frame(context(), scene, gpuScene, sizePx), pipeline(frame, settings) {
+          glm::ivec2 sizePx = glm::ivec2(kSize), frame::Raster raster = frame::Raster::Auto)
+        : gpuScene(scene), frame(context(), scene, gpuScene, sizePx, 0.0, raster), pipeline(frame, settings) {
       pipeline.prime(0.0);
     }
     void run(int frames, double timeS = 0.0) {
@@ -106,7 +106,8 @@ class PerceptualLodTest : public TechniqueTest {
   static Image picture(Bench& bench, const scene::LodSelection& selection,
                        const frame::ShadedSetting& shading, double timeS = 0.0,
                        const scene::LodSelection* casters = nullptr) {
-    frame::Frame frame(context(), bench.frame.scene(), bench.gpuScene, bench.frame.sizePx(), timeS);
+    frame::Frame frame(context(), bench.frame.scene(), bench.gpuScene, bench.frame.sizePx(), timeS,
+                       bench.frame.raster());
     frame::Frame shadows(frame, "shadows", bench.frame.sizePx());
     if (casters) {
       shadows.setLevels(*casters);

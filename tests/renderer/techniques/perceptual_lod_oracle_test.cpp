@@ -49,8 +49,9 @@ TEST_F(PerceptualLodOracle, AgreesWithThePipelineWhereLeavingTheObjectOutChanges
   light(scene);
   for (const double x : {-1.0, 1.0})
     addSquares(scene, shades({0.0, 0.5, 1.0, 1.25, 30.0}), {x, 0.3 * x, 0.0}, static_cast<float>(kAlbedo100));
-  const PerceptualLodSettings chosen =
-      settings({{"rule.coarsen", std::string("if_invisible")}, {"rule.limits.lower", 1.0}, {"rule.limits.upper", 1.0}});
+  const PerceptualLodSettings chosen = settings({{"rule.coarsen", std::string("if_invisible")},
+                                                 {"rule.limits.lower", 1.0},
+                                                 {"rule.limits.upper", 1.0}});
   const std::vector<OracleVerdict> found = search(scene, chosen, {64, 64});
   EXPECT_EQ(found.at(0).coarsestInvisible(chosen.rule), 2);
   EXPECT_EQ(found.at(1).coarsestInvisible(chosen.rule), 2);
@@ -63,7 +64,8 @@ TEST_F(PerceptualLodOracle, TechniqueShowsWhatItFound) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, squares({1.0, 1.25, 1.5}), glm::dvec3(0.0), 0.8F);
   const Rendered shown =
-      render(scene, "lod/oracle", {{"limit.most", 150.0}, {"shading.ambient", 1.0}, {"shading.diffuse", 0.0}}, {64, 64}, true);
+      render(scene, "lod/oracle", {{"limit.most", 150.0}, {"shading.ambient", 1.0}, {"shading.diffuse", 0.0}},
+             {64, 64}, true);
   int bright = 0;
   for (size_t i = 0; i < shown.product.pixels(); ++i) bright += shown.product.data[4 * i] > 0.5F;
   EXPECT_EQ(bright, 400);  // level 1
@@ -73,7 +75,8 @@ TEST_F(PerceptualLodOracle, TechniqueShowsWhatItFound) {
 }
 
 TEST_F(PerceptualLodOracle, BaselineTakesTheSmallestFactorWithEnoughTriangles) {
-  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}});
+  const scene::Scene scene =
+      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}});
   const scene::LodView view{scene.camera.at(0.0), 72};
   const auto drawn = [&](double factor) {
     return scene::triangleCount(scene, scene::levelsByDistance(scene, view, factor));
@@ -89,8 +92,42 @@ TEST_F(PerceptualLodOracle, BaselineTakesTheSmallestFactorWithEnoughTriangles) {
   EXPECT_EQ(drawn(factorForTriangles(scene, view, most + 1)), most);
 }
 
+TEST(PerceptualLodTime, TakesTheLargestFactorWithinTheLimit) {
+  const std::vector<double> factors = {0.0, 0.5, 1.0, 1.5, 2.0, 4.0, 8.0};
+  int asked = 0;
+  const auto frameMs = [&](double factor) {
+    ++asked;
+    return 1.0 + factor;
+  };
+  for (const double limit : {0.2, 1.0, 1.4, 2.0, 2.6, 4.999, 5.0, 9.0, 20.0}) {
+    asked = 0;
+    const TimedFactor found = factorForTime(factors, limit, frameMs);
+    double wanted = 0.0;
+    for (const double factor : factors)
+      if (1.0 + factor <= limit) wanted = factor;
+    EXPECT_EQ(found.factor, wanted) << limit;
+    EXPECT_EQ(found.frameMs, 1.0 + wanted);
+    EXPECT_LE(asked, 2 + 3);  // both ends, and a bisection of five between them
+  }
+  EXPECT_EQ(factorForTime({0.0}, 0.1, frameMs).factor, 0.0);
+}
+
+TEST_F(PerceptualLodOracle, BaselineByFrameTimeIsTimedAgainstThePipeline) {
+  const scene::Scene scene =
+      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
+  const Given given = {{"settle_frames", int64_t{4}},
+                       {"oracle", false},
+                       {"match", std::string("frame_time")},
+                       {"match.frames", int64_t{3}}};
+  const Rendered distance = render(scene, "lod/distance_matched", given, {80, 60}, true);
+  EXPECT_GT(distance.counter("perceptual_frame_ms"), 0.0);
+  // Which factor it is depends on the machine's load.
+  EXPECT_GE(distance.counter("distance_factor"), 0.0);
+}
+
 TEST_F(PerceptualLodOracle, BaselineDrawsNoFewerTrianglesThanThePipeline) {
-  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
+  const scene::Scene scene =
+      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
   const Given given = {{"settle_frames", int64_t{16}},
                        {"tests.objects_per_frame", int64_t{3}},
                        {"rule.coarsen", std::string("if_invisible")}};

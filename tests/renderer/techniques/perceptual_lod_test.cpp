@@ -34,8 +34,9 @@ TEST_P(Counting, FindsEveryPixelThatALevelAddsOrLacks) {
   scene::Scene shrinking = wall(0.2F);
   addSquares(shrinking, squares({1.5, 1.25, 1.0}), glm::dvec3(0.0), 0.8F);
   for (const bool grows : {true, false}) {
-    Bench bench(grows ? scene : shrinking, settings(counting({{"start_level", std::string("coarsest")},
-                                                              {"rule.coarsen", std::string("if_invisible")}})));
+    Bench bench(grows ? scene : shrinking,
+                settings(counting({{"start_level", std::string("coarsest")},
+                                   {"rule.coarsen", std::string("if_invisible")}})));
     bench.run(2);
     ASSERT_EQ(bench.pipeline.taken().size(), 1U);
     const LevelTest first = bench.pipeline.taken()[0];
@@ -71,7 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Forms, Counting, testing::Values("compute", "query"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_F(PerceptualLodTest, QueriesCountWhatTheComputeShaderCounts) {
-  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
+  const scene::Scene scene =
+      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{3}}});
   std::vector<std::vector<LevelTest>> found;
   for (const char* form : {"compute", "query"}) {
     Bench bench(scene,
@@ -119,6 +121,49 @@ TEST_F(PerceptualLodTest, WhatWouldBeSeenStaysFinestIfTheNextLevelIsLookedAt) {
   EXPECT_EQ(bench.pipeline.control().switches(), 0);
 }
 
+TEST_F(PerceptualLodTest, OnlyWhatMayChangeALevelIsDrawn) {
+  scene::Scene scene = wall(0.2F);
+  addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.8F);
+  // 144 of 400 pixels differ at level 1, 320 at level 2.
+  const auto run = [&](const char* coarsen, double lower, double upper, const char* start) {
+    Bench bench(scene, settings(unlit({{"rule.coarsen", std::string(coarsen)},
+                                       {"rule.limits.lower", lower},
+                                       {"rule.limits.upper", upper},
+                                       {"start_level", std::string(start)}})));
+    std::vector<std::string> drawn;
+    for (int i = 0; i < 5; ++i) {
+      bench.run(1);
+      const ObjectTest& test = bench.pipeline.planned().at(0);
+      drawn.push_back(std::to_string(test.level) + (test.finest ? "f" : "") + (test.next ? "n" : ""));
+    }
+    return drawn;
+  };
+  using Drawn = std::vector<std::string>;
+  // At the finest level only the next one is of interest, and not even that by the thesis's rule.
+  EXPECT_EQ(run("if_invisible", 4.0, 16.0, "finest"), (Drawn{"0n", "0n", "0n", "0n", "0n"}));
+  EXPECT_EQ(run("at_once", 0.0, 16.0, "finest"), (Drawn{"0", "0", "0", "0", "0"}));
+  // Level 1 is kept with 144 pixels, which is known from the first test on: the next level is tried once.
+  EXPECT_EQ(run("if_invisible", 4.0, 150.0, "finest"), (Drawn{"0n", "1fn", "1f", "1f", "1f"}));
+  // The coarsest has no next.
+  EXPECT_EQ(run("if_invisible", 4.0, 400.0, "coarsest"), (Drawn{"2f", "2f", "2f", "2f", "2f"}));
+}
+
+TEST_F(PerceptualLodTest, ALevelWhoseNextWasNotTriedIsKept) {
+  TestedLevels levels(LevelRule{PixelLimits{4.0, 16.0}, Coarsen::IfInvisible}, {3}, 1);
+  EXPECT_TRUE(levels.triesNext(0));
+  levels.apply({0, 1, 100, 9, 50, true});  // between the limits
+  EXPECT_FALSE(levels.triesNext(0));
+  levels.apply({0, 1, 100, 2, 0, false});  // might go coarser, but what is there was not tried
+  EXPECT_EQ(levels.levels()[0], 1);
+  EXPECT_TRUE(levels.triesNext(0));
+  levels.apply({0, 1, 100, 2, 0, true});
+  EXPECT_EQ(levels.levels()[0], 2);
+  EXPECT_FALSE(levels.triesNext(0));  // the coarsest
+  levels.apply({0, 2, 100, 30, 0, false});
+  EXPECT_EQ(levels.levels()[0], 1);
+  EXPECT_TRUE(levels.triesNext(0));
+}
+
 TEST_F(PerceptualLodTest, OneThresholdOscillatesAndABandDoesNot) {
   scene::Scene scene = wall(0.2F);
   addSquares(scene, growingSquares(), glm::dvec3(0.0), 0.8F);
@@ -136,12 +181,14 @@ TEST_F(PerceptualLodTest, OneThresholdOscillatesAndABandDoesNot) {
   EXPECT_EQ(band.pipeline.control().reversals(), 0);
   EXPECT_EQ(band.pipeline.shown().levels, Levels{1});
   // As a share of the 400 pixels covered: 0.36.
-  Bench share(scene,
-              settings(unlit({{"rule.limits.lower", 0.3}, {"rule.limits.upper", 0.4}, {"rule.limits", std::string("share")}})));
+  Bench share(scene, settings(unlit({{"rule.limits.lower", 0.3},
+                                     {"rule.limits.upper", 0.4},
+                                     {"rule.limits", std::string("share")}})));
   share.run(kFrames);
   EXPECT_EQ(share.pipeline.shown().levels, Levels{1});
-  Bench less(scene,
-             settings(unlit({{"rule.limits.lower", 0.3}, {"rule.limits.upper", 0.35}, {"rule.limits", std::string("share")}})));
+  Bench less(scene, settings(unlit({{"rule.limits.lower", 0.3},
+                                    {"rule.limits.upper", 0.35},
+                                    {"rule.limits", std::string("share")}})));
   less.run(kFrames);
   EXPECT_EQ(less.pipeline.control().switches(), kFrames - 1);
 }
@@ -164,7 +211,9 @@ TEST_F(PerceptualLodTest, AMaskingPatternRaisesTheLevelThatIsTolerated) {
     addSquares(scene, shades({0.0, 0.5, 1.0, 1.25, 1.6, 30.0}), glm::dvec3(0.0),
                static_cast<float>(kAlbedo100));
     Bench bench(scene,
-                settings({{"rule.coarsen", std::string("if_invisible")}, {"rule.limits.lower", 1.0}, {"rule.limits.upper", 1.0}}),
+                settings({{"rule.coarsen", std::string("if_invisible")},
+                          {"rule.limits.lower", 1.0},
+                          {"rule.limits.upper", 1.0}}),
                 {128, 128});
     bench.run(10);
     return bench.pipeline.shown().levels.at(0);
@@ -209,8 +258,10 @@ TEST_F(PerceptualLodTest, WithoutWaitingResultsAreUsedOnceTheyAreThere) {
 TEST_F(PerceptualLodTest, FramesInFlightKeepTheirOwnObjects) {
   // All objects stay finest (nothing is below delta_l = 0), so no test may find a difference, although
   // several frames with other objects under test are under way at a time.
-  const scene::Scene scene = makeScene("lod/field", {{"grid.rows", int64_t{4}}, {"grid.columns", int64_t{3}}});
-  Bench bench(scene, settings({{"rule.limits.lower", 0.0}, {"tests.latency_frames", int64_t{6}}}), {320, 240});
+  const scene::Scene scene =
+      makeScene("lod/field", {{"grid.rows", int64_t{4}}, {"grid.columns", int64_t{3}}});
+  Bench bench(scene, settings({{"rule.limits.lower", 0.0}, {"tests.latency_frames", int64_t{6}}}),
+              {320, 240});
   int tests = 0;
   for (int i = 0; i < 16; ++i) {
     bench.run(1);
@@ -261,8 +312,8 @@ TEST_F(PerceptualLodTest, OddScenesAndPicturesStayFinite) {
 }
 
 TEST_F(PerceptualLodTest, TheSameFramesGiveTheSameBytes) {
-  const scene::Scene scene =
-      makeScene("lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}, {"motion.speed", 4.0}});
+  const scene::Scene scene = makeScene(
+      "lod/field", {{"grid.rows", int64_t{3}}, {"grid.columns", int64_t{2}}, {"motion.speed", 4.0}});
   std::vector<std::vector<float>> ends;
   for (int run = 0; run < 2; ++run) {
     Bench bench(scene, settings({{"shading.shadow", true}}), {64, 48});

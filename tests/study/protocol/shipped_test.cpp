@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "experiments/base/yaml_tree.h"
+#include "perception/vision/display.h"
 #include "renderer/catalogue.h"
 #include "renderer/scene/scene.h"
 #include "study/protocol/design.h"
@@ -39,6 +41,14 @@ glm::dvec2 projected(const scene::Camera& camera, glm::dvec3 point, const Window
           0.5 * window.heightPx - scale * glm::dot(way, up)};
 }
 
+/// Middle of the patch, by the weights of a cubic B-spline.
+glm::dvec3 tipOf(const scene::Scene& scene) {
+  glm::dvec3 tip(0.0);
+  constexpr std::array<double, 4> kWeights = {1.0 / 48.0, 23.0 / 48.0, 23.0 / 48.0, 1.0 / 48.0};
+  for (size_t k = 0; k < 16; ++k) tip += kWeights[k % 4] * kWeights[k / 4] * scene.patches[0].points[k];
+  return tip;
+}
+
 /// Scene time of the first frame that is shown.
 double firstFrameS(const Stimulus& s) {
   return s.sceneStartS + (s.presentation == Presentation::Static ? s.changeAtS : 0.0);
@@ -63,8 +73,8 @@ TEST(ShippedProtocols, AllReadAndGiveStimuli) {
       }
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"experiment_1", "experiment_2", "quality_pairs", "quick",
-                                          "threshold_2ifc"}));
+  EXPECT_EQ(names, (std::set<std::string>{"experiment_1", "experiment_2", "patch_in_motion", "quality_pairs",
+                                          "quick", "threshold_2ifc"}));
 }
 
 TEST(ShippedProtocols, TheReadmesExampleReads) {
@@ -110,14 +120,37 @@ TEST(ShippedProtocols, ExperimentOneChangesAtItsDistanceAndPointsAtTheTip) {
         glm::distance(scene.camera.at(s.sceneStartS + 4.4).eye, scene.camera.at(s.sceneStartS + 4.5).eye),
         0.1, 1e-9);
     // Uniform cubic B-splines are 1, 23, 23 and 1 of 48 in the middle of a patch.
-    glm::dvec3 tip(0.0);
-    constexpr std::array<double, 4> kWeights = {1.0 / 48.0, 23.0 / 48.0, 23.0 / 48.0, 1.0 / 48.0};
-    for (size_t k = 0; k < 16; ++k) tip += kWeights[k % 4] * kWeights[k / 4] * scene.patches[0].points[k];
+    const glm::dvec3 tip = tipOf(scene);
     const glm::dvec2 place = projected(scene.camera.at(firstFrameS(s)), tip, protocol.window);
     EXPECT_EQ(s.cue.kind, Cue::Kind::Arrow);
     EXPECT_NEAR(s.cue.xPx, place.x, 1.0);
     EXPECT_NEAR(s.cue.yPx, place.y, 1.0);
   }
+}
+
+TEST(ShippedProtocols, ThePatchInMotionMovesAsItsFactorSays) {
+  const Protocol protocol = readProtocol("patch_in_motion", catalogue());
+  const perception::DisplayProfile display = perception::displayPreset(protocol.display);
+  std::map<std::string, int> trials;
+  for (const PlannedTrial& trial : plannedTrials(protocol)) {
+    const Stimulus s = stimuliOf(protocol, trial).front();
+    const std::string level = trial.condition.at("speed");
+    const double degS = level == "rest" ? 0.0 : std::stod(level);
+    ++trials[level];
+    EXPECT_EQ(s.presentation, degS > 0.0 ? Presentation::Dynamic : Presentation::Static);
+    const scene::Scene scene = scene::buildScene(s.scene.name, s.scene.values);
+    const glm::dvec3 tip = tipOf(scene);
+    const auto at = [&](double timeS) { return projected(scene.camera.at(timeS), tip, protocol.window); };
+    // In the middle when the level changes, and moving there at the speed that it is named after.
+    EXPECT_NEAR(at(0.0).x, 512.0, 0.5);
+    EXPECT_NEAR(glm::distance(at(0.5 / 60.0), at(-0.5 / 60.0)) * 60.0 / display.pixelsPerDegree(), degS,
+                0.01 * degS);
+    EXPECT_NEAR(s.cue.xPx, at(firstFrameS(s)).x, 5.0);
+    EXPECT_NEAR(s.cue.yPx, at(firstFrameS(s)).y, 1.0);
+    EXPECT_LT(std::abs(at(firstFrameS(s)).x - 512.0), 512.0);
+  }
+  EXPECT_EQ(trials.size(), 5U);
+  for (const auto& [level, count] : trials) EXPECT_EQ(count, 2 * 3 * 4) << level;
 }
 
 TEST(ShippedProtocols, ExperimentTwoHasTheThesisDesign) {

@@ -11,6 +11,8 @@
 #include "experiments/base/error.h"
 #include "perception/popping/predictor.h"
 #include "perception/vision/colour.h"
+#include "renderer/frame/motion.h"
+#include "study/stimulus/cued_place.h"
 #include "study/stimulus/prediction.h"
 #include "study/stimulus/prepared_stimulus.h"
 #include "tests/study/stimulus/stimulus_fixture.h"
@@ -63,6 +65,7 @@ TEST_F(PredictionTest, IsThePredictorsWordOnThePicturesAsTheyAreShown) {
   perception::PoppingInput input;
   input.actual = coded(stimulus, 0);
   input.predicted = coded(stimulus, 1);
+  input.isSwitch = true;
   const perception::PoppingResult expected = perception::predictPopping(input, studyDisplay());
   const PredictedPopping found = Predictor(context(), kPredictionSize, studyDisplay()).predict(stimulus);
   ASSERT_GT(expected.regions.regions.size(), 0U);
@@ -96,6 +99,83 @@ TEST_F(PredictionTest, ACatchIsReportedAtTheGuessRate) {
   EXPECT_TRUE(found.regions.empty());
   EXPECT_DOUBLE_EQ(found.detectionProbability, 0.0446);
   EXPECT_TRUE(std::isfinite(found.rating));
+}
+
+TEST_F(PredictionTest, TheRegionAtTheCueIsThePredictionAndTheRestASecondFigure) {
+  Stimulus stimulus = patchStimulus();
+  stimulus.presentation = Presentation::Static;
+  Predictor predictor(context(), kPredictionSize, studyDisplay());
+  const PredictedPopping uncued = predictor.predict(stimulus);
+  ASSERT_GT(uncued.regions.size(), 0U);
+  EXPECT_FALSE(uncued.restRating.has_value());
+  EXPECT_TRUE(uncued.popsAtCue());
+  const PredictedPopping::Region& highest = uncued.regions.front();
+
+  // Everything lies within a circle around the window.
+  stimulus.cue = {Cue::Kind::Circle, 48.0, 36.0, 100.0, 1.0};
+  const PredictedPopping around = predictor.predict(stimulus);
+  EXPECT_EQ(around.rating, uncued.rating);
+  EXPECT_LT(*around.restRating, uncued.regions.back().rating);
+  EXPECT_EQ(*around.restDetectionProbability, 0.0446);
+
+  // Nothing within a circle that holds no pixel centre: what is left is all of it.
+  stimulus.cue = {Cue::Kind::Circle, 0.0, 0.0, 0.5, 1.0};
+  const PredictedPopping corner = predictor.predict(stimulus);
+  EXPECT_FALSE(corner.popsAtCue());
+  EXPECT_EQ(corner.detectionProbability, 0.0446);
+  EXPECT_LT(corner.rating, uncued.regions.back().rating);
+  EXPECT_EQ(*corner.restRating, uncued.rating);
+  EXPECT_EQ(*corner.restDetectionProbability, uncued.detectionProbability);
+  EXPECT_EQ(corner.regions.size(), uncued.regions.size());
+  EXPECT_EQ(corner.coverage, uncued.coverage);
+
+  // Wherever it points, the higher of both is the highest of all, and only regions that come near the cue are
+  // asked about.
+  for (const glm::dvec2 at : {glm::dvec2(48, 36), glm::dvec2(30, 20), glm::dvec2(70, 50)}) {
+    stimulus.cue = {Cue::Kind::Circle, at.x, at.y, 4.0, 1.0};
+    const PredictedPopping one = predictor.predict(stimulus);
+    EXPECT_EQ(std::max(one.rating, *one.restRating), highest.rating);
+    for (const PredictedPopping::Region& region : one.regions) {
+      const glm::dvec2 nearest = glm::clamp(at, glm::dvec2(region.leastPx), glm::dvec2(region.mostPx) + 1.0);
+      if (!region.atCue) continue;
+      EXPECT_LE(glm::distance(nearest, at), 4.0);
+    }
+  }
+}
+
+TEST_F(PredictionTest, ACueIsFollowedToTheFrameOfTheChange) {
+  // The renderer's own displacement of the pixel where the cue is found leads back to the cue.
+  Stimulus stimulus = patchStimulus();
+  stimulus.scene = sceneEntry("lod/patch", {{"distance", 4.0}, {"motion.speed", 10.0}});
+  stimulus.cue = {Cue::Kind::Arrow, 57.5, 41.5, 50.0, 1.0};
+  const Timeline timeline = timelineOf(stimulus, 60.0);
+  const frame::SceneOnGpu onGpu(scene::buildScene(stimulus.scene.name, stimulus.scene.values));
+  frame::Frame frame(context(), onGpu, kPredictionSize, timeline.changeSceneTimeS);
+  const auto place = cuedPlace(frame, stimulus, timeline, studyDisplay());
+  ASSERT_TRUE(place.has_value());
+  EXPECT_EQ(frame.timeS(), timeline.changeSceneTimeS);
+  EXPECT_DOUBLE_EQ(place->radiusPx, studyDisplay().pixelsPerDegree());
+  EXPECT_GT(glm::distance(place->centrePx, {57.5, 41.5}), 2.0);
+  frame.begin();
+  const Image moved =
+      frame.get<frame::Motion>(frame::MotionSetting{timeline.changeSceneTimeS - timeline.sceneTimeS(0)})
+          .displacement()
+          .read();
+  frame.end();
+  // Displacements of the four pixels around the place; they change by 0.03 px from one to the next.
+  const glm::dvec2 corner = glm::floor(place->centrePx - 0.5), t = place->centrePx - 0.5 - corner;
+  const glm::ivec2 at(corner);
+  for (int c = 0; c < 2; ++c) {
+    const double above = glm::mix(moved.at(at.x, at.y, c), moved.at(at.x + 1, at.y, c), float(t.x));
+    const double below = glm::mix(moved.at(at.x, at.y + 1, c), moved.at(at.x + 1, at.y + 1, c), float(t.x));
+    EXPECT_NEAR(place->centrePx[c] - glm::mix(above, below, t.y), c == 0 ? 57.5 : 41.5, 0.01);
+  }
+
+  stimulus.presentation = Presentation::Static;
+  const auto still = cuedPlace(frame, stimulus, timelineOf(stimulus, 60.0), studyDisplay());
+  EXPECT_EQ(still->centrePx, glm::dvec2(57.5, 41.5));
+  stimulus.cue.kind = Cue::Kind::None;
+  EXPECT_FALSE(cuedPlace(frame, stimulus, timeline, studyDisplay()).has_value());
 }
 
 TEST_F(PredictionTest, ATechniquesChangeIsPredictedToo) {
@@ -132,6 +212,10 @@ TEST_F(PredictionTest, CacheKeepsWhatWasFoundAndTellsStimuliApart) {
     Stimulus other = stimulus;
     other.showings = 3;  // shows the same change
     EXPECT_EQ(predictor.key(other), key);
+    other.cue.durationS = 2.0;
+    EXPECT_EQ(predictor.key(other), key);
+    other.cue.kind = Cue::Kind::Arrow;
+    EXPECT_NE(predictor.key(other), key);
     other.levels->before = 2;
     EXPECT_NE(predictor.key(other), key);
     EXPECT_NE(Predictor(context(), kPredictionSize + 1, studyDisplay()).key(stimulus), key);

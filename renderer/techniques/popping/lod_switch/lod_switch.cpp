@@ -22,7 +22,7 @@ class LodSwitch : public Technique {
 
   void prepare(frame::Frame& frame) override {
     views_.emplace(frame, setting_);
-    predictor_.emplace(frame.context(), frame.sizePx(), setting_.display, setting_.popping);
+    predictor_.emplace(frame.context(), frame.sizePx(), setting_.display, setting_.popping, true);
     frame.passes().setBytesHeld("popping/collapse", predictor_->bytesHeld());
     if (!setting_.usesDisocclusion() && !setting_.usesFlicker()) return;
     weights_.emplace(frame.context(), setting_.popping);
@@ -87,7 +87,7 @@ class LodSwitch : public Technique {
 
 const RegisteredTechnique<LodSwitch> kLodSwitchRegistered{
     {.name = "popping/lod_switch",
-     .version = 1,
+     .version = 2,
      .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
      .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
      .product = ProductKind::JndMap,

@@ -24,6 +24,7 @@ class LodSwitchReference : public Technique {
     const auto pass = frame.passes().open("popping/reference");
     images_ = views_->read();
     perception::PoppingInput input = images_.input;
+    input.isSwitch = true;
     if (!images_.disocclusion.empty())
       input.disocclusion =
           perception::disocclusionWeight(images_.disocclusion, setting_.popping.disocclusionSettings());
@@ -55,7 +56,7 @@ class LodSwitchReference : public Technique {
 
 const RegisteredTechnique<LodSwitchReference> kLodSwitchReferenceRegistered{
     {.name = "popping/lod_switch_reference",
-     .version = 1,
+     .version = 2,
      .summary = "Popping predictor in double precision on the frames of one object's change of level",
      .source = "Schwarz 2009, chapter 10 (SP-51)",
      .product = ProductKind::JndMap,

@@ -2,8 +2,7 @@
 // Soft shadow mapping with occluder backprojection and area accumulation (SS-10, SS-11, SS-26, SS-30): areas
 // of all micro-occluders on the light are summed, so overlapping ones count twice. Source: Schwarz 2009,
 // sections 4.1 (after Guennebaud 2006), 4.4.1 and 4.4.3.
-#include "renderer/techniques/soft_shadows/backprojection/backprojection_settings.h"
-#include "renderer/techniques/soft_shadows/search_technique.h"
+#include "renderer/techniques/soft_shadows/backprojection/backprojection_parts.h"
 
 namespace limen::techniques {
 namespace {
@@ -36,15 +35,7 @@ class Backprojection : public SearchTechnique {
  public:
   using Settings = BackprojectionSettings;
   explicit Backprojection(const BackprojectionSettings& settings)
-      : SearchTechnique({.shader = "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl",
-                         .pass = "soft_shadows/backprojection",
-                         .search = settings.search,
-                         .levels = settings.levels,
-                         .passes = settings.passes,
-                         .occluders = occluderChoice(settings.occluders),
-                         .maps = CentreMap{},
-                         .gathering = std::make_unique<AreaGathering>(settings.occluders),
-                         .last = nullptr}) {}
+      : SearchTechnique(backprojectionParts(settings)) {}
 };
 
 const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
@@ -57,4 +48,17 @@ const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
      .counters = SearchTechnique::quantities()}};
 
 }  // namespace
+
+SearchParts backprojectionParts(const BackprojectionSettings& settings) {
+  return {.shader = "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl",
+          .pass = "soft_shadows/backprojection",
+          .search = settings.search,
+          .levels = settings.levels,
+          .passes = settings.passes,
+          .occluders = occluderChoice(settings.occluders),
+          .maps = CentreMap{},
+          .gathering = std::make_unique<AreaGathering>(settings.occluders),
+          .last = nullptr};
+}
+
 }  // namespace limen::techniques

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soft shadow mapping with occlusion bitmasks (SS-12 to SS-16, SS-19, SS-20, SS-27 to SS-30).
+#include "renderer/techniques/soft_shadows/bitmask/bitmask_parts.h"
 #include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
-#include "renderer/techniques/soft_shadows/search_technique.h"
 
 namespace limen::techniques {
 namespace {
@@ -14,18 +14,7 @@ std::unique_ptr<ProductStage> makeFilter(const FilterSettings& settings) {
 class Bitmask : public SearchTechnique {
  public:
   using Settings = BitmaskSettings;
-  explicit Bitmask(const BitmaskSettings& settings)
-      : SearchTechnique(
-            {.shader = "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl",
-             .pass = "soft_shadows/bitmask",
-             .search = settings.search,
-             .levels = settings.levels,
-             .passes = settings.passes,
-             .occluders = occluderChoice(settings.occluders),
-             .maps = settings.maps,
-             .gathering = std::make_unique<MaskGathering>(settings.occluders, sampleChoice(settings.pattern),
-                                                          MaskGathering::Masks::Joined),
-             .last = makeFilter(settings.filter)}) {}
+  explicit Bitmask(const BitmaskSettings& settings) : SearchTechnique(bitmaskParts(settings)) {}
 };
 
 std::vector<Quantity> bitmaskQuantities() {
@@ -44,4 +33,18 @@ const RegisteredTechnique<Bitmask> kBitmaskRegistered{
      .counters = bitmaskQuantities()}};
 
 }  // namespace
+
+SearchParts bitmaskParts(const BitmaskSettings& settings) {
+  return {.shader = "renderer/techniques/soft_shadows/bitmask/bitmask.comp.glsl",
+          .pass = "soft_shadows/bitmask",
+          .search = settings.search,
+          .levels = settings.levels,
+          .passes = settings.passes,
+          .occluders = occluderChoice(settings.occluders),
+          .maps = settings.maps,
+          .gathering = std::make_unique<MaskGathering>(settings.occluders, sampleChoice(settings.pattern),
+                                                       MaskGathering::Masks::Joined),
+          .last = makeFilter(settings.filter)};
+}
+
 }  // namespace limen::techniques

@@ -106,7 +106,7 @@ class BitmaskColoured : public SearchTechnique {
   explicit BitmaskColoured(const ColouredSettings& settings) : SearchTechnique(partsOf(settings)) {}
 
  private:
-  static Parts partsOf(const ColouredSettings& settings) {
+  static SearchParts partsOf(const ColouredSettings& settings) {
     auto masks = std::make_unique<MaskGathering>(settings.occluders, sampleChoice(settings.pattern),
                                                  MaskGathering::Masks::Stored);
     auto colours = std::make_unique<LightColourStage>(settings, *masks);

@@ -36,6 +36,7 @@ class History : public Technique {
   }
 
   const gl::Texture& product() const override { return history_.current(); }
+  std::vector<std::string> remarks() const override { return inner_->remarks(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     std::vector<Counter> all = countInner(*inner_, frame);

@@ -65,6 +65,7 @@ class Multisample : public Technique {
 
   void render(frame::Frame& frame) override { run(frame, resolve_, nullptr); }
   const gl::Texture& product() const override { return surfaces_ ? surfaces_->visibility() : *visibility_; }
+  std::vector<std::string> remarks() const override { return inner_->remarks(); }
 
   /// Points evaluated per pixel and their micro-occluders; unless every sample is a point, also the share of
   /// pixels that see several surfaces, and of samples that took a neighbour's visibility or one from another

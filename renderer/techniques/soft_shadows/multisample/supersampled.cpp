@@ -69,6 +69,7 @@ class Supersampled : public Technique {
   }
 
   const gl::Texture& product() const override { return *visibility_; }
+  std::vector<std::string> remarks() const override { return inner_->remarks(); }
 
  private:
   int samples_;

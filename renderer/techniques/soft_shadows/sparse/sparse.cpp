@@ -59,6 +59,7 @@ class Sparse : public Technique {
 
   void render(frame::Frame& frame) override { run(frame, nullptr); }
   const gl::Texture& product() const override { return *visibility_; }
+  std::vector<std::string> remarks() const override { return inner_->remarks(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     const gl::Texture classes(gl::Format::R32UI, frame.sizePx());

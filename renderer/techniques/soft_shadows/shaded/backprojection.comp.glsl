@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/soft_shadows/backprojection/backprojection.comp.glsl"
+#include "renderer/techniques/soft_shadows/shaded/loop_in_shading.glsl"

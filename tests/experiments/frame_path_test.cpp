@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames of a path against frames rendered on their own: in a scene whose light has been moved by hand, and
+// in one whose camera starts later on its path.
+#include <gtest/gtest.h>
+
+#include "experiments/base/error.h"
+#include "experiments/frame_path.h"
+#include "experiments/scene_rendering.h"
+#include "renderer/techniques/technique.h"
+#include "tests/analysis/synthetic_store.h"
+
+namespace limen::experiments {
+namespace {
+
+constexpr glm::ivec2 kSizePx(48, 36);
+constexpr int kSteps = 3;
+
+class FramePathTest : public testing::Test {
+ protected:
+  static gl::Context& context() {
+    static const std::unique_ptr<gl::Context> shared = gl::createHeadlessContext();
+    return *shared;
+  }
+  void SetUp() override { context(); }
+  void TearDown() override { EXPECT_NO_THROW(context().checkDebugMessages()); }
+
+  static Configuration technique(const std::string& name,
+                                 const std::map<std::string, ParameterValue>& given) {
+    const techniques::TechniqueInfo& info = techniques::TechniqueRegistry::instance().get(name);
+    return {name, info.version, ParameterValues(info.parameters, given)};
+  }
+  static scene::Scene sceneOf(const std::string& name,
+                              const std::map<std::string, ParameterValue>& given = {}) {
+    return scene::buildScene(
+        name, ParameterValues(scene::SceneRegistry::instance().get(name).allParameters(), given));
+  }
+  static Image alone(scene::Scene scene, const Configuration& of) {
+    const frame::SceneOnGpu onGpu(std::move(scene));
+    return renderOnce(context(), onGpu, kSizePx, of);
+  }
+
+  struct Step {
+    Image test, reference, testBefore;
+    double largestDisplacementPx = 0.0;
+  };
+  std::vector<Step> render(const scene::Scene& scene, const PlannedRun& run,
+                           const perception::PathRequest& request) {
+    const frame::SceneOnGpu onGpu(scene);
+    ReferenceCache references(folder_.path("references"));
+    std::vector<Step> out;
+    FramePath(context(), onGpu, kSizePx, run, references, "run " + run.reference.name)
+        .render(request,
+                [&](int step, const perception::PathFrame& before, const perception::PathFrame& now) {
+                  EXPECT_EQ(step, static_cast<int>(out.size()) + 1);
+                  out.push_back({now.test->read(), now.reference->read(), before.test->read(), 0.0});
+                  if (!now.displacement) return;
+                  for (const float value : now.displacement->read().data)
+                    out.back().largestDisplacementPx =
+                        std::max(out.back().largestDisplacementPx, std::abs(double{value}));
+                });
+    return out;
+  }
+
+  analysis::TemporaryFolder folder_;
+};
+
+TEST_F(FramePathTest, MovesTheLightInItsPlane) {
+  PlannedRun run;
+  run.technique = technique("soft_shadows/backprojection", {{"resolution", int64_t{128}}});
+  run.reference = technique("soft_shadows/exact_union", {});
+  const scene::Scene still = sceneOf("two_boxes");
+  const std::vector<Step> steps = render(still, run, {perception::LightPath{0.25, 90.0}, kSteps});
+  ASSERT_EQ(steps.size(), size_t{kSteps});
+  Image before = alone(still, run.technique);
+  for (int step = 1; step <= kSteps; ++step) {
+    scene::Scene moved = still;
+    moved.lights[0].centre += 0.25 * step * moved.lights[0].size.y * moved.lights[0].axisY;  // 90 degrees
+    const Step& found = steps[static_cast<size_t>(step - 1)];
+    EXPECT_EQ(found.testBefore.data, before.data) << step;
+    before = alone(moved, run.technique);
+    EXPECT_EQ(found.test.data, before.data) << step;
+    EXPECT_NE(found.test.data, found.testBefore.data) << "nothing moved";
+    EXPECT_EQ(found.reference.data, alone(moved, run.reference).data) << step;
+  }
+}
+
+TEST_F(FramePathTest, FollowsTheCamerasPath) {
+  PlannedRun run;
+  run.technique = technique("lod/discrete", {});
+  run.reference = technique("lod/finest", {{"samples", int64_t{1}}});
+  const std::vector<Step> steps = render(sceneOf("lod/object"), run, {perception::CameraPath{0.5}, kSteps});
+  ASSERT_EQ(steps.size(), size_t{kSteps});
+  for (int step = 1; step <= kSteps; ++step) {
+    const scene::Scene later = sceneOf("lod/object", {{"camera", "built_in"}, {"camera.time_s", 0.5 * step}});
+    const Step& found = steps[static_cast<size_t>(step - 1)];
+    EXPECT_EQ(found.test.data, alone(later, run.technique).data) << step;
+    EXPECT_EQ(found.reference.data, alone(later, run.reference).data) << step;
+    EXPECT_GT(found.largestDisplacementPx, 0.1) << step;
+  }
+}
+
+TEST_F(FramePathTest, RefusesACameraWithoutAPath) {
+  PlannedRun run;
+  run.technique = technique("soft_shadows/hard", {});
+  run.reference = technique("soft_shadows/exact_union", {});
+  EXPECT_THROW(render(sceneOf("two_boxes"), run, {perception::CameraPath{}, kSteps}), Error);
+}
+
+}  // namespace
+}  // namespace limen::experiments
