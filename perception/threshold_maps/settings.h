@@ -193,7 +193,7 @@ struct ThresholdMapGpuSettings {
   int precision = 32;  ///< bits of intermediate results
   ThresholdLookup lookup = ThresholdLookup::Tables;
   std::variant<AutomaticLevels, GivenLevels> levelsPerPass = {};
-  FinestStored finest = FinestStored::Band;
+  FinestStored finest = FinestStored::Luminance;
   static const SettingsTable<ThresholdMapGpuSettings>& table();
 
   bool half() const { return precision == 16; }

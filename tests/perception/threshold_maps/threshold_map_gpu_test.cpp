@@ -178,13 +178,23 @@ TEST_F(ThresholdMapGpuTest, NineFetchesIn16BitsHoldFaintContrasts) {
     const Plane image = pattern(128, 128, [&](int x, int y) {
       return 100.0 * (1.0 + contrast * std::sin(0.35 * x) * std::cos(0.23 * y));
     });
-    EXPECT_LT(largestError(image, settings, "faint", {.precision = 16}), 0.03) << contrast;
+    // Against 32 bits on the same GPU: weights of its bilinear fetches may have 8 bits, which band 0, a small
+    // difference, shows in both.
+    const Image half = gpuMap(image, settings, nullptr, {.precision = 16}),
+                full = gpuMap(image, settings, nullptr, {.precision = 32});
+    for (size_t i = 0; i < half.data.size(); ++i)
+      ASSERT_NEAR(half.data[i] / full.data[i], 1.0, 0.03) << contrast;
   }
 }
 
 TEST_F(ThresholdMapGpuTest, LuminanceStoredInPlaceOfTheFinestBandIsAsExact) {
   for (const auto& [name, image] : adversarialPatterns())
     EXPECT_LT(largestError(image, settingsOf(), name, {.finest = FinestStored::Luminance}), 0.005) << name;
+  for (const char* name : {"faint ramp", "picture"})
+    EXPECT_LT(
+        largestError(adversarialPatterns().at(name), settingsOf(), name, {.finest = FinestStored::Band}),
+        0.005)
+        << name;
 }
 
 TEST_F(ThresholdMapGpuTest, EvenSizesAreReducedLikeAllOthers) {
