@@ -69,8 +69,9 @@ void predictionControls(const PaneContext& pane) {
   pane.controls.note("overlay");
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "what a person would see, predicted for the display below:\nthreshold map: luminance increments that "
-        "stay invisible\npopping: what is noticed when the first picture replaces the second (or the "
+        "what a person would see, predicted for the display below:\nthreshold map: luminance increments at "
+        "threshold by the single map of Schwarz 2009 (not safe: no frequency bands)\npopping: what is "
+        "noticed when the first picture replaces the second (or the "
         "reference)");
   if (const auto name = nameChooser("display", perception::displayPresets(), pane.state.displayName,
                                     &perception::displayPresetReason, pane.controls))

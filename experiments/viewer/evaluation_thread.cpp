@@ -36,9 +36,29 @@ std::string identityOf(const ViewSetup& setup) {
 
 /// The figures that all pictures have come first; those of special defects follow by name.
 size_t rankOf(const std::string& metric) {
-  constexpr std::array<const char*, 8> kFirst = {"rmse", "mae", "psnr",      "ssim",
-                                                 "flip", "jnd", "p99_error", "largest_error"};
+  constexpr std::array<const char*, 8> kFirst = {"rmse", "mae",     "psnr",      "ssim",
+                                                 "flip", "jnd_p95", "p99_error", "largest_error"};
   return static_cast<size_t>(std::find(kFirst.begin(), kFirst.end(), metric) - kFirst.begin());
+}
+
+/// The metric's defaults, on the viewer's display if it asks for one; none if that cannot be named.
+std::optional<ParameterValues> valuesFor(const perception::MetricInfo& metric,
+                                         const perception::DisplayProfile& display) {
+  std::map<std::string, ParameterValue> given;
+  for (const Parameter& parameter : metric.parameters) {
+    if (parameter.name != "display") continue;
+    const std::vector<std::string> presets = perception::displayPresets();
+    if (std::find(presets.begin(), presets.end(), display.name) == presets.end() ||
+        perception::displayPreset(display.name).hash() != display.hash())
+      return std::nullopt;
+    given["display"] = display.name;
+  }
+  return ParameterValues(metric.parameters, given);
+}
+
+/// What an error is called: of several figures the first stands for all.
+std::string figureName(const perception::MetricInfo& metric) {
+  return metric.figures.empty() ? metric.name : metric.name + "_" + metric.figures[0].name;
 }
 
 double largestOf(const Image& map) {
@@ -95,14 +115,15 @@ class EvaluationThread::Work {
     }
     for (const auto& [name, info] : perception::MetricRegistry::instance().all()) {
       if (!info.needsReference || info.needsPath) continue;
-      const ParameterValues defaults(info.parameters, {});
+      const std::optional<ParameterValues> values = valuesFor(info, request.display);
+      if (!values) continue;
       const auto compare = [&, &metric = info](const Image& product, std::map<std::string, ErrorMap>& maps) {
         perception::ComparisonInput input{
             nullptr,    nullptr, &product, out.reference.get(), everywhere ? nullptr : &request.view->mask,
             &metricGpu_};
         input.depicts = depicted;
         if (surfaces) input.surfaces = &surfaces->textures();
-        perception::MetricResult result = metric.compare(input, defaults);
+        perception::MetricResult result = metric.compare(input, *values);
         if (result.map && !maps.count(result.mapName)) {
           const double white = experiments::mapWhite(result.mapName);
           const double largest = largestOf(*result.map);
@@ -113,7 +134,7 @@ class EvaluationThread::Work {
         return result.value;
       };
       try {
-        ErrorFigure figure{name, info.unit, compare(*request.product, out.maps),
+        ErrorFigure figure{figureName(info), info.unit, compare(*request.product, out.maps),
                            std::numeric_limits<double>::quiet_NaN(), info.direction};
         if (request.second) figure.second = compare(*request.second, out.secondMaps);
         out.figures.push_back(std::move(figure));

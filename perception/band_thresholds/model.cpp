@@ -122,7 +122,10 @@ BandThresholdModel::BandThresholdModel(const BandThresholdSettings& settings, co
 }
 
 double BandThresholdModel::sensitivity(int band, double luminanceCdM2) const {
-  return settings_.predictor.sensitivity.greyGain() * sensitivity_.at(band, velocityDegS_, luminanceCdM2)[0];
+  // Darker, sensitivity only falls: thresholds are those at the end, and safe.
+  constexpr double kLeastCdM2 = 1e-4, kLargestCdM2 = 1e6;
+  const double held = luminanceCdM2 > kLeastCdM2 ? std::min(luminanceCdM2, kLargestCdM2) : kLeastCdM2;
+  return settings_.predictor.sensitivity.greyGain() * sensitivity_.at(band, velocityDegS_, held)[0];
 }
 
 double BandThresholdModel::contrastStep(int band, double contrast, double luminanceCdM2) const {

@@ -26,7 +26,8 @@ class BandThresholdModel {
   /// Of |c| times the sensitivity: the largest s such that no change of up to s, to either side, changes the
   /// response by more than `jnd`.
   double step(double normalised) const { return step_(normalised); }
-  /// Calibrated sensitivity of a band to luminance contrast, for a fixating eye.
+  /// Calibrated sensitivity of a band to luminance contrast, for a fixating eye; luminances are held between
+  /// 1e-4 and 1e6 cd/m2.
   double sensitivity(int band, double luminanceCdM2) const;
   /// Largest change of contrast; `contrast` is the band's magnitude.
   double contrastStep(int band, double contrast, double luminanceCdM2) const;

@@ -24,7 +24,8 @@ struct BandOutput {
 
 /// Settings of thresholds by frequency band, which invert the popping predictor.
 struct BandThresholdSettings {
-  /// The predictor whose responses must not change visibly. Its weights, regions and ratings are not used.
+  /// The predictor whose responses must not change visibly. Its model over time, weights, regions and ratings
+  /// are not used: pictures last and the eye fixates.
   PoppingSettings predictor;
   /// Largest change of a band's response that counts as invisible [JND].
   double jnd = 1.0;

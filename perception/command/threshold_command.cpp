@@ -197,7 +197,7 @@ void addThresholdCommand(CLI::App& app, int& exitCode, const std::vector<std::st
   command
       ->add_option(
           "--map", options->map,
-          "bands: inverse of the predictor of 'pop', combined over frequency bands, or one band's "
+          "bands: inverse of the JND predictor of 'compare', combined over frequency bands, or one band's "
           "(--set output=band); single: that of Schwarz 2009, section 9.4, for comparison: differences "
           "below it may be plainly visible")
       ->type_name("KIND")

@@ -43,6 +43,25 @@ struct VideoDifference::Gpu {
   bool map = false;
 };
 
+namespace {
+
+/// Pooled differences by band and channel, before all weights; over frames the root of their mean square.
+nlohmann::json bandsAsJson(const cvvdp::Score& score) {
+  nlohmann::json out = nlohmann::json::array();
+  for (size_t band = 0; band < score.frequenciesCpd.size(); ++band) {
+    nlohmann::json row = {{"frequency_cpd", score.frequenciesCpd[band]}};
+    for (size_t c = 0; c < (score.video ? cvvdp::kChannels : cvvdp::kChannels - 1); ++c) {
+      double sum = 0.0;
+      for (const cvvdp::FrameDifferences& frame : score.frames) sum += frame[band][c] * frame[band][c];
+      row[cvvdp::kChannelNames[c]] = std::sqrt(sum / static_cast<double>(score.frames.size()));
+    }
+    out.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace
+
 SettingsGroup VideoDifference::settings(const std::string& displayName) {
   SettingsGroup out{kName, Settings::table().parameters()};
   for (Parameter& parameter : out.parameters)
@@ -127,6 +146,7 @@ Figures VideoDifference::add(const InputImage& test, const InputImage& reference
   if (done.size() == before + 1) {
     out[0].value = cvvdp::jodOf(cvvdp::frameDifference(done.back(), isVideo()));
     if (maps) maps->push_back({kName, gpu_->metric->readMap()});
+    if (!isVideo()) facts_["bands"] = bandsAsJson(gpu_->metric->finish());
   } else {
     out[0].reason = "with symmetric padding the first frames are evaluated together";
   }
@@ -142,18 +162,8 @@ Figures VideoDifference::finish() {
   }
   const cvvdp::Score score = gpu_->metric->finish();
   out[0].value = score.jod;
-  nlohmann::json bands = nlohmann::json::array();
-  for (size_t band = 0; band < score.frequenciesCpd.size(); ++band) {
-    nlohmann::json row = {{"frequency_cpd", score.frequenciesCpd[band]}};
-    for (size_t c = 0; c < cvvdp::kChannels; ++c) {
-      double sum = 0.0;
-      for (const cvvdp::FrameDifferences& frame : score.frames) sum += frame[band][c] * frame[band][c];
-      row[cvvdp::kChannelNames[c]] = std::sqrt(sum / static_cast<double>(score.frames.size()));
-    }
-    bands.push_back(row);
-  }
   facts_["difference"] = score.difference;
-  facts_["bands"] = bands;
+  facts_["bands"] = bandsAsJson(score);
   return out;
 }
 

@@ -165,12 +165,16 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
   const bool checked = int64_t{size.x} * size.y <= kMostCheckedPx;
   for (const bool nineFetch : {false, true})
     for (const bool stack : {false, true})
-      for (const bool half : {true, false}) {
+      for (const auto& [half, finest] : {std::pair(true, perception::FinestStored::Band),
+                                         {false, perception::FinestStored::Band},
+                                         {false, perception::FinestStored::Luminance}}) {
         if (oneForm && (nineFetch || !stack || half)) continue;
+        if (finest == perception::FinestStored::Luminance && (nineFetch || half)) continue;
         ThresholdMapSettings settings;
         if (!stack) settings.decomposition = perception::SampledPyramid{};
         if (nineFetch) settings.downsample = perception::NineFetchKernel{};
-        ThresholdMapGpu gpu(context, size, display, settings, {.precision = half ? 16 : 32});
+        ThresholdMapGpu gpu(context, size, display, settings,
+                            {.precision = half ? 16 : 32, .finest = finest});
         const auto run = [&] { gpu.run(colour); };
         const Times times = measure(run, software);
         const double back = software ? times.medianMs : throughputMs(run);
@@ -183,10 +187,10 @@ void measureSize(gl::Context& context, glm::ivec2 size, const DisplayProfile& di
           error = fmt::format("{:.3g}", largestError(gpu.map().read(), exact.thresholdCdM2));
         }
         fmt::print(
-            "{},{},{},{},{},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{:.2f},{:.1f},{:.1f},{:.3f},{}\n",
+            "{},{},{},{},{},{},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{:.2f},{:.1f},{:.1f},{:.3f},{}\n",
             size.x, size.y, nineFetch ? "nine_fetch" : "exact", stack ? "stack" : "pyramid", half ? 16 : 32,
-            times.medianMs, times.leastMs, times.p95Ms, levelsMs, evaluateMs, back, times.frames,
-            1e-6 * static_cast<double>(gpu.bytesMoved(colour)), gbS, copy, gbS / copy, error);
+            toText(finest), times.medianMs, times.leastMs, times.p95Ms, levelsMs, evaluateMs, back,
+            times.frames, 1e-6 * static_cast<double>(gpu.bytesMoved(colour)), gbS, copy, gbS / copy, error);
         std::fflush(stdout);
       }
 }
@@ -203,7 +207,8 @@ int measureAll(bool small, glm::ivec2 only) {
                context->device().software ? " (wall time on a CPU)" : "", display.line());
     const double copy = copyGbS(*context);
     fmt::print(
-        "width_px,height_px,downsample,decomposition,precision_bits,median_ms,least_ms,p95_ms,levels_ms,"
+        "width_px,height_px,downsample,decomposition,precision_bits,finest,median_ms,least_ms,p95_ms,levels_"
+        "ms,"
         "evaluate_ms,"
         "back_to_back_ms,"
         "frames,moved_mb,moved_gb_s,copy_gb_s,share_of_copy,largest_relative_error\n");

@@ -10,6 +10,9 @@
 layout(local_size_x = THREADS) in;
 layout(binding = kEvaluateFinestUnit) uniform sampler2D finest;     // band 0, or (FINEST_LUMINANCE) luminance
 layout(binding = kEvaluateGaussianUnit) uniform sampler2D gaussian;   // levels from 1
+#if REST
+layout(binding = kEvaluateRestUnit) uniform sampler2D rest;  // what rounding took from level 1
+#endif
 layout(binding = kEvaluateImage, r32f) uniform writeonly image2D threshold;
 #if STAGES
 layout(binding = kEvaluateStagesImage, rg32f) uniform writeonly image2D stages;
@@ -21,6 +24,11 @@ uniform ivec2 firstTile;  // of those that this dispatch evaluates
 // For each level from 1 all columns of the map, then likewise all rows: first sample, its weight, the third's;
 // the second has the rest.
 layout(std430, binding = kEvaluateTapsBuffer) readonly buffer Taps { vec4 taps[]; };
+#if MEAN_REMOVED
+layout(std430, binding = kThresholdMeanBuffer) readonly buffer Mean { float meanLuminance; };
+#else
+const float meanLuminance = 0.0;
+#endif
 
 const ivec2 kTile = ivec2(TILE_X, TILE_Y);
 ivec2 tileNumber() { return firstTile + ivec2(gl_WorkGroupID.xy); }
@@ -61,24 +69,36 @@ float weigh(float first, float second, float third, vec4 tap) {
 }
 #endif
 
+#if REST
+// What level 1 has been reduced by in shared memory: interpolated beside the whole luminance, a band that is faint
+// beside it would be all rounding error.
+float base = 0.0;
+#endif
+
 // Contrasts of one pixel, and (return) its adaptation luminance; `gathered`: levels 1 ... there.
 float contrastsOf(float finestValue, float gathered[max(kPlanes, 1)], out float c[BANDS + 1]) {
   c[BANDS] = 0.0;
 #if LEVELS == 1
-  return finestValue;
+  return finestValue + meanLuminance;
 #else
 #if FINEST_LUMINANCE
-  float band0 = finestValue - gathered[0], luminance = finestValue;
+#if REST
+  float band0 = (finestValue - base) - gathered[0];
+  gathered[0] += base;
+#else
+  float band0 = finestValue - gathered[0];
+#endif
+  float luminance = finestValue;
 #else
   float band0 = finestValue, luminance = finestValue + gathered[0];
 #endif
   for (int i = 0; i < BANDS; ++i) {
     float difference = i == 0 ? band0 : gathered[max(i - 1, 0)] - gathered[i];
-    c[i] = abs(difference) / max(gathered[i + 1], run.light.w) * run.bands[i].y;
+    c[i] = abs(difference) / max(gathered[i + 1] + meanLuminance, run.light.w) * run.bands[i].y;
   }
   float near = ADAPTATION_LEVEL == 0 ? luminance : gathered[max(ADAPTATION_LEVEL - 1, 0)];
   float far = gathered[min(ADAPTATION_LEVEL, kPlanes - 1)];
-  return max(near + run.rule.x * (far - near), 0.0);
+  return max(near + meanLuminance + run.rule.x * (far - near), 0.0);
 #endif
 }
 
@@ -87,18 +107,32 @@ float contrastsOf(float finestValue, float gathered[max(kPlanes, 1)], out float 
 const int kFirstSlots = (36 * 20 + THREADS - 1) / THREADS;
 
 void loadTile(int thread, int x, int mapColumns) {
+#if REST
+  base = texelFetch(gaussian, clamp(originOf(1), ivec2(0), textureSize(gaussian, 0) - 1), 0).r;
+#endif
   // All loads are under way before the first is used.
   float loaded[kFirstSlots + kPlanes - 1];
+#if REST
+  float lost[kFirstSlots];
+#endif
   for (int slot = 0; slot < kFirstSlots + kPlanes - 1; ++slot) {
     int i = max(slot - kFirstSlots + 2, 1), p = thread + (slot < kFirstSlots ? slot * THREADS : 0);
     ivec2 at = originOf(i) + ivec2(p % kWidth[i - 1], p / kWidth[i - 1]);
-    loaded[slot] = texelFetch(gaussian, clamp(at, ivec2(0), textureSize(gaussian, i - 1) - 1), i - 1).r;
+    at = clamp(at, ivec2(0), textureSize(gaussian, i - 1) - 1);
+    loaded[slot] = texelFetch(gaussian, at, i - 1).r;
+#if REST
+    if (slot < kFirstSlots) lost[slot] = texelFetch(rest, at, 0).r;
+#endif
   }
   vec4 columnTaps[kPlanes];
   for (int plane = 0; plane < kPlanes; ++plane) columnTaps[plane] = taps[plane * mapColumns + x];
   for (int slot = 0; slot < kFirstSlots + kPlanes - 1; ++slot) {
     int i = max(slot - kFirstSlots + 2, 1), p = thread + (slot < kFirstSlots ? slot * THREADS : 0);
-    if (p < kStart[i] - kStart[i - 1]) samples[kStart[i - 1] + p] = loaded[slot];
+    float value = loaded[slot];
+#if REST
+    if (slot < kFirstSlots) value = (value - base) + value * (lost[slot] / kRestScale);
+#endif
+    if (p < kStart[i] - kStart[i - 1]) samples[kStart[i - 1] + p] = value;
   }
   for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
     int plane = i / kTile.y, mapRows = imageSize(threshold).y;

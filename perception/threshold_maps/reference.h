@@ -13,7 +13,7 @@ namespace limen::perception {
 
 /// A threshold map with its intermediate results; all planes have the image's size.
 struct ThresholdMap {
-  Plane thresholdCdM2;  ///< dL: two images differ visibly where their luminances differ by more
+  Plane thresholdCdM2;  ///< dL, which the thesis takes for the threshold of differences of any frequencies
   Plane adaptationCdM2;
   Plane elevation;               ///< S
   std::vector<Plane> contrasts;  ///< |c_i|, finest band first
@@ -21,7 +21,9 @@ struct ThresholdMap {
   int64_t guarded = 0;           ///< contrasts, over all bands, whose denominator was too small
 };
 
-/// The double-precision reference; deterministic, without tables. `luminanceCdM2` may contain anything: NaN
+/// The double-precision reference; deterministic, without tables. One threshold for all frequencies: by the
+/// popping predictor, differences below it can be plainly visible. See computeBandThresholds() for those that
+/// are not. `luminanceCdM2` may contain anything: NaN
 /// and negative values count as 0, others up to settings.largestCdM2. Settings of the GPU alone are ignored.
 /// Throws Error on unknown models or a display without pixels per degree.
 ThresholdMap computeThresholdMap(const Plane& luminanceCdM2, double pixelsPerDegree,

@@ -164,7 +164,10 @@ const SettingsTable<ThresholdMapGpuSettings>& ThresholdMapGpuSettings::table() {
       {&S::lookup, "lookup",
        "CSF and TVI from tables over luminance, or computed for every pixel (barten89 and ward only)", kMap},
       {&S::levelsPerPass, "levels_per_pass",
-       "pyramid levels computed per pass from level 1; affects only speed"}};
+       "pyramid levels computed per pass from level 1; affects only speed"},
+      {&S::finest, "finest",
+       "what is stored of level 0 in 32 bits at even sizes: the finest band, or luminance; affects only "
+       "speed"}};
   return kTable;
 }
 

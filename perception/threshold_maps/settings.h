@@ -7,8 +7,10 @@
 #include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
 
-/// Settings of threshold maps: for each pixel of one image the luminance increment that stays invisible.
-/// Sources: Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4.
+/// Settings of the single threshold map: for each pixel of one image a luminance increment at threshold, the
+/// same for all frequencies. Kept as published, for comparison; thresholds that hold by the predictor are
+/// those of perception/band_thresholds. Sources: Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2
+/// and 9.4.
 namespace limen::perception {
 
 /// How a stack upsamples levels.
@@ -167,6 +169,15 @@ constexpr EnumNames<ThresholdLookup, 2> enumNames(ThresholdLookup) {
   return {{{{ThresholdLookup::Tables, "tables"}, {ThresholdLookup::Direct, "direct"}}}};
 }
 
+/// What is stored of level 0. In 16 bits, by nine fetches and at odd sizes this makes no difference.
+enum class FinestStored {
+  Band,      ///< what it has more than level 1
+  Luminance  ///< itself, and of level 1 what its rounding took away; quicker to make, as exact
+};
+constexpr EnumNames<FinestStored, 2> enumNames(FinestStored) {
+  return {{{{FinestStored::Band, "band"}, {FinestStored::Luminance, "luminance"}}}};
+}
+
 // Pyramid levels computed per pass, from level 1.
 struct AutomaticLevels {
   static constexpr const char *kKind = "automatic", *kSummary = "one for large levels, three for small ones";
@@ -182,6 +193,7 @@ struct ThresholdMapGpuSettings {
   int precision = 32;  ///< bits of intermediate results
   ThresholdLookup lookup = ThresholdLookup::Tables;
   std::variant<AutomaticLevels, GivenLevels> levelsPerPass = {};
+  FinestStored finest = FinestStored::Band;
   static const SettingsTable<ThresholdMapGpuSettings>& table();
 
   bool half() const { return precision == 16; }

@@ -30,14 +30,20 @@ const int kThresholdGroupSide = 16;  // of the passes without tiles
 const uint kLuminanceSourceUnit = 0u;
 const uint kLuminanceImage = 0u;
 
+// Mean luminance, about which the nine fetches of 16 bits store theirs.
+const int kThresholdMeanThreads = 256;
+const uint kThresholdMeanBuffer = 5u;
+
 // A coarser level by nine fetches.
 const uint kNineFetchSourceUnit = 0u;
 const uint kNineFetchCoarserImage = 0u;
 
-// A coarser level, and a band.
+// A coarser level, and a band or luminance.
 const uint kCoarsenSourceUnit = 0u;
 const uint kCoarsenCoarserImage = 0u;
 const uint kCoarsenBandImage = 1u;
+const uint kCoarsenRestImage = 2u;
+const float kRestScale = 16777216.0f;  // what rounding takes from a float, over the float, is up to 2^-24
 
 // Up to three coarser levels.
 const uint kCoarsenManyCoarser2Image = 1u;
@@ -48,6 +54,7 @@ const uint kCoarsenManyCoarser3Image = 2u;
 #define LIMEN_MOST_SAMPLE_ROWS 20, 12, 8, 6, 5, 5, 5, 5
 const uint kEvaluateFinestUnit = 0u;
 const uint kEvaluateGaussianUnit = 1u;
+const uint kEvaluateRestUnit = 2u;
 const uint kEvaluateImage = 0u;
 const uint kEvaluateStagesImage = 1u;
 const uint kEvaluatePatchesBuffer = 1u;

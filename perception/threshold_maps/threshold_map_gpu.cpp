@@ -35,6 +35,8 @@ constexpr std::array<const char*, kMostSteps> kDownwardNames{"downward[0]", "dow
 
 glm::ivec2 halvedSize(glm::ivec2 size) { return {halved(size.x), halved(size.y)}; }
 
+bool isEven(glm::ivec2 size) { return size.x % 2 == 0 && size.y % 2 == 0; }
+
 void refuse(bool wrong, const char* what, const char* where, const char* hint) {
   if (wrong) throw Error(what, where, hint);
 }
@@ -96,8 +98,10 @@ const char* yes(bool value) { return value ? "1" : "0"; }
 }  // namespace
 
 struct ThresholdMapGpu::Programs {
-  const gl::Program* first = nullptr;                 ///< level 0 to level 1, or luminance
-  const gl::Program* next = nullptr;                  ///< one level to the next
+  const gl::Program* first = nullptr;                           ///< level 0 to level 1, or luminance
+  const gl::Program* next = nullptr;                            ///< one level to the next
+  const gl::Program *firstEven = nullptr, *nextEven = nullptr;  ///< where both sides are even
+  const gl::Program* mean = nullptr;
   std::array<const gl::Program*, kMostSteps> many{};  ///< 1, 2, 3 levels at once
   const gl::Program* evaluate = nullptr;
 };
@@ -123,6 +127,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
     const glm::ivec2 half = halvedSize(sizePx);
     gaussian_.emplace(gpu.half() && settings.nineFetch() ? Format::R16F : Format::R32F, half, levels_ - 1, 0,
                       settings.nineFetch() ? gl::Sampling::Linear : gl::Sampling::Nearest);
+    if (storesLuminance() && !settings.nineFetch()) rest_.emplace(Format::R16F, half);
     const bool direct = settings.isPyramid();
     std::vector<glm::vec4> taps = levelTaps(sizePx.x, levels_, direct);
     const std::vector<glm::vec4> rowTaps = levelTaps(sizePx.y, levels_, direct);
@@ -152,7 +157,9 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"HALF", yes(gpu.half())},
               {"LEVELS", std::to_string(levels_)},
               {"BANDS", std::to_string(model.bands())},
-              {"FINEST_LUMINANCE", yes(settings.nineFetch())},
+              {"FINEST_LUMINANCE", yes(storesLuminance())},
+              {"REST", yes(storesLuminance() && !settings.nineFetch())},
+              {"MEAN_REMOVED", yes(gpu.half() && (settings.nineFetch() || levels_ == 1))},
               {"ADAPTATION_LEVEL", std::to_string(model.adaptation().level)},
               {"MASKING", std::to_string(gpu.direct() ? maskingModel : 0)},  // with tables, they contain it
               {"FOURTH_ROOT", yes(gpu.direct() && maskingModel == 1 && block.masking.z == 4.0F)},
@@ -174,10 +181,18 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
   if (settings.nineFetch() || levels_ == 1) {
     programs_->first = make("luminance.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
     if (levels_ > 1) programs_->next = make("nine_fetch.comp.glsl", {"COLOUR", "MIRROR", "HALF"}, {});
+    if (gpu.half()) {
+      programs_->mean = make("mean.comp.glsl", {"COLOUR", "MIRROR"}, {});
+      mean_.emplace(std::vector<float>(4, 0.0F));
+    }
   } else {
     programs_->first = make("reduce.comp.glsl", {"COLOUR", "MIRROR"},
                             {{"FROM_LEVEL", "0"}, {"BAND", gpu.half() ? "16" : "32"}});
     programs_->next = make("reduce.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}, {"BAND", "0"}});
+    if (gpu.finest == FinestStored::Luminance) {
+      programs_->firstEven = make("reduce_even.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "0"}});
+      programs_->nextEven = make("reduce_even.comp.glsl", {"COLOUR", "MIRROR"}, {{"FROM_LEVEL", "1"}});
+    }
     for (int steps = 1; steps <= kMostSteps; ++steps)
       programs_->many[static_cast<size_t>(steps - 1)] =
           make("reduce_many.comp.glsl", {"COLOUR", "MIRROR"}, {{"STEPS", std::to_string(steps)}});
@@ -186,6 +201,11 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
 }
 
 ThresholdMapGpu::~ThresholdMapGpu() = default;
+
+bool ThresholdMapGpu::storesLuminance() const {
+  return settings_.nineFetch() ||
+         (gpu_.finest == FinestStored::Luminance && !gpu_.half() && levels_ > 1 && isEven(sizePx_));
+}
 
 void ThresholdMapGpu::keepStages() {
   stages_.emplace(Format::RG32F, sizePx_);
@@ -229,8 +249,13 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
     for (size_t step = 0; step < static_cast<size_t>(steps); ++step)
       program.set(kDownwardNames.at(step), downward_[level + step]);
   };
-  setPlaces(*programs_->first, 0, 1);
-  programs_->first->dispatch(sizePx_, kTilePx);
+  if (storesLuminance()) {
+    rest_->bindImage(kCoarsenRestImage, Access::Write);
+    programs_->firstEven->dispatch(sizePx_, kTilePx);
+  } else {
+    setPlaces(*programs_->first, 0, 1);
+    programs_->first->dispatch(sizePx_, kTilePx);
+  }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   gaussian_->bindTexture(kCoarsenSourceUnit);
   glm::ivec2 size = halvedSize(sizePx_);
@@ -243,10 +268,12 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
                   kCoarsenManyCoarser3Image == kCoarsenCoarserImage + 2);
     for (int step = 0; step < steps; ++step)
       gaussian_->bindImage(kCoarsenCoarserImage + static_cast<uint32_t>(step), Access::Write, level + step);
-    const gl::Program& program =
-        wanted > 1 ? *programs_->many[static_cast<size_t>(steps - 1)] : *programs_->next;
+    const bool even = gpu_.finest == FinestStored::Luminance && wanted == 1 && isEven(size);
+    const gl::Program& program = wanted > 1 ? *programs_->many[static_cast<size_t>(steps - 1)]
+                                 : even     ? *programs_->nextEven
+                                            : *programs_->next;
     program.set("sourceLevel", level - 1);
-    setPlaces(program, static_cast<size_t>(level), steps);
+    if (!even) setPlaces(program, static_cast<size_t>(level), steps);
     program.dispatch(size, kTilePx);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     for (int step = 0; step < steps; ++step) size = halvedSize(size);
@@ -257,6 +284,11 @@ void ThresholdMapGpu::reduce(const gl::Texture& input) {
 void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
   constexpr glm::ivec2 kGroup(kThresholdGroupSide);
   input.bindTexture(kLuminanceSourceUnit);
+  if (mean_) {
+    mean_->bindStorage(kThresholdMeanBuffer);
+    programs_->mean->dispatch({1, 1}, {1, 1});
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
   finest_.bindImage(kLuminanceImage, Access::Write);
   programs_->first->dispatch(sizePx_, kGroup);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -274,6 +306,7 @@ void ThresholdMapGpu::reduceNineFetch(const gl::Texture& input) {
 void ThresholdMapGpu::evaluate(const MapArea& area) {
   finest_.bindTexture(kEvaluateFinestUnit);
   if (gaussian_) gaussian_->bindTexture(kEvaluateGaussianUnit);
+  if (rest_) rest_->bindTexture(kEvaluateRestUnit);
   threshold_.bindImage(kEvaluateImage, Access::Write);
   if (stages_) stages_->bindImage(kEvaluateStagesImage, Access::Write);
   programs_->evaluate->set("tileColumns", tiles_.x);
@@ -284,7 +317,7 @@ void ThresholdMapGpu::evaluate(const MapArea& area) {
 
 std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
   std::map<std::string, const gl::Texture*> out;
-  out[settings_.nineFetch() || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
+  out[storesLuminance() || levels_ == 1 ? "luminance" : "band_0"] = &finest_;
   if (gaussian_) out["gaussian"] = &*gaussian_;
   if (stages_) out["stages"] = &*stages_;
   return out;
@@ -293,7 +326,7 @@ std::map<std::string, const gl::Texture*> ThresholdMapGpu::debugViews() const {
 int64_t ThresholdMapGpu::bytesHeld() const {
   int64_t bytes =
       threshold_.bytes() + finest_.bytes() + run_->bytes() + tables_->bytes() + elevations_->bytes();
-  for (const auto* texture : {&gaussian_, &stages_})
+  for (const auto* texture : {&gaussian_, &rest_, &stages_})
     if (*texture) bytes += (*texture)->bytes();
   return bytes + (patches_ ? patches_->bytes() + places_->bytes() + taps_->bytes() : 0);
 }
@@ -304,6 +337,7 @@ int64_t ThresholdMapGpu::bytesMoved(const gl::Texture& input) const {
   int64_t bytes = input.bytes() + threshold_.bytes() + 2 * finest_.bytes();
   if (settings_.nineFetch()) bytes += finest_.bytes();
   if (gaussian_) bytes += 3 * gaussian_->bytes();
+  if (rest_) bytes += 2 * rest_->bytes();
   return bytes;
 }
 

@@ -25,13 +25,17 @@ struct MapArea {
 
 /// Threshold maps of images of one size, on the GPU in compute shaders. Agrees with computeThresholdMap() for
 /// the same settings within 0.5 % of each pixel's threshold in 32 bits and 2 % in 16 bits (nine fetches in 16
-/// bits aside, which store luminance itself as the thesis does and lose faint contrasts). Luminances outside
+/// bits aside, which are for comparison only: they store luminance less its mean and lose contrasts that are
+/// faint beside the distance to it). Luminances outside
 /// 1e-4 to 1e6 cd/m2 are read there from the tables. Source: Schwarz 2009, section 9.4.
 ///
 /// With 16 bits, not luminances are stored but band 0, the only intermediate result of full size, as signed
 /// square roots; levels from 1, a third of the texels, stay in 32 bits. Contrasts are differences of
 /// luminances: with 16-bit luminances a contrast of 5e-4 is all rounding error; with a 16-bit band it keeps
 /// three digits.
+///
+/// In 32 bits, images of even sizes can store luminance, and level 1 with what its rounding took away,
+/// instead of band 0 (ThresholdMapGpuSettings::finest).
 class ThresholdMapGpu {
  public:
   /// Allocates and compiles for inputs of one format: colour (RGBA, linear, relative to `display`) or
@@ -53,7 +57,8 @@ class ThresholdMapGpu {
 
   /// From now on run() also writes RG32F: adaptation luminance [cd/m2] and elevation S. Allocates.
   void keepStages();
-  /// "stages" (if kept), "band_0" or "luminance", "gaussian" (levels from 1, as mipmaps).
+  /// "stages" (if kept), "band_0" or "luminance" (less a constant: nine fetches of 16 bits), "gaussian"
+  /// (levels from 1, as mipmaps).
   std::map<std::string, const gl::Texture*> debugViews() const;
 
   int levels() const { return levels_; }
@@ -64,6 +69,8 @@ class ThresholdMapGpu {
  private:
   struct Programs;
   void reduce(const gl::Texture& input);
+  /// Whether level 0 is stored as luminance: for reductions of exactly 2:1, which make no band.
+  bool storesLuminance() const;
   void reduceNineFetch(const gl::Texture& input);
   void evaluate(const MapArea& area);
 
@@ -75,8 +82,8 @@ class ThresholdMapGpu {
   int levels_;
   gl::ShaderDefines defines_;
   gl::Texture threshold_, finest_;
-  std::optional<gl::Texture> gaussian_, stages_;
-  std::optional<gl::Buffer> run_, tables_, elevations_, places_, taps_, patches_;
+  std::optional<gl::Texture> gaussian_, rest_, stages_;  // rest_: of level 1
+  std::optional<gl::Buffer> run_, tables_, elevations_, places_, taps_, patches_, mean_;
   std::vector<glm::ivec2> upward_, downward_;  // first entries in places_, by level
   glm::ivec2 tiles_;
   std::unique_ptr<Programs> programs_;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
-// Without LARGE: an invocation a triangle; those with many pixels are queued in bands of rows. With LARGE: the queue, a
-// group a band. REGIONS: several rectangles in one buffer, each with triangles of its own; see region_raster.h. SMALL_LANES: several invocations a small triangle, which share its pixels. SAMPLES: instead of pixels' centres, the samples of pixels that may see several triangles; see
-// sample_raster.h.
+// Without LARGE: SMALL_LANES invocations a triangle, which share its pixels if its bounding box has at most SMALL_PIXELS; all
+// others are queued in bands of rows. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
+// triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
+// triangles; see sample_raster.h.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/raster_regions.h"
 #include "renderer/frame/raster_triangle.glsl"
 
 #ifndef SMALL_LANES
 #define SMALL_LANES 1
+#define SMALL_PIXELS 32
 #endif
 
 layout(local_size_x = kRasterGroup) in;
@@ -75,16 +77,16 @@ ivec2 highestPixel() { return sizePx - 1; }
 int placeOf(ivec2 pixel) { return pixel.y * sizePx.x + pixel.x; }
 #endif
 
-const int kSmall = 32;                             // pixels of a bounding box that one invocation takes on
+// Pixels of a bounding box in a band, and rows that it has at least. Many groups share those of which each waits for what is
+// known of it.
 #if defined(SAMPLES) || defined(IDS)
-// Every pixel waits for what is known of it, so that many groups share them.
-const int kBandPixels = 1024;   // of a bounding box, in a band
-const int kFewestBandRows = 1;  // but so many rows it has; see rowsOfBand
+const int kBandPixels = 1024, kFewestBandRows = 1;
+#elif defined(REGIONS)
+const int kBandPixels = 16384, kFewestBandRows = 4;
 #else
-const int kBandPixels = 16384;
-const int kFewestBandRows = 4;
+const int kBandPixels = 2048, kFewestBandRows = 1;
 #endif
-const int kMostBandRows = 32;
+const int kMostBandRows = 32, kMostBands = 2048;  // of a triangle: the queue has room for few hundreds of so many
 const int kPlain = 1024;  // pixels of a band that a group goes through without cutting rows first, which costs it barriers
 
 struct Triangle {
@@ -210,7 +212,10 @@ void shade(Triangle t, uint index, ivec2 pixel) {
 }
 #endif
 
-int rowsOfBand(Triangle t) { return clamp(kBandPixels / t.size.x, kFewestBandRows, kMostBandRows); }
+int rowsOfBand(Triangle t) {
+  const int leastRows = (t.size.y + kMostBands - 1) / kMostBands;
+  return clamp(kBandPixels / t.size.x, max(kFewestBandRows, leastRows), kMostBandRows);
+}
 
 // Half-line of pixel positions in a row on which an edge's product u = first - x * second is not below `-slack`.
 void cutSpan(float first, float second, float slack, inout float low, inout float high) {
@@ -343,13 +348,15 @@ void main() {
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
-  if (pixels <= kSmall) {
-#if SMALL_LANES == 1
-    for (int y = 0; y < t.size.y; ++y)
-      for (int x = 0; x < t.size.x; ++x) shade(t, index, t.low + ivec2(x, y));
-#else
-    for (int i = int(lane); i < pixels; i += SMALL_LANES) shade(t, index, t.low + ivec2(i % t.size.x, i / t.size.x));
-#endif
+  if (pixels <= SMALL_PIXELS) {
+    if (pixels == 0) return;
+    const ivec2 step = ivec2(SMALL_LANES % t.size.x, SMALL_LANES / t.size.x);
+    ivec2 at = ivec2(int(lane) % t.size.x, int(lane) / t.size.x);
+    while (at.y < t.size.y) {
+      shade(t, index, t.low + at);
+      at += step;
+      if (at.x >= t.size.x) at += ivec2(-t.size.x, 1);
+    }
     return;
   }
   if (lane > 0u) return;

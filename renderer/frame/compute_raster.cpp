@@ -10,11 +10,16 @@ namespace {
 
 /// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
-constexpr int kLargeGroups = 4096;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
+constexpr int kLargeGroups = 4096;
+/// Invocations that share a triangle whose bounding box has at most kSharedPixels; larger ones are queued,
+/// and cost a group each at least.
+constexpr int kTriangleLanes = 8, kSharedPixels = 256;
 
 const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels) {
-  gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"}};
+  gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"},
+                               {"SMALL_LANES", std::to_string(kTriangleLanes)},
+                               {"SMALL_PIXELS", std::to_string(kSharedPixels)}};
   if (large) defines["LARGE"] = "1";
   if (ids) defines["IDS"] = "1";
   if (peels) defines["PEEL"] = "1";
@@ -54,8 +59,10 @@ int64_t ComputeRaster::bytes() const {
 
 void ComputeRaster::pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const {
   constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
-  const int triangles = static_cast<int>(triangleCount);
-  small.dispatch({std::min(triangles, kPerRow), (triangles + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
+  const int64_t invocations = int64_t{kTriangleLanes} * triangleCount;
+  small.dispatch({static_cast<int>(std::min<int64_t>(invocations, kPerRow)),
+                  static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
+                 {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   large.dispatch({kLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

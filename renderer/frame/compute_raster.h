@@ -41,7 +41,7 @@ struct DepthPeel {
 /// w_i in clip space: the signs of q_j x q_k say inside or outside, and these products are the barycentric
 /// weights of the point seen. Triangles that share an edge compute it from the same numbers, so there are no
 /// cracks; there is no clipping, since a triangle that reaches behind the eye needs none. Two-dimensional
-/// homogeneous rasterisation is due to Olano and Greer 1997. Small triangles take one invocation each; large
+/// homogeneous rasterisation is due to Olano and Greer 1997. A few invocations share a small triangle; large
 /// ones are cut into bands of rows for groups, which visit no more of a row than the triangle can cover.
 class ComputeRaster {
  public:

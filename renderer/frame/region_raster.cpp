@@ -28,7 +28,7 @@ const gl::Program& rasterProgram(gl::Context& context, bool large, bool ids, int
 struct RegionRaster::Compute {
   const gl::Program &smallDepth, &largeDepth, &requeue;
   const gl::Program *smallIds = nullptr, *largeIds = nullptr;
-  gl::Buffer queue, ranges;
+  gl::Buffer queue;
 };
 
 struct RegionRaster::Hardware {
@@ -41,8 +41,7 @@ struct RegionRaster::Hardware {
   std::vector<std::unique_ptr<Drawing>> drawings;
 };
 
-RegionRaster::RegionRaster(Frame& parent, const std::string& name, int most, const LightFrustum* light,
-                           int resolution)
+RegionRaster::RegionRaster(Frame& parent, const std::string& name, const LightFrustum* light, int resolution)
     : parent_(parent), name_(name), sizePx_(light ? ivec2(resolution) : parent.sizePx()) {
   if (light) light_ = *light;
   gl::Context& context = parent.context();
@@ -55,12 +54,10 @@ RegionRaster::RegionRaster(Frame& parent, const std::string& name, int most, con
     hardware_->drawings.resize(kMostRasterRegions);
     return;
   }
-  const auto ranges = static_cast<int64_t>(parent.scene().parts.size()) + most;
   compute_.reset(new Compute{
       rasterProgram(context, false, false, words), rasterProgram(context, true, false, words),
       context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl"), nullptr, nullptr,
-      gl::Buffer(int64_t{sizeof(RasterQueueHeader)} + int64_t{kRegionBands} * 8, nullptr),
-      gl::Buffer(ranges * int64_t{sizeof(glm::uvec4)}, nullptr)});
+      gl::Buffer(int64_t{sizeof(RasterQueueHeader)} + int64_t{kRegionBands} * 8, nullptr)});
   compute_->queue.clearUint(0);
   if (light) return;
   compute_->smallIds = &rasterProgram(context, false, true, words);
@@ -69,41 +66,38 @@ RegionRaster::RegionRaster(Frame& parent, const std::string& name, int most, con
 
 RegionRaster::~RegionRaster() = default;
 
-int64_t RegionRaster::bytes() const {
-  return compute_ ? compute_->queue.bytes() + compute_->ranges.bytes() : 0;
-}
+int64_t RegionRaster::bytes() const { return compute_ ? compute_->queue.bytes() : 0; }
 
-void RegionRaster::draw(Frame& view, const std::vector<RegionContent>& regions,
-                        const std::vector<RasterRegion>& table, int first, const gl::Buffer& words) {
-  trianglesDrawn_ = 0;
-  if (compute_)
-    drawByCompute(view, regions, first, words);
-  else
-    drawByHardware(view, regions, table, first, words);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-void RegionRaster::drawByCompute(Frame& view, const std::vector<RegionContent>& regions, int first,
-                                 const gl::Buffer& words) {
-  std::vector<glm::uvec4> ranges;
+std::vector<glm::uvec4> RegionRaster::rangesOf(const std::vector<RegionContent>& regions, int first) const {
+  std::vector<glm::uvec4> out;
   uint32_t triangles = 0;
   for (size_t i = 0; i < regions.size(); ++i) {
     if (regions[i].pixels() == 0) continue;
     const auto region = static_cast<uint32_t>(first) + static_cast<uint32_t>(i);
-    for (const scene::TriangleRange& range : scene::rangesOf(view.scene(), regions[i].selection)) {
+    for (const scene::TriangleRange& range : scene::rangesOf(parent_.scene(), regions[i].selection)) {
       if (range.count == 0) continue;
       triangles += range.count;
-      ranges.emplace_back(range.first, triangles, region, 0U);
+      out.emplace_back(range.first, triangles, region, 0U);
     }
   }
-  trianglesDrawn_ = triangles;
-  if (triangles == 0) return;
-  const auto bytes = static_cast<int64_t>(ranges.size() * sizeof(glm::uvec4));
-  assert(bytes <= compute_->ranges.bytes());
-  compute_->ranges.write(0, bytes, ranges.data());
+  return out;
+}
+
+void RegionRaster::draw(Frame& view, const std::vector<RegionContent>& regions,
+                        const std::vector<RasterRegion>& table, int first, const Ranges& ranges,
+                        const gl::Buffer& words) {
+  if (hardware_)
+    drawByHardware(view, regions, table, first, words);
+  else if (ranges.triangles > 0)
+    drawByCompute(view, ranges, words);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void RegionRaster::drawByCompute(Frame& view, const Ranges& ranges, const gl::Buffer& words) {
   const auto scope = view.passes().open(name_);
   view.geometry().bindStorage();
-  compute_->ranges.bindStorage(kRasterRangesBuffer);
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kRasterRangesBuffer, ranges.buffer.id(), ranges.offset,
+                    ranges.count * int64_t{sizeof(glm::uvec4)});
   compute_->queue.bindStorage(kRasterQueueBuffer);
   words.bindStorage(kRasterDepthsBuffer);
   words.bindStorage(kRasterIdsBuffer);
@@ -112,14 +106,14 @@ void RegionRaster::drawByCompute(Frame& view, const std::vector<RegionContent>& 
                           : anchorToClip(view);
   const double near = light_ ? light_->near : nearPlane(view);
   constexpr int kPerRow = 1 << 20;
-  const int count = static_cast<int>(triangles);
+  const int count = static_cast<int>(ranges.triangles);
   const auto pass = [&](const gl::Program& small, const gl::Program& large) {
     for (const gl::Program* each : {&small, &large}) {
       each->set("anchorToClip", clip);
       each->set("near", static_cast<float>(near));
       each->set("sizePx", sizePx_);
-      each->set("triangleCount", triangles);
-      each->set("rangeCount", static_cast<int>(ranges.size()));
+      each->set("triangleCount", ranges.triangles);
+      each->set("rangeCount", static_cast<int>(ranges.count));
     }
     small.dispatch({std::min(count, kPerRow), (count + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -145,7 +139,6 @@ void RegionRaster::drawByHardware(Frame& view, const std::vector<RegionContent>&
     if (drawing.shown != regions[i].selection)
       drawing.frame.setLevels(*(drawing.shown = regions[i].selection));
     drawing.frame.begin();
-    trianglesDrawn_ += scene::triangleCount(view.scene(), regions[i].selection);
     if (light_) {
       drawing.frame.get<ShadowDepth>(ShadowMapSettings{sizePx_.x, Raster::Hardware})
           .depth()

@@ -30,28 +30,33 @@ struct RegionContent {
 /// that the results are those of TriangleIds and ShadowDepth to the bit either way.
 class RegionRaster {
  public:
-  /// Of the parent's camera, with triangles; with `light`, a shadow map of `resolution` without. `most`:
-  /// regions at a time. Shadow maps are rasterised as those of Shaded, or in compute if the parent's G-buffer
-  /// is.
-  RegionRaster(Frame& parent, const std::string& name, int most, const LightFrustum* light = nullptr,
+  /// Of the parent's camera, with triangles; with `light`, a shadow map of `resolution` without. Shadow maps
+  /// are rasterised as those of Shaded, or in compute if the parent's G-buffer is.
+  RegionRaster(Frame& parent, const std::string& name, const LightFrustum* light = nullptr,
                int resolution = 0);
   ~RegionRaster();
 
   int wordsOfPixel() const { return light_ ? 1 : 2; }
   ivec2 sizePx() const { return sizePx_; }
+  /// What draw() uploads of the regions: read by their shaders as ranges of triangles. `first`: number of the
+  /// first region in the table.
+  std::vector<glm::uvec4> rangesOf(const std::vector<RegionContent>& regions, int first) const;
+  /// Where the ranges are in a buffer that the caller uploaded: the offset is a multiple of 256.
+  struct Ranges {
+    const gl::Buffer& buffer;
+    int64_t offset = 0, count = 0;
+    uint32_t triangles = 0;  ///< of all
+  };
   /// `view`: time and camera. `table[first + i]` is where region i goes in `words`, which hold 0 there; the
   /// table is bound to kRasterRegionsBlock.
   void draw(Frame& view, const std::vector<RegionContent>& regions, const std::vector<RasterRegion>& table,
-            int first, const gl::Buffer& words);
+            int first, const Ranges& ranges, const gl::Buffer& words);
   int64_t bytes() const;
-  /// Of the last draw().
-  uint64_t trianglesDrawn() const { return trianglesDrawn_; }
 
  private:
   struct Compute;
   struct Hardware;
-  void drawByCompute(Frame& view, const std::vector<RegionContent>& regions, int first,
-                     const gl::Buffer& words);
+  void drawByCompute(Frame& view, const Ranges& ranges, const gl::Buffer& words);
   void drawByHardware(Frame& view, const std::vector<RegionContent>& regions,
                       const std::vector<RasterRegion>& table, int first, const gl::Buffer& words);
 
@@ -61,7 +66,6 @@ class RegionRaster {
   std::optional<LightFrustum> light_;
   std::unique_ptr<Compute> compute_;
   std::unique_ptr<Hardware> hardware_;
-  uint64_t trianglesDrawn_ = 0;
 };
 
 }  // namespace limen::frame

@@ -14,14 +14,16 @@ namespace {
 /// As for ComputeRaster: row bands of large triangles.
 constexpr int kSampleQueueCapacity = 1 << 19;
 constexpr int kSampleLargeGroups = 4096;
-/// Invocations that share a small triangle's pixels: each pixel waits for what is known of it.
-constexpr int kSmallLanes = 4;
+/// Invocations that share a triangle of few pixels, and how many these are in its bounding box: each pixel
+/// waits for what is known of it.
+constexpr int kSmallLanes = 4, kSmallPixels = 32;
 
 const gl::Program& sampleProgram(Frame& frame, const std::string& name, size_t samples,
                                  const gl::ShaderDefines& more = {}) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)},
                                {"QUEUE_CAPACITY", std::to_string(kSampleQueueCapacity) + "u"},
-                               {"SMALL_LANES", std::to_string(kSmallLanes)}};
+                               {"SMALL_LANES", std::to_string(kSmallLanes)},
+                               {"SMALL_PIXELS", std::to_string(kSmallPixels)}};
   defines.insert(more.begin(), more.end());
   return frame.context().programs().compute("renderer/frame/" + name, defines);
 }

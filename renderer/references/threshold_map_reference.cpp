@@ -63,7 +63,7 @@ class ThresholdMapReference : public techniques::Technique {
 const techniques::RegisteredTechnique<ThresholdMapReference> kThresholdMapReferenceRegistered{
     {.name = "perception/threshold_map_reference",
      .version = 1,
-     .summary = "Threshold map in double precision, any variant, including true Gaussians",
+     .summary = "Single threshold map in double precision, any variant, including true Gaussians",
      .source = "Ramasubramanian et al. 1999; Schwarz 2009, sections 9.2 and 9.4 (SP-28)",
      .product = techniques::ProductKind::Threshold,
      .reference = true,

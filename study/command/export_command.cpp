@@ -3,7 +3,9 @@
 #include <map>
 #include <memory>
 
+#include "experiments/base/interrupt.h"
 #include "study/command/commands.h"
+#include "study/export/clips.h"
 #include "study/export/export.h"
 #include "study/export/pseudonyms.h"
 
@@ -22,11 +24,38 @@ void addExportCommand(CLI::App& app, Run&) {
   command->add_flag("--frames", request->frames, "Include frame logs");
   command->add_flag("--codes", request->codes,
                     "Participant codes instead of pseudonyms: for the lab's own use");
-  command->callback([request] {
+  struct ClipOptions {
+    bool wanted = false;
+    std::vector<std::string> formats;
+  };
+  auto clips = std::make_shared<ClipOptions>();
+  command->add_flag(
+      "--clips", clips->wanted,
+      "Also what was seen, in folder clips: every clip, the same without its change, and tables that say "
+      "which trial showed which");
+  command
+      ->add_option(
+          "--clip-format", clips->formats,
+          "Of --clips, may be repeated: .mkv (lossless), .avi, .mp4, .exr (light, a file for each frame that "
+          "differs; default: .mkv and .exr)")
+      ->needs("--clips");
+  command->callback([request, clips] {
     if (request->formats.empty()) request->formats = {ExportFormat::Csv};
     const WrittenExport written = writeExport(*request);
     for (const std::string& file : written.files)
       std::printf("%s/%s\n", request->folder.c_str(), file.c_str());
+    if (clips->wanted) {
+      installInterruptHandlers();
+      ClipRequest wanted;
+      wanted.sessions = *request;
+      wanted.folder = request->folder + "/clips";
+      if (!clips->formats.empty()) wanted.formats = clips->formats;
+      wanted.progress = [](size_t done, size_t all) {
+        std::fprintf(stderr, "%zu of %zu clips\n", done, all);
+      };
+      const WrittenClips seen = writeClips(wanted);
+      std::printf("%s: %zu clips, shown in %zu intervals\n", wanted.folder.c_str(), seen.clips, seen.trials);
+    }
     if (written.ordersTellCode > 0)
       std::fprintf(
           stderr,

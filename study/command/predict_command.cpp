@@ -23,7 +23,7 @@ using nlohmann::json;
 struct PredictOptions {
   std::string store, protocol, display;
   std::vector<std::string> settings;
-  bool asJson = false, quiet = false;
+  bool asJson = false, quiet = false, clips = false;
 };
 
 ParameterValues poppingValues(const std::vector<std::string>& settings) {
@@ -47,6 +47,7 @@ void predict(const PredictOptions& options, Run& run) {
   request.protocol = options.protocol;
   request.display = options.display;
   request.popping = poppingValues(options.settings);
+  request.clips = options.clips;
   request.progress = [&](int done, int all) { sayProgress(done, all, options.quiet); };
   installInterruptHandlers();
   const StorePredictionEnd end = predictStore(request);
@@ -78,6 +79,9 @@ void addPredictCommand(CLI::App& app, Run& run) {
                       "Preset or profile to use instead of the one that a session was shown on");
   command->add_option("--set", options->settings, "Parameter of the predictor (limen perceive pop --list)")
       ->type_name("NAME=VALUE");
+  command->add_flag("--clips", options->clips,
+                    "Also ColorVideoVDP of the clips around the changes, with the clip without the change as "
+                    "reference");
   command->add_flag("--json", options->asJson, "One JSON object");
   command->add_flag("--quiet", options->quiet, "No progress");
   command->callback([options, &run] { predict(*options, run); });

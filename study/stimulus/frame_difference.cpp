@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "perception/metrics/color_video_vdp.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
 #include "study/stimulus/stimulus_renderer.h"
@@ -41,11 +42,14 @@ double measure(const std::string& name, const Image& test, const Image& referenc
 }  // namespace
 
 nlohmann::json toJson(const FrameDifference& difference) {
-  return {{"mean_de94", difference.meanDe94},
-          {"flip", difference.flip},
-          {"ssim", difference.ssim},
-          {"rmse", difference.rmse},
-          {"rmse_coded", difference.rmseCoded}};
+  nlohmann::json out = {{"mean_de94", difference.meanDe94},
+                        {"flip", difference.flip},
+                        {"ssim", difference.ssim},
+                        {"rmse", difference.rmse},
+                        {"rmse_coded", difference.rmseCoded},
+                        {"color_video_vdp", difference.colorVideoVdp}};
+  if (difference.colorVideoVdpClip) out["color_video_vdp_clip"] = *difference.colorVideoVdpClip;
+  return out;
 }
 
 FrameComparer::FrameComparer(gl::Context& context, glm::ivec2 windowPx,
@@ -62,14 +66,39 @@ double FrameComparer::flipPixelsPerDegree() const {
   return std::clamp(display_.pixelsPerDegree(), *parameter.minimum, *parameter.maximum);
 }
 
-nlohmann::json FrameComparer::settings() {
+nlohmann::json FrameComparer::settings(bool clip) {
   nlohmann::json out = {{"flip_pixels_per_degree", "display"}};
-  for (const char* name : {"de94", "flip", "ssim", "rmse"})
+  for (const char* name : {"de94", "flip", "ssim", "rmse", "color_video_vdp"})
     out[std::string(name) + "_version"] = metric(name).version;
+  if (clip) out["color_video_vdp_clip_s"] = kClipS;
   return out;
 }
 
-FrameDifference FrameComparer::compare(const Stimulus& stimulus) {
+double FrameComparer::compareClip(StimulusRenderer& renderer) const {
+  const Timeline& timeline = renderer.timeline();
+  const int reach = framesFor(kClipS, timeline.refreshHz);
+  const int first = std::max(timeline.changed - reach, 0);
+  const int end = std::min(timeline.changed + reach, timeline.frames);
+  // Pictures at rest and the frames before the change are asked for again and again.
+  struct Held {
+    double timeS = -1.0;
+    Image light;
+  };
+  std::array<Held, 2> held;
+  const auto shown = [&](int frame, bool after) {
+    const double timeS = timeline.sceneTimeS(frame);
+    Held& one = held[after ? 1 : 0];
+    if (one.timeS != timeS || one.light.data.empty())
+      one = {timeS, decoded(renderer.readBackState(timeS, after), display_)};
+    return one.light;
+  };
+  const perception::LightPair pair = {windowPx_, end - first, timeline.refreshHz,
+                                      [&](int i) { return shown(first + i, timeline.showsAfter(first + i)); },
+                                      [&](int i) { return shown(first + i, false); }};
+  return 10.0 - perception::colorVideoVdpJod(context_, pair, display_);
+}
+
+FrameDifference FrameComparer::compare(const Stimulus& stimulus, bool clip) {
   StimulusRenderer renderer(context_, stimulus, windowPx_, display_, &scenes_);
   const double timeS = renderer.timeline().changeSceneTimeS;
   const Image testCodes = renderer.readBackState(timeS, true),
@@ -81,6 +110,10 @@ FrameDifference FrameComparer::compare(const Stimulus& stimulus) {
   out.ssim = measure("ssim", test, reference);
   out.rmse = measure("rmse", test, reference);
   out.rmseCoded = measure("rmse", testCodes, referenceCodes);
+  const perception::LightPair pair = {windowPx_, 1, 0.0, [&](int) { return test; },
+                                      [&](int) { return reference; }};
+  out.colorVideoVdp = 10.0 - perception::colorVideoVdpJod(context_, pair, display_);
+  if (clip) out.colorVideoVdpClip = compareClip(renderer);
   return out;
 }
 

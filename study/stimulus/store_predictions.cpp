@@ -2,7 +2,6 @@
 #include "study/stimulus/store_predictions.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,9 +15,9 @@
 #include "experiments/store/predictions.h"
 #include "perception/vision/display_yaml.h"
 #include "renderer/gl/context.h"
-#include "study/protocol/protocol.h"
 #include "study/stimulus/frame_difference.h"
 #include "study/stimulus/prediction.h"
+#include "study/stimulus/stored_window.h"
 
 namespace limen::study {
 namespace {
@@ -40,25 +39,6 @@ struct Shown {
   std::map<std::string, store::StudyDisplay> displays;
   std::map<Place, std::map<std::string, json>> stimuli;
 };
-
-// The protocol was checked when its session began; only its window is needed here.
-glm::ivec2 windowOf(const store::StudyProtocol& protocol, const std::string& store) {
-  const std::string where = store + " (protocol " + protocol.name + ")";
-  const YamlNode root = parseYaml(protocol.text, where), *window = root.find("window");
-  const auto length = [&](const char* key, int otherwise) {
-    const YamlNode* node = window ? window->find(key) : nullptr;
-    if (!node) return otherwise;
-    int value = 0;
-    const char* const end = node->text.data() + node->text.size();
-    const auto read = std::from_chars(node->text.data(), end, value);
-    if (read.ec != std::errc() || read.ptr != end || value < 1)
-      throw Error("the store is damaged: " + std::string(key) + " of its window is " + node->describe(),
-                  where, "put back a copy");
-    return value;
-  };
-  const WindowSetting usual;
-  return {length("width_px", usual.widthPx), length("height_px", usual.heightPx)};
-}
 
 bool hasChange(const json& stimulus) {
   const Stimulus read = stimulusFromJson(stimulus);
@@ -133,7 +113,7 @@ StorePredictionEnd predictAll(const Shown& shown, const StorePredictionRequest& 
     row.predictor = "popping";
     row.settings = {{"popping", request.popping.toJson()},
                     {"popping_version", PredictedPopping::kVersion},
-                    {"metrics", FrameComparer::settings()}};
+                    {"metrics", FrameComparer::settings(request.clips)}};
     row.programVersion = projectVersion() + " (commit " + buildCommit() + ")";
     for (const auto& [hash, stimulusJson] : stimuli) {
       if (interruptSignal() != 0) {
@@ -145,7 +125,7 @@ StorePredictionEnd predictAll(const Shown& shown, const StorePredictionRequest& 
         ++end.known;
       } else {
         const Stimulus stimulus = stimulusFromJson(stimulusJson);
-        row.figures = figuresOf(predictor.predict(stimulus), comparer.compare(stimulus));
+        row.figures = figuresOf(predictor.predict(stimulus), comparer.compare(stimulus, request.clips));
         row.created = utcNow();
         end.made += log.add(row, stored) ? 1 : 0;
       }

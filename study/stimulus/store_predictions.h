@@ -15,6 +15,8 @@ struct StorePredictionRequest {
   std::string
       display;  ///< preset or profile to use instead of the one that a session was shown on; "": that one
   ParameterValues popping;  ///< of perception::PoppingSettings
+  /// Also ColorVideoVDP of the clip around each change, which takes some dozen frames.
+  bool clips = false;
   /// Cache file for the popping predictor's results, shared with observers that use it; "": none.
   std::string cacheFile;
   /// Called after each stimulus with how many are done and how many there are.

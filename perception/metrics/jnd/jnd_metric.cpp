@@ -2,7 +2,8 @@
 // Whether a viewer can tell a product from the reference: the popping predictor on both as a display shows
 // them, with nothing moving, as `limen perceive compare` does for image files. Visibility and light colour
 // are shown on the scene's surfaces, the same for both. Pixel figures are over the region that other metrics
-// evaluate; rating and detection are of the whole picture, as regions do not end where a mask does.
+// evaluate; rating and detection are of the whole picture, as regions do not end where a mask does. Whatever
+// changes the predictor's output raises the versions of both JND metrics.
 #include <optional>
 
 #include "perception/metrics/jnd/jnd_figures.h"

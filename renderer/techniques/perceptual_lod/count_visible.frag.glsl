@@ -3,10 +3,10 @@
 #include "renderer/techniques/perceptual_lod/lod_difference.glsl"
 
 uniform int counted;  // 0: covered, 1: visible, 2: next visible
-layout(location = 0) out float visibleMap;
+layout(location = 0) out float unused;
 
 void main() {
   const Seen seen = look(ivec2(gl_FragCoord.xy));
   if (!(counted == 0 ? seen.covered : counted == 1 ? seen.visible : seen.nextVisible)) discard;
-  visibleMap = 1.0;
+  unused = 1.0;
 }

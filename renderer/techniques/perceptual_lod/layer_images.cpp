@@ -4,7 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "renderer/frame/shaded.h"
 
@@ -15,6 +17,14 @@ constexpr const char* kFolder = "renderer/techniques/perceptual_lod/";
 constexpr const char* kCompose = "perceptual_lod/compose";
 /// Tests have at least this much room in a frame; further ones wait for the next.
 constexpr int64_t kTestWords = int64_t{1} << 25;
+
+/// Offsets in the uploaded plan; 256 bytes are the coarsest alignment that GL allows drivers to ask for.
+constexpr int64_t aligned(int64_t bytes) { return (bytes + 255) / 256 * 256; }
+constexpr int64_t kTableBytes = int64_t{frame::kMostRasterRegions} * int64_t{sizeof(frame::RasterRegion)};
+constexpr int64_t kTestBytes = int64_t{kMostTests} * int64_t{sizeof(PlannedTest)};
+constexpr int64_t kTestsOffset = aligned(kTableBytes), kRangesOffset = aligned(kTestsOffset + kTestBytes);
+constexpr int kClearGroups = 2048;
+constexpr int64_t kMostRangesOfTests = 3 * kMostTests;
 
 double attenuationOf(const PerceptualLodSettings& settings) {
   const auto* darkened = std::get_if<DarkenedShadows>(&settings.castShadows);
@@ -49,23 +59,24 @@ LayerImages::LayerImages(frame::Frame& parent, const PerceptualLodSettings& sett
       drawn_(static_cast<size_t>(layers_), 0) {
   const scene::Scene& scene = parent.scene();
   const int tests = settings.tests.objectsPerFrame;
-  camera_ = std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/raster", layers_ + 2 * tests);
+  camera_ = std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/raster");
   int64_t layerWords = 2 * layers_ * area(parent.sizePx());
   int64_t oneTest = 4 * area(parent.sizePx());
   if (shading_.shadow && !scene.lights.empty()) {
     const int resolution = shading_.shadowResolution;
     light_ = frame::LightCasters(scene).fit(glm::dvec2(0.0), resolution);
-    shadows_ = std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/shadow_raster",
-                                                     layers_ + 3 * tests, &*light_, resolution);
+    shadows_ =
+        std::make_unique<frame::RegionRaster>(parent, "perceptual_lod/shadow_raster", &*light_, resolution);
     layerWords += layers_ * area(glm::ivec2(resolution));
     oneTest += 3 * area(glm::ivec2(resolution));
     for (const scene::LodObject& object : scene.lodObjects)
       lightPixels_.push_back(lightPixelsOf(object.bounds));
   }
   testWords_ = std::max(oneTest, std::min(oneTest * tests, kTestWords));
-  gathered_.emplace(4 * (layerWords + testWords_), nullptr);
-  regionTable_.emplace(static_cast<int64_t>(table_.size() * sizeof(frame::RasterRegion)), nullptr);
-  testTable_.emplace(static_cast<int64_t>(tests_.size() * sizeof(PlannedTest)), nullptr);
+  gathered_.emplace(aligned(4 * (layerWords + testWords_)), nullptr);
+  const auto ranges = static_cast<int64_t>(scene.parts.size()) + kMostRangesOfTests;
+  plan_.emplace(kRangesOffset + 2 * aligned(ranges * int64_t{sizeof(glm::uvec4)}), nullptr);
+  clear_ = &parent.context().programs().compute(std::string(kFolder) + "clear.comp.glsl");
   compose_ = &parent.context().programs().compute(std::string(kFolder) + "compose.comp.glsl", defines());
   for (const gl::Texture* texture : {&picture_, &behind_, &context_}) texture->clear(glm::vec4(0.0F));
   parent.passes().setBytesHeld("perceptual_lod/raster",
@@ -198,21 +209,48 @@ void LayerImages::draw(const scene::LodSelection& shown, const std::vector<int>&
   };
   if (shadows_) place(lightRegions_, 0, shadows_->wordsOfPixel());
   place(cameraRegions_, kFirstCameraRegion, camera_->wordsOfPixel());
-  regionTable_->write(0, regionTable_->bytes(), table_.data());
-  if (testCount_ > 0)
-    testTable_->write(0, static_cast<int64_t>(testCount_) * int64_t{sizeof(PlannedTest)}, tests_.data());
+  upload();
   {
     const auto scope = parent_.passes().open("perceptual_lod/clear");
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    constexpr uint32_t kNothing = 0;
-    glClearNamedBufferSubData(gathered_->id(), GL_R32UI, 0, 4 * words, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                              &kNothing);
+    // The frame before has read what this empties.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    clear_->set("quads", static_cast<uint32_t>((words + 3) / 4));
+    gathered_->bindStorage(kGatheredBuffer);
+    clear_->dispatch({kClearGroups, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  regionTable_->bindUniform(frame::kRasterRegionsBlock);
-  if (shadows_) shadows_->draw(view_, lightRegions_, table_, 0, *gathered_);
-  regionTable_->bindUniform(frame::kRasterRegionsBlock);
-  camera_->draw(view_, cameraRegions_, table_, kFirstCameraRegion, *gathered_);
+  const auto rangesAt = [&](const std::vector<glm::uvec4>& ranges, int64_t offset) {
+    return frame::RegionRaster::Ranges{*plan_, offset, static_cast<int64_t>(ranges.size()),
+                                       ranges.empty() ? 0 : ranges.back().y};
+  };
+  const int64_t second =
+      kRangesOffset + aligned(static_cast<int64_t>(lightRanges_.size() * sizeof(glm::uvec4)));
+  bindTables();
+  if (shadows_)
+    shadows_->draw(view_, lightRegions_, table_, 0, rangesAt(lightRanges_, kRangesOffset), *gathered_);
+  bindTables();
+  camera_->draw(view_, cameraRegions_, table_, kFirstCameraRegion, rangesAt(cameraRanges_, second),
+                *gathered_);
+}
+
+void LayerImages::upload() {
+  lightRanges_ = shadows_ ? shadows_->rangesOf(lightRegions_, 0) : std::vector<glm::uvec4>();
+  cameraRanges_ = camera_->rangesOf(cameraRegions_, kFirstCameraRegion);
+  const size_t lightBytes = lightRanges_.size() * sizeof(glm::uvec4),
+               cameraBytes = cameraRanges_.size() * sizeof(glm::uvec4);
+  const auto second = static_cast<size_t>(kRangesOffset + aligned(static_cast<int64_t>(lightBytes)));
+  std::vector<char> bytes(second + cameraBytes);
+  std::memcpy(bytes.data(), table_.data(), static_cast<size_t>(kTableBytes));
+  std::memcpy(bytes.data() + kTestsOffset, tests_.data(), static_cast<size_t>(kTestBytes));
+  if (lightBytes > 0) std::memcpy(bytes.data() + kRangesOffset, lightRanges_.data(), lightBytes);
+  if (cameraBytes > 0) std::memcpy(bytes.data() + second, cameraRanges_.data(), cameraBytes);
+  assert(static_cast<int64_t>(bytes.size()) <= plan_->bytes());
+  plan_->write(0, static_cast<int64_t>(bytes.size()), bytes.data());
+}
+
+void LayerImages::bindTables() const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, frame::kRasterRegionsBlock, plan_->id(), 0, kTableBytes);
+  glBindBufferRange(GL_UNIFORM_BUFFER, kPlannedTestsBlock, plan_->id(), kTestsOffset, kTestBytes);
 }
 
 void LayerImages::bindGathered(const gl::Program& program) {
@@ -232,8 +270,7 @@ void LayerImages::bindGathered(const gl::Program& program) {
   program.set("testCount", testCount_);
   program.set("blackCdM2", blackCdM2_);
   program.set("rangeCdM2", rangeCdM2_);
-  regionTable_->bindUniform(frame::kRasterRegionsBlock);
-  testTable_->bindUniform(kPlannedTestsBlock);
+  bindTables();
   gathered_->bindStorage(kGatheredBuffer);
 }
 

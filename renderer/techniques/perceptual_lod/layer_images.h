@@ -68,6 +68,8 @@ class LayerImages {
  private:
   void plan(const std::vector<int>& layerOf, const std::vector<ObjectTest>& tests);
   int64_t wordsOf(const ObjectTest& test) const;
+  void upload();
+  void bindTables() const;
   PixelRect lightPixelsOf(const scene::Bounds& bounds) const;
 
   frame::Frame& parent_;
@@ -79,16 +81,18 @@ class LayerImages {
   std::optional<frame::LightFrustum> light_;
   std::unique_ptr<frame::RegionRaster> camera_, shadows_;
   std::vector<PixelRect> lightPixels_;  ///< of each object, in the shadow map
-  const gl::Program *compose_ = nullptr, *layerView_ = nullptr;
+  const gl::Program *clear_ = nullptr, *compose_ = nullptr, *layerView_ = nullptr;
   gl::Texture picture_, behind_, context_;
   int64_t testWords_ = 0;
-  std::optional<gl::Buffer> gathered_, regionTable_, testTable_;
+  std::optional<gl::Buffer> gathered_;
+  std::optional<gl::Buffer> plan_;  ///< table of regions, tests, ranges of triangles: uploaded together
 
   // Of the last draw().
   scene::LodSelection shown_;
   std::vector<frame::RasterRegion> table_;
   std::vector<PlannedTest> tests_;
   std::vector<frame::RegionContent> cameraRegions_, lightRegions_;
+  std::vector<glm::uvec4> cameraRanges_, lightRanges_;
   int testCount_ = 0, layersDrawn_ = 0;
   uint64_t trianglesTested_ = 0;
   std::vector<char> drawn_;

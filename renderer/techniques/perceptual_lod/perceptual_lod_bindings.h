@@ -35,6 +35,7 @@ static_assert(kFirstCameraVersion + 2 * kMostTests <= frame::kMostRasterRegions)
 // All shaders that read the regions; 0 to 7 are the scene's buffers.
 const uint kPlannedTestsBlock = 2u;
 const uint kGatheredBuffer = 8u;
+const int kClearGroup = 256;
 
 // Composition.
 const uint kComposePictureImage = 0u;

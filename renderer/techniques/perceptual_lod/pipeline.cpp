@@ -36,11 +36,9 @@ PerceptualPipeline::PerceptualPipeline(frame::Frame& parent, const PerceptualLod
       control_(settings.rule, levelCounts(parent.scene()),
                settings.startLevel == StartLevel::Finest ? 0 : std::numeric_limits<int>::max()),
       thresholdMap_(parent.context(), parent.sizePx(), seenOn_.display, seenOn_.map, settings.gpu, false),
-      visible_(gl::Format::R32F, parent.sizePx()),
       counts_(parent.context(), settings.tests.count, images_.defines(), settings.tests.objectsPerFrame,
-              visible_) {
-  visible_.clear(glm::vec4(0.0F));
-  parent.passes().setBytesHeld(kTests, visible_.bytes() + counts_.bytes());
+              parent.sizePx()) {
+  parent.passes().setBytesHeld(kTests, counts_.bytes());
   parent.passes().setBytesHeld("perceptual_lod/threshold_map", thresholdMap_.bytesHeld());
 }
 
@@ -96,13 +94,32 @@ const gl::Texture& PerceptualPipeline::makeMap(int layer, bool timed,
   return thresholdMap_.run(images_.context(), timed ? &passes : nullptr, only);
 }
 
-void PerceptualPipeline::runTests(int layer, const gl::Texture& thresholds) {
-  const gl::PassList::Scope scope = parent_.passes().open(layerPrefix(layer) + kTests);
-  const gl::Program& program = counts_.program();
+void PerceptualPipeline::bindTests(const gl::Program& program, const gl::Texture& thresholds) {
   images_.bindGathered(program);
   images_.picture().bindTexture(kLevelTestPictureUnit);
   images_.behind().bindTexture(kLevelTestBehindUnit);
   thresholds.bindTexture(kLevelTestThresholdUnit);
+}
+
+void PerceptualPipeline::markVisible(int layer, const gl::Texture& thresholds, const gl::Texture& marks) {
+  gl::ShaderDefines defines = images_.defines();
+  defines["MARK"] = "1";
+  const gl::Program& program = parent_.context().programs().compute(
+      "renderer/techniques/perceptual_lod/count_visible.comp.glsl", defines);
+  bindTests(program, thresholds);
+  marks.bindImage(kLevelTestVisibleImage, gl::Access::Write);
+  for (size_t i = 0; i < tests_.size(); ++i) {
+    const auto object = static_cast<size_t>(tests_[i].object);
+    if (layerOf_[object] != layer) continue;
+    program.set("test", static_cast<int>(i));
+    program.dispatch(pixels_[object].high - pixels_[object].low);
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+}
+
+void PerceptualPipeline::runTests(int layer, const gl::Texture& thresholds) {
+  const gl::PassList::Scope scope = parent_.passes().open(layerPrefix(layer) + kTests);
+  bindTests(counts_.program(), thresholds);
   for (size_t i = 0; i < tests_.size(); ++i) {
     const auto object = static_cast<size_t>(tests_[i].object);
     if (layerOf_[object] == layer) counts_.count(tests_[i], static_cast<int>(i), pixels_[object]);
@@ -164,7 +181,11 @@ PerceptualPipeline::Surroundings PerceptualPipeline::surroundings(int layer) {
 
 std::map<std::string, const gl::Texture*> PerceptualPipeline::debugViews() {
   std::map<std::string, const gl::Texture*> out = images_.views();
-  out["visible_pixels"] = &visible_;
+  const gl::Texture& marks =
+      views_.try_emplace("visible_pixels", gl::Format::R32F, parent_.sizePx()).first->second;
+  marks.clear(glm::vec4(0.0F));
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  out["visible_pixels"] = &marks;
   for (int layer = 1; layer < images_.layers(); ++layer) {
     // A layer without objects is not drawn.
     if (std::find(layerOf_.begin(), layerOf_.end(), layer) == layerOf_.end()) continue;
@@ -172,6 +193,7 @@ std::map<std::string, const gl::Texture*> PerceptualPipeline::debugViews() {
     const Surroundings made = surroundings(layer);
     out["context_" + number] = made.context;
     out["threshold_map_" + number] = made.thresholds;
+    markVisible(layer, *made.thresholds, marks);
   }
   return out;
 }

@@ -51,7 +51,9 @@ class PerceptualPipeline {
   void takeResults(bool wait);
   std::vector<ObjectTest> nextTests();
   const gl::Texture& makeMap(int layer, bool timed, const std::optional<perception::MapArea>& only = {});
+  void bindTests(const gl::Program& program, const gl::Texture& thresholds);
   void runTests(int layer, const gl::Texture& thresholds);
+  void markVisible(int layer, const gl::Texture& thresholds, const gl::Texture& marks);
 
   frame::Frame& parent_;
   const PerceptualLodSettings settings_;
@@ -59,7 +61,6 @@ class PerceptualPipeline {
   LayerImages images_;
   TestedLevels control_;
   perception::ThresholdMapGpu thresholdMap_;
-  gl::Texture visible_;
   TestCounts counts_;
   int64_t frameNumber_ = 0;
   std::vector<int> layerOf_;

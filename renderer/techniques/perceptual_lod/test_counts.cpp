@@ -23,11 +23,10 @@ const gl::Program& programOf(gl::Context& context, CountMethod method, const gl:
 }  // namespace
 
 TestCounts::TestCounts(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines,
-                       int testsPerFrame, const gl::Texture& visible)
+                       int testsPerFrame, glm::ivec2 sizePx)
     : method_(method),
       testsPerFrame_(static_cast<size_t>(testsPerFrame)),
       program_(programOf(context, method, defines)),
-      visible_(visible),
       counts_(kWordsPerTest * 4 * testsPerFrame, nullptr),
       batches_(kBatches) {
   for (Batch& batch : batches_) {
@@ -38,7 +37,8 @@ TestCounts::TestCounts(gl::Context& context, CountMethod method, const gl::Shade
     queries_.resize(kBatches * testsPerFrame_ * kQueries);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
     glCreateVertexArrays(1, &vertexArray_);
-    target_.emplace(std::vector<const gl::Texture*>{&visible}, nullptr);
+    colour_.emplace(gl::Format::R8, sizePx);
+    target_.emplace(std::vector<const gl::Texture*>{&*colour_}, nullptr);
     return;
   }
   const auto bytes = static_cast<GLsizeiptr>(counts_.bytes() * int64_t{kBatches});
@@ -60,13 +60,6 @@ void TestCounts::begin(int64_t frame) {
   assert(ready());
   batches_[next_].frame = frame;
   batches_[next_].numbers.clear();
-  // Only what the last tests marked: a picture of zeros would cost more than some tests.
-  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-  constexpr float kNothing = 0.0F;
-  for (const PixelRect& rect : marked_)
-    glClearTexSubImage(visible_.id(), 0, rect.low.x, rect.low.y, 0, rect.high.x - rect.low.x,
-                       rect.high.y - rect.low.y, 1, GL_RED, GL_FLOAT, &kNothing);
-  marked_.clear();
   if (method_ == CountMethod::Compute) counts_.clearUint(0);
 }
 
@@ -75,12 +68,10 @@ void TestCounts::count(const ObjectTest& test, int number, const PixelRect& pixe
   assert(number >= 0 && static_cast<size_t>(number) < testsPerFrame_);
   batch.tests.push_back({test.object, test.level, 0, 0, 0, test.next});
   batch.numbers.push_back(number);
-  marked_.push_back(pixels);
   program_.set("test", number);
   const glm::ivec2 size = pixels.high - pixels.low;
   if (method_ == CountMethod::Compute) {
     counts_.bindStorage(kLevelTestCountsBuffer);
-    visible_.bindImage(kLevelTestVisibleImage, gl::Access::Write);
     program_.dispatch(size);
     return;
   }
@@ -89,9 +80,8 @@ void TestCounts::count(const ObjectTest& test, int number, const PixelRect& pixe
   glBindVertexArray(vertexArray_);
   glEnable(GL_SCISSOR_TEST);
   glScissor(pixels.low.x, pixels.low.y, size.x, size.y);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   for (size_t kind = 0; kind < kQueries; ++kind) {
-    const GLboolean write = kind == 1 ? GL_TRUE : GL_FALSE;
-    glColorMask(write, write, write, write);
     program_.set("counted", static_cast<int>(kind));
     glBeginQuery(GL_SAMPLES_PASSED, query(next_, static_cast<size_t>(number), kind));
     glDrawArrays(GL_TRIANGLES, 0, 3);

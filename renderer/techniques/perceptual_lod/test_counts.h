@@ -20,10 +20,9 @@ namespace limen::techniques {
 /// order; nothing waits unless asked to.
 class TestCounts {
  public:
-  /// `defines`: of gathered.glsl. `visible` is R32F and 1 where a test of the last frame found a visible
-  /// difference, 0 elsewhere.
+  /// `defines`: of gathered.glsl. `sizePx`: of the picture.
   TestCounts(gl::Context& context, CountMethod method, const gl::ShaderDefines& defines, int testsPerFrame,
-             const gl::Texture& visible);
+             glm::ivec2 sizePx);
   ~TestCounts();
   TestCounts(const TestCounts&) = delete;
   TestCounts& operator=(const TestCounts&) = delete;
@@ -37,7 +36,7 @@ class TestCounts {
   void end();
   /// The oldest batch, if it is of frame `newest` or earlier and has arrived.
   std::optional<std::vector<LevelTest>> take(int64_t newest, bool wait);
-  int64_t bytes() const { return counts_.bytes() * (1 + kBatches); }
+  int64_t bytes() const { return counts_.bytes() * (1 + kBatches) + (colour_ ? colour_->bytes() : 0); }
 
  private:
   static constexpr size_t kBatches = 8, kQueries = 3;
@@ -56,14 +55,13 @@ class TestCounts {
   CountMethod method_;
   size_t testsPerFrame_;
   const gl::Program& program_;
-  const gl::Texture& visible_;
   gl::Buffer counts_;
   uint32_t readBack_ = 0, vertexArray_ = 0;
   const uint32_t* mapped_ = nullptr;
+  std::optional<gl::Texture> colour_;  ///< nothing is written to it; queries need a target
   std::optional<gl::Framebuffer> target_;
   std::vector<uint32_t> queries_;
   std::vector<Batch> batches_;
-  std::vector<PixelRect> marked_;  ///< where `visible` may hold 1
   size_t next_ = 0, oldest_ = 0;
 };
 

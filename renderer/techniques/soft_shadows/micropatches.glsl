@@ -8,6 +8,9 @@
 
 Range occluderRange(Area area, int level) { return Range(area.low >> level, (area.high - 1) >> level); }
 
+#ifdef SEARCH_CELLS
+#include "renderer/techniques/soft_shadows/search_cells.glsl"
+#else
 // Visibility by the micropatches of a level that lie in the area.
 float gatherOccluders(vec4 p, Area area, int level) {
   const Range range = occluderRange(area, level);
@@ -67,3 +70,4 @@ float gatherOccluders(vec4 p, Area area, int level) {
   }
   return gatheredVisibility();
 }
+#endif

@@ -20,9 +20,32 @@ const SettingsTable<LimitedFill>& LimitedFill::table() {
   return kTable;
 }
 
+const SettingsTable<SearchCells>& SearchCells::table() {
+  static const SettingsTable<SearchCells> kTable = {
+      {&SearchCells::middle,
+       "middle",
+       {0.1, 1.0},
+       "",
+       "Width of the cells in the middle of the search area as a share of their mean width; 1: all are as "
+       "wide. All depths that can block matter in the middle, only those nearest to the light at the rim",
+       "own form"},
+      {&SearchCells::leastWidth,
+       "least_width",
+       {0.0, 4.0},
+       "texel",
+       "Least width of the search area and of the light as projected onto the map; so narrower penumbrae "
+       "are smooth over so many texels instead of jagged",
+       "own form, as for windows of percentage-closer soft shadows"}};
+  return kTable;
+}
+
 const SettingsTable<Micropatches>& Micropatches::table() {
   static const SettingsTable<Micropatches> kTable = {
       coarseDepthsBinding<Micropatches>(),
+      {&Micropatches::division, "division",
+       "Division of the search area into micro-occluders: into texels of one level of the pyramid or into "
+       "cells of any size",
+       "Schwarz 2009, section 4.1 (levels); cells: own form"},
       Binding(&Micropatches::gapFill, "gap_fill", kGapText, kGapSource).formerly({"gap_fill"})};
   return kTable;
 }

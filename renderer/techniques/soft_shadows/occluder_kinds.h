@@ -92,6 +92,30 @@ constexpr std::optional<frame::SampledTexel> sampledTexel(CoarseDepths depths) {
   return std::nullopt;
 }
 
+/// Division of a search area into micro-occluders.
+struct AutoDivision {
+  static constexpr const char *kKind = "auto",
+                              *kSummary =
+                                  "cells where they replace the finest level within the budget, depths "
+                                  "are sampled and each is tested against the receiver's plane; levels "
+                                  "otherwise";
+};
+struct LevelDivision {
+  static constexpr const char *kKind = "levels",
+                              *kSummary = "texels of a level, 1, 2, 4, ... of the map's on a side";
+};
+/// As many cells as the budget allows, whatever the area's extent. Levels are powers of two, so on average
+/// they use less than half of it. Own form; no source.
+struct SearchCells {
+  static constexpr const char *kKind = "cells",
+                              *kSummary =
+                                  "as many cells as the budget allows, each with the depth of one texel";
+  double middle = 0.5;      ///< width of the cells in the area's middle, as a share of the mean
+  double leastWidth = 1.0;  ///< texels
+  static const SettingsTable<SearchCells>& table();
+};
+using DivisionSettings = std::variant<AutoDivision, LevelDivision, SearchCells>;
+
 /// A kind of micro-occluder as an alternative of a technique's settings.
 template <OccluderKind K>
 struct OccluderAlternative {
@@ -113,6 +137,7 @@ Binding<S> coarseDepthsBinding() {
 struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
   static constexpr const char* kSummary = "texels as rectangles at one depth";
   CoarseDepths depths = CoarseDepths::Sampled;
+  DivisionSettings division = LevelDivision{};
   GapFillSettings gapFill;
   static const SettingsTable<Micropatches>& table();
 };
@@ -129,6 +154,7 @@ struct Microrects : OccluderAlternative<OccluderKind::Microrects> {
 struct OccluderChoice {
   OccluderKind kind = OccluderKind::Micropatches;
   CoarseDepths depths = CoarseDepths::Nearest;
+  DivisionSettings division = LevelDivision{};
   GapFill gapFill = GapFill::LeftBottom;
   double gapWidth = 0.0;                  ///< that is filled, if limited, as a share of the light's width
   frame::MergeRule merge = {};            ///< of microrects
@@ -148,6 +174,7 @@ template <class Alternative>
 OccluderChoice occluderChoice(const Alternative& chosen) {
   OccluderChoice choice{.kind = Alternative::kOccluders};
   if constexpr (requires { chosen.depths; }) choice.depths = chosen.depths;
+  if constexpr (requires { chosen.division; }) choice.division = chosen.division;
   if constexpr (requires { chosen.gapFill; })
     std::visit(
         [&](const auto& fill) {

@@ -16,12 +16,14 @@ OccluderSearch::OccluderSearch(const SearchSettings& settings, const LevelSettin
       refinements_(settings.refinements),
       structure_(settings.structure),
       occluders_(occluders),
+      cells_(cellsOf(settings, occluders, levels)),
       coarse_(occluders, levels),
       bias_(settings.bias) {}
 
 gl::ShaderDefines OccluderSearch::defines() const {
   gl::ShaderDefines defines = bias_.defines();
   occluders_.define(defines);
+  if (cells_) defines["SEARCH_CELLS"] = "1";
   defineStructure(structure_, defines);
   // With one level for all pixels, its effect on the shadow is the question: no pixel may avoid it through
   // finer texels.
@@ -42,7 +44,7 @@ const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame
     bytes += layers->texture().bytes();
   }
   const frame::SampledPyramid* sampled = nullptr;
-  if (const auto texel = sampledTexel(occluders_.depths)) {
+  if (const auto texel = sampledTexel(occluders_.depths); texel && !cells_) {
     sampled = &frame.get<frame::SampledPyramid>(settings, frame::SampledTexelSetting{*texel});
     bytes += sampled->atlas().bytes();
   }
@@ -65,6 +67,8 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("levels", pyramidLevels_);
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
+  program.set("middleWidth", cells_ ? static_cast<float>(cells_->middle) : 1.0F);
+  program.set("leastWidth", cells_ ? static_cast<float>(cells_->leastWidth) : 0.0F);
   program.set("widestGap", static_cast<float>(occluders_.gapWidth));
   program.set("roughQueries", roughQueries(structure_));
   program.set("baseLevel", baseLevel_);

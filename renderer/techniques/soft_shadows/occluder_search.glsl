@@ -8,6 +8,9 @@
 uniform int levels, refinements;
 uniform int fixedLevel;  // of all micro-occluders; below 0: by the budget
 uniform int roughQueries;  // as many depth ranges of a pixel, the first ones, may be rough
+#ifdef SEARCH_CELLS
+uniform float leastWidth;  // of the light as projected onto the map, in texels
+#endif
 // Iterations that the driver's compiler allows a shader: llvmpipe leaves all loops silently after 65,535.
 uniform int maxIterations;
 
@@ -36,7 +39,11 @@ const float kAreaBorder = 0.5;
 
 // Cut of the pyramid from the receiver to the light with the plane z, as texels; clipped to the map.
 Area searchArea(vec4 p, float z, out bool reachesOutside) {
+#ifdef SEARCH_CELLS
+  const vec2 perLength = max(vec2(1.0 / z - 1.0 / p.z), leastWidth * tangentSize / (float(resolution) * lightSize));
+#else
   const float perLength = max(1.0 / z - 1.0 / p.z, 0.0);
+#endif
   const vec2 centre = p.xy / p.z + (0.5 - eyeOnLight) * lightSize * perLength;
   const vec2 halfSize = 0.5 * lightSize * perLength;
   const vec2 low = floor(mapTexel(centre - halfSize) - kAreaBorder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "renderer/techniques/soft_shadows/bias_form.h"
@@ -35,6 +36,7 @@ class OccluderSearch {
   int refinements_;
   StructureSettings structure_;
   OccluderChoice occluders_;
+  std::optional<SearchCells> cells_;  // empty: levels
   CoarseOccluders coarse_;
   BiasForm bias_;
   int pyramidLevels_ = 0, baseLevel_ = 0, maxIterations_ = 0;

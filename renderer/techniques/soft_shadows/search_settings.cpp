@@ -33,6 +33,7 @@ const SettingsTable<SearchSettings>& SearchSettings::table() {
 }
 
 void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels) {
+  cellsOf(search, occluders, levels);
   const int resolution = search.map.resolution;
   const int coarsest = std::bit_width(static_cast<unsigned>(resolution)) - 1;
   const auto* fixed = std::get_if<FixedLevel>(&levels);
@@ -55,6 +56,25 @@ void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, 
   if (!uniform || uniform->limit != UniformBudget{}.limit)
     throw Error("a budget leads to a level per pixel, but here all pixels have the same level", "budget",
                 fixed ? "leave it out, or choose other levels" : "leave it out, or choose other occluders");
+}
+
+std::optional<SearchCells> cellsOf(const SearchSettings& search, const OccluderChoice& occluders,
+                                   const LevelSettings& levels) {
+  const auto* given = std::get_if<SearchCells>(&occluders.division);
+  if (!given && !std::holds_alternative<AutoDivision>(occluders.division)) return std::nullopt;
+  const auto conflict = [&](const char* what, const char* where, const char* hint) {
+    if (given) throw Error(std::string("cells of search areas conflict with ") + what, where, hint);
+    return std::nullopt;
+  };
+  if (occluders.depths != CoarseDepths::Sampled && occluders.depths != CoarseDepths::Centre)
+    return conflict("depths that combine several texels, which only levels hold", "occluders.depths",
+                    "give depths: sampled or centre, or division: levels");
+  if (!std::holds_alternative<FinestWithin>(levels))
+    return conflict("a choice of levels", "levels", "leave it out, or give occluders.division: levels");
+  if (!std::holds_alternative<PlaneBias>(search.bias))
+    return conflict("a bias that holds for a level's texels", "bias",
+                    "give bias: receiver_plane, or occluders.division: levels");
+  return given ? *given : SearchCells{};
 }
 
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders) {

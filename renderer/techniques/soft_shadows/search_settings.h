@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "renderer/techniques/soft_shadows/bias_form.h"
 #include "renderer/techniques/soft_shadows/occluder_kinds.h"
 #include "renderer/techniques/soft_shadows/quality/budget_settings.h"
@@ -23,6 +25,9 @@ struct SearchSettings {
 /// Throws Error if a requested level is not in the map, or if levels are chosen in more than one way.
 void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels);
 /// Throws Error if occluders are not made of texels whose stored bias would apply.
+/// The cells that search areas are divided into; none: levels. Throws if they conflict with other settings.
+std::optional<SearchCells> cellsOf(const SearchSettings& search, const OccluderChoice& occluders,
+                                   const LevelSettings& levels);
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders);
 
 }  // namespace limen::techniques

@@ -60,6 +60,10 @@ TEST_F(ColorVideoVdpCli, AnImageIsScoredOnItsDisplay) {
   options.map = true;
   const cvvdp::ReferenceResult expected = cvvdp::evaluate(pair, options);
   EXPECT_NEAR(figure(own, "color_video_vdp"), expected.score.jod, 1e-4);
+  const nlohmann::json& bands = own.at("color_video_vdp").at("bands");
+  ASSERT_EQ(bands.size(), expected.score.frequenciesCpd.size());
+  const double second = expected.score.frames[0][1][0];
+  EXPECT_NEAR(bands[1].at("A").get<double>(), second, 1e-4 * second + 1e-5);
   const Image map = readImageFile(path("maps/color_video_vdp.exr")).image;
   for (size_t i = 0; i < map.data.size(); ++i) ASSERT_NEAR(map.data[i], expected.maps[0].data[i], 1e-4);
   const nlohmann::json hdr = result({"compare", "a.png", "b.png", "--metrics", "color_video_vdp", "--set",

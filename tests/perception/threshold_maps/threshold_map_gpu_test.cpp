@@ -170,6 +170,36 @@ TEST_F(ThresholdMapGpuTest, NineFetchesOfOddSizesAreTheReferencesNineFetches) {
   EXPECT_LT(largestError(image, settings, "nine fetches"), 0.02);
 }
 
+TEST_F(ThresholdMapGpuTest, NineFetchesIn16BitsHoldFaintContrasts) {
+  // Luminance itself in 16 bits has steps of 1/16 cd/m2 at 100 cd/m2: contrasts of 0.03 % are all rounding.
+  // Less its mean, it has steps of 2^-11 of the distance from there.
+  const ThresholdMapSettings settings = settingsOf({{"downsample", text("nine_fetch")}});
+  for (const double contrast : {0.001, 0.01, 0.1}) {
+    const Plane image = pattern(128, 128, [&](int x, int y) {
+      return 100.0 * (1.0 + contrast * std::sin(0.35 * x) * std::cos(0.23 * y));
+    });
+    EXPECT_LT(largestError(image, settings, "faint", {.precision = 16}), 0.03) << contrast;
+  }
+}
+
+TEST_F(ThresholdMapGpuTest, LuminanceStoredInPlaceOfTheFinestBandIsAsExact) {
+  for (const auto& [name, image] : adversarialPatterns())
+    EXPECT_LT(largestError(image, settingsOf(), name, {.finest = FinestStored::Luminance}), 0.005) << name;
+}
+
+TEST_F(ThresholdMapGpuTest, EvenSizesAreReducedLikeAllOthers) {
+  // Sizes whose levels are even twice, once and not at all, with one level a pass as for large images.
+  for (const glm::ivec2 size : {glm::ivec2(256, 192), {136, 88}, {150, 90}, {130, 62}})
+    for (const char* border : {"clamp", "mirror"}) {
+      const Plane image = noisePattern(size.x, size.y);
+      for (const std::variant<AutomaticLevels, GivenLevels>& perPass :
+           {std::variant<AutomaticLevels, GivenLevels>(), {GivenLevels{1}}})
+        EXPECT_LT(largestError(image, settingsOf({{"border", text(border)}}), border,
+                               {.levelsPerPass = perPass, .finest = FinestStored::Luminance}),
+                  0.005);
+    }
+}
+
 TEST_F(ThresholdMapGpuTest, ColourIsTurnedIntoTheDisplaysLuminance) {
   Image colour(70, 40, 4);
   for (size_t i = 0; i < colour.data.size(); ++i) colour.data[i] = static_cast<float>((i * 37 % 101) / 80.0);

@@ -34,6 +34,19 @@ TEST_F(ThresholdMapTechniqueTest, AgreesWithTheReferenceOnARendering) {
   }
 }
 
+TEST_F(ThresholdMapTechniqueTest, BandsAgreeWithTheirReferenceOnARendering) {
+  const scene::Scene scene = makeScene("two_boxes");
+  for (const bool one : {false, true}) {
+    Given given = {{"shading.shadow", true}};
+    if (one) given["map.output"] = text("band");
+    const Image reference = render(scene, "perception/band_thresholds_reference", given, {150, 97}).product;
+    EXPECT_LT(
+        largestRelative(render(scene, "perception/band_thresholds", given, {150, 97}).product, reference),
+        0.005)
+        << one;
+  }
+}
+
 TEST_F(ThresholdMapTechniqueTest, ABackgroundAloneIsAFlatField) {
   // A linear grey of 0.5 between 0.5 and 250 cd/m2 is 125.25; on Ward's last branch tvi = 10^-1.255 L.
   const scene::Scene scene = makeScene("two_boxes");
@@ -60,7 +73,8 @@ TEST_F(ThresholdMapTechniqueTest, FollowsTheViewingDistance) {
 
 TEST_F(ThresholdMapTechniqueTest, CountsWhatItDeclares) {
   const scene::Scene scene = makeScene("two_boxes");
-  for (const char* name : {"perception/threshold_map", "perception/threshold_map_reference"}) {
+  for (const char* name : {"perception/threshold_map", "perception/threshold_map_reference",
+                           "perception/band_thresholds", "perception/band_thresholds_reference"}) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
     const Rendered rendered = render(scene, name, {}, {64, 48}, true);
     EXPECT_EQ(rendered.counters.size(), info.counters.size());

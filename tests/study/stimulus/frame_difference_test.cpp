@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/stimulus/frame_difference.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "perception/metrics/color_video_vdp/reference.h"
 #include "perception/vision/colour.h"
 #include "study/stimulus/prediction.h"
 #include "study/stimulus/stimulus_renderer.h"
@@ -54,6 +56,36 @@ TEST_F(FrameDifferenceTest, NothingWhereNothingChanges) {
   EXPECT_EQ(difference.meanDe94, 0.0);
   EXPECT_EQ(difference.flip, 0.0);
   EXPECT_EQ(difference.ssim, 1.0);
+  EXPECT_EQ(difference.colorVideoVdp, 0.0);
+  EXPECT_FALSE(difference.colorVideoVdpClip);
+}
+
+// The clip is the sequence's own frames around the change; its reference, those of the same sequence without
+// one.
+TEST_F(FrameDifferenceTest, ColorVideoVdpOfPicturesAndClip) {
+  for (const Presentation presentation : {Presentation::Static, Presentation::Dynamic}) {
+    Stimulus stimulus = patchStimulus();
+    stimulus.presentation = presentation;
+    const FrameDifference difference =
+        FrameComparer(context(), kSize, studyDisplay()).compare(stimulus, true);
+    StimulusRenderer renderer(context(), stimulus, kSize, studyDisplay());
+    const Timeline& timeline = renderer.timeline();
+    const int reach = static_cast<int>(std::lround(0.25 * timeline.refreshHz));
+    const int first = std::max(timeline.changed - reach, 0),
+              end = std::min(timeline.changed + reach, timeline.frames);
+    perception::cvvdp::Options options;
+    options.display = perception::cvvdp::displayOf(studyDisplay());
+    options.framesPerSecond = timeline.refreshHz;
+    options.codeSteps = 255.0;  // what is sent to the display, in place of its light
+    const perception::cvvdp::Pair pair = {
+        kSize.x, kSize.y, end - first, [&](int i) { return renderer.readBack(first + i); },
+        [&](int i) { return renderer.readBackState(timeline.sceneTimeS(first + i), false); }};
+    ASSERT_TRUE(difference.colorVideoVdpClip);
+    EXPECT_NEAR(*difference.colorVideoVdpClip, 10.0 - perception::cvvdp::evaluate(pair, options).score.jod,
+                1e-4);
+    EXPECT_GT(*difference.colorVideoVdpClip, 0.0);
+    EXPECT_GT(difference.colorVideoVdp, 0.0);
+  }
 }
 
 }  // namespace

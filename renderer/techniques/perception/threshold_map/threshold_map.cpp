@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threshold map of the shaded frame (SP-29 to SP-34): for each pixel the luminance increment that stays
-// invisible. Source: Schwarz 2009, section 9.4, in compute. Departures, each a parameter if it changes the
-// map: the kernel, which the thesis leaves open, is the binomial one; the adaptation luminance is blended
-// from two levels so that it is a mean over one degree, whereas the pixels of the nearest level are only
-// about a degree apart; a small contrast is added so that flat regions have an elevation of 1; the stack
-// exists for one tile at a time; 16 bits store bands instead of luminances.
+// The thesis's threshold map of the shaded frame (SP-29 to SP-34): for each pixel one luminance increment,
+// taken for the threshold of differences of any frequencies. It lends the masking of one band to all others,
+// so that differences below it may be plainly visible: a comparator for perception/band_thresholds. Source:
+// Schwarz 2009, section 9.4, in compute. Departures, each a parameter if it changes the map: the kernel,
+// which the thesis leaves open, is the binomial one; the adaptation luminance is blended from two levels so
+// that it is a mean over one degree, whereas the pixels of the nearest level are only about a degree apart; a
+// small contrast is added so that flat regions have an elevation of 1; the stack exists for one tile at a
+// time; 16 bits store bands instead of luminances.
 #include <optional>
 
 #include "perception/threshold_maps/threshold_map_gpu.h"
@@ -69,8 +71,8 @@ class ThresholdMapTechnique : public Technique {
 
 const RegisteredTechnique<ThresholdMapTechnique> kThresholdMapRegistered{
     {.name = "perception/threshold_map",
-     .version = 1,
-     .summary = "Largest luminance increment that stays invisible in the shaded frame, on the GPU",
+     .version = 2,
+     .summary = "Single threshold map of the shaded frame, on the GPU; differences below it may be visible",
      .source = "Schwarz 2009, section 9.4 (SP-30, SP-31)",
      .product = ProductKind::Threshold,
      .counters = {{"bytes_moved_per_px", "Bytes moved per pixel", "byte", Direction::LowerIsBetter},

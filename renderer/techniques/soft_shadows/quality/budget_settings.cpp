@@ -126,6 +126,11 @@ const SettingsTable<PerceptualBudget>& PerceptualBudget::table() {
       Binding(&S::least, "least", kBudgets, "",
               "Micro-occluders allowed per pixel where errors are least visible", kOpenError)
           .formerly({"perceptual_budget"}),
+      {&S::map, "map",
+       "Threshold map: the single one of Schwarz 2009, section 9.4, below which errors may be visible, or "
+       "the "
+       "one combined from frequency bands by the predictor",
+       kOpenError},
       Binding(&S::error, "error", Range{0.0, 16.0}, "",
               "Error of the visibility with one micro-occluder per axis (c); with r per axis it is c / r",
               kOpenError)

@@ -63,9 +63,20 @@ struct PaintedBudget {
   BudgetRange range() const { return {black, white}; }
 };
 
+/// Thresholds that a perceptual budget is kept below.
+enum class BudgetThresholds {
+  Single,  ///< the map of Schwarz 2009, section 9.4: larger, and not safe
+  Bands    ///< combined from frequency bands by the predictor
+};
+constexpr EnumNames<BudgetThresholds, 2> enumNames(BudgetThresholds) {
+  return {{{{BudgetThresholds::Single, "single"}, {BudgetThresholds::Bands, "bands"}}}};
+}
+
 struct PerceptualBudget {
-  static constexpr const char *kKind = "perceptual", *kSummary = "enough to keep errors invisible";
+  static constexpr const char *kKind = "perceptual",
+                              *kSummary = "enough to keep errors below a threshold map";
   int64_t most = 256, least = 25;
+  BudgetThresholds map = BudgetThresholds::Single;
   double error = 2.0;       ///< of the visibility with one micro-occluder per axis
   double thresholds = 1.0;  ///< multiple of the visible increment
   std::string display = "schwarz_2009";

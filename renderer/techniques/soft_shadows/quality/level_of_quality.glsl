@@ -96,7 +96,9 @@ float filteredLevel(vec4 p, Area area) {
 
 // Level for a receiver whose search area has been narrowed.
 float qualityLevel(vec4 p, Area area) {
-#ifdef FILTERED_LEVEL
+#if defined(SEARCH_CELLS)
+  return 0.0;  // cells are made of the map's own texels
+#elif defined(FILTERED_LEVEL)
   return filteredLevel(p, area);
 #else
   return levelOfArea(area);

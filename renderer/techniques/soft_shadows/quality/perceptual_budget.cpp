@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "perception/band_thresholds/band_threshold_gpu.h"
 #include "perception/threshold_maps/threshold_map_gpu.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
@@ -28,16 +29,22 @@ class PerceptualBudgetDriver : public BudgetDriver {
 
   void prepare(frame::Frame& frame) override {
     map_.emplace(gl::Format::R32F, frame.sizePx());
-    thresholdMap_.emplace(frame.context(), frame.sizePx(), display_, perception::ThresholdMapSettings{});
     frame.passes().setBytesHeld(kPerceptualPass, map_->bytes());
-    frame.passes().setBytesHeld("threshold_map/levels", thresholdMap_->bytesHeld());
+    if (settings_.map == BudgetThresholds::Bands) {
+      bands_.emplace(frame.context(), frame.sizePx(), display_, perception::BandThresholdSettings{});
+      frame.passes().setBytesHeld("band_thresholds/levels", bands_->bytesHeld());
+    } else {
+      thresholdMap_.emplace(frame.context(), frame.sizePx(), display_, perception::ThresholdMapSettings{});
+      frame.passes().setBytesHeld("threshold_map/levels", thresholdMap_->bytesHeld());
+    }
     program_ = &frame.context().programs().compute(kPerceptualShader);
   }
 
   const gl::Texture& make(frame::Frame& frame) override {
     const gl::Texture& direct = frame.get<frame::Shaded>(direct_).texture();
+    const gl::Texture& picture = frame.get<frame::Shaded>(picture_).texture();
     const gl::Texture& thresholds =
-        thresholdMap_->run(frame.get<frame::Shaded>(picture_).texture(), &frame.passes());
+        bands_ ? bands_->run(picture, &frame.passes()) : thresholdMap_->run(picture, &frame.passes());
     const auto scope = frame.passes().open(kPerceptualPass);
     program_->set("sizePx", frame.sizePx());
     program_->set("whiteCdM2", static_cast<float>(display_.whiteLevelCdM2() - display_.blackLevelCdM2()));
@@ -53,7 +60,7 @@ class PerceptualBudgetDriver : public BudgetDriver {
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {
-    return {{"budget_thresholds", &thresholdMap_->map()}};
+    return {{"budget_thresholds", bands_ ? &bands_->map() : &thresholdMap_->map()}};
   }
 
  private:
@@ -61,7 +68,8 @@ class PerceptualBudgetDriver : public BudgetDriver {
   perception::DisplayProfile display_;
   frame::ShadedSetting picture_, direct_;
   std::optional<gl::Texture> map_;
-  std::optional<perception::ThresholdMapGpu> thresholdMap_;
+  std::optional<perception::ThresholdMapGpu> thresholdMap_;  // or
+  std::optional<perception::BandThresholdGpu> bands_;
   const gl::Program* program_ = nullptr;
 };
 

@@ -124,6 +124,7 @@ void main() {
   bool within = true;
   if (listed) {
     receiver = loadReceiver(pixel);
+    readBudget(pixel);
     area = searchedArea(pixel);
     within = beginLevels(area, texelFetch(levelMap, pixel, 0).x, pixel, first, last, weight);
     firstRow = int(lane);
@@ -176,6 +177,7 @@ void main() {
   ivec2 pixel;
   if (!listedPixel(pixel)) return;
   const vec4 receiver = loadReceiver(pixel);
+  readBudget(pixel);
 #ifdef COUNT
   fetchCount = imageLoad(outCounts, pixel).z;
 #endif

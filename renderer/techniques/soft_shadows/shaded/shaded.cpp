@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A shaded picture with soft shadows, and where its visibility is found (SS-36): in passes of its own, which
 // leave an image of visibility to the shading pass, or in the shading pass itself. Source: Schwarz 2009,
-// sections 4.1 and 4.5.
+// sections 4.1, 4.6 and 5.2.2.
 //
 // The forms within the shading pass work out receivers as the G-buffer does and call the same functions for
 // each, so that their pictures are those of a single pass of its own. On the scene's triangles, fragments of
@@ -86,7 +86,7 @@ const RegisteredTechnique<ShadedShadow> kShadedRegistered{
     {.name = "soft_shadows/shaded",
      .version = 1,
      .summary = "A shaded picture, its visibility found in passes of its own or in the shading pass",
-     .source = "Schwarz 2009, sections 4.1 and 4.5 (SS-36)",
+     .source = "Schwarz 2009, sections 4.1, 4.6 and 5.2.2 (SS-36)",
      .product = ProductKind::Colour,
      .needs = {"rectangular_light"},
      .counters = innerCounters()}};

@@ -22,7 +22,7 @@ const SettingsTable<ShadedShadowSettings>& ShadedShadowSettings::table() {
        "Place of the loop over micro-occluders: in passes of its own, or in the pass that shades, in a "
        "compute "
        "shader or in a fragment shader, over the picture at once or on the scene's triangles",
-       "Schwarz 2009, sections 4.1 and 4.5"}};
+       "Schwarz 2009, sections 4.1, 4.6 and 5.2.2"}};
   return kTable;
 }
 
