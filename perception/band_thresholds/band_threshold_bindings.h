@@ -11,8 +11,8 @@ namespace limen::perception {
 // Tables of the model: lg luminance from kBandLgLow in cells of 1 / kBandCellsPerDecade, for each band; then
 // the step over normalised contrast, kBandSegments per octave from 2^kBandLowOctave, as (value, rise).
 const float kBandLgLow = -4.0f;
-const int kBandCellsPerDecade = 250;
-const int kBandCells = 2500;
+const int kBandCellsPerDecade = 1000;
+const int kBandCells = 10000;
 const int kBandSegmentBits = 5;
 const int kBandSegments = 1 << kBandSegmentBits;
 const int kBandLowOctave = -20;

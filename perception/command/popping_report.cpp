@@ -27,7 +27,8 @@ std::string poppingModelText(const PoppingSettings& settings) {
   std::string csfs = s.achromatic.csf.name + "+" + s.redGreen.csf.name;
   if (s.blueYellow.csf.name != s.redGreen.csf.name) csfs += "+" + s.blueYellow.csf.name;
   const std::string masking = isCubic(settings.masking) ? "T (9.9)" : "masking " + settings.masking.name;
-  return fmt::format("Schwarz 2009; {}, {}, eye movement {}", csfs, masking, toText(settings.eyeModel()));
+  return fmt::format("model {}; {}, {}, eye movement {}", toText(settings.model), csfs, masking,
+                     toText(settings.eyeModel()));
 }
 
 Figures declaredPoppingFigures() {

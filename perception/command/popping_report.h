@@ -10,7 +10,7 @@
 
 namespace limen::perception {
 
-/// "Schwarz 2009; daly98+kelly83, masking schwarz, eye movement monotone": the model in brief.
+/// "model schwarz_2009; daly98+kelly83, T (9.9), eye movement monotone": the model in brief.
 std::string poppingModelText(const PoppingSettings& settings);
 
 /// What poppingFigures() returns, without values.

@@ -19,6 +19,7 @@ PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& displ
   if (widthPx < 1 || heightPx < 1)
     throw Error("an image has no pixels", "popping", "give images of 1 x 1 or more");
   checkDisplay(display, "popping");
+  settings.bands.check();
   PoppingModel model;
   model.pixelsPerDegree = display.pixelsPerDegree();
   const auto* fixedArea = std::get_if<FixedArea>(&settings.sensitivity.stimulusArea);
@@ -49,7 +50,7 @@ PoppingModel poppingModel(int widthPx, int heightPx, const DisplayProfile& displ
   for (int i = 0; i < model.contrastLevels; ++i) {
     const BandPeak& peak = peaks[static_cast<size_t>(i)];
     model.peakCpd.push_back(peak.frequencyCpd(model.pixelsPerDegree));
-    model.gain.push_back(settings.bands.compensateGain ? peak.gain : 1.0);
+    model.gain.push_back(settings.bands.compensatesGain() ? peak.gain : 1.0);
   }
   const auto* given = std::get_if<LevelAdaptation>(&settings.adaptation);
   const int degree = given ? given->level : static_cast<int>(std::lround(std::log2(model.pixelsPerDegree)));

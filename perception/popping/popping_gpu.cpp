@@ -108,22 +108,28 @@ TableGrid gridOf(const PoppingSettings& settings, const DisplayProfile& display)
   return {low, glm::dvec2(size - 1) / octaves, size};
 }
 
-glm::ivec2 tablePx(const PoppingModel& model, glm::ivec2 size) {
-  return {size.x, size.y * std::max(1, model.contrastLevels)};
+int partsOf(const PoppingSettings& settings) { return settings.bands.isFitted() ? kBandParts : 1; }
+
+glm::ivec2 tablePx(const PoppingModel& model, const PoppingSettings& settings, glm::ivec2 size) {
+  return {size.x, size.y * partsOf(settings) * std::max(1, model.contrastLevels)};
 }
 
 Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& display,
                            const PoppingSettings& settings, const TableGrid& grid) {
-  const glm::ivec2 px = tablePx(model, grid.size);
+  const glm::ivec2 px = tablePx(model, settings, grid.size);
+  const int parts = partsOf(settings);
   Image table(px.x, px.y, 4);
   if (model.contrastLevels == 0) return table;
   const Sensitivity sensitivity(model, display, settings, true);
   forRowBlocks(table.height, static_cast<size_t>(table.width) * 1000, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < table.width; ++x) {
+        const int block = y / grid.size.y, level = block / parts;
+        const double velocity = std::exp2(grid.low.x + x / grid.per.x);
+        const double luminance = std::exp2(grid.low.y + y % grid.size.y / grid.per.y);
         const std::array<double, 3> at =
-            sensitivity.at(y / grid.size.y, std::exp2(grid.low.x + x / grid.per.x),
-                           std::exp2(grid.low.y + y % grid.size.y / grid.per.y));
+            parts == 1 ? sensitivity.at(level, velocity, luminance)
+                       : sensitivity.weights(level, velocity, luminance)[static_cast<size_t>(block % parts)];
         for (int c = 0; c < 3; ++c) table.at(x, y, c) = static_cast<float>(at[static_cast<size_t>(c)]);
       }
   });
@@ -137,13 +143,16 @@ std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const D
   constexpr size_t kKept = 8;
   const SensitivitySettings& s = settings.sensitivity;
   std::string key = display.hash() + "|" + s.achromatic.csf.name + "|" + s.redGreen.csf.name + "|" +
-                    s.blueYellow.csf.name + "|" + std::to_string(model.contrastLevels);
+                    s.blueYellow.csf.name + "|" + std::to_string(model.contrastLevels) +
+                    (settings.bands.isFitted() ? "|fitted" : "|peak") +
+                    (settings.bands.upsampler() == Upsampler::Expand ? "|expand" : "|linear");
   const auto add = [&](double value) { key += "|" + shortestNumber(value); };
   for (const double value : model.peakCpd) add(value);
   for (const double value :
-       {model.areaDeg2, model.widthDeg, model.scaleA, model.scaleRg, model.scaleBy,
-        Kelly83Scale::of(s.redGreen.csf).referenceCdM2, Kelly83Scale::of(s.blueYellow.csf).referenceCdM2,
-        grid.low.x, grid.low.y, grid.per.x, grid.per.y, double(grid.size.x), double(grid.size.y)})
+       {settings.bands.kernelCentre, settings.minkowskiExponent, model.areaDeg2, model.widthDeg, model.scaleA,
+        model.scaleRg, model.scaleBy, Kelly83Scale::of(s.redGreen.csf).referenceCdM2,
+        Kelly83Scale::of(s.blueYellow.csf).referenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
+        double(grid.size.x), double(grid.size.y)})
     add(value);
   static std::mutex guard;
   static std::vector<std::pair<std::string, std::shared_ptr<const Image>>> kept;
@@ -176,7 +185,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       tableSize_(gridOf(settings, display).size),
       cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
       differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
-      sensitivities_(Format::RGBA32F, tablePx(model_, tableSize_)),
+      sensitivities_(Format::RGBA32F, tablePx(model_, settings, tableSize_)),
       jnd_(Format::R32F, sizePx),
       seeds_(Format::R8UI, sizePx),
       counters_(sizeof(PoppingCounters), nullptr),
@@ -187,6 +196,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
   const bool isDkl = settings.sensitivity.isDkl();
   if (isDkl) defines_["CONTRAST_DKL"] = "1";
+  if (settings.bands.isFitted()) defines_["FITTED_WEIGHTS"] = "1";
   const auto planesOf = [&](const std::array<double, 3>& light) {
     return isDkl ? dklFromXyz(display.xyz(light)) : lmsFromXyz(display.xyz(light));
   };

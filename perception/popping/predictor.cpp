@@ -61,6 +61,7 @@ class Predictor {
         isStack_(settings.bands.isStack()),
         luminanceRow_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
         isDkl_(settings.sensitivity.isDkl()),
+        isFitted_(settings.bands.isFitted()),
         greyGain_(opponentFromLms({1, 1, 1}).x / settings.sensitivity.greyGain()) {
     result_.model = poppingModel(width_, height_, display, settings);
     pyramid_.levels = result_.model.gaussianLevels;
@@ -201,21 +202,42 @@ class Predictor {
     return std::copysign(std::pow(x, 0.7) * std::pow(1.0 + 1.0 / (x * x * x), -0.1), c);
   }
 
+  /// A level at its own size, blurred along both axes.
+  Plane blur(const Plane& plane, const std::array<double, 5>& taps) const {
+    Kernel kernel;
+    kernel.taps = taps;
+    return resample(plane, dilatedTaps(plane.width, kernel, 1, pyramid_.border),
+                    dilatedTaps(plane.height, kernel, 1, pyramid_.border));
+  }
+
+  /// Contrasts of the opponent channels from those of the planes.
+  glm::dvec3 opponentOf(const glm::dvec3& contrast) const {
+    if (isDkl_) return contrast;
+    glm::dvec3 opponent = opponentFromLms(contrast);
+    opponent.x /= greyGain_;
+    return opponent;
+  }
+
   // Contrast, opponent colours, normalisation by sensitivity, masking.
   Planes respond(const FrameLevels& frame, int level, const std::string& name, Content& content) {
     const std::string suffix = name + "_" + std::to_string(level);
     const auto i = static_cast<size_t>(level);
-    Planes contrast;
-    Plane coarser;
+    Planes contrast, coarser, once, twice;
     for (size_t c = 0; c < 3; ++c) {
       contrast[c] = isStack_ ? frame.lms[c][i + 1] : upsampleLevel(frame.lms[c], level + 1, level, pyramid_);
-      if (c == 0 || !isDkl_)
-        coarser = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
+      if (c > 0 && isDkl_)
+        coarser[c] = coarser[0];
+      else
+        coarser[c] = isStack_ ? frame.lms[c][i + 2] : upsampleLevel(frame.lms[c], level + 2, level, pyramid_);
       const Plane& own = frame.lms[c][i];
+      if (isFitted_) {
+        once[c] = blur(own, {0.0, 0.25, 0.5, 0.25, 0.0});
+        twice[c] = blur(own, Kernel::binomial5().taps);
+      }
       for (size_t p = 0; p < own.data.size(); ++p) {
-        if (!(coarser.data[p] >= settings_.bands.denominatorEpsilon)) ++guarded_;
-        contrast[c].data[p] = (own.data[p] - contrast[c].data[p]) /
-                              std::max(coarser.data[p], settings_.bands.denominatorEpsilon);
+        if (!(coarser[c].data[p] >= settings_.bands.denominatorEpsilon)) guarded_ += isDkl_ ? 3 : 1;
+        coarser[c].data[p] = std::max(coarser[c].data[p], settings_.bands.denominatorEpsilon);
+        contrast[c].data[p] = (own.data[p] - contrast[c].data[p]) / coarser[c].data[p];
       }
     }
     Plane luminance = adaptation(frame, level);
@@ -232,18 +254,30 @@ class Predictor {
               screenVelocityDegS(speedPx, display_.refreshHz, result_.model.pixelsPerDegree), eyeModel_,
               leastVelocityDegS_);
           velocity.at(x, y) = v;
-          glm::dvec3 opponent(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
-          if (isDkl_) {
-            opponent /= gain;
+          const glm::dvec3 whole(contrast[0].at(x, y), contrast[1].at(x, y), contrast[2].at(x, y));
+          const glm::dvec3 opponent = opponentOf(whole) / gain;
+          glm::dvec3 normalised;
+          if (isFitted_) {
+            const auto weights = sensitivity_->weights(level, v, luminance.at(x, y));
+            glm::dvec3 parts[kBandParts];
+            for (int c = 0; c < 3; ++c) {
+              const auto at = static_cast<size_t>(c);
+              const double own = frame.lms[at][i].at(x, y), scale = 1.0 / coarser[at].at(x, y);
+              parts[0][c] = (own - once[at].at(x, y)) * scale;
+              parts[1][c] = (once[at].at(x, y) - twice[at].at(x, y)) * scale;
+              parts[2][c] = whole[c] - (own - twice[at].at(x, y)) * scale;
+            }
+            normalised = glm::dvec3(0.0);
+            for (size_t k = 0; k < kBandParts; ++k)
+              normalised += glm::dvec3(weights[k][0], weights[k][1], weights[k][2]) * opponentOf(parts[k]);
           } else {
-            opponent = opponentFromLms(opponent) / gain;
-            opponent.x /= greyGain_;
+            const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
+            normalised = opponent * glm::dvec3(s[0], s[1], s[2]);
           }
-          const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
           for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<size_t>(c);
             contrast[at].at(x, y) = opponent[c];
-            response[at].at(x, y) = transducer(opponent[c] * s[at]);
+            response[at].at(x, y) = transducer(normalised[c]);
           }
         }
     });
@@ -421,7 +455,7 @@ class Predictor {
   const int width_, height_;
   const bool isStack_;
   const glm::dvec3 luminanceRow_;
-  const bool isDkl_;
+  const bool isDkl_, isFitted_;
   const double greyGain_;  // of cone contrasts
   PyramidSettings pyramid_;
   std::optional<Sensitivity> sensitivity_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/base/error.h"
+#include "experiments/base/text.h"
 #include "perception/vision/adaptation.h"
 #include "perception/vision/csf_models.h"
 
@@ -116,6 +117,48 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
   channels_ = {makeChannel(settings.sensitivity.achromatic.csf, model.scaleA, tables),
                makeChannel(settings.sensitivity.redGreen.csf, model.scaleRg, tables),
                makeChannel(settings.sensitivity.blueYellow.csf, model.scaleBy, tables)};
+  if (settings.bands.isFitted()) fitWeights(model, display, settings);
+}
+
+void Sensitivity::fitWeights(const PoppingModel& model, const DisplayProfile& display,
+                             const PoppingSettings& settings) {
+  constexpr double kSlowest = 0.05, kFastest = 64.0, kDarkest = 0.01;
+  BandWeights::Setup setup;
+  setup.bands = settings.bands;
+  setup.minkowskiExponent = settings.minkowskiExponent;
+  setup.pixelsPerDegree = model.pixelsPerDegree;
+  setup.peakCpd = model.peakCpd;
+  setup.velocityDegS = {kSlowest, kFastest};
+  const auto* fixed = std::get_if<FixedAdaptation>(&settings.adaptation);
+  const double darkest = std::max(kDarkest, fixed ? fixed->luminanceCdM2 : display.blackLevelCdM2());
+  setup.luminanceCdM2 = {darkest, fixed ? 1.01 * darkest : std::max(display.peakCdM2, 2.0 * darkest)};
+  const SensitivitySettings& s = settings.sensitivity;
+  const ChosenEntry* const entries[] = {&s.achromatic.csf, &s.redGreen.csf, &s.blueYellow.csf};
+  for (size_t c = 0; c < 3; ++c) {
+    std::string key = entries[c]->name;
+    for (const double value : {channels_[c].scale, viewing_.areaDeg2, viewing_.widthDeg, viewing_.distanceM,
+                               Kelly83Scale::of(*entries[c]).referenceCdM2})
+      key += "|" + shortestNumber(value);
+    weights_[c] = bandWeights(setup, key, [&](double cpd, double velocity, double luminance) {
+      CsfPoint point = viewing_;
+      point.frequencyCpd = cpd;
+      point.velocityDegS = velocity;
+      point.luminanceCdM2 = luminance;
+      return channels_[c].scale * finiteOrZero(channels_[c].csf->sensitivity(point));
+    });
+  }
+}
+
+std::array<std::array<double, 3>, kBandParts> Sensitivity::weights(int level, double velocityDegS,
+                                                                   double luminanceCdM2) const {
+  const std::array<double, 3> peak = at(level, velocityDegS, luminanceCdM2);
+  std::array<std::array<double, 3>, kBandParts> out{};
+  for (size_t c = 0; c < 3; ++c) {
+    const auto relative = weights_[c]->at(level, velocityDegS, luminanceCdM2);
+    for (size_t k = 0; k < kBandParts; ++k)
+      out[k][c] = relative[k] * std::max(peak[c], BandWeights::kLeastSensitivity);
+  }
+  return out;
 }
 
 Sensitivity::Channel Sensitivity::makeChannel(const ChosenEntry& entry, double scale, bool tables) const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "perception/popping/band_weights.h"
 #include "perception/popping/predictor.h"
 #include "perception/vision/castle_csf.h"
 #include "perception/vision/csf.h"
@@ -37,8 +38,12 @@ class Sensitivity {
   /// `tables`: see PoppingOptions.
   Sensitivity(const PoppingModel& model, const DisplayProfile& display, const PoppingSettings& settings,
               bool tables);
-  /// Of level `level` at a retinal velocity and adaptation luminance; finite, >= 0.
+  /// Of level `level` at its peak, at a retinal velocity and adaptation luminance; finite, >= 0.
   std::array<double, 3> at(int level, double velocityDegS, double luminanceCdM2) const;
+  /// What the contrasts of a level's parts are multiplied by, [part][channel], if weights are fitted; of any
+  /// sign.
+  std::array<std::array<double, 3>, kBandParts> weights(int level, double velocityDegS,
+                                                        double luminanceCdM2) const;
 
  private:
   /// One channel's model. How it is evaluated depends on its inputs.
@@ -55,6 +60,7 @@ class Sensitivity {
     };
     std::vector<Product> products;
   };
+  void fitWeights(const PoppingModel& model, const DisplayProfile& display, const PoppingSettings& settings);
   Channel makeChannel(const ChosenEntry& entry, double scale, bool tables) const;
   double evaluate(const Channel& channel, int level, double velocityDegS, double luminanceCdM2) const;
 
@@ -63,6 +69,7 @@ class Sensitivity {
   bool oneChromatic_;  ///< channels a and b share their model
   FineTable c0_, c1_;
   std::array<Channel, 3> channels_;
+  std::array<std::shared_ptr<const BandWeights>, 3> weights_;  ///< null unless fitted
 };
 
 /// Factors that bring the peaks of the settings' sensitivities to 1 / threshold: K_A, K_a, K_b. Throws Error

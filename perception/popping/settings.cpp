@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "experiments/base/error.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/csf.h"
 #include "perception/vision/masking.h"
@@ -194,17 +195,35 @@ const SettingsTable<BandSettings>& BandSettings::table() {
               "bands from a halving pyramid, or all at full size (slow, CPU only)", kModel)
           .formerly({"decomposition"}),
       {&S::levels, "levels", "number of levels", kModel},
+      {&S::weights, "weights", "what a level's contrast is multiplied by", kModel},
       Binding(&S::kernelCentre, "kernel_centre", Range{0.3, 0.5}, "",
               "centre of the five-tap low-pass of Burt and Adelson; 0.375: binomial", kModel)
           .formerly({"kernel_centre"}),
       Binding(&S::peakModel, "peak_model", "frequency that a level represents", kModel)
           .formerly({"peak_model"}),
-      Binding(&S::compensateGain, "compensate_gain", "divide a level's contrast by its filter's gain", kModel)
-          .formerly({"compensate_gain"}),
       Binding(&S::denominatorEpsilon, "denominator_epsilon", Range{1e-9, 10.0}, "cd/m2",
               "smallest cone response used as a contrast's denominator", kOwn)
           .formerly({"denominator_epsilon"})};
   return kTable;
+}
+
+const SettingsTable<PeakWeights>& PeakWeights::table() {
+  static const SettingsTable<PeakWeights> kTable = {Binding(&PeakWeights::compensateGain, "compensate_gain",
+                                                            "divide a level's contrast by its filter's gain",
+                                                            kModel)
+                                                        .formerly({"compensate_gain"})};
+  return kTable;
+}
+
+bool BandSettings::compensatesGain() const {
+  const auto* peak = std::get_if<PeakWeights>(&weights);
+  return !peak || peak->compensateGain;
+}
+
+void BandSettings::check() const {
+  if (isStack() && isFitted())
+    throw Error("weights of a stack are not fitted", "weights",
+                "choose weights: peak, or decomposition: pyramid");
 }
 
 Upsampler BandSettings::upsampler() const {

@@ -150,17 +150,35 @@ struct StackBands {
                                   "CPU only";
 };
 
+// What a level's contrast is multiplied by.
+struct FittedWeights {
+  static constexpr const char
+      *kKind = "fitted",
+      *kSummary =
+          "three parts of each level, weighted such that gratings at threshold have 1 JND "
+          "whatever their frequency";
+};
+struct PeakWeights {
+  static constexpr const char *kKind = "peak", *kSummary = "the sensitivity at the level's peak";
+  bool compensateGain = true;  ///< divide a level's contrast by its filter's gain
+  static const SettingsTable<PeakWeights>& table();
+};
+
 struct BandSettings {
   std::variant<PyramidBands, StackBands> decomposition;
   std::variant<LevelsByPeak, LevelCount> levels;
+  std::variant<PeakWeights, FittedWeights> weights;  ///< see band_weights.h
   double kernelCentre = 0.375;  ///< a of the low-pass 1/4 - a/2, 1/4, a, 1/4, 1/4 - a/2; 0.375: binomial
   PeakModel peakModel = PeakModel::WithUpsample;
-  bool compensateGain = true;        ///< divide a level's contrast by its filter's gain
   double denominatorEpsilon = 1e-3;  ///< smallest cone response used as a contrast's denominator [cd/m2]
   static const SettingsTable<BandSettings>& table();
 
   Kernel kernel() const { return Kernel::burt5(kernelCentre); }
   bool isStack() const { return std::holds_alternative<StackBands>(decomposition); }
+  bool isFitted() const { return std::holds_alternative<FittedWeights>(weights); }
+  /// Whether a level's contrast is divided by its filter's gain, or shown as if it were.
+  bool compensatesGain() const;
+  void check() const;  ///< Throws Error for weights that are not known for a stack.
   /// Of coarser levels: Expand or Successive (linear). A stack upsamples nothing.
   Upsampler upsampler() const;
 };

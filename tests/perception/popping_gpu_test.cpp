@@ -293,6 +293,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   };
   with({});
   with({{"model", "schwarz_2009"}});
+  with({{"bands.weights", "fitted"}, {"bands.levels.least_peak_cpd", 0.25}});
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
   with({{"masking.b", 4.0}, {"masking.s", 0.5}});
   with({{"model", "schwarz_2009"}, {"sensitivity.red_green.csf.reference_cd_m2", 20.0}});
@@ -304,7 +305,8 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   with({{"adaptation", "fixed"}, {"adaptation.luminance_cd_m2", 20.0}});
   with({{"bands.decomposition.upsampler", "linear"}, {"bands.peak_model", "no_upsample"}});
   with({{"bands.peak_model", "halving"},
-        {"bands.compensate_gain", false},
+        {"bands.weights", "peak"},
+        {"bands.weights.compensate_gain", false},
         {"sensitivity.contrast", "cones"},
         {"sensitivity.contrast.divide_grey_gain", false}});
   with({{"collapse", "magnitude"}, {"minkowski_exponent", 4.0}});
@@ -320,7 +322,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
 }
 
 TEST_F(PoppingGpu, StacksAreRefused) {
-  PoppingSettings settings;
+  PoppingSettings settings = PoppingSettings::preset(PredictorModel::Schwarz2009);
   settings.bands.decomposition = StackBands{};
   EXPECT_THROW(PoppingPredictorGpu(context(), {32, 32}, studyDisplay(), settings), Error);
 }

@@ -68,7 +68,7 @@ PoppingSettings plainSettings() {
 // contrast levels for it, the coarsest with a peak of at least 0.5 cpd; one pixel is about a degree at
 // level 5.
 TEST(PoppingModel, StudyDisplayHasFiveContrastLevels) {
-  const PoppingModel model = poppingModel(1024, 768, studyDisplay(), {});
+  const PoppingModel model = poppingModel(1024, 768, studyDisplay(), thesisSettings());
   EXPECT_EQ(model.contrastLevels, 5);
   EXPECT_EQ(model.gaussianLevels, 7);
   EXPECT_EQ(model.adaptationLevel, 5);
@@ -95,16 +95,16 @@ TEST(PoppingModel, CalibrationMatchesTheThresholds) {
 
 TEST(PoppingModel, LevelsFollowTheDisplayAndTheImage) {
   DisplayProfile display = studyDisplay();
-  const PoppingModel near = poppingModel(1024, 768, display, {});
+  const PoppingModel near = poppingModel(1024, 768, display, thesisSettings());
   display.distanceM *= 2.0;
   // Twice the distance: twice the frequency everywhere, so one octave more fits above 0.5 cpd.
-  const PoppingModel far = poppingModel(1024, 768, display, {});
+  const PoppingModel far = poppingModel(1024, 768, display, thesisSettings());
   for (size_t i = 0; i < 5; ++i) EXPECT_NEAR(far.peakCpd[i], 2.0 * near.peakCpd[i], 1e-12 * far.peakCpd[i]);
   EXPECT_EQ(far.contrastLevels, 6);
-  EXPECT_EQ(poppingModel(1024, 15, display, {}).contrastLevels, 2);
-  EXPECT_EQ(poppingModel(1024, 3, display, {}).contrastLevels, 0);
-  EXPECT_EQ(poppingModel(1, 1, display, {}).contrastLevels, 0);
-  PoppingSettings settings;
+  EXPECT_EQ(poppingModel(1024, 15, display, thesisSettings()).contrastLevels, 2);
+  EXPECT_EQ(poppingModel(1024, 3, display, thesisSettings()).contrastLevels, 0);
+  EXPECT_EQ(poppingModel(1, 1, display, thesisSettings()).contrastLevels, 0);
+  PoppingSettings settings = thesisSettings();
   settings.bands.levels = LevelCount{4};
   EXPECT_EQ(poppingModel(1024, 768, display, settings).contrastLevels, 2);
 }
@@ -133,6 +133,8 @@ TEST(Popping, PresetIsTheThesisPredictor) {
   EXPECT_EQ(preset.regions.connectivity, 8);
   EXPECT_EQ(preset.eyeModel(), EyeMovement::Monotone);
   EXPECT_EQ(preset.bands.peakModel, PeakModel::WithUpsample);
+  EXPECT_EQ(std::get<LevelsByPeak>(preset.bands.levels).leastPeakCpd, 0.5);
+  EXPECT_TRUE(std::get<PeakWeights>(preset.bands.weights).compensateGain);
 }
 
 // A preset changes defaults only: what is given, even the other preset's value, stays.
@@ -241,7 +243,7 @@ TEST(Popping, GratingAtThresholdGivesOneJnd) {
     };
     EXPECT_NEAR(amplitudeWith(settings), 1.0, 0.03) << level;
     // Without compensation only the band's gain is left of it.
-    settings.bands.compensateGain = false;
+    settings.bands.weights = PeakWeights{.compensateGain = false};
     const double gains[] = {1.0, 0.689, 0.646, 0.637};
     EXPECT_NEAR(amplitudeWith(settings), gains[level], 0.03) << level;
     // With masking, T(1) = 0.933 at the crests; the fundamental of a grating so flattened lies above that.
@@ -278,7 +280,7 @@ TEST(Popping, StackAgreesOnAGratingAtThreshold) {
 // The pyramid approximates the stack: the same picture, within what halving costs.
 TEST(Popping, PyramidFollowsTheStack) {
   const PoppingInput in = linearPair(sceneImage(128, 96, 0.4), sceneImage(128, 96, 0.44));
-  PoppingSettings settings;
+  PoppingSettings settings = thesisSettings();
   const PoppingResult pyramid = predictPopping(in, studyDisplay(), settings);
   settings.bands.decomposition = StackBands{};
   const PoppingResult stack = predictPopping(in, studyDisplay(), settings);
@@ -300,7 +302,7 @@ TEST(Popping, HalvingPeaksMisjudgeAGrating) {
   const auto run = [&] { return predictPopping(in, display, settings, options).stages.at("difference_1"); };
   const double right = amplitude(run(), 2.0 * cyclesPerPx);
   settings.bands.peakModel = PeakModel::Halving;
-  settings.bands.compensateGain = false;
+  settings.bands.weights = PeakWeights{.compensateGain = false};
   const double halving = amplitude(run(), 2.0 * cyclesPerPx);
   const double assumed = 0.25 * model.pixelsPerDegree;
   EXPECT_NEAR(halving / right, 0.689 * csfDaly98(assumed, 0.15) / csfDaly98(model.peakCpd[1], 0.15), 0.01);

@@ -10,7 +10,8 @@
 layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
 layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // or A, RG, YV of DKL space; layer: 0 actual, 1 predicted
-layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;  // lg v across, lg L down, levels one below the other
+// Weights of the parts' contrasts: lg v across, lg L down, parts and then levels one below the other.
+layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;
 layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
 layout(binding = kMeanLuminanceBuffer, std430) readonly buffer Mean { float meanLuminance[2]; };
 
@@ -27,6 +28,14 @@ const int kNeighbourCount = kNeighbours.x * kNeighbours.y;
 shared vec4 next[2 * kNeighbourCount];   // the next level
 shared vec4 after[2 * kNeighbourCount];  // the one after it, at the next one's size
 shared uint groupGuarded;
+#ifdef FITTED_WEIGHTS
+const int kParts = 3;
+const ivec2 kOwn = ivec2(kPoppingGroupX, kPoppingGroupY) + 4;  // pixels of the level itself, two more on each side
+const int kOwnCount = kOwn.x * kOwn.y;
+shared vec4 ownLevel[2 * kOwnCount];
+#else
+const int kParts = 1;
+#endif
 
 // Weights of pixels m - 1, m, m + 1 of the coarser level for a pixel at 2 m or 2 m + 1.
 vec3 taps(int position) { return (position & 1) == 0 ? evenTaps.xyx : vec3(0.0, 0.5, 0.5); }
@@ -54,6 +63,15 @@ void prepare() {
     }
     after[i] = sum;
   }
+#ifdef FITTED_WEIGHTS
+  ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kPoppingGroupX, kPoppingGroupY) - 2;
+  ivec2 ownSize = textureSize(cones, level).xy;
+  for (int i = index; i < frameCount * kOwnCount; i += kPoppingGroupX * kPoppingGroupY) {
+    int frame = i / kOwnCount, pixel = i % kOwnCount;
+    ivec2 place = clamp(corner + ivec2(pixel % kOwn.x, pixel / kOwn.x), ivec2(0), ownSize - 1);
+    ownLevel[i] = texelFetch(cones, ivec3(place, frame), level);
+  }
+#endif
   barrier();
 }
 
@@ -82,18 +100,33 @@ float luminanceAt(int frame, ivec2 pixel) {
   return mix(above, below, weight.y);
 }
 
-// Of this level in a table over velocity and luminance.
-vec4 tableAt(sampler2D table, float velocity, float luminance) {
+// Of block `block` of a table over velocity and luminance.
+vec4 tableAt(sampler2D table, float velocity, float luminance, int block) {
   vec2 place = clamp((log2(vec2(velocity, luminance)) - tableLow) * tablePer, vec2(0.0), vec2(tableSize - 1));
   ivec2 node = min(ivec2(place), tableSize - 2);
   vec2 t = place - vec2(node);
-  node.y += level * tableSize.y;
+  node.y += block * tableSize.y;
   vec4 above = mix(texelFetch(table, node, 0), texelFetch(table, node + ivec2(1, 0), 0), t.x);
   vec4 below = mix(texelFetch(table, node + ivec2(0, 1), 0), texelFetch(table, node + ivec2(1, 1), 0), t.x);
   return mix(above, below, t.y);
 }
 
-vec3 sensitivityAt(float velocity, float luminance) { return tableAt(sensitivities, velocity, luminance).xyz; }
+vec3 sensitivityAt(float velocity, float luminance, int part) {
+  return tableAt(sensitivities, velocity, luminance, level * kParts + part).xyz;
+}
+
+// Opponent contrasts from those of the planes.
+vec3 opponentOf(vec3 cone) {
+#ifdef CONTRAST_DKL
+  return cone;
+#else
+  return vec3((2.0 * cone.x + cone.y + cone.z / 20.0) * (1.0 / greyGain),
+              cone.x - 12.0 / 11.0 * cone.y + cone.z / 11.0, (cone.x + cone.y - 2.0 * cone.z) / 9.0);
+#endif
+}
+
+const float kOnce[5] = float[](0.0, 0.25, 0.5, 0.25, 0.0);                // 1 2 1
+const float kTwice[5] = float[](0.0625, 0.25, 0.375, 0.25, 0.0625);  // 1 2 1, twice
 
 // What a debug image may show of a frame.
 struct Stages {
@@ -128,17 +161,26 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
 #endif
     for (int c = 0; c < 3; ++c)
       if (!(coarser[c] >= epsilon)) ++guardedHere;
-#ifdef CONTRAST_DKL
-    precise vec3 contrast = (own.xyz - finer) / max(coarser, vec3(epsilon)) * (1.0 / gain);
-#else
-    precise vec3 cone = (own.xyz - finer) / max(coarser, vec3(epsilon));
-    precise vec3 contrast =
-        vec3(2.0 * cone.x + cone.y + cone.z / 20.0, cone.x - 12.0 / 11.0 * cone.y + cone.z / 11.0,
-             (cone.x + cone.y - 2.0 * cone.z) / 9.0) *
-        vec3(1.0 / (gain * greyGain), 1.0 / gain, 1.0 / gain);
-#endif
+    vec3 denominator = max(coarser, vec3(epsilon));
     float luminance = luminanceAt(frame, pixel), velocity = retinalVelocity(own.w * degSPerPx);
-    precise vec3 normalised = contrast * sensitivityAt(velocity, luminance);
+#ifdef FITTED_WEIGHTS
+    precise vec3 once = vec3(0.0);
+    precise vec3 twice = vec3(0.0);
+    ivec2 local = ivec2(gl_LocalInvocationID.xy) + 2;
+    for (int dy = -2; dy <= 2; ++dy)
+      for (int dx = -2; dx <= 2; ++dx) {
+        vec3 value = ownLevel[frame * kOwnCount + (local.y + dy) * kOwn.x + local.x + dx].xyz;
+        twice = fma(vec3(kTwice[dx + 2] * kTwice[dy + 2]), value, twice);
+        once = fma(vec3(kOnce[dx + 2] * kOnce[dy + 2]), value, once);
+      }
+    precise vec3 normalised = opponentOf((own.xyz - once) / denominator) * sensitivityAt(velocity, luminance, 0);
+    normalised = fma(opponentOf((once - twice) / denominator), sensitivityAt(velocity, luminance, 1), normalised);
+    normalised = fma(opponentOf((twice - finer) / denominator), sensitivityAt(velocity, luminance, 2), normalised);
+    vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
+#else
+    precise vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
+    precise vec3 normalised = contrast * sensitivityAt(velocity, luminance, 0);
+#endif
     precise vec3 response =
         vec3(transducer(normalised.x), transducer(normalised.y), transducer(normalised.z));
     difference = frame == 0 ? response : difference - response;
@@ -155,8 +197,8 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   float retinalDegS = retinalVelocity(screenDegS);
   SwitchContent contents[2];
   for (int frame = 0; frame < frameCount; ++frame)
-    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, retinalDegS, luminances[frame]),
-                                    tableAt(onsetGains, retinalDegS, luminances[frame]));
+    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, retinalDegS, luminances[frame], level),
+                                    tableAt(onsetGains, retinalDegS, luminances[frame], level));
   difference = switchDifference(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
 #endif
   if (guardedHere != 0u) atomicAdd(groupGuarded, guardedHere);

@@ -13,7 +13,7 @@
 namespace limen::perception {
 namespace {
 
-/// Tables are interpolated linearly: 32 segments per octave of contrast, 250 cells per decade of luminance.
+/// Tables are interpolated linearly: 32 segments per octave of contrast, 1000 cells per decade of luminance.
 constexpr double kTolerance = 0.005;
 
 class BandThresholdGpuTest : public gl::GlTest {
