@@ -71,6 +71,11 @@ const std::vector<Parameter>& techniqueParameters(const std::string& name) {
   return techniqueNamed(name).parameters;
 }
 
+std::vector<Parameter> techniqueParameters(const Entry& entry) {
+  const std::vector<Parameter>& declared = techniqueParameters(entry.name);
+  return withPresets(declared, entry.given).value_or(declared);
+}
+
 const ParameterValue& valueAt(const Entry& entry, const std::string& path, const Parameter& parameter) {
   const auto given = entry.given.find(path);
   return given == entry.given.end() ? parameter.defaultValue : given->second;

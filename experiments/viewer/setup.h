@@ -34,6 +34,8 @@ experiments::Configuration completeTechnique(const Entry& entry);
 
 std::vector<Parameter> sceneParameters(const std::string& name);
 const std::vector<Parameter>& techniqueParameters(const std::string& name);
+/// With the defaults of the presets that the entry has chosen.
+std::vector<Parameter> techniqueParameters(const Entry& entry);
 
 /// The declaration of the parameter at `path` under the alternatives that the entry has chosen; null if there
 /// is no such parameter.

@@ -6,7 +6,7 @@ namespace limen::viewer {
 namespace {
 
 std::vector<Parameter> parametersOf(Slot slot, const Entry& entry) {
-  return slot == Slot::Scene ? sceneParameters(entry.name) : techniqueParameters(entry.name);
+  return slot == Slot::Scene ? sceneParameters(entry.name) : techniqueParameters(entry);
 }
 
 /// Null if nothing is chosen there.

@@ -163,6 +163,23 @@ TEST_F(PoppingSwitch, AgreesWithTheReference) {
   }
 }
 
+// A matte ball that moves by a fifth of a pixel: its shading does not change over time, so hardly anything
+// flickers in pictures of many samples. With one sample per pixel edges jump by whole pixels, which no viewer
+// of the other picture sees.
+TEST_F(PoppingSwitch, AliasingThatIsNotShownIsNoFlicker) {
+  const auto lost = [&](int64_t samples) {
+    const Given all = {
+        {"samples", samples}, {"predictor.flicker", "ignored"}, {"predictor.disocclusion", "ignored"}};
+    Given weighted = all;
+    weighted["predictor.flicker"] = "weighted";
+    return 1.0 - predict(ball(6.0, 1.0), weighted).counter("sigma_jnd") /
+                     predict(ball(6.0, 1.0), all).counter("sigma_jnd");
+  };
+  const double coarse = lost(1), fine = lost(4);
+  EXPECT_LT(fine, 0.1);
+  EXPECT_LT(fine, coarse);
+}
+
 TEST_F(PoppingSwitch, WithFlickerAgreesWithTheReferenceButWhereItIsUndecided) {
   // Flicker is a comparison: where both sides are nearly equal, single precision may decide otherwise.
   const Given given = {{"presentation.dt_s", 0.05}, {"predictor.flicker.max_displacement_px", 100.0}};
