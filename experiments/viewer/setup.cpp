@@ -86,6 +86,13 @@ const Parameter* findDeclaration(const std::vector<Parameter>& declared, const E
   return findBelow(declared, entry, path, {});
 }
 
+void dropAbsent(Entry& entry, const std::vector<Parameter>& declared) {
+  // Removing one may make others absent: those below it.
+  while (std::erase_if(
+      entry.given, [&](const auto& one) { return findDeclaration(declared, entry, one.first) == nullptr; })) {
+  }
+}
+
 void setParameter(Entry& entry, const std::vector<Parameter>& declared, const std::string& path,
                   const ParameterValue& value) {
   const Parameter* found = findDeclaration(declared, entry, path);
