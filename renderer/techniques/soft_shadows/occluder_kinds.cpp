@@ -35,7 +35,14 @@ const SettingsTable<SearchCells>& SearchCells::table() {
        "texel",
        "Least width of the search area and of the light as projected onto the map; so narrower penumbrae "
        "are smooth over so many texels instead of jagged",
-       "own form, as for windows of percentage-closer soft shadows"}};
+       "own form, as for windows of percentage-closer soft shadows"},
+      {&SearchCells::share,
+       "share",
+       {0.01, 1.0},
+       "",
+       "Share of the budget that cells use. Levels use about half on average, cells all that they may: with "
+       "half a budget costs about as much with cells as with levels",
+       "own form"}};
   return kTable;
 }
 

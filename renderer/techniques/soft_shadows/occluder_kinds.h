@@ -104,14 +104,15 @@ struct LevelDivision {
   static constexpr const char *kKind = "levels",
                               *kSummary = "texels of a level, 1, 2, 4, ... of the map's on a side";
 };
-/// As many cells as the budget allows, whatever the area's extent. Levels are powers of two, so on average
-/// they use less than half of it. Own form; no source.
+/// As many cells as a share of the budget allows, whatever the area's extent. Levels are powers of two, so on
+/// average they use about half of a budget; with half of it cells cost about as much. Own form; no source.
 struct SearchCells {
-  static constexpr const char *kKind = "cells",
-                              *kSummary =
-                                  "as many cells as the budget allows, each with the depth of one texel";
+  static constexpr const char
+      *kKind = "cells",
+      *kSummary = "as many cells as a share of the budget allows, each with the depth of one texel";
   double middle = 0.5;      ///< width of the cells in the area's middle, as a share of the mean
   double leastWidth = 1.0;  ///< texels
+  double share = 0.5;       ///< of the budget, up to 1
   static const SettingsTable<SearchCells>& table();
 };
 using DivisionSettings = std::variant<AutoDivision, LevelDivision, SearchCells>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A search area as a grid of cells, as many as the budget allows, each a rectangle at the depth of one of its texels: in place
+// A search area as a grid of cells, as many as a share of the budget allows, each a rectangle at the depth of one of its texels: in place
 // of texels of a level, whose sides are powers of two, so that 16 x 16 cells take an area of 17 x 40 texels where levels
 // allow for 5 x 10. Own form; no source.
 //
@@ -9,6 +9,13 @@
 //
 // Which of its texels a cell reads follows from the cell's place in the map, and not from the pixel.
 uniform float middleWidth;  // of cells in the middle, as a share of the mean
+uniform float shareRoot;    // of the budget that cells use: its square root
+
+// Largest number of cells along an axis; 16384: no limit.
+int allowedCells() {
+  // A product that is a whole number may come out a little too small.
+  return allowedPerAxis >= 16384 ? allowedPerAxis : max(int(float(allowedPerAxis) * shareRoot + 1e-3), 1);
+}
 
 // Cells along an axis, and the texels that they divide.
 struct Cells {
@@ -17,7 +24,7 @@ struct Cells {
 };
 
 Cells cellsAlong(int low, int high) {
-  const int extent = high - low, count = min(extent, allowedPerAxis);
+  const int extent = high - low, count = min(extent, allowedCells());
   // No cell is narrower than a texel.
   return Cells(low, extent, count, max(middleWidth, float(count) / float(extent)));
 }

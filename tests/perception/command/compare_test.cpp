@@ -30,6 +30,7 @@ TEST_F(CompareCli, IdenticalImagesHaveNoError) {
   EXPECT_THAT(found.at("warnings"), IsEmpty());
 }
 
+// Two pictures have no time around them, so a switch is predicted of single frames.
 TEST_F(CompareCli, JndIsThePoppingPredictorWithNothingMoving) {
   Image image = noise(48, 40, 3, 1);
   save("b.png", image);
@@ -38,7 +39,8 @@ TEST_F(CompareCli, JndIsThePoppingPredictorWithNothingMoving) {
   save("a.png", image);
   const nlohmann::json compared = result(
                            {"compare", "a.png", "b.png", "--metrics", "jnd", "--map", "maps", "--regions"}),
-                       popped = result({"pop", "b.png", "a.png", "--display", "desktop_24"});
+                       popped = result({"pop", "b.png", "a.png", "--display", "desktop_24", "--set",
+                                        "temporal=single_frame"});
   EXPECT_GT(figure(compared, "largest_jnd"), 2.0);
   for (const auto& [name, value] : compared.at("figures").items())
     EXPECT_EQ(value, popped.at("figures").at(name)) << name;

@@ -8,13 +8,13 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kBitmask = "soft_shadows/bitmask";
-
 class SearchCellsTest : public TechniqueTest {
  protected:
+  static constexpr const char* kBitmask = "soft_shadows/bitmask";
   static Given cells(int64_t budget, Given more = {}) {
     more["occluders.division"] = std::string("cells");
     more["budget.limit"] = budget;
+    more.emplace("occluders.division.share", 1.0);
     more.emplace("resolution", int64_t{256});
     return more;
   }
@@ -60,6 +60,30 @@ TEST_F(SearchCellsTest, UseMoreOfABudgetThanLevels) {
                  b = render(scene, kBitmask, coarse, {64, 48}, true);
   EXPECT_LE(a.counter("examined_per_px"), double(kBudget));
   EXPECT_GT(a.counter("examined_per_px"), b.counter("examined_per_px"));
+}
+
+/// A share s of n x n cells is sqrt(s) n on each axis, rounded down, but one at least.
+TEST_F(SearchCellsTest, UseAShareOfTheBudget) {
+  const scene::Scene scene = makeScene("sphere_grid");
+  const auto of = [&](int64_t budget, double share) {
+    return render(scene, kBitmask, cells(budget, {{"occluders.division.share", share}}), {61, 45}).product;
+  };
+  EXPECT_EQ(differing(of(256, 0.25), of(64, 1.0)), 0U);
+  EXPECT_EQ(differing(of(256, 0.5), of(121, 1.0)), 0U);
+  EXPECT_EQ(differing(of(100, 0.36), of(36, 1.0)), 0U);
+  EXPECT_EQ(differing(of(4, 0.1), of(1, 1.0)), 0U);
+  EXPECT_EQ(differing(of(0, 0.5), of(0, 1.0)), 0U) << "no limit";
+  EXPECT_GT(differing(of(256, 0.25), of(256, 1.0)), 0U);
+}
+
+/// Unless a setting says otherwise, half of the budget.
+TEST_F(SearchCellsTest, UseHalfOfTheBudgetByDefault) {
+  const scene::Scene scene = makeScene("sphere_grid");
+  Given given = cells(256), half = cells(256, {{"occluders.division.share", 0.5}});
+  given.erase("occluders.division.share");
+  EXPECT_EQ(differing(render(scene, kBitmask, given, {61, 45}).product,
+                      render(scene, kBitmask, half, {61, 45}).product),
+            0U);
 }
 
 TEST_F(SearchCellsTest, ErrLessThanLevelsOfTheSameBudget) {

@@ -134,7 +134,7 @@ TEST(ExampleReader, ShippedExamplesAreGood) {
       EXPECT_THAT(features, HasSubstr("id: " + feature + ",")) << name;
     // As many observers as the thesis had, so that degrees of freedom are its own.
     for (const ExampleStudy& study : example.studies) {
-      EXPECT_EQ(study.observers, study.protocol == "experiment_1" ? 8 : 12) << name;
+      EXPECT_EQ(study.observers, study.protocol == "experiment_2" ? 12 : 8) << name;
       EXPECT_NO_THROW(protocolOf(study, catalogue)) << name;
     }
   }
