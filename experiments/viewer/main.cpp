@@ -111,7 +111,7 @@ void apply(ViewSetup& setup, const std::string& text) {
                                                           : nullptr;
   if (!entry) throw Error("nothing is called '" + what + "' here", "--set " + text, hint);
   const std::vector<Parameter> declared =
-      what == "scene" ? sceneParameters(entry->name) : techniqueParameters(entry->name);
+      what == "scene" ? sceneParameters(entry->name) : techniqueParameters(*entry);
   const Parameter* parameter = findDeclaration(declared, *entry, path);
   setParameter(*entry, declared, path,
                parameter ? valueOf(*parameter, value, "--set " + text) : ParameterValue(value));

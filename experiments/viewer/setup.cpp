@@ -71,6 +71,11 @@ const std::vector<Parameter>& techniqueParameters(const std::string& name) {
   return techniqueNamed(name).parameters;
 }
 
+std::vector<Parameter> techniqueParameters(const Entry& entry) {
+  const std::vector<Parameter>& declared = techniqueParameters(entry.name);
+  return withPresets(declared, entry.given).value_or(declared);
+}
+
 const ParameterValue& valueAt(const Entry& entry, const std::string& path, const Parameter& parameter) {
   const auto given = entry.given.find(path);
   return given == entry.given.end() ? parameter.defaultValue : given->second;
@@ -79,6 +84,13 @@ const ParameterValue& valueAt(const Entry& entry, const std::string& path, const
 const Parameter* findDeclaration(const std::vector<Parameter>& declared, const Entry& entry,
                                  const std::string& path) {
   return findBelow(declared, entry, path, {});
+}
+
+void dropAbsent(Entry& entry, const std::vector<Parameter>& declared) {
+  // Removing one may make others absent: those below it.
+  while (std::erase_if(
+      entry.given, [&](const auto& one) { return findDeclaration(declared, entry, one.first) == nullptr; })) {
+  }
 }
 
 void setParameter(Entry& entry, const std::vector<Parameter>& declared, const std::string& path,

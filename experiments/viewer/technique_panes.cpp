@@ -28,7 +28,7 @@ void techniqueChooser(const PaneContext& pane, Slot slot, const std::vector<std:
 }
 
 void techniqueControls(const PaneContext& pane, Slot slot, const Entry& entry) {
-  if (auto change = parameterControls(toText(slot), techniqueParameters(entry.name), entry, pane.controls))
+  if (auto change = parameterControls(toText(slot), techniqueParameters(entry), entry, pane.controls))
     pane.commands.push(command::SetParameter{slot, change->path, change->value});
 }
 

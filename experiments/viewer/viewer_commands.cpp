@@ -6,7 +6,7 @@ namespace limen::viewer {
 namespace {
 
 std::vector<Parameter> parametersOf(Slot slot, const Entry& entry) {
-  return slot == Slot::Scene ? sceneParameters(entry.name) : techniqueParameters(entry.name);
+  return slot == Slot::Scene ? sceneParameters(entry.name) : techniqueParameters(entry);
 }
 
 /// Null if nothing is chosen there.
@@ -69,6 +69,7 @@ void Viewer::run(const command::SetParameter& command) {
   const Parameter* parameter = findDeclaration(declared, *entry, command.path);
   if (!parameter) return;
   memory_.set(*entry, declared, command.path, command.value ? *command.value : parameter->defaultValue);
+  dropAbsent(*entry, parametersOf(command.slot, *entry));
 }
 
 void Viewer::run(const command::CopyToSecond&) { state_.setup.second = state_.setup.technique; }

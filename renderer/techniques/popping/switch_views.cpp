@@ -14,7 +14,7 @@ frame::LodPairSetting pairSetting(const SwitchSetting& setting) {
   frame::LodPairSetting out;
   out.dtS = setting.dtS;
   out.shaded = setting.shaded;
-  out.previousColour = setting.usesFlicker();
+  out.previousColour = setting.usesFlicker() && setting.samples == 1;
   out.moving = setting.dynamic;
   return out;
 }
@@ -32,6 +32,14 @@ SwitchViews::SwitchViews(frame::Frame& parent, const SwitchSetting& setting)
   if (setting.samples > 1) {
     supersampled_[0].emplace(parent, "shown_actual", setting.shaded, setting.samples);
     supersampled_[1].emplace(parent, "shown_predicted", setting.shaded, setting.samples);
+    if (setting.usesFlicker()) {
+      previous_.emplace(parent, "shown_before", setting.shaded, setting.samples);
+      if (setting.shaded.specular > 0.0) {  // else shading does not depend on the camera
+        frame::ShadedSetting before = setting.shaded;
+        before.eyeDtS = setting.dtS;
+        shadedBefore_.emplace(parent, "shaded_before", before, setting.samples);
+      }
+    }
   }
   if (!mayPassWhite(setting.shaded)) return;
   clamp_ = &parent.context().programs().compute("renderer/techniques/popping/clamp.comp.glsl");
@@ -50,6 +58,21 @@ void SwitchViews::render(frame::Frame& parent) {
     supersampled_[i]->setLevels(i == 0 ? actual : predicted);
     supersampled_[i]->render();
     shown_[i] = &supersampled_[i]->texture();
+  }
+  if (setting_.usesFlicker()) {
+    previousShading_ =
+        setting_.samples > 1 ? shown_[setting_.flickerOfBefore ? 1 : 0] : flickering().shadedBefore;
+    previousFrame_ = pair_.previousColour();
+    if (shadedBefore_) {
+      shadedBefore_->setLevels(setting_.flickerOfBefore ? predicted : actual);
+      shadedBefore_->render();
+      previousShading_ = &shadedBefore_->texture();
+    }
+    if (previous_) {
+      previous_->setLevels(predicted);
+      previous_->renderAt(parent.timeS() - setting_.dtS);
+      previousFrame_ = &previous_->texture();
+    }
   }
   if (!clamp_) return;
   const auto pass = parent.passes().open("popping/clamp");
@@ -77,10 +100,14 @@ SwitchImages SwitchViews::read() const {
           {view->previousDepth->read(), view->displacement->read(), view->depthBefore->read()});
   if (setting_.usesFlicker()) {
     const frame::LodPair::View& view = flickering();
-    out.flicker = perception::FlickerInput{
-        pair_.actual().colour->read(),        pair_.predicted().colour->read(), view.shadedBefore->read(),
-        pair_.previousColour()->read(),       view.displacement->read(),        view.previousDepth->read(),
-        pair_.predicted().depthBefore->read()};
+    const FlickerPictures pictures = flickerPictures();
+    out.flicker = perception::FlickerInput{pictures.actual->read(),
+                                           pictures.predicted->read(),
+                                           pictures.previousShading->read(),
+                                           pictures.previousFrame->read(),
+                                           view.displacement->read(),
+                                           view.previousDepth->read(),
+                                           pair_.predicted().depthBefore->read()};
   }
   return out;
 }

@@ -73,6 +73,28 @@ TEST(ViewSetup, AnAlternativeChosenAgainHasTheValuesItHad) {
   EXPECT_EQ(entry.given, (Values{{"source", "stepped"}, {"source.steps", int64_t{8}}}));
 }
 
+TEST(ViewSetup, APresetGivesDefaultsAndDropsWhatItDoesNotHave) {
+  const std::string contrast = "predictor.sensitivity.contrast";
+  Entry entry{"popping/lod_switch", {}};
+  const auto set = [&](const std::string& path, const ParameterValue& value) {
+    setParameter(entry, techniqueParameters(entry), path, value);
+  };
+  const auto shown = [&] {
+    const std::vector<Parameter> declared = techniqueParameters(entry);
+    const Parameter* parameter = findDeclaration(declared, entry, contrast);
+    return parameter ? toText(valueAt(entry, contrast, *parameter)) : "";
+  };
+  EXPECT_EQ(shown(), "dkl");
+  set("predictor.model", "schwarz_2009");
+  EXPECT_EQ(shown(), "cones");
+  set(contrast + ".divide_grey_gain", false);
+  set("predictor.model", "limen_2026");
+  dropAbsent(entry, techniqueParameters(entry));
+  EXPECT_EQ(shown(), "dkl");
+  EXPECT_TRUE(entry.given.empty());
+  EXPECT_NO_THROW(completeTechnique(entry));
+}
+
 TEST(ViewSetup, AnExportedDescriptorNestsAlternatives) {
   ViewSetup setup;
   setup.scene.name = "sphere_grid";

@@ -163,6 +163,23 @@ TEST_F(PoppingSwitch, AgreesWithTheReference) {
   }
 }
 
+// A matte ball that moves by a fifth of a pixel or more a frame: its shading does not change over time, so
+// little flickers in pictures of many samples. With single samples, edges jump by whole pixels, which no
+// viewer of the other picture sees.
+TEST_F(PoppingSwitch, AliasingThatIsNotShownIsLittleFlicker) {
+  const Given all = {
+      {"samples", int64_t{4}}, {"predictor.flicker", "ignored"}, {"predictor.disocclusion", "ignored"}};
+  Given weighted = all;
+  weighted["predictor.flicker"] = "weighted";
+  for (const double distance : {6.0, 12.0, 24.0})
+    for (const double speed : {distance / 6.0, distance / 2.0}) {
+      const scene::Scene scene = ball(distance, speed);
+      const double lost =
+          1.0 - predict(scene, weighted).counter("sigma_jnd") / predict(scene, all).counter("sigma_jnd");
+      EXPECT_LT(lost, 0.1) << distance << ", " << speed;
+    }
+}
+
 TEST_F(PoppingSwitch, WithFlickerAgreesWithTheReferenceButWhereItIsUndecided) {
   // Flicker is a comparison: where both sides are nearly equal, single precision may decide otherwise.
   const Given given = {{"presentation.dt_s", 0.05}, {"predictor.flicker.max_displacement_px", 100.0}};

@@ -43,8 +43,9 @@ class LodSwitch : public Technique {
                                *disocclusion_);
       if (flicker_) {
         const frame::LodPair::View& view = views_->flickering();
-        weights_->flicker({now.colour, old.colour, view.shadedBefore, views_->pair().previousColour(),
-                           view.displacement, view.previousDepth, old.depthBefore},
+        const SwitchViews::FlickerPictures pictures = views_->flickerPictures();
+        weights_->flicker({pictures.actual, pictures.predicted, pictures.previousShading,
+                           pictures.previousFrame, view.displacement, view.previousDepth, old.depthBefore},
                           *flicker_);
       }
     }
