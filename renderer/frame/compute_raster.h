@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "experiments/base/enum_names.h"
@@ -41,8 +42,9 @@ struct DepthPeel {
 /// w_i in clip space: the signs of q_j x q_k say inside or outside, and these products are the barycentric
 /// weights of the point seen. Triangles that share an edge compute it from the same numbers, so there are no
 /// cracks; there is no clipping, since a triangle that reaches behind the eye needs none. Two-dimensional
-/// homogeneous rasterisation is due to Olano and Greer 1997. A few invocations share a small triangle; large
-/// ones are cut into bands of rows for groups, which visit no more of a row than the triangle can cover.
+/// homogeneous rasterisation is due to Olano and Greer 1997. A few invocations share a small triangle, unless
+/// there are many; large ones are cut into bands of rows for groups, which visit no more of a row than the
+/// triangle can cover.
 class ComputeRaster {
  public:
   /// `peels`: draw() is given what to peel off.
@@ -56,10 +58,13 @@ class ComputeRaster {
   int64_t bytes() const;
 
  private:
-  void pass(const gl::Program& small, const gl::Program& large, uint32_t triangleCount) const;
+  /// Of small triangles that invocations share, and of those of one invocation each.
+  using Programs = std::array<const gl::Program*, 2>;
+  void pass(const Programs& small, const gl::Program& large, uint32_t triangleCount) const;
 
-  const gl::Program &smallDepth_, &largeDepth_, &finish_, &requeue_;
-  const gl::Program *smallIds_ = nullptr, *largeIds_ = nullptr;
+  Programs smallDepth_, smallIds_ = {};
+  const gl::Program &largeDepth_, &finish_, &requeue_;
+  const gl::Program* largeIds_ = nullptr;
   gl::Texture depth_;
   std::optional<gl::Texture> ids_;
   gl::Buffer queue_, depthBits_;
