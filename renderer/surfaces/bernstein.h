@@ -38,7 +38,7 @@ inline Basis bernstein(int n, double t, double s) {
 
 /// Sum over i of point(i) B_i^n. Mirrored terms are added first, so that the sum is bitwise the same if both
 /// the points and the parameter run the other way: patches that share a boundary agree on it (Schwarz 2009,
-/// section 7.3.1). Requires that the compiler contracts no products into fused multiply-adds.
+/// section 7.6.2). Requires that the compiler contracts no products into fused multiply-adds.
 template <class Point>
 auto bezierSum(int n, const Basis& basis, Point point) {
   const auto term = [&](int i) { return point(i) * basis[static_cast<size_t>(i)]; };

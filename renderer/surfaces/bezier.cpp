@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/surfaces/bezier.h"
 
+#include <algorithm>
+
 #include "renderer/surfaces/bernstein.h"
 
 namespace limen::surfaces {
@@ -154,6 +156,11 @@ std::vector<glm::dvec4> sidePoints(const PatchSet& set, const Patch& patch, int 
     out.push_back(points[index]);
   }
   return out;
+}
+
+bool isCollapsed(const PatchSet& set, const Patch& patch, int side) {
+  const std::vector<glm::dvec4> points = sidePoints(set, patch, side);
+  return std::all_of(points.begin(), points.end(), [&](const glm::dvec4& p) { return p == points[0]; });
 }
 
 }  // namespace limen::surfaces

@@ -53,12 +53,11 @@ SideCounts findNeighbours(PatchSet& set) {
   set.neighbours.assign(set.patches.size(), {});
   for (size_t p = 0; p < set.patches.size(); ++p)
     for (int side = 0; side < sidesOf(set.patches[p].domain); ++side) {
-      std::vector<glm::dvec4> points = sidePoints(set, set.patches[p], side);
-      if (std::all_of(points.begin(), points.end(), [&](const glm::dvec4& q) { return q == points[0]; })) {
+      if (isCollapsed(set, set.patches[p], side)) {
         ++counts.collapsed;
         continue;
       }
-      SideKey key = keyOf(std::move(points));
+      SideKey key = keyOf(sidePoints(set, set.patches[p], side));
       Group& group = groups[std::move(key.bytes)];
       if (group.count < 2) group.sides[group.count] = {static_cast<int32_t>(p), side, key.turned};
       ++group.count;

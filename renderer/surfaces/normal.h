@@ -5,7 +5,7 @@
 
 namespace limen::surfaces {
 
-/// Where a normal came from; tried in this order until one gives a direction. (Schwarz 2009, section 6.1.3,
+/// Where a normal came from; tried in this order until one gives a direction. (Schwarz 2009, section 6.1.1,
 /// names degenerate places and no remedy; SC-04.)
 enum class NormalRung : uint8_t {
   Field,        ///< the patch's own normal field

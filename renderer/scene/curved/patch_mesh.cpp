@@ -11,13 +11,39 @@ namespace {
 using surfaces::Domain;
 using surfaces::DomainPoint;
 
-void addVertex(Mesh& mesh, const surfaces::PatchSet& set, const surfaces::Patch& patch, const DomainPoint& at,
-               surfaces::NormalHistogram* histogram) {
-  mesh.positions.push_back(surfaces::evaluate(set, patch, at, surfaces::Order::Position).p);
-  const surfaces::SurfaceNormal normal = surfaces::normalAt(set, patch, at);
-  mesh.normals.emplace_back(normal.direction);
-  if (histogram) ++(*histogram)[static_cast<size_t>(normal.rung)];
+/// Whether the point lies on a side of the domain; side numbers as in patch_set.h.
+bool onSide(Domain domain, const DomainPoint& at, int side) {
+  const std::array<double, 4> rectangle = {at.v, at.restU, at.restV, at.u},
+                              triangle = {at.w(), at.u, at.v, 1.0};
+  return (domain == Domain::Rectangle ? rectangle : triangle)[static_cast<size_t>(side)] == 0.0;
 }
+
+/// Adds the vertices of one patch. Those of a collapsed side lie exactly in one place.
+class VertexWriter {
+ public:
+  VertexWriter(Mesh& mesh, const surfaces::PatchSet& set, const surfaces::Patch& patch,
+               surfaces::NormalHistogram* histogram)
+      : mesh_(mesh), set_(set), patch_(patch), histogram_(histogram) {
+    for (int side = 0; side < sidesOf(patch.domain); ++side)
+      if (surfaces::isCollapsed(set, patch, side)) collapsed_.push_back(side);
+  }
+  void add(const DomainPoint& at) {
+    DomainPoint place = at;
+    for (const int side : collapsed_)
+      if (onSide(patch_.domain, at, side)) place = surfaces::sidePoint(patch_.domain, side, 0, 1);
+    mesh_.positions.push_back(surfaces::evaluate(set_, patch_, place, surfaces::Order::Position).p);
+    const surfaces::SurfaceNormal normal = surfaces::normalAt(set_, patch_, at);
+    mesh_.normals.emplace_back(normal.direction);
+    if (histogram_) ++(*histogram_)[static_cast<size_t>(normal.rung)];
+  }
+
+ private:
+  Mesh& mesh_;
+  const surfaces::PatchSet& set_;
+  const surfaces::Patch& patch_;
+  surfaces::NormalHistogram* histogram_;
+  std::vector<int> collapsed_;
+};
 
 void addTriangleUnlessThin(Mesh& mesh, glm::uvec3 t) {
   const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
@@ -54,12 +80,11 @@ Mesh patchMesh(const surfaces::PatchSet& set, int factor, surfaces::NormalHistog
   for (const surfaces::Patch& patch : set.patches) {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     const bool rectangle = patch.domain == Domain::Rectangle;
+    VertexWriter writer(mesh, set, patch, histogram);
     for (int j = 0; j <= factor; ++j)
       for (int i = 0; i <= (rectangle ? factor : factor - j); ++i)
-        addVertex(mesh, set, patch,
-                  rectangle ? surfaces::rectangleGridPoint(i, factor, j, factor)
-                            : surfaces::triangleGridPoint(i, j, factor),
-                  histogram);
+        writer.add(rectangle ? surfaces::rectangleGridPoint(i, factor, j, factor)
+                             : surfaces::triangleGridPoint(i, j, factor));
     if (rectangle)
       addRectangleGrid(mesh, first, static_cast<uint32_t>(factor));
     else
