@@ -29,6 +29,10 @@ void BandThresholdSettings::check() const {
   if (predictor.bands.isStack())
     throw Error("thresholds by band are those of a pyramid, not of a stack", "predictor.bands.decomposition",
                 "use pyramid");
+  // Three parts of a band have contrasts and responses of their own; one response is inverted here.
+  if (predictor.bands.isFitted())
+    throw Error("thresholds by band invert one weight per band, not the three of fitted weights",
+                "predictor.bands.weights", "use peak");
 }
 
 void BandThresholdSettings::checkBand(int bands) const {
