@@ -21,7 +21,7 @@ const SettingsTable<BandThresholdSettings>& BandThresholdSettings::table() {
        {0, kMostReach},
        "samples",
        "samples of a level, on each side, over which the smallest threshold counts in the combined map"},
-      {&S::output, "output", "thresholds of the map"}};
+      Binding(&S::output, "output", "thresholds of the map").formerly({"map"})};
   return kTable;
 }
 

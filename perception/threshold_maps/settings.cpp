@@ -97,7 +97,8 @@ const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
       Binding(&S::model, "model",
               "sets the defaults of all other settings: castleCSF, or the thesis's choices",
               "Ashraf et al. 2024; Schwarz 2009, section 9.4")
-          .presets(&presetValues),
+          .presets(&presetValues)
+          .formerly({"map"}),
       {&S::levels, "levels", {3, 9}, "", "levels of the Gaussian pyramid; two fewer contrast levels", kMap},
       {&S::decomposition, "decomposition", "source of the frequency bands", kMap},
       Binding(&S::downsample, "downsample",
@@ -177,7 +178,8 @@ const SettingsTable<GivenLevels>& GivenLevels::table() {
 const SettingsTable<ThresholdMapGpuSettings>& ThresholdMapGpuSettings::table() {
   using S = ThresholdMapGpuSettings;
   static const SettingsTable<S> kTable = {
-      {&S::precision, "precision", oneOf({16, 32}), "bit", "bits of intermediate results", kMap},
+      Binding(&S::precision, "precision", oneOf({16, 32}), "bit", "bits of intermediate results", kMap)
+          .formerly({"gpu"}),
       {&S::lookup, "lookup",
        "CSF and TVI from tables over luminance, or computed for every pixel (barten89 and ward only)", kMap},
       {&S::levelsPerPass, "levels_per_pass",

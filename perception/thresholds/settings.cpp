@@ -5,8 +5,7 @@ namespace limen::perception {
 
 const SettingsTable<SingleOnGpu>& SingleOnGpu::table() {
   using S = SingleOnGpu;
-  static const SettingsTable<S> kTable = {
-      included(&S::map), Binding(&S::gpu, "gpu", "How the GPU computes it").formerly({"gpu"})};
+  static const SettingsTable<S> kTable = {included(&S::map), {&S::gpu, "gpu", "How the GPU computes it"}};
   return kTable;
 }
 

@@ -22,9 +22,9 @@ struct ThresholdMapReferenceSettings {
   frame::ShadedSetting shading;
   static const SettingsTable<ThresholdMapReferenceSettings>& table() {
     using S = ThresholdMapReferenceSettings;
-    static const SettingsTable<S> kTable = {
-        Binding(&S::thresholds, "thresholds", perception::kThresholdsText).formerly({"map"}),
-        included(&S::viewing), frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {{&S::thresholds, "thresholds", perception::kThresholdsText},
+                                            included(&S::viewing),
+                                            frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };

@@ -11,9 +11,8 @@ constexpr const char* kOpen = "Schwarz 2009, section 9.5 (not given there)";
 template <class T>
 const SettingsTable<SeenOnSettings<T>>& SeenOnSettings<T>::table() {
   using S = SeenOnSettings<T>;
-  static const SettingsTable<S> kTable = {
-      Binding(&S::thresholds, "thresholds", perception::kThresholdsText).formerly({"map", "gpu"}),
-      included(&S::viewing)};
+  static const SettingsTable<S> kTable = {{&S::thresholds, "thresholds", perception::kThresholdsText},
+                                          included(&S::viewing)};
   return kTable;
 }
 

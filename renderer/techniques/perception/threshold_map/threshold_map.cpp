@@ -28,9 +28,9 @@ struct ThresholdMapTechniqueSettings {
   frame::ShadedSetting shading;
   static const SettingsTable<ThresholdMapTechniqueSettings>& table() {
     using S = ThresholdMapTechniqueSettings;
-    static const SettingsTable<S> kTable = {
-        Binding(&S::thresholds, "thresholds", perception::kThresholdsText).formerly({"map", "gpu"}),
-        included(&S::viewing), frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {{&S::thresholds, "thresholds", perception::kThresholdsText},
+                                            included(&S::viewing),
+                                            frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
