@@ -27,7 +27,7 @@ struct PatternTransition {
   int side;          // -1: none
   int reversed;      // 1: runs from corner side + 1 to corner side
   int inner, outer;  // segments
-  int fixed;         // 1: starts at a corner that another transition shares, and its shape is corrected there
+  int corrected;     // 1: starts at a corner that another transition shares, and its shape is corrected there
 };
 
 struct PatternPlan {
@@ -49,14 +49,14 @@ LIMEN_SLOTS PatternTransition noPatternTransition() {
   none.reversed = 0;
   none.inner = 0;
   none.outer = 0;
-  none.fixed = 0;
+  none.corrected = 0;
   return none;
 }
 
 LIMEN_SLOTS PatternPlan finishedPattern(PatternPlan plan) {
-  const int shared = plan.first.side >= 0 && plan.second.side >= 0 ? 1 : 0;
+  const int common_ = plan.first.side >= 0 && plan.second.side >= 0 ? 1 : 0;
   int strips = 0;
-  plan.vertices = plan.coreVertices - shared;
+  plan.vertices = plan.coreVertices - common_;
   if (plan.first.side >= 0) {
     plan.vertices += plan.first.outer + 1;
     strips += plan.first.inner + plan.first.outer;
@@ -90,7 +90,7 @@ LIMEN_SLOTS PatternPlan rectanglePattern(ivec4 factors, int cornerFix) {
     plan.first.reversed = (sideU == 0 ? 1 : 0) == towardsMore ? 0 : 1;
     plan.first.inner = plan.cols;
     plan.first.outer = patternMore(factors.x, factors.z);
-    plan.first.fixed = tv * cornerFix;
+    plan.first.corrected = tv * cornerFix;
   }
   if (tv == 1) {
     const int towardsMore = tu == 0 || sideU == 0 ? 1 : 0;
@@ -98,7 +98,7 @@ LIMEN_SLOTS PatternPlan rectanglePattern(ivec4 factors, int cornerFix) {
     plan.second.reversed = (sideV == 1 ? 1 : 0) == towardsMore ? 0 : 1;
     plan.second.inner = plan.rows;
     plan.second.outer = patternMore(factors.y, factors.w);
-    plan.second.fixed = tu * cornerFix;
+    plan.second.corrected = tu * cornerFix;
   }
   plan.coreVertices = (plan.rows + 1) * (plan.cols + 1);
   plan.coreIndices = plan.cols > 0 ? plan.rows * (2 * plan.cols + 3) : 0;
@@ -127,7 +127,7 @@ LIMEN_SLOTS PatternPlan trianglePattern(ivec4 factors, int cornerFix) {
     plan.first.reversed = both;
     plan.first.inner = core;
     plan.first.outer = factors[side];
-    plan.first.fixed = both * cornerFix;
+    plan.first.corrected = both * cornerFix;
     if (both == 1) {
       plan.second = plan.first;
       plan.second.side = side == 2 ? 0 : side + 1;
@@ -225,8 +225,8 @@ LIMEN_SLOTS int patternFixedSteps(int steps, int inner, int outer) {
 }
 
 LIMEN_SLOTS int patternStepsInside(PatternTransition strip, int steps) {
-  return strip.fixed == 1 ? patternFixedSteps(steps, strip.inner, strip.outer)
-                          : patternInnerSteps(steps, strip.inner, strip.outer);
+  return strip.corrected == 1 ? patternFixedSteps(steps, strip.inner, strip.outer)
+                              : patternInnerSteps(steps, strip.inner, strip.outer);
 }
 
 // Vertex slot that an index slot refers to, or kPatternRestart.
