@@ -29,9 +29,6 @@ void BandThresholdSettings::check() const {
   if (predictor.bands.isStack())
     throw Error("thresholds by band are those of a pyramid, not of a stack", "predictor.bands.decomposition",
                 "use pyramid");
-  if (predictor.bands.isFitted())
-    throw Error("thresholds by band invert one weight per band, not fitted weights of its parts",
-                "predictor.bands.weights", "use peak");
   if (std::holds_alternative<ExtendedMasking>(predictor.neighbourhood))
     throw Error("thresholds by band invert point-wise masking, not masking by neighbours",
                 "predictor.neighbourhood", "use none");
