@@ -40,8 +40,6 @@ struct BandThresholdSettings {
   static const SettingsTable<BandThresholdSettings>& table();
   /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid, fitted weights,
   /// masking by neighbours.
-  /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid, several weights a
-  /// band.
   void check() const;
   /// Throws Error if the output is a band beyond the `bands` that there are.
   void checkBand(int bands) const;
