@@ -62,7 +62,7 @@ CellDepth cellDepth(ivec2 low, ivec2 high, ivec2 cell) {
   if (any(greaterThanEqual(low, high))) return CellDepth(kEmptyDepth, ivec2(0));
   const ivec2 texel = cellTexel(low, high, cell);
   ++fetchCount;
-  return CellDepth(texelFetch(minimumMap, texel, 0).x, texel);
+  return CellDepth(minimumDepth(texel, 0), texel);
 }
 
 bool cellBlocks(CellDepth cell, vec4 p, float depth) { return blocks(cell.z, cell.texel, 0, p, depth); }
