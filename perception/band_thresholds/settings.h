@@ -38,8 +38,8 @@ struct BandThresholdSettings {
   int reach = 3;
   std::variant<CombinedOutput, BandOutput> output;
   static const SettingsTable<BandThresholdSettings>& table();
-  /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid, several weights a
-  /// band.
+  /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid, fitted weights,
+  /// masking by neighbours.
   void check() const;
   /// Throws Error if the output is a band beyond the `bands` that there are.
   void checkBand(int bands) const;

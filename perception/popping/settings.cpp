@@ -280,6 +280,8 @@ const SettingsTable<PoppingSettings>& PoppingSettings::table() {
       {&S::temporal, "temporal", "what is seen of a switch over time"},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
+      {&S::neighbourhood, "neighbourhood", "contrasts that mask a contrast besides itself",
+       "Schwarz 2009, section 9.1.2"},
       {&S::bands, "bands", "how pictures are decomposed into frequency bands"},
       {&S::adaptation, "adaptation", "luminance to which the eye is adapted", kModel},
       {&S::minkowskiExponent,

@@ -7,6 +7,7 @@
 #include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
 #include "perception/popping/detection.h"
+#include "perception/popping/neighbourhood.h"
 #include "perception/popping/temporal_settings.h"
 #include "perception/popping/weight_settings.h"
 #include "perception/vision/eye_movement.h"
@@ -224,6 +225,7 @@ struct PoppingSettings {
   std::variant<MonotoneTracking, FlooredTracking, LiteralTracking, NoTracking> eyeMovement;
   std::variant<TemporalChannels, SingleFrame> temporal;  ///< of switches
   ChosenEntry masking{"schwarz", {}};                    ///< of MaskingRegistry
+  std::variant<NoNeighbours, ExtendedMasking> neighbourhood;
   BandSettings bands;
   std::variant<LocalAdaptation, MeanAdaptation, FixedAdaptation, LevelAdaptation> adaptation;
   double minkowskiExponent = 2.4;
