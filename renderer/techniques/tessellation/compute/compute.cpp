@@ -202,6 +202,51 @@ class ComputeTessellation : public Technique {
   uint32_t vertexArray_ = 0;
 };
 
+struct UniformFineSettings {
+  int segments = 64;
+  frame::ShadedSetting shading;
+  static const SettingsTable<UniformFineSettings>& table() {
+    using S = UniformFineSettings;
+    static const SettingsTable<S> kTable = {{&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
+                                            frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+/// Reference: so fine a tessellation that its deviation is a small part of a pixel.
+class UniformFine : public Technique {
+ public:
+  using Settings = UniformFineSettings;
+  explicit UniformFine(const Settings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    ComputeTessellationSettings all;
+    all.tessellation.factors = BySegments{settings_.segments};
+    const int64_t side = settings_.segments + 1, patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
+    all.capacity = std::max<int64_t>(patches * side * side, 4);
+    all.shading = settings_.shading;
+    fine_.emplace(all);
+    fine_->prepare(frame);
+  }
+  void render(frame::Frame& frame) override { fine_->render(frame); }
+  const gl::Texture& product() const override { return fine_->product(); }
+  std::vector<Counter> count(frame::Frame& frame) override { return fine_->count(frame); }
+
+ private:
+  Settings settings_;
+  std::optional<ComputeTessellation> fine_;
+};
+
+const RegisteredTechnique<UniformFine> kUniformFineRegistered{
+    {.name = "tessellation/uniform_fine",
+     .version = 1,
+     .summary = "Curved surfaces with the same fine tessellation of all patches",
+     .source = "bench",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .reference = true,
+     .counters = ComputeTessellation::quantities()}};
+
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
     {.name = "tessellation/compute",
      .version = 1,
