@@ -16,6 +16,7 @@
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 namespace limen::techniques {
@@ -119,6 +120,32 @@ class ComputeTessellation : public Technique {
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
+
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
+    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    auto out = std::make_shared<surfaces::TessellatedSurface>();
+    out->anchor = frame.gpuScene().anchor();
+    out->view = viewOf(frame);
+    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+      out->positions.push_back(vertex.position);
+      out->normals.push_back(vertex.normal);
+    }
+    out->triangles = surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+    const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+      surfaces::Factors& own = out->factors.emplace_back();
+      if (i >= totals.patches || factors[i] == 0) continue;
+      for (uint32_t side = 0; side < 4; ++side) own[side] = static_cast<int>(factors[i] >> 8 * side & 255U);
+      const surfaces::PatternPlan plan =
+          surfaces::patternOf(patches[i].domain, own, settings_.tessellation.cornerFix);
+      for (int slot = 0; slot < plan.vertices; ++slot) {
+        out->parameters.push_back(surfaces::domainPointOf(plan, slot));
+        out->patches.push_back(i);
+      }
+    }
+    return out;
+  }
 
   std::vector<Counter> count(frame::Frame&) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
@@ -230,6 +257,9 @@ class UniformFine : public Technique {
   }
   void render(frame::Frame& frame) override { fine_->render(frame); }
   const gl::Texture& product() const override { return fine_->product(); }
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    return fine_->tessellation(frame);
+  }
   std::vector<Counter> count(frame::Frame& frame) override { return fine_->count(frame); }
 
  private:
@@ -245,6 +275,7 @@ const RegisteredTechnique<UniformFine> kUniformFineRegistered{
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .reference = true,
+     .tessellates = true,
      .counters = ComputeTessellation::quantities()}};
 
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
@@ -254,6 +285,7 @@ const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
      .source = "Schwarz 2009, section 7.6 (SC-69)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
+     .tessellates = true,
      .counters = ComputeTessellation::quantities()}};
 
 }  // namespace
