@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/patch_builder.h"
 
@@ -110,7 +111,8 @@ TEST(SurfaceErrors, EachKindOfCrackIsFound) {
 TEST(SurfaceErrors, CulledPatchesAreNotCompared) {
   const PatchSet set = twoSquares(0.5);
   TessellatedSurface surface = tessellated(set, {{2, 2, 2, 2}, {2, 2, 2, 2}});
-  surface.positions.resize(9), surface.patches.resize(9), surface.parameters.resize(9), surface.normals.resize(9);
+  surface.positions.resize(9), surface.patches.resize(9), surface.parameters.resize(9),
+      surface.normals.resize(9);
   surface.triangles.resize(8);
   EXPECT_EQ(cracksOf(set, surface).sides, 0);
   EXPECT_EQ(cracksOf(set, surface).loneVertices, 0);
