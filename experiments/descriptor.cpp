@@ -21,6 +21,11 @@ namespace {
 using Kind = YamlNode::Kind;
 
 constexpr size_t kMaxImageSizes = 100'000;
+/// Techniques that are now a choice of another.
+const std::map<std::string, std::string> kFormerTechniques = {
+    {"perception/band_thresholds", "{name: perception/threshold_map, thresholds: bands}"},
+    {"perception/band_thresholds_reference",
+     "{name: perception/threshold_map_reference, thresholds: bands}"}};
 const char* const kImageExample = "{width: 1024, height: 768}";
 
 class Reader {
@@ -104,7 +109,10 @@ class Reader {
     if (!name) return {};
     const auto info = known.find(*name);
     if (info == known.end()) {
-      problems_.add(nameNode->mark, "no " + kind + " '" + *name + "'", suggest(*name, names(known)));
+      const auto former = kFormerTechniques.find(*name);
+      problems_.add(nameNode->mark, "no " + kind + " '" + *name + "'",
+                    former == kFormerTechniques.end() ? suggest(*name, names(known))
+                                                      : "it is now written " + former->second);
       return {};
     }
     const std::string listHint = axes ? "" : fmt::format("give one value: a {} is not a grid", kind);

@@ -24,6 +24,10 @@ struct BandOutput {
 
 /// Settings of thresholds by frequency band, which invert the popping predictor.
 struct BandThresholdSettings {
+  static constexpr const char *kKind = "bands",
+                              *kSummary =
+                                  "the popping predictor inverted in each frequency band: what stays below "
+                                  "it is not seen";
   /// The predictor whose responses must not change visibly. Its model over time, weights, regions and ratings
   /// are not used: pictures last and the eye fixates.
   PoppingSettings predictor;
@@ -34,7 +38,8 @@ struct BandThresholdSettings {
   int reach = 3;
   std::variant<CombinedOutput, BandOutput> output;
   static const SettingsTable<BandThresholdSettings>& table();
-  /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid.
+  /// Throws Error on what has no per-band thresholds: a stack in place of the pyramid, fitted weights,
+  /// masking by neighbours.
   void check() const;
   /// Throws Error if the output is a band beyond the `bands` that there are.
   void checkBand(int bands) const;

@@ -52,13 +52,15 @@ PoppingModel modelOf(glm::ivec2 sizePx, const DisplayProfile& display, const Pop
   return poppingModel(sizePx.x, sizePx.y, display, settings);
 }
 
+/// A floating-point literal.
+std::string number(double value) {
+  const std::string text = shortestNumber(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
 gl::ShaderDefines maskingDefines(const ChosenEntry& masking) {
   const std::string& name = masking.name;
   const ParameterValues values = completeValues<MaskingInfo>(masking, "popping");
-  const auto number = [](double value) {
-    const std::string text = shortestNumber(value);
-    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-  };
   if (name == "none") return {{"MASKING_NONE", "1"}};
   if (isCubic(masking)) return {{"MASKING_CUBIC", "1"}};
   if (name == "schwarz" || name == "daly") {
@@ -203,6 +205,17 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   const glm::dvec3 black = planesOf({0, 0, 0});
   if (std::holds_alternative<TemporalChannels>(settings.temporal) && isSwitch)
     defines_["TEMPORAL_CHANNELS"] = "1";
+  if (const auto* extended = std::get_if<ExtendedMasking>(&settings.neighbourhood);
+      extended && model_.contrastLevels > 0) {
+    const double zone = extended->deadZone;
+    defines_["MASKING_NEIGHBOURHOOD"] = "1";
+    defines_["MASKING_RADIUS"] = std::to_string(extended->radiusPx);
+    defines_["MASKING_BETA"] = number(extended->exponent);
+    defines_["MASKING_STRENGTH"] = number(extended->strength);
+    defines_["MASKING_DEAD_ZONE"] = number(zone);
+    defines_["MASKING_LEAST"] = number(zone > 0.0 ? std::pow(zone, extended->exponent) : 0.0);
+    normalised_.emplace(Format::RGBA32F, sizePx, model_.contrastLevels, 2);
+  }
   stageDefines_ = defines_;
   stageDefines_["SHOW_STAGES"] = "1";
   conesOfBlack_ = black;
@@ -213,11 +226,12 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
   if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && isSwitch)
     temporal_.emplace(model_, display, settings, *channels, TemporalGrid{grid.low, grid.per, grid.size});
+  if (normalised_) program("normalise");
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
 
-const gl::Program& PoppingPredictorGpu::program(const char* name, bool showStages) {
-  return context_.programs().compute(kFolder + name + ".comp.glsl", showStages ? stageDefines_ : defines_);
+const gl::Program& PoppingPredictorGpu::program(const char* name) {
+  return context_.programs().compute(kFolder + name + ".comp.glsl", defines_);
 }
 
 void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes) {
@@ -254,6 +268,11 @@ void PoppingPredictorGpu::run(const PoppingGpuInput& input, gl::PassList* passes
   {
     const auto pass = openPass(passes, "popping/pyramid");
     decompose(input);
+  }
+  if (normalised_) {
+    const auto pass = openPass(passes, "popping/normalise");
+    for (int level = 0; level < model_.contrastLevels; ++level) normalise(level, defines_);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
   {
     const auto pass = openPass(passes, "popping/difference");
@@ -299,6 +318,7 @@ void PoppingPredictorGpu::decompose(const PoppingGpuInput&) {
 void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   cones_.bindTexture(kResponseConesUnit);
   sensitivities_.bindTexture(kResponseSensitivitiesUnit);
+  if (normalised_) normalised_->bindTexture(kResponseNormalisedUnit);
   counters_.bindStorage(kPoppingCountersBuffer);
   mean_.bindStorage(kMeanLuminanceBuffer);
   const std::array<double, 5> taps = settings_.bands.kernel().taps;
@@ -326,6 +346,13 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   if (temporal_)
     temporal_->bind(program,
                     level < model_.contrastLevels ? model_.peakCpd[static_cast<size_t>(level)] : 0.0);
+}
+
+void PoppingPredictorGpu::normalise(int level, const gl::ShaderDefines& defines) {
+  const gl::Program& program = context_.programs().compute(kFolder + "normalise.comp.glsl", defines);
+  bindResponse(program, level);
+  normalised_->bindImage(kNormalisedImage, Access::Write, level);
+  program.dispatch(levelSize(level), kGroup);
 }
 
 void PoppingPredictorGpu::collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown) {
@@ -400,14 +427,31 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
                                                    "difference"};
   const auto index =
       std::find(kStages.begin(), kStages.end(), stage.substr(0, stage.find('_'))) - kStages.begin();
+  // Responses are those to each frame alone, also of a switch over time.
+  gl::ShaderDefines defines = stageDefines_;
+  if (index != 4) defines.erase("TEMPORAL_CHANNELS");
+  const bool isOverNeighbours = normalised_ && index == 3;
+  if (normalised_ && index < 3) defines.erase("MASKING_NEIGHBOURHOOD");
+  const auto normaliseAgain = [&](bool overTime) {
+    gl::ShaderDefines own = defines_;
+    if (!overTime) own.erase("TEMPORAL_CHANNELS");
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    normalise(level, own);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  };
+  if (isOverNeighbours && temporal_) normaliseAgain(false);
   const gl::Texture target(Format::RGBA32F, levelSize(level));
-  const gl::Program& difference = program("difference", true);
+  const gl::Program& difference = context_.programs().compute(kFolder + "difference.comp.glsl", defines);
   bindResponse(difference, level);
   target.bindImage(kDifferencesImage, Access::Write);
   difference.set("shownFrame", isPredicted ? 1 : 0);
   difference.set("shownStage", static_cast<int>(index));
   difference.dispatch(levelSize(level), kGroup);
   const Image all = target.read();
+  if (isOverNeighbours && temporal_) {
+    normaliseAgain(true);
+    restoreCounts();
+  }
   Image image(all.width, all.height, index == 1 || index == 2 ? 1 : 3);
   for (size_t p = 0; p < image.pixels(); ++p)
     for (int c = 0; c < image.channels; ++c)
@@ -417,9 +461,9 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return cones_.bytes() + differences_.bytes() + sensitivities_.bytes() +
-         (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() + counters_.bytes() +
-         mean_.bytes() + regions_.bytesHeld();
+  return (normalised_ ? normalised_->bytes() : 0) + cones_.bytes() + differences_.bytes() +
+         sensitivities_.bytes() + (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() +
+         counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
 }
 
 }  // namespace limen::perception

@@ -61,9 +61,11 @@ class PoppingPredictorGpu {
   int64_t bytesHeld() const;
 
  private:
-  const gl::Program& program(const char* name, bool showStages = false);
+  const gl::Program& program(const char* name);
   void decompose(const PoppingGpuInput& input);
   void bindResponse(const gl::Program& program, int level);
+  /// For masking by neighbours: contrasts of a level over their thresholds.
+  void normalise(int level, const gl::ShaderDefines& defines);
   void collapse(const PoppingGpuInput& input, const gl::Texture& target, int shown);
   glm::ivec2 levelSize(int level) const { return glm::max(sizePx_ >> level, glm::ivec2(1)); }
 
@@ -80,6 +82,7 @@ class PoppingPredictorGpu {
   glm::vec2 tableLow_, tablePer_;
   gl::Texture cones_;  ///< Gaussian pyramids of cone responses and speed; layers: actual, predicted
   gl::Texture differences_, sensitivities_, jnd_, seeds_;
+  std::optional<gl::Texture> normalised_;  ///< layers: as cones_, or after and before a switch
   std::optional<TemporalTablesGpu> temporal_;
   gl::Buffer counters_, mean_;
   RegionsGpu regions_;

@@ -73,6 +73,8 @@ class Predictor {
     const Masking masking = makeMasking(settings.masking, "popping");
     transducer_ = masking.transducer;
     closedForm_ = options.tables && isCubic(settings.masking);
+    if (const auto* extended = std::get_if<ExtendedMasking>(&settings.neighbourhood))
+      neighbourhood_ = *extended;
     const std::vector<std::string> known = poppingStages(result_.model);
     for (const std::string& name : options.stages) {
       if (name == "all")
@@ -202,6 +204,14 @@ class Predictor {
     return std::copysign(std::pow(x, 0.7) * std::pow(1.0 + 1.0 / (x * x * x), -0.1), c);
   }
 
+  /// Responses to contrasts over their thresholds.
+  Plane maskedByNeighbours(Plane normalised, int level) const {
+    const Plane elevation = neighbourhoodElevation(normalised, *neighbourhood_, isStack_ ? 1 << level : 1);
+    for (size_t p = 0; p < normalised.data.size(); ++p)
+      normalised.data[p] = transducer(normalised.data[p]) / elevation.data[p];
+    return normalised;
+  }
+
   /// A level at its own size, blurred along both axes.
   Plane blur(const Plane& plane, const std::array<double, 5>& taps) const {
     Kernel kernel;
@@ -277,10 +287,12 @@ class Predictor {
           for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<size_t>(c);
             contrast[at].at(x, y) = opponent[c];
-            response[at].at(x, y) = transducer(normalised[c]);
+            response[at].at(x, y) = neighbourhood_ ? normalised[c] : transducer(normalised[c]);
           }
         }
     });
+    if (neighbourhood_)
+      for (Plane& plane : response) plane = maskedByNeighbours(std::move(plane), level);
     keep("contrast_" + suffix, contrast);
     keep("velocity_" + suffix, {&velocity});
     keep("response_" + suffix, response);
@@ -300,6 +312,9 @@ class Predictor {
                        const Content& after, int level) const {
     const int width = before.luminance.width, height = before.luminance.height;
     Planes out{Plane(width, height), Plane(width, height), Plane(width, height)};
+    std::array<std::array<Plane, 2>, kTemporalMechanisms> extremes;  // after, before; with a neighbourhood
+    if (neighbourhood_)
+      for (auto& mechanism : extremes) mechanism.fill(Plane(width, height));
     forRowBlocks(height, static_cast<size_t>(width) * 800, [&](int first, int end) {
       for (size_t p = static_cast<size_t>(first) * width; p < static_cast<size_t>(end) * width; ++p) {
         const auto i = static_cast<size_t>(level);
@@ -309,13 +324,29 @@ class Predictor {
           return std::array<double, 3>{content.contrast[0].data[p], content.contrast[1].data[p],
                                        content.contrast[2].data[p]};
         };
-        const std::array<double, 3> difference = switchDifference(
-            contrast(after), temporal_->at(level, retinal, after.luminance.data[p]), contrast(before),
-            temporal_->at(level, retinal, before.luminance.data[p]),
-            temporal_->holdBlurAt(level, screen, retinal), [this](double c) { return transducer(c); });
+        const TemporalGains afterGains = temporal_->at(level, retinal, after.luminance.data[p]),
+                            beforeGains = temporal_->at(level, retinal, before.luminance.data[p]);
+        const double blur = temporal_->holdBlurAt(level, screen, retinal);
+        if (neighbourhood_) {
+          const SwitchExtremes here =
+              switchExtremes(contrast(after), afterGains, contrast(before), beforeGains, blur);
+          for (size_t m = 0; m < kTemporalMechanisms; ++m)
+            extremes[m][0].data[p] = here.after[m], extremes[m][1].data[p] = here.before[m];
+          continue;
+        }
+        const std::array<double, 3> difference =
+            switchDifference(contrast(after), afterGains, contrast(before), beforeGains, blur,
+                             [this](double c) { return transducer(c); });
         for (size_t c = 0; c < 3; ++c) out[c].data[p] = difference[c];
       }
     });
+    if (neighbourhood_)
+      for (size_t m = 0; m < kTemporalMechanisms; ++m) {
+        const Plane afterwards = maskedByNeighbours(std::move(extremes[m][0]), level),
+                    beforehand = maskedByNeighbours(std::move(extremes[m][1]), level);
+        Plane& sum = out[kChannelOfMechanism[m]];
+        for (size_t p = 0; p < sum.data.size(); ++p) sum.data[p] += afterwards.data[p] - beforehand.data[p];
+      }
     return out;
   }
 
@@ -462,6 +493,7 @@ class Predictor {
   std::optional<TemporalSensitivity> temporal_;  // of a switch that is seen over time
   std::function<double(double)> transducer_;
   bool closedForm_ = false;
+  std::optional<ExtendedMasking> neighbourhood_;  // if contrasts are masked by their neighbours
   std::set<std::string> wanted_;
   std::atomic<int64_t> flushed_{0};
   int64_t guarded_ = 0;

@@ -100,12 +100,6 @@ Kelly83Scale Kelly83Scale::of(const ChosenEntry& csf) {
   return csf.values.all().empty() ? Kelly83Scale{} : table().read(csf.values);
 }
 
-const SettingsTable<FixedArea>& FixedArea::table() {
-  static const SettingsTable<FixedArea> kTable = {
-      {&FixedArea::deg2, "deg2", {1e-6, 1e5}, "deg2", "the area", kModel}};
-  return kTable;
-}
-
 const SettingsTable<SensitivitySettings>& SensitivitySettings::table() {
   using S = SensitivitySettings;
   static const SettingsTable<S> kTable = {
@@ -286,6 +280,8 @@ const SettingsTable<PoppingSettings>& PoppingSettings::table() {
       {&S::temporal, "temporal", "what is seen of a switch over time"},
       registeredChoice<MaskingInfo>(&S::masking, "masking", MaskingRegistry::instance().names(),
                                     "transducer of contrast", kModel),
+      {&S::neighbourhood, "neighbourhood", "contrasts that mask a contrast besides itself",
+       "Schwarz 2009, section 9.1.2"},
       {&S::bands, "bands", "how pictures are decomposed into frequency bands"},
       {&S::adaptation, "adaptation", "luminance to which the eye is adapted", kModel},
       {&S::minkowskiExponent,

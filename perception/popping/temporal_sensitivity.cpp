@@ -70,19 +70,30 @@ double TemporalSensitivity::holdBlurAt(int level, double screenDegS, double reti
                   holdShare_);
 }
 
+SwitchExtremes switchExtremes(const std::array<double, 3>& actual, const TemporalGains& actualGains,
+                              const std::array<double, 3>& predicted, const TemporalGains& predictedGains,
+                              double holdBlur) {
+  SwitchExtremes out;
+  for (size_t m = 0; m < kTemporalMechanisms; ++m) {
+    const double a = holdBlur * actual[kChannelOfMechanism[m]],
+                 p = holdBlur * predicted[kChannelOfMechanism[m]];
+    const double mean = 0.5 * (actualGains[m].steady * a + predictedGains[m].steady * p);
+    const bool isSame = a == p && actualGains[m].steady == predictedGains[m].steady;
+    const double half = isSame ? 0.0 : 0.5 * (actualGains[m].onset * a - predictedGains[m].onset * p);
+    out.after[m] = mean + half, out.before[m] = mean - half;
+  }
+  return out;
+}
+
 std::array<double, 3> switchDifference(const std::array<double, 3>& actual, const TemporalGains& actualGains,
                                        const std::array<double, 3>& predicted,
                                        const TemporalGains& predictedGains, double holdBlur,
                                        const std::function<double(double)>& transducer) {
   std::array<double, 3> out{};
-  constexpr std::array<size_t, kTemporalMechanisms> kChannel = {0, 0, 1, 2};
-  for (size_t m = 0; m < kTemporalMechanisms; ++m) {
-    const double a = holdBlur * actual[kChannel[m]], p = holdBlur * predicted[kChannel[m]];
-    if (a == p && actualGains[m].steady == predictedGains[m].steady) continue;
-    const double mean = 0.5 * (actualGains[m].steady * a + predictedGains[m].steady * p),
-                 half = 0.5 * (actualGains[m].onset * a - predictedGains[m].onset * p);
-    out[kChannel[m]] += transducer(mean + half) - transducer(mean - half);
-  }
+  const SwitchExtremes extremes = switchExtremes(actual, actualGains, predicted, predictedGains, holdBlur);
+  for (size_t m = 0; m < kTemporalMechanisms; ++m)
+    if (extremes.after[m] != extremes.before[m])
+      out[kChannelOfMechanism[m]] += transducer(extremes.after[m]) - transducer(extremes.before[m]);
   return out;
 }
 

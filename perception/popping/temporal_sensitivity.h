@@ -59,8 +59,18 @@ class TemporalSensitivity {
   std::vector<std::vector<std::array<double, kTemporalMechanisms>>> byLevel_;  // over lg luminance
 };
 
-/// Differences of channels A, a, b as above. Contrasts are A (as luminance contrast if the settings say so),
-/// a, b over the band's gain.
+/// What mechanisms have of a switch: contrasts over their thresholds, before masking.
+struct SwitchExtremes {
+  std::array<double, kTemporalMechanisms> after{}, before{};
+};
+/// Contrasts are A (as luminance contrast if the settings say so), a, b over the band's gain.
+SwitchExtremes switchExtremes(const std::array<double, 3>& actual, const TemporalGains& actualGains,
+                              const std::array<double, 3>& predicted, const TemporalGains& predictedGains,
+                              double holdBlur);
+/// Channel of each mechanism: 0 A, 1 a, 2 b.
+inline constexpr std::array<size_t, kTemporalMechanisms> kChannelOfMechanism = {0, 0, 1, 2};
+
+/// Differences of channels A, a, b with point-wise masking.
 std::array<double, 3> switchDifference(const std::array<double, 3>& actual, const TemporalGains& actualGains,
                                        const std::array<double, 3>& predicted,
                                        const TemporalGains& predictedGains, double holdBlur,

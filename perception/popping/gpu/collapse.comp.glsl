@@ -2,7 +2,13 @@
 // The finest level's response difference, then the Minkowski sum over all levels and channels, and weights: the
 // difference map.
 #include "perception/popping/gpu/popping_bindings.h"
+#include "perception/popping/gpu/masking.glsl"
+#include "perception/popping/gpu/stages.glsl"
+#ifdef MASKING_NEIGHBOURHOOD
+#include "perception/popping/gpu/neighbourhood.glsl"
+#else
 #include "perception/popping/gpu/response.glsl"
+#endif
 
 layout(binding = kCollapseDifferencesUnit) uniform sampler2D differences;  // contrast level i at mip level i - 1
 layout(binding = kCollapseDisocclusionUnit) uniform sampler2D disocclusion;

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Response difference of the frames at a level of the contrast pyramid.
 #include "perception/popping/gpu/popping_bindings.h"
+#include "perception/popping/gpu/masking.glsl"
+#include "perception/popping/gpu/stages.glsl"
+#ifdef MASKING_NEIGHBOURHOOD
+#include "perception/popping/gpu/neighbourhood.glsl"
+#else
 #include "perception/popping/gpu/response.glsl"
+#endif
 
 layout(binding = kDifferencesImage, rgba32f) uniform writeonly image2D differences;
 

@@ -44,6 +44,8 @@ const uint kResponseConesUnit = 0u;
 const uint kResponseSensitivitiesUnit = 2u;
 const uint kResponseSteadyUnit = 6u;
 const uint kResponseOnsetUnit = 7u;
+const uint kResponseNormalisedUnit = 8u;
+const uint kNormalisedImage = 0u;
 
 // Differences of a level.
 const uint kDifferencesImage = 0u;

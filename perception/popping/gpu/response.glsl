@@ -3,6 +3,7 @@
 // all of them, then responseDifference().
 #include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/gpu/masking.glsl"
+#include "perception/popping/gpu/stages.glsl"
 #ifdef TEMPORAL_CHANNELS
 #include "perception/popping/gpu/temporal.glsl"
 #endif
@@ -128,11 +129,9 @@ vec3 opponentOf(vec3 cone) {
 const float kOnce[5] = float[](0.0, 0.25, 0.5, 0.25, 0.0);                // 1 2 1
 const float kTwice[5] = float[](0.0625, 0.25, 0.375, 0.25, 0.0625);  // 1 2 1, twice
 
-// What a debug image may show of a frame.
-struct Stages {
-  vec3 contrast, response;
-  float luminance, velocity;
-};
+#ifdef STORE_NORMALISED
+layout(binding = kNormalisedImage, rgba32f) uniform writeonly image2DArray normalisedImage;
+#endif
 
 // Response of the actual frame minus that of the predicted one, channels A, a, b.
 vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
@@ -181,9 +180,15 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
     precise vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
     precise vec3 normalised = contrast * sensitivityAt(velocity, luminance, 0);
 #endif
+#if defined(STORE_NORMALISED)
+#ifndef TEMPORAL_CHANNELS
+    imageStore(normalisedImage, ivec3(pixel, frame), vec4(normalised, 0.0));
+#endif
+#else
     precise vec3 response =
         vec3(transducer(normalised.x), transducer(normalised.y), transducer(normalised.z));
     difference = frame == 0 ? response : difference - response;
+#endif
 #ifdef SHOW_STAGES
     if (frame == shownFrame) shown = Stages(contrast, response, luminance, velocity);
 #endif
@@ -199,7 +204,13 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   for (int frame = 0; frame < frameCount; ++frame)
     contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, retinalDegS, luminances[frame], level),
                                     tableAt(onsetGains, retinalDegS, luminances[frame], level));
-  difference = switchDifference(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
+  SwitchExtremes extremes = switchExtremes(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
+#ifdef STORE_NORMALISED
+  imageStore(normalisedImage, ivec3(pixel, 0), extremes.after);
+  imageStore(normalisedImage, ivec3(pixel, 1), extremes.before);
+#else
+  difference = switchDifference(extremes);
+#endif
 #endif
   if (guardedHere != 0u) atomicAdd(groupGuarded, guardedHere);
   return difference;

@@ -20,11 +20,20 @@ float holdBlur(float eyeDegS) {
 }
 
 // contents: after the switch, before it.
-vec3 switchDifference(SwitchContent contents[2], float blur) {
+// Contrasts over thresholds, before masking.
+struct SwitchExtremes {
+  vec4 after, before;
+};
+
+SwitchExtremes switchExtremes(SwitchContent contents[2], float blur) {
   precise vec4 after = blur * contents[0].contrast.xxyz, before = blur * contents[1].contrast.xxyz;
   precise vec4 mean = 0.5 * (contents[0].steady * after + contents[1].steady * before);
   precise vec4 half_ = 0.5 * (contents[0].onset * after - contents[1].onset * before);
+  return SwitchExtremes(mean + half_, mean - half_);
+}
+
+vec3 switchDifference(SwitchExtremes extremes) {
   vec4 change;
-  for (int m = 0; m < 4; ++m) change[m] = transducer(mean[m] + half_[m]) - transducer(mean[m] - half_[m]);
+  for (int m = 0; m < 4; ++m) change[m] = transducer(extremes.after[m]) - transducer(extremes.before[m]);
   return vec3(change.x + change.y, change.zw);
 }
