@@ -3,18 +3,14 @@
 
 #include <array>
 
+#include "renderer/surfaces/bezier_tables.h"
 #include "renderer/surfaces/patch_set.h"
 
 namespace limen::surfaces {
 
-/// Binomial coefficients n over i, 0 <= i <= n <= kMaxDegree.
-inline constexpr auto kBinomial = [] {
-  std::array<std::array<double, kMaxDegree + 1>, kMaxDegree + 1> table{};
-  for (size_t n = 0; n <= kMaxDegree; ++n)
-    for (size_t i = 0; i <= n; ++i)
-      table[n][i] = i == 0 || i == n ? 1.0 : table[n - 1][i - 1] + table[n - 1][i];
-  return table;
-}();
+/// Binomial coefficients n over i, 0 <= i <= n <= kMaxDegree, by rows.
+inline constexpr std::array<double, (kMaxDegree + 1) * (kMaxDegree + 2) / 2> kBinomials = {LIMEN_BINOMIALS};
+constexpr double binomial(size_t n, size_t i) { return kBinomials[n * (n + 1) / 2 + i]; }
 
 /// t^0 to t^n by repeated multiplication.
 using Powers = std::array<double, kMaxDegree + 1>;
@@ -32,7 +28,7 @@ inline Basis bernstein(int n, double t, double s) {
   const Powers a = powers(t, n), b = powers(s, n);
   Basis out{};
   for (size_t i = 0, last = static_cast<size_t>(n); i <= last; ++i)
-    out[i] = kBinomial[last][i] * (a[i] * b[last - i]);
+    out[i] = binomial(last, i) * (a[i] * b[last - i]);
   return out;
 }
 

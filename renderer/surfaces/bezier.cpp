@@ -58,7 +58,7 @@ Vector triangleSum(int n, const Vector* points, const DomainPoint& at) {
   const Powers u = powers(at.u, n), v = powers(at.v, n), w = powers(at.w(), n);
   const auto term = [&](int i, int j, int k) {
     const auto a = static_cast<size_t>(i), b = static_cast<size_t>(j), c = static_cast<size_t>(k);
-    const double coefficient = kBinomial[static_cast<size_t>(n)][a] * kBinomial[b + c][b];
+    const double coefficient = binomial(static_cast<size_t>(n), a) * binomial(b + c, b);
     return points[triangleIndex(n, i, k)] * (coefficient * (u[a] * v[b] * w[c]));
   };
   if (n == 0) return points[0];

@@ -81,6 +81,8 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("refinements", refinements_);
   program.set("middleWidth", cells_ ? static_cast<float>(cells_->middle) : 1.0F);
   program.set("shareRoot", cells_ ? static_cast<float>(std::sqrt(cells_->share)) : 1.0F);
+  program.set("texelsSpread",
+              static_cast<uint32_t>(std::lround(cells_ ? cells_->spread * double{1 << 16} : 0.0)));
   program.set("leastWidth", cells_ ? static_cast<float>(cells_->leastWidth) : 0.0F);
   program.set("widestGap", static_cast<float>(occluders_.gapWidth));
   program.set("roughQueries", roughQueries(structure_));

@@ -50,6 +50,34 @@ TEST_F(Tessellation, ShowsWhatTheSceneShowsAsAMesh) {
   EXPECT_LT(meanDifference(mesh, made.product), 2e-3);
 }
 
+// Uniform factors: the tessellator's pattern has the same vertices, and as many triangles.
+TEST_F(Tessellation, HardwareShowsWhatComputeShows) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  for (const int64_t segments : {1, 7, 64}) {
+    const Given given = {
+        {"factors", std::string("uniform")}, {"factors.segments", segments}, {"cull", false}};
+    const Rendered compute = render(teapot, "tessellation/compute", given, {128, 96}, true);
+    const Rendered hardware = render(teapot, "tessellation/hardware", given, {128, 96}, true);
+    // A single quad has one of two diagonals, and the tessellator takes its own.
+    if (segments > 1) {
+      EXPECT_LT(meanDifference(compute.product, hardware.product), 1e-3) << segments;
+    }
+    EXPECT_EQ(compute.counter("tessellated_triangles"), hardware.counter("tessellated_triangles"))
+        << segments;
+  }
+}
+
+TEST_F(Tessellation, FractionalSpacingShowsTheSurfaceAsWell) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  const Rendered fine = render(teapot, "tessellation/uniform_fine", {}, {128, 96});
+  for (const char* spacing : {"equal", "fractional_even", "fractional_odd"}) {
+    const Rendered made =
+        render(teapot, "tessellation/hardware",
+               {{"spacing", std::string(spacing)}, {"factors.tolerance_px", 0.1}}, {128, 96});
+    EXPECT_LT(meanDifference(fine.product, made.product), 2e-3) << spacing;
+  }
+}
+
 TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
   const scene::Scene teapot = makeScene("curved/teapot");
   // 36 vertices a patch: 10 fit into 390.

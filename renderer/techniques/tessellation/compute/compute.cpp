@@ -16,6 +16,7 @@
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 namespace limen::techniques {
@@ -120,6 +121,32 @@ class ComputeTessellation : public Technique {
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
+    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    auto out = std::make_shared<surfaces::TessellatedSurface>();
+    out->anchor = frame.gpuScene().anchor();
+    out->view = viewOf(frame);
+    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+      out->positions.push_back(vertex.position);
+      out->normals.push_back(vertex.normal);
+    }
+    out->triangles = surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+    const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+      surfaces::Factors& own = out->factors.emplace_back();
+      if (i >= totals.patches || factors[i] == 0) continue;
+      for (uint32_t side = 0; side < 4; ++side) own[side] = static_cast<int>(factors[i] >> 8 * side & 255U);
+      const surfaces::PatternPlan plan =
+          surfaces::patternOf(patches[i].domain, own, settings_.tessellation.cornerFix);
+      for (int slot = 0; slot < plan.vertices; ++slot) {
+        out->parameters.push_back(surfaces::domainPointOf(plan, slot));
+        out->patches.push_back(i);
+      }
+    }
+    return out;
+  }
+
   std::vector<Counter> count(frame::Frame&) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
@@ -202,6 +229,55 @@ class ComputeTessellation : public Technique {
   uint32_t vertexArray_ = 0;
 };
 
+struct UniformFineSettings {
+  int segments = 64;
+  frame::ShadedSetting shading;
+  static const SettingsTable<UniformFineSettings>& table() {
+    using S = UniformFineSettings;
+    static const SettingsTable<S> kTable = {{&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
+                                            frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+/// Reference: so fine a tessellation that its deviation is a small part of a pixel.
+class UniformFine : public Technique {
+ public:
+  using Settings = UniformFineSettings;
+  explicit UniformFine(const Settings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    ComputeTessellationSettings all;
+    all.tessellation.factors = BySegments{settings_.segments};
+    const int64_t side = settings_.segments + 1, patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
+    all.capacity = std::max<int64_t>(patches * side * side, 4);
+    all.shading = settings_.shading;
+    fine_.emplace(all);
+    fine_->prepare(frame);
+  }
+  void render(frame::Frame& frame) override { fine_->render(frame); }
+  const gl::Texture& product() const override { return fine_->product(); }
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    return fine_->tessellation(frame);
+  }
+  std::vector<Counter> count(frame::Frame& frame) override { return fine_->count(frame); }
+
+ private:
+  Settings settings_;
+  std::optional<ComputeTessellation> fine_;
+};
+
+const RegisteredTechnique<UniformFine> kUniformFineRegistered{
+    {.name = "tessellation/uniform_fine",
+     .version = 1,
+     .summary = "Curved surfaces with the same fine tessellation of all patches",
+     .source = "bench",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .reference = true,
+     .tessellates = true,
+     .counters = ComputeTessellation::quantities()}};
+
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
     {.name = "tessellation/compute",
      .version = 1,
@@ -209,6 +285,7 @@ const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
      .source = "Schwarz 2009, section 7.6 (SC-69)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
+     .tessellates = true,
      .counters = ComputeTessellation::quantities()}};
 
 }  // namespace
