@@ -168,6 +168,9 @@ TEST_F(PoppingGpu, SwitchesAgreeOverTime) {
   const PoppingResult flashed = expectReference(in, "shown for a quarter of a frame", settings);
   EXPECT_GT(flashed.summary.meanJnd, held.summary.meanJnd);
   settings = {};
+  settings.bands.weights = FittedWeights{};
+  expectReference(in, "fitted weights", settings);
+  settings = {};
   settings.neighbourhood = ExtendedMasking{};
   const PoppingResult masked = expectReference(in, "masked by neighbours", settings);
   EXPECT_LT(masked.summary.meanJnd, held.summary.meanJnd);
@@ -299,6 +302,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   with({});
   with({{"model", "schwarz_2009"}});
   with({{"bands.weights", "fitted"}, {"bands.levels.least_peak_cpd", 0.25}});
+  with({{"bands.weights", "fitted"}, {"eye_movement", "none"}});
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
   with({{"masking.b", 4.0}, {"masking.s", 0.5}});
   with({{"neighbourhood", "extended"}});
