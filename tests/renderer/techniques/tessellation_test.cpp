@@ -25,7 +25,8 @@ TEST_F(Tessellation, UniformFactorsMakeTheVerticesAndIndicesOfTheClosedForm) {
                                  {{"factors", std::string("uniform")},
                                   {"factors.segments", int64_t{5}},
                                   {"cull", false},
-                                  {"form", std::string(form)}},
+                                  {"form", std::string(form)},
+                                  {"raster", std::string("hardware")}},
                                  {64, 48}, true);
     EXPECT_EQ(made.counter("tessellated_vertices"), 32 * 36);
     EXPECT_EQ(made.counter("tessellated_triangles"), 32 * 50);
@@ -75,6 +76,19 @@ TEST_F(Tessellation, FractionalSpacingShowsTheSurfaceAsWell) {
         render(teapot, "tessellation/hardware",
                {{"spacing", std::string(spacing)}, {"factors.tolerance_px", 0.1}}, {128, 96});
     EXPECT_LT(meanDifference(fine.product, made.product), 2e-3) << spacing;
+  }
+}
+
+TEST_F(Tessellation, TheComputeRasterShowsWhatTheDriversShows) {
+  for (const char* name : {"curved/teapot", "curved/sheet"}) {
+    const scene::Scene scene = makeScene(name);
+    const Rendered driver =
+        render(scene, "tessellation/compute", {{"raster", std::string("hardware")}}, {128, 96}, true);
+    const Rendered compute =
+        render(scene, "tessellation/compute", {{"raster", std::string("compute")}}, {128, 96}, true);
+    EXPECT_LT(meanDifference(driver.product, compute.product), 1e-4) << name;
+    EXPECT_EQ(driver.counter("tessellated_triangles"), compute.counter("tessellated_triangles")) << name;
+    EXPECT_EQ(compute.counter("tessellated_indices"), 3 * compute.counter("tessellated_triangles")) << name;
   }
 }
 

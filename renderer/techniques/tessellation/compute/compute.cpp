@@ -12,6 +12,7 @@
 #include <epoxy/gl.h>
 
 #include "renderer/compute/prefix_sum.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
@@ -31,6 +32,7 @@ struct ComputeTessellationSettings {
   FactorSettings tessellation;
   SlotForm form = SlotForm::VertexParallel;
   compute::ScanForm scan = compute::ScanForm::Auto;
+  frame::Raster raster = frame::Raster::Auto;
   int64_t capacity = 1 << 20;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
@@ -40,17 +42,19 @@ struct ComputeTessellationSettings {
         {&S::form, "form", "What an invocation or group makes: one vertex, or one patch",
          "Schwarz 2009, section 7.6.1"},
         {&S::scan, "scan", "How offsets are summed"},
+        {&S::raster, "raster",
+         "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
          {4, 1 << 26},
          "vertices",
-         "Vertices that the buffers hold; indices: four times as many"},
+         "Vertices that the buffers hold; indices: six times as many"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
 
-constexpr int64_t kIndicesPerVertex = 4;
+constexpr int64_t kIndicesPerVertex = 6;
 
 class ComputeTessellation : public Technique {
  public:
@@ -63,11 +67,14 @@ class ComputeTessellation : public Technique {
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
-    factors_.emplace(frame, *patches_, settings_.tessellation);
+    lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
+    factors_.emplace(frame, *patches_, settings_.tessellation, lists_);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
-    picture_.emplace(frame, settings_.shading, "tessellation");
+    picture_.emplace(frame, settings_.shading, "tessellation",
+                     lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     gl::ShaderDefines defines = patches_->defines();
     if (settings_.form == SlotForm::PatchParallel) defines["PATCH_PARALLEL"] = "1";
+    if (lists_) defines["LISTS"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
     totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
     verticesProgram_ = &programs.compute(folder + "vertices.comp.glsl", defines);
@@ -76,6 +83,7 @@ class ComputeTessellation : public Technique {
         &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
+    count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
     vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
     indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
     makeVertexArray();
@@ -92,6 +100,7 @@ class ComputeTessellation : public Technique {
       scan_->run(factors_->counts(), *offsets_, patches_->count());
       offsets_->bindStorage(kSlotOffsetsBuffer);
       totals_->bindStorage(kTotalsBuffer);
+      count_->bindStorage(kTriangleCountBuffer);
       totalsProgram_->use();
       totalsProgram_->set("patchCount", patches_->count());
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
@@ -105,6 +114,10 @@ class ComputeTessellation : public Technique {
     indices_->bindStorage(kIndicesBuffer);
     fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
     fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    if (lists_) {
+      picture_->renderListed(frame, {*vertices_, *indices_, *count_});
+      return;
+    }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
     picture_->render(frame, [&] {
       drawProgram_->use();
@@ -131,7 +144,7 @@ class ComputeTessellation : public Technique {
       out->positions.push_back(vertex.position);
       out->normals.push_back(vertex.normal);
     }
-    out->triangles = surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+    out->triangles = readTriangles(totals);
     const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
     for (uint32_t i = 0; i < patches.size(); ++i) {
       surfaces::Factors& own = out->factors.emplace_back();
@@ -151,7 +164,6 @@ class ComputeTessellation : public Technique {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
     const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
-    const std::vector<uint32_t> indices = indices_->read<uint32_t>(0, totals.indices);
     double culled = 0.0, rungs[kRungs] = {};
     for (const uint32_t packed : factors) culled += packed == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
@@ -159,7 +171,7 @@ class ComputeTessellation : public Technique {
         {"patches_culled", culled},
         {"patches_left_out", double(totals.overflow)},
         {"tessellated_vertices", double(totals.vertices)},
-        {"tessellated_triangles", double(surfaces::stripTriangles(indices).size())},
+        {"tessellated_triangles", double(readTriangles(totals).size())},
         {"tessellated_indices", double(totals.indices)},
         {"tessellated_mib",
          (double(totals.vertices) * sizeof(TessellatedVertex) + 4.0 * double(totals.indices)) / 1048576.0},
@@ -183,6 +195,11 @@ class ComputeTessellation : public Technique {
   }
 
  private:
+  std::vector<glm::uvec3> readTriangles(const TessellationTotals& totals) const {
+    if (lists_) return indices_->read<glm::uvec3>(0, totals.indices / 3);
+    return surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+  }
+
   void makeVertexArray() {
     glCreateVertexArrays(1, &vertexArray_);
     const auto attribute = [&](GLuint location, bool whole, int components, size_t offset) {
@@ -225,7 +242,8 @@ class ComputeTessellation : public Technique {
   std::optional<SurfacePicture> picture_;
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
                     *drawProgram_ = nullptr;
-  std::optional<gl::Buffer> offsets_, totals_, vertices_, indices_;
+  std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
+  bool lists_ = false;  // indices of single triangles, for ComputeRaster; otherwise strips
   uint32_t vertexArray_ = 0;
 };
 
@@ -234,8 +252,9 @@ struct UniformFineSettings {
   frame::ShadedSetting shading;
   static const SettingsTable<UniformFineSettings>& table() {
     using S = UniformFineSettings;
-    static const SettingsTable<S> kTable = {{&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
-                                            frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {
+        {&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
+        frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
@@ -249,7 +268,8 @@ class UniformFine : public Technique {
   void prepare(frame::Frame& frame) override {
     ComputeTessellationSettings all;
     all.tessellation.factors = BySegments{settings_.segments};
-    const int64_t side = settings_.segments + 1, patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
+    const int64_t side = settings_.segments + 1,
+                  patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
     all.capacity = std::max<int64_t>(patches * side * side, 4);
     all.shading = settings_.shading;
     fine_.emplace(all);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 5: indices of triangle strips. A group for each patch (PATCH_PARALLEL) or an invocation for each index.
+// Phase 5: indices of triangle strips, or of single triangles (LISTS). A group for each patch (PATCH_PARALLEL) or an invocation for each index.
 // See compute.cpp.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
 layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
 
 uint indexAt(PatternPlan plan, int slot, uint firstVertex) {
+#ifdef LISTS
+  const int vertex = patternCorner(plan, slot / 3, slot % 3);
+#else
   const int vertex = patternIndex(plan, slot);
+#endif
   return vertex == kPatternRestart ? 0xffffffffu : firstVertex + uint(vertex);
 }
 

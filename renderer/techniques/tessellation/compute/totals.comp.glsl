@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many patches fit into the buffers, and what is dispatched and drawn for them. One invocation. See compute.cpp.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 layout(local_size_x = 1) in;
 layout(std430, binding = kSlotOffsetsBuffer) readonly buffer SlotOffsets { uvec2 slotOffsets[]; };
 layout(std430, binding = kTotalsBuffer) writeonly buffer Totals { TessellationTotals totals; };
+
+layout(std430, binding = kTriangleCountBuffer) writeonly buffer Count { RasterCount listed_; };
 
 uniform uint patchCount, vertexCapacity, indexCapacity;
 
@@ -41,6 +44,12 @@ void main() {
   totals.firstIndex = 0u;
   totals.baseVertex = 0u;
   totals.baseInstance = 0u;
+  // As ComputeRaster takes lists of triangles.
+  const uint triangles = used.y / 3u;
+  listed_.groupsX = (min(triangles, kRasterRowInvocations) + uint(kRasterGroup) - 1u) / uint(kRasterGroup);
+  listed_.groupsY = (triangles + kRasterRowInvocations - 1u) / kRasterRowInvocations;
+  listed_.groupsZ = 1u;
+  listed_.triangles = triangles;
   totals.overflow = patchCount - low;
   totals.neededVertices = needed.x;
   totals.neededIndices = needed.y;
